@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
+#include "apps/FilterEnvironment.h"
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
@@ -156,6 +157,7 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);
+    filterEnvironment(request, renderer, global.quiet);
     Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);
     comparison.renderedOne = [&progress] { progress.advance(); };
     validation::CompareResult result = validation::compareTechniques(renderer, context->capabilities(), comparison);

@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "apps/Commands.h"
+#include "apps/FilterEnvironment.h"
 #include "apps/FramePattern.h"
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
@@ -167,6 +168,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     engine::Renderer renderer(*context, request.scene);
     request.settings.display = extensionOf(options.output) != ".exr";
+    filterEnvironment(request, renderer, global.quiet);
     // One picture is soon made.
     Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
     bool hasWarned = false, hasWarnedOfShadows = false;

@@ -128,7 +128,8 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         const frame::FrameSpec& spec = view.prepared.spec;
         view.scene = &sceneGpuOfAll;
         if (spec.environment && !environment_)
-            environment_ = std::make_unique<frame::EnvironmentGpu>(*scene_.environment);
+            environment_ =
+                std::make_unique<frame::EnvironmentGpu>(*scene_.environment, std::move(filteredEnvironment_));
         view.environment = environment_.get();
         if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);

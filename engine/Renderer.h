@@ -103,9 +103,10 @@ public:
     }
 
     /// To be called after the scene got another map of its environment; how that lies and shines may change without
-    /// notice.
-    void environmentChanged() {
+    /// notice. Who has filtered the map already may bring that.
+    void environmentChanged(std::shared_ptr<const frame::FilteredEnvironment> filtered = {}) {
         environment_.reset();
+        filteredEnvironment_ = std::move(filtered);
         for (auto& [view, memory] : diffusionMemories_) memory.forget();
     }
 
@@ -139,6 +140,7 @@ private:
     frame::DiffusionAtlases diffusionAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
+    std::shared_ptr<const frame::FilteredEnvironment> filteredEnvironment_; ///< null: not yet, or on the GPU
     std::unique_ptr<frame::EnvironmentGpu> environment_; ///< made with the first frame that has use for it
     /// The scene as frames of some settings need it.
     struct Uploaded {

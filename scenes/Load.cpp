@@ -72,25 +72,6 @@ void keepFirstWarnings(std::vector<std::string>& warnings) {
     warnings.push_back("and " + std::to_string(more) + " more warnings");
 }
 
-/// A built-in environment goes before a file of its name.
-void replaceEnvironment(const std::string& wish, Scene& scene, LoadLedger& ledger) {
-    scene.environment.reset();
-    if (wish == kNoEnvironment) return;
-    const auto builtins = builtinEnvironments();
-    if (std::ranges::find(builtins, wish, &BuiltinEnvironment::name) != builtins.end()) {
-        scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + wish, ledger, scene.warnings);
-        return;
-    }
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(wish, failure)) {
-        std::vector<std::string_view> names{kNoEnvironment};
-        for (const BuiltinEnvironment& builtin : builtins) names.push_back(builtin.name);
-        throw InputError("no built-in environment or picture file is called '" + wish + "'; " +
-                         suggestNames(wish, names));
-    }
-    scene.environment = loadEnvironment(wish, ledger, scene.warnings);
-}
-
 void goOn(const LoadOptions& options) {
     if (options.stop.stop_requested()) throw LoadStopped();
 }
@@ -114,6 +95,22 @@ Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadL
     return scene;
 }
 
+std::optional<Environment> environmentCalled(const std::string& name, LoadLedger& ledger,
+                                             std::vector<std::string>& warnings) {
+    if (name == kNoEnvironment) return {};
+    const auto builtins = builtinEnvironments();
+    if (std::ranges::find(builtins, name, &BuiltinEnvironment::name) != builtins.end())
+        return loadEnvironment(std::string(kBuiltinPrefix) + name, ledger, warnings);
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(name, failure)) {
+        std::vector<std::string_view> names{kNoEnvironment};
+        for (const BuiltinEnvironment& builtin : builtins) names.push_back(builtin.name);
+        throw InputError("no built-in environment or picture file is called '" + name + "'; " +
+                         suggestNames(name, names));
+    }
+    return loadEnvironment(name, ledger, warnings);
+}
+
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
         throw InputError(fmt::format("cannot use {} lights; give a number from 0 to {}", *options.lights, kMostLights));
@@ -130,7 +127,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         }
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
-    if (options.environment) replaceEnvironment(*options.environment, scene, ledger);
+    if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     keepFirstWarnings(scene.warnings);

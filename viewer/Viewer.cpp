@@ -4,15 +4,18 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/Extension.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
 #include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Saver.h"
+#include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/LightEdits.h"
 #include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Measurements.h"
@@ -39,7 +42,7 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
-          saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
+          saver_(state_, screen_, log_), measurements_([] { Window::wake(); }), environments_([] { Window::wake(); }),
           scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
         state_.firstWindowSize = window_.sizeScreen();
@@ -81,7 +84,7 @@ private:
     }
     bool hasPicturePlace() const { return isVisible() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
-        if (window_.hasActivity() || scenes_.hasResult() || settleFrames_ > 0) return true;
+        if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || settleFrames_ > 0) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() && (isMoving() || (!isWhole() && now() >= restAt_));
     }
@@ -140,6 +143,31 @@ private:
         state_.open = std::move(scene);
     }
 
+    static bool isEnvironmentFile(const std::string& file) {
+        const std::string extension = extensionOf(file);
+        return extension == ".hdr" || extension == ".exr";
+    }
+
+    /// Begins to load an environment for the scene that is open.
+    void chooseEnvironment(const std::string& name) {
+        if (!state_.open || environments_.isBusy()) return;
+        environments_.start(name);
+        state_.loadingEnvironment = name;
+        log_.line("loading environment " + name);
+    }
+
+    void adoptEnvironment() {
+        std::optional<ChosenEnvironment> chosen = environments_.take();
+        if (!chosen) return;
+        state_.loadingEnvironment.clear();
+        if (!chosen->error.empty()) throw std::runtime_error(chosen->error);
+        if (!state_.open) return;
+        for (const std::string& warning : chosen->warnings) state_.notice = {warning, false};
+        log_.line("environment " + chosen->name);
+        state_.open->takeEnvironment(std::move(*chosen));
+        settleFrames_ = kSettleFrames;
+    }
+
     /// The title says which scene is open, and whether it has edits that were not saved.
     void nameWindow() {
         if (!state_.open) return;
@@ -194,7 +222,9 @@ private:
         }
         settleFrames_ = std::max(settleFrames_ - 1, 0);
         attempt([this] { adoptLoaded(); });
-        for (const std::string& file : window_.takeDrops()) state_.requests.open = file;
+        attempt([this] { adoptEnvironment(); });
+        for (const std::string& file : window_.takeDrops())
+            (isEnvironmentFile(file) ? state_.requests.environment : state_.requests.open) = file;
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame();
@@ -247,6 +277,7 @@ private:
         attempt([&] {
             if (requests.open) open(*requests.open);
         });
+        if (requests.environment) chooseEnvironment(*requests.environment);
         attempt([&] { serveSceneRequests(requests); });
         attempt([&] {
             if (requests.reloadShaders) reloadShaders();
@@ -446,6 +477,7 @@ private:
     double saidUntil_ = 0.0;
     Saver saver_;
     Measurements measurements_;
+    EnvironmentJob environments_;
     SceneSwitch scenes_; ///< last: its thread ends before what it wakes
 };
 

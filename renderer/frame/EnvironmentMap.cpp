@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -145,8 +146,9 @@ EnvironmentShape environmentShape(const scenes::Image& map) {
     return shape;
 }
 
-EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment)
-    : environment_(environment), smooth_(gpu::Sampler::linearClamp()) {}
+EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
+                               std::shared_ptr<const FilteredEnvironment> filtered)
+    : environment_(environment), known_(std::move(filtered)), smooth_(gpu::Sampler::linearClamp()) {}
 
 void EnvironmentGpu::makeMap() {
     if (map_) return;
@@ -172,8 +174,9 @@ const gpu::Buffer& EnvironmentGpu::samples() {
 const gpu::Texture& EnvironmentGpu::filtered() {
     if (filtered_) return *filtered_;
     auto filtered = std::make_unique<gpu::Texture>("environment_filtered", environmentShape(environment_.map).filtered);
-    filtered->upload(0, atlasOf(cachedEnvironment(environment_.map, cacheFolder())));
+    filtered->upload(0, atlasOf(known_ ? *known_ : cachedEnvironment(environment_.map, cacheFolder())));
     filtered_ = std::move(filtered);
+    known_.reset();
     return *filtered_;
 }
 
@@ -181,7 +184,7 @@ const gpu::Texture& EnvironmentGpu::lobes() {
     if (lobes_) return *lobes_;
     const graph::TextureDesc shape = environmentShape(environment_.map).lobes;
     auto lobes = std::make_unique<gpu::Texture>("lobe_table", shape);
-    const std::vector<glm::vec4> table = makeLobeTable();
+    static const std::vector<glm::vec4> table = makeLobeTable(); // the same for every map
     const std::size_t layer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
     for (std::size_t i = 0; i < std::size_t(LOBE_TABLE_LAYERS); ++i)
         lobes->upload(0, std::span(table).subspan(i * layer, layer), int(i));

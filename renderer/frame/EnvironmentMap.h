@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "renderer/frame/CameraView.h"
+#include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Sampler.h"
@@ -50,8 +51,9 @@ EnvironmentShape environmentShape(const scenes::Image& map);
 /// runs out or the map is larger than the driver's textures.
 class EnvironmentGpu {
 public:
-    /// The environment must outlive it.
-    explicit EnvironmentGpu(const scenes::Environment& environment);
+    /// The environment must outlive it. `filtered` may be null: it is made when it is asked for.
+    explicit EnvironmentGpu(const scenes::Environment& environment,
+                            std::shared_ptr<const FilteredEnvironment> filtered = {});
     const gpu::Texture& map();                             ///< as environmentTexels()
     const gpu::Buffer& samples();                          ///< as makeEnvironmentSamples()
     const gpu::Texture& filtered();                        ///< as atlasOf()
@@ -62,6 +64,7 @@ private:
     void makeMap();
 
     const scenes::Environment& environment_;
+    std::shared_ptr<const FilteredEnvironment> known_; ///< until it is on the GPU
     std::unique_ptr<gpu::Texture> map_, filtered_, lobes_;
     std::unique_ptr<gpu::Buffer> samples_;
     gpu::Sampler smooth_;

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
@@ -110,6 +112,28 @@ void scaleRows(State& state) {
     slider("Scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
+/// The maps to choose from, and what was dropped onto the window.
+void environmentList(State& state) {
+    const auto& environment = state.open ? state.open->scene().environment : std::optional<scenes::Environment>();
+    std::string shown(scenes::kNoEnvironment);
+    if (environment) {
+        shown = std::filesystem::path(environment->source).filename().string();
+        if (shown.starts_with(scenes::kBuiltinPrefix)) shown.erase(0, scenes::kBuiltinPrefix.size());
+    }
+    std::vector<Choice> choices{{scenes::kNoEnvironment, "nothing but lights"}};
+    for (const scenes::BuiltinEnvironment& builtin : scenes::builtinEnvironments())
+        choices.push_back({builtin.name, builtin.purpose});
+    const auto now = std::size_t(std::ranges::find(choices, shown, &Choice::name) - choices.begin());
+    ImGui::BeginDisabled(!state.open || !state.loadingEnvironment.empty());
+    if (const auto picked = choose("Map", shown, choices, now))
+        state.requests.environment = std::string(choices[*picked].name);
+    ImGui::EndDisabled();
+    if (state.loadingEnvironment.empty())
+        ImGui::TextDisabled("or drop an .hdr or .exr file onto the window");
+    else
+        paragraph(fmt::format("Filtering {} ...", std::filesystem::path(state.loadingEnvironment).filename().string()));
+}
+
 } // namespace
 
 void framePanel(State& state) {
@@ -117,6 +141,7 @@ void framePanel(State& state) {
 }
 
 void environmentPanel(State& state) {
+    environmentList(state);
     settingRows(state.active(), engine::SettingPanel::Environment);
 }
 

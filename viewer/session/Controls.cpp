@@ -12,11 +12,12 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kDividerReach = 6.0f;   ///< screen coordinates to either side that grab it
-constexpr float kMarkerReach = 9.0f;    ///< the same around a light's marker
-constexpr float kClickReach = 3.0f;     ///< movement of a hand during a click
-constexpr double kZoomPerStep = 0.88;   ///< of the distance, a step of the wheel
-constexpr double kZoomPerHeight = 0.05; ///< of the distance, a drag of the picture's height upwards
+constexpr float kDividerReach = 6.0f;    ///< screen coordinates to either side that grab it
+constexpr float kMarkerReach = 9.0f;     ///< the same around a light's marker
+constexpr float kClickReach = 3.0f;      ///< movement of a hand during a click
+constexpr double kZoomPerStep = 0.88;    ///< of the distance, a step of the wheel
+constexpr double kTurnPerHeight = 180.0; ///< degrees of the environment, a drag as far as the picture is high
+constexpr double kZoomPerHeight = 0.05;  ///< of the distance, a drag of the picture's height upwards
 
 glm::vec2 fromCenter(const glm::vec2& point, const PictureArea& area) {
     return point - area.corner - 0.5f * area.size;
@@ -116,6 +117,9 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
     pressedAt_ = event.position;
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
         drag_ = Drag::Pan;
+    } else if (event.code == GLFW_MOUSE_BUTTON_RIGHT) {
+        if ((event.modifiers & GLFW_MOD_SHIFT) && state.open && state.open->scene().environment)
+            drag_ = Drag::Environment;
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
         const float dividerX = area.corner.x + state.divider * area.size.x;
         if (state.compare == Compare::Split && std::abs(event.position.x - dividerX) <= kDividerReach) {
@@ -164,6 +168,11 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
                   rig.pose(), rig.start(), moved, area.size.y);
         state.open->touch();
         break;
+    case Drag::Environment: {
+        float& degrees = state.active().settings.environment.rotationDegrees;
+        degrees = float(std::remainder(double(degrees) + kTurnPerHeight * moved.x / area.size.y, 360.0));
+        break;
+    }
     case Drag::Divider:
         state.divider = std::clamp((event.position.x - area.corner.x) / area.size.x, 0.0f, 1.0f);
         break;

@@ -31,7 +31,7 @@ public:
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
 
 private:
-    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light };
+    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light, Environment };
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
     void release(const InputEvent& event, State& state, const PictureArea& area);
     void move(const InputEvent& event, State& state, const PictureArea& area);

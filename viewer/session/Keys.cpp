@@ -101,13 +101,14 @@ constexpr KeyBinding kBindings[] = {
 
 constexpr GestureHelp kGestures[] = {
     {"Left drag", "turn about the pivot, or look around when flying; also with Shift"},
+    {"Shift + right drag", "turns the environment"},
     {"Alt + left drag", "move across the picture; also the middle button"},
     {"Ctrl + left drag, wheel", "nearer and farther"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
     {"Click", "picks the material of the surface"},
     {"Drag a light's marker", "moves the light across the picture"},
     {"Drag the divider", "split view"},
-    {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json"},
+    {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json; or takes an environment: .hdr, .exr"},
 };
 
 } // namespace

@@ -26,6 +26,14 @@ void OpenScene::useCamera(int camera) {
     begin(sceneCamera(), poseThrough(sceneCamera()));
 }
 
+void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
+    scene_.environment = std::move(chosen.environment);
+    load_.environment = std::move(chosen.name);
+    filtered_ = std::move(chosen.filtered);
+    ++environmentRevision_;
+    countEdit();
+}
+
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     load_ = {};

@@ -4,6 +4,7 @@
 
 #include "scenes/write/SceneOrigin.h"
 #include "viewer/session/CameraRig.h"
+#include "viewer/session/EnvironmentJob.h"
 
 namespace tessera::viewer {
 
@@ -31,6 +32,11 @@ public:
         countEdit();
         ++materialRevision_;
     }
+    /// Takes another environment in the place of the scene's own, as an edit.
+    void takeEnvironment(ChosenEnvironment chosen);
+    std::uint64_t environmentRevision() const { return environmentRevision_; }
+    /// Of the latest that was taken, which a renderer need not filter; may be null.
+    const std::shared_ptr<const frame::FilteredEnvironment>& filteredEnvironment() const { return filtered_; }
     /// Counts changes of the picture: edits, and movements of the camera.
     std::uint64_t revision() const { return revision_; }
     std::uint64_t materialRevision() const { return materialRevision_; }
@@ -77,7 +83,8 @@ private:
     CameraRig rig_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, savedEdits_ = 0;
-    std::uint64_t materialRevision_ = 0;
+    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0;
+    std::shared_ptr<const frame::FilteredEnvironment> filtered_;
 };
 
 } // namespace tessera::viewer

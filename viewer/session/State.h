@@ -23,7 +23,8 @@ struct Notice {
 
 /// What panels and keys ask for that is more than a change of the state; done between two frames.
 struct Requests {
-    std::optional<std::string> open; ///< a scene
+    std::optional<std::string> open;        ///< a scene
+    std::optional<std::string> environment; ///< as --environment takes it
     bool reloadShaders = false;
     bool savePng = false;
     bool saveExr = false;
@@ -46,6 +47,7 @@ struct Replaced {
 struct State {
     std::unique_ptr<OpenScene> open; ///< none until the first scene has been loaded
     std::string loading;             ///< a scene that is on its way
+    std::string loadingEnvironment;  ///< the same of an environment
     std::vector<std::string> recent; ///< files, the latest first
 
     std::array<Look, 2> looks; ///< left of the divider, or all; and right of it

@@ -45,6 +45,7 @@ void Screen::open(const OpenScene& scene) {
     // Without it a software rasteriser's passes have no times (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);
     materialRevision_ = scene.materialRevision();
+    environmentRevision_ = scene.environmentRevision();
     forget();
     kinds_.reset(); // its programs are yet to be compiled
     spreadLight_.forget();
@@ -66,9 +67,12 @@ void Screen::tellSpreadLight(const Wanted& drawn) {
 }
 
 void Screen::takeEdits() {
-    if (scene_ == nullptr || scene_->materialRevision() == materialRevision_) return;
-    renderer_->materialsChanged();
+    if (scene_ == nullptr) return;
+    if (scene_->materialRevision() != materialRevision_) renderer_->materialsChanged();
+    if (scene_->environmentRevision() != environmentRevision_)
+        renderer_->environmentChanged(scene_->filteredEnvironment());
     materialRevision_ = scene_->materialRevision();
+    environmentRevision_ = scene_->environmentRevision();
 }
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp) {

@@ -43,7 +43,7 @@ public:
     /// Draws this scene from now on, which must outlive its use here; the pictures of the one before stay until then.
     /// Throws as the Renderer's constructor does; then the scene before stays.
     void open(const OpenScene& scene);
-    /// Hands edits of materials to the renderer.
+    /// Hands edits of materials, and another environment, to the renderer.
     void takeEdits();
     engine::Renderer* renderer() const { return renderer_.get(); }
 
@@ -96,7 +96,7 @@ private:
     gpu::Context& context_;
     const OpenScene* scene_ = nullptr;
     std::unique_ptr<engine::Renderer> renderer_;
-    std::uint64_t materialRevision_ = 0;
+    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0;
     std::array<DrawnPicture, 2> pictures_;
     Difference difference_;
     bool differenceIsStale_ = true;

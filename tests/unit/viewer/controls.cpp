@@ -45,5 +45,28 @@ TEST(Controls, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     EXPECT_EQ(selectedByPress(hidden), scenes::kNone);
 }
 
+TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNone) {
+    State state = withLightInTheMiddle(0, 1);
+    const auto dragged = [&](int modifiers) {
+        InputEvent press, move, release;
+        press.kind = release.kind = InputEvent::Kind::Button;
+        press.code = release.code = 1; // GLFW's right one
+        press.modifiers = modifiers;
+        press.down = true;
+        press.position = {200.0, 200.0};
+        move.kind = InputEvent::Kind::Move;
+        move.position = release.position = {300.0, 200.0};
+        const std::array events{press, move, release};
+        Controls controls;
+        controls.handle(events, state, kArea, {});
+        return state.looks[0].settings.environment.rotationDegrees;
+    };
+    constexpr int kShift = 1; // GLFW's
+    EXPECT_EQ(dragged(kShift), 0.0f);
+    state.open->edit().environment.emplace();
+    EXPECT_EQ(dragged(0), 0.0f);
+    EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the picture's height
+}
+
 } // namespace
 } // namespace tessera::viewer

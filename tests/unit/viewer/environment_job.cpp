@@ -1,0 +1,69 @@
+#include "viewer/session/EnvironmentJob.h"
+
+#include <chrono>
+#include <condition_variable>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "viewer/session/OpenScene.h"
+
+namespace tessera::viewer {
+namespace {
+
+class EnvironmentJobTest : public testing::Test {
+protected:
+    ChosenEnvironment chosen(const std::string& name) {
+        isDone_ = false;
+        job_.start(name);
+        std::unique_lock lock(mutex_);
+        EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [this] { return isDone_; }));
+        EXPECT_FALSE(job_.isBusy());
+        EXPECT_TRUE(job_.hasResult());
+        std::optional<ChosenEnvironment> result = job_.take();
+        EXPECT_FALSE(job_.hasResult());
+        return result.value_or(ChosenEnvironment());
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool isDone_ = false;
+    EnvironmentJob job_{[this] {
+        const std::lock_guard lock(mutex_);
+        isDone_ = true;
+        changed_.notify_all();
+    }};
+};
+
+TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
+    const ChosenEnvironment studio = chosen("studio");
+    EXPECT_EQ(studio.error, "");
+    ASSERT_TRUE(studio.environment);
+    EXPECT_EQ(studio.environment->source, "builtin:studio");
+    ASSERT_TRUE(studio.filtered);
+    EXPECT_EQ(studio.filtered->levels.size(),
+              std::size_t(frame::filteredLevelsOf(frame::filteredSideOf(studio.environment->map))));
+    EXPECT_FALSE(chosen("none").environment);
+    const ChosenEnvironment unknown = chosen("stduio");
+    EXPECT_FALSE(unknown.environment);
+    EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
+}
+
+TEST_F(EnvironmentJobTest, whatWasChosenIsAnEditThatTheCommandNames) {
+    const scenes::LoadOptions load;
+    OpenScene open("room", load, scenes::loadScene("room", load), scenes::SceneOrigin());
+    open.takeEnvironment(chosen("studio"));
+    EXPECT_TRUE(open.isEdited());
+    EXPECT_EQ(open.environmentRevision(), 1u);
+    EXPECT_EQ(open.load().environment, "studio");
+    EXPECT_EQ(open.scene().environment.value().source, "builtin:studio");
+    EXPECT_TRUE(open.filteredEnvironment());
+    open.takeEnvironment(chosen("none"));
+    EXPECT_FALSE(open.scene().environment);
+    EXPECT_FALSE(open.filteredEnvironment());
+    EXPECT_EQ(open.load().environment, "none");
+}
+
+} // namespace
+} // namespace tessera::viewer
