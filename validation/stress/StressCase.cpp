@@ -14,6 +14,7 @@ const std::vector<StressCase>& stressCases() {
         addTargetCases(cases);
         addShadowCases(cases);
         addSubsurfaceCases(cases);
+        addEnvironmentCases(cases);
         return cases;
     }();
     return kCases;

@@ -51,5 +51,6 @@ void addGeometryCases(std::vector<StressCase>& cases);
 void addTargetCases(std::vector<StressCase>& cases);
 void addShadowCases(std::vector<StressCase>& cases);
 void addSubsurfaceCases(std::vector<StressCase>& cases);
+void addEnvironmentCases(std::vector<StressCase>& cases);
 
 } // namespace tessera::validation

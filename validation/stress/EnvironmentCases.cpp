@@ -1,0 +1,133 @@
+// Light from everywhere where maps make it stiff: of one texel or one row, black, with all light in one texel, and of
+// any magnitude.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "engine/Renderer.h"
+#include "validation/stress/StressCase.h"
+#include "validation/stress/StressScene.h"
+
+namespace tessera::validation {
+
+namespace {
+
+using frame::EnvironmentLight;
+
+/// Small, so that filtering takes no time.
+constexpr int kMapWidth = 32, kMapHeight = 16;
+
+scenes::Environment mapOf(int width, int height, const std::function<glm::vec3(int, int)>& radiance) {
+    scenes::Environment environment;
+    environment.source = "stress";
+    scenes::Image& map = environment.map;
+    map.name = "stress";
+    map.format = scenes::TexelFormat::Rgba32Float;
+    map.width = width;
+    map.height = height;
+    std::vector<glm::vec4> texels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) texels.emplace_back(radiance(x, y), 1.0f);
+    map.texels.resize(texels.size() * sizeof(glm::vec4));
+    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
+    return environment;
+}
+
+frame::FrameSettings surroundedSettings(EnvironmentLight light) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {48, 32};
+    settings.display = false;
+    settings.environment.light = light;
+    settings.environment.samples = 4;
+    return settings;
+}
+
+scenes::Scene surrounded(scenes::Environment environment) {
+    scenes::Scene scene = stressScene();
+    scene.lights.clear();
+    scene.environment = std::move(environment);
+    return scene;
+}
+
+std::vector<StressPicture> evenMaps(StressEffort) {
+    std::vector<StressPicture> pictures;
+    const auto add = [&](std::string what, int width, int height, float rotationDegrees) {
+        scenes::Environment environment = mapOf(width, height, [](int, int) { return glm::vec3(0.5f, 1.0f, 2.0f); });
+        environment.rotationDegrees = rotationDegrees;
+        StressPicture picture{std::move(what), surrounded(std::move(environment)),
+                              surroundedSettings(EnvironmentLight::SplitSum)};
+        if (!pictures.empty()) picture.sameAs = 0;
+        pictures.push_back(std::move(picture));
+    };
+    add("32 x 16 texels", kMapWidth, kMapHeight, 0.0f);
+    add("one texel", 1, 1, 0.0f);
+    add("one row", 7, 1, 0.0f);
+    add("one column", 1, 5, 0.0f);
+    add("a thousand columns", 1000, 3, 0.0f);
+    add("turned by 1e9 degrees", kMapWidth, kMapHeight, 1e9f);
+    return pictures;
+}
+
+/// A map and what multiplies it: pictures are as many times as bright, whatever the number.
+void measureRadiance(StressBench& bench, StressFigures& figures) {
+    const std::pair<const char*, std::function<glm::vec3(int, int)>> maps[] = {
+        {"a bright texel", [](int x, int y) { return glm::vec3(x == 9 && y == 5 ? 1000.0f : 0.0f); }},
+        {"a half", [](int, int y) { return glm::vec3(y < kMapHeight / 2 ? 1.0f : 0.0f); }},
+        {"noise",
+         [](int x, int y) { return glm::vec3(float((x * 7919 + y * 104729) % 1009), 1.0f, float(x)) / 100.0f; }},
+        {"black", [](int, int) { return glm::vec3(0.0f); }}};
+    // A power of 2 changes no digit.
+    const int exponents[] = {0, -60, -20, 20, 60};
+    std::size_t done = 0;
+    for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+        scenes::Scene scene = surrounded(mapOf(1, 1, [](int, int) { return glm::vec3(1.0f); }));
+        engine::Renderer renderer(bench.context(), scene, bench.shaders());
+        for (const auto& [name, radiance] : maps) {
+            std::vector<float> plain;
+            for (const int exponent : exponents) {
+                const float factor = std::ldexp(1.0f, exponent);
+                scene.environment = mapOf(kMapWidth, kMapHeight, [&](int x, int y) { return factor * radiance(x, y); });
+                renderer.environmentChanged();
+                const std::vector<float> seen =
+                    renderer.render(engine::Technique::Deferred, surroundedSettings(light)).radiance;
+                if (plain.empty()) plain = seen;
+                for (std::size_t i = 0; i < seen.size(); i += 4) {
+                    figures.count(std::span(&seen[i], 3));
+                    for (std::size_t c = i; c < i + 3; ++c) {
+                        const double now = double(bench.measuredTimes()) * double(seen[c]) / double(factor);
+                        const double least = 1e-6; // of the brightness around it, which is some hundredth
+                        figures.error(std::abs(now - double(plain[c])) / (std::abs(double(plain[c])) + least), [&] {
+                            return fmt::format("{}, {}, times 2^{}", infoOf(light).name, name, exponent);
+                        });
+                    }
+                }
+            }
+            bench.progress(double(++done) / double(2 * std::size(maps)));
+        }
+    }
+}
+
+} // namespace
+
+void addEnvironmentCases(std::vector<StressCase>& cases) {
+    cases.push_back({"environment/even",
+                     "even light from maps of one texel, row or column, or turned by 1e9 degrees, is the same light",
+                     StressBound::WorstRel,
+                     1e-3,
+                     "fp32 sums of the filter, and look-ups near the edges of its table",
+                     {},
+                     &evenMaps});
+    cases.push_back({"environment/radiance",
+                     "pictures are as bright as their map, from 2^-60 to 2^60 of it, with all light in one texel too",
+                     StressBound::WorstRel,
+                     1e-4,
+                     "a power of 2 changes no digit but those below 1e-6 of the brightness",
+                     &measureRadiance,
+                     {}});
+}
+
+} // namespace tessera::validation
