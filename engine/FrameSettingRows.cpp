@@ -1,0 +1,310 @@
+#include "engine/SettingRows.h"
+
+#include <algorithm>
+
+#include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
+#include "engine/ChooseSamples.h"
+#include "engine/ChooseView.h"
+#include "engine/SettingValues.h"
+#include "scenes/Limits.h"
+
+namespace tessera::engine {
+
+namespace {
+
+using frame::FrameSettings;
+
+int mostViewKey() {
+    return std::ranges::max(frame::debugViewTable(), {}, &frame::DebugViewInfo::key).key;
+}
+
+/// Views also go by their numbers.
+SettingValue viewChoice() {
+    SettingValue value = choice(in(&FrameSettings::view), frame::debugViewTable(), &frame::DebugViewInfo::view);
+    std::vector<ChoiceKind::Entry>& entries = std::get<ChoiceKind>(value.kind).entries;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        if (const int key = frame::debugViewTable()[i].key; key > 0) entries[i].label += fmt::format("  ({})", key);
+    value.read = [read = value.read](ViewRequest& request, const std::string& text, const TextSource& source) {
+        for (const frame::DebugViewInfo& info : frame::debugViewTable())
+            if (info.key != 0 && std::to_string(info.key) == text) return read(request, std::string(info.name), source);
+        if (!text.empty() && text.find_first_not_of("0123456789") == std::string::npos)
+            throw InputError(fmt::format("unknown view '{}': views are numbered 1 to {}", text, mostViewKey()));
+        read(request, text, source);
+    };
+    return value;
+}
+
+int cameraNamed(const scenes::Scene& scene, const std::string& name) {
+    if (const std::optional<std::size_t> camera = scenes::cameraCalled(scene, name)) return int(*camera);
+    std::vector<std::string_view> names;
+    for (const scenes::Camera& camera : scene.cameras) names.push_back(camera.name);
+    throw InputError(fmt::format("{}: unknown camera '{}': {}", scene.name, name, suggestNames(name, names)));
+}
+
+SettingValue sceneCamera() {
+    SettingValue value = valueIn(
+        in(&FrameSettings::camera), CameraKind{}, [](int index) { return numberText(index); },
+        [](const std::string&, const TextSource&) { return 0; });
+    value.text = [](const ViewRequest& request, const scenes::Scene* scene) {
+        const std::size_t index = std::size_t(request.settings.camera);
+        if (scene == nullptr || index >= scene->cameras.size()) return numberText(request.settings.camera);
+        const std::string& name = scene->cameras[index].name;
+        const bool isCalledSo = !name.empty() && scenes::cameraCalled(*scene, name) == index;
+        return isCalledSo ? name : numberText(request.settings.camera);
+    };
+    value.read = [](ViewRequest& request, const std::string& text, const TextSource& source) {
+        if (source.scene) request.settings.camera = cameraNamed(*source.scene, text);
+    };
+    return value;
+}
+
+SettingValue soloLight() {
+    const auto valueOf = [](const std::string& text, const TextSource& source) {
+        const double light = wholeNumber(text, source);
+        const std::size_t count = source.scene ? source.scene->lights.size() : 0;
+        if (source.scene && (light < 0.0 || light >= double(count)))
+            throw InputError(fmt::format("{} {}: {} has {} light{}, counted from 0", source.called, light,
+                                         source.scene->name, count, count == 1 ? "" : "s"));
+        return int(std::clamp(light, -1.0, double(scenes::kMostLights))); // which no scene has
+    };
+    return valueIn(
+        in(&FrameSettings::soloLight), NumberKind{.least = 0.0, .isWhole = true},
+        [](int light) { return numberText(light); }, valueOf, "all");
+}
+
+/// Those of the G-buffer's channels as one pattern.
+std::string viewNames() {
+    std::string names;
+    for (const frame::DebugViewInfo& info : frame::debugViewTable())
+        if (!info.needsGBuffer) names += std::string(info.name) + ", ";
+    return names + "or gbuffer.CHANNEL and gbuffer.CHANNEL.w as stored, CHANNEL one of " +
+           namesOf(frame::channelTable());
+}
+
+bool hasGBuffer(Technique technique) {
+    return infoOf(technique).usesGBuffer();
+}
+bool hasSeveralSamples(Technique technique) {
+    return infoOf(technique).multisamples();
+}
+bool takesItsMethod(const ViewRequest& request) {
+    return takesMethod(request.technique, request.settings.culling.method.value());
+}
+bool takesItsSamples(const ViewRequest& request) {
+    return takesSamples(infoOf(request.technique), request.settings.samples);
+}
+bool takesItsStage(const ViewRequest& request) {
+    return infoOf(request.technique).choosesStage;
+}
+bool takesItsView(const ViewRequest& request) {
+    return takesView(infoOf(request.technique), request.settings.view);
+}
+
+} // namespace
+
+std::vector<Setting> frameSettings() {
+    return {
+        {.name = "technique",
+         .flag = "--technique",
+         .key = "technique",
+         .type = "NAME",
+         .help = "One of " + namesOf(techniqueTable()),
+         .isRemembered = true,
+         .value = choice(in(&ViewRequest::technique), techniqueTable(), &TechniqueInfo::technique)},
+        {.name = "layout",
+         .flag = "--layout",
+         .key = "layout",
+         .type = "NAME",
+         .help = "G-buffer layout, one of " + namesOf(frame::layoutTable()),
+         .label = "G-buffer",
+         .heeds = hasGBuffer,
+         .isRemembered = true,
+         .value = choice(in(&FrameSettings::layout), frame::layoutTable(), &frame::LayoutInfo::layout)},
+        {.name = "culling",
+         .flag = "--culling",
+         .key = "culling",
+         .type = "NAME",
+         .help = "How lights are culled, one of " + namesOf(culling::methodTable()),
+         .byItself = "the technique's own",
+         .heeds = hasLightLists,
+         .takes = takesItsMethod,
+         .samePicture = true,
+         .isRemembered = true,
+         .value = choice(in(&culling::Settings::method), culling::methodTable(), &culling::MethodInfo::method)},
+        {.name = "tile",
+         .flag = "--tile",
+         .key = "tile",
+         .type = "PIXELS",
+         .help = "Side of a light-culling tile",
+         .byItself = numberText(culling::kUsualTilePixels),
+         .heeds = hasLightLists,
+         .refusal = "it has no light lists",
+         .samePicture = true,
+         .isRemembered = true,
+         .value = choice(in(&culling::Settings::tilePixels), culling::kTileSides, " pixels")},
+        {.name = "cull-on",
+         .flag = "--cull-on",
+         .key = "cullOn",
+         .type = "NAME",
+         .help = "Who builds the light lists, one of " + namesOf(culling::builderTable()),
+         .byItself = "by backend",
+         .label = "Lists built by",
+         .heeds = hasLightLists,
+         .refusal = "it has no light lists",
+         .samePicture = true,
+         .value = choice(in(&culling::Settings::builder), culling::builderTable(), &culling::BuilderInfo::builder)},
+        {.name = "cull-normals",
+         .flag = "--cull-normals",
+         .key = "cullNormals",
+         .type = "NAME",
+         .help = fmt::format("Whether light lists leave out lights behind all surfaces that they are for: {}; "
+                             "where_worth is on for lists of {} lights or more. Only with --cull-on cpu",
+                             namesOf(culling::normalTestTable()), culling::kLightsWorthNormals),
+         .byItself = "where_worth",
+         .label = "By normals",
+         .heeds = listsFromGBuffer,
+         .refusal = "it does not build light lists from a G-buffer",
+         .samePicture = true,
+         .value = choice(in(&culling::Settings::normals), culling::normalTestTable(), &culling::NormalTestInfo::test)},
+        {.name = "light-on",
+         .flag = "--light-on",
+         .key = "lightOn",
+         .type = "NAME",
+         .help = "What lights the G-buffer, one of " + namesOf(frame::lightingStageTable()),
+         .byItself = "fragment",
+         .label = "Light on",
+         .heeds = [](Technique technique) { return infoOf(technique).choosesStage; },
+         .refusal = "it lights in fragment shaders only",
+         .takes = takesItsStage,
+         .samePicture = true,
+         .value = choice(in(&FrameSettings::lightOn), frame::lightingStageTable(), &frame::LightingStageInfo::stage)},
+        {.name = "size",
+         .flag = "--size",
+         .key = "size",
+         .type = "WxH",
+         .help = "Picture size in pixels",
+         .panel = SettingPanel::None,
+         .sameCost = true,
+         .value = pictureSize()},
+        {.name = "samples",
+         .flag = "--samples",
+         .key = "samples",
+         .type = "N",
+         .help = "Samples of a pixel; more than 1 without a G-buffer only",
+         .heeds = hasSeveralSamples,
+         .refusal = "it has a G-buffer",
+         .takes = takesItsSamples,
+         .isRemembered = true,
+         .value = choice(in(&FrameSettings::samples), frame::kSampleCounts)},
+        {.name = "camera",
+         .flag = "--camera",
+         .key = "camera",
+         .type = "NAME",
+         .help = "A camera of the scene, by name or counted from 0",
+         .byItself = "its first",
+         .panel = SettingPanel::None,
+         .sameCost = true,
+         .isOfScene = true,
+         .isShared = true,
+         .value = sceneCamera()},
+        {.name = "time",
+         .flag = "--time",
+         .key = "time",
+         .type = "SECONDS",
+         .help = "Moves animated lights to this time",
+         .panel = SettingPanel::None,
+         .sameCost = true,
+         .isShared = true,
+         .value = number(in(&FrameSettings::timeSeconds), {})},
+        {.name = "range tolerance",
+         .flag = "--range-tolerance",
+         .key = "rangeTolerance",
+         .type = "EPS",
+         .help = "Ends lights of A B C falloff where they fall to this; compare tells what it drops",
+         .panel = SettingPanel::None,
+         .value = number(in(&FrameSettings::rangeTolerance), {.least = 0.0})},
+        {.name = "view",
+         .flag = "--view",
+         .key = "view",
+         .type = "NAME",
+         .help = fmt::format("What to show: 1 to {}, or one of {}", mostViewKey(), viewNames()),
+         .panel = SettingPanel::View,
+         .refusal = "it has no G-buffer",
+         .takes = takesItsView,
+         .comesBack = false,
+         .value = viewChoice()},
+        {.name = "solo",
+         .flag = "--solo",
+         .key = "solo",
+         .type = "N",
+         .help = "Only this light shines, counted from 0",
+         .panel = SettingPanel::None,
+         .isOfScene = true,
+         .isWishable = false, // lights may be deleted
+         .isShared = true,
+         .value = soloLight()},
+    };
+}
+
+std::vector<Setting> pictureSettings() {
+    return {
+        {.name = "specular",
+         .flag = "--specular",
+         .key = "specular",
+         .type = "on|off",
+         .help = "off leaves the specular lobe out",
+         .value = onOff(&FrameSettings::specular)},
+        {.name = "filter",
+         .flag = "--filter",
+         .key = "filter",
+         .type = "NAME",
+         .help = "Textures by hardware, or exact: level 0 alone, by the sampler's nearest or linear filter in full "
+                 "precision",
+         .panel = SettingPanel::None,
+         .isOfFrame = true,
+         .value = choice(in(&FrameSettings::filter), frame::textureFilterTable(), &frame::TextureFilterInfo::filter)},
+        {.name = "space",
+         .flag = "--space",
+         .key = "space",
+         .type = "NAME",
+         .help = "Lighting in world or view space; the pictures agree",
+         .panel = SettingPanel::None,
+         .value = choice(in(&FrameSettings::space), frame::lightingSpaceTable(), &frame::LightingSpaceInfo::space)},
+        {.name = "prune",
+         .flag = "--prune",
+         .key = "prune",
+         .type = "on|off",
+         .help = "off keeps what the scene does not need; the picture is the same",
+         .label = "Prune",
+         .isOfFrame = true,
+         .value = onOff(&FrameSettings::prune)},
+        {.name = "exposure",
+         .flag = "--exposure",
+         .key = "exposureEV",
+         .type = "EV",
+         .help = "Multiplies the display picture by 2^EV",
+         .group = "Display",
+         .panel = SettingPanel::View,
+         .sameCost = true,
+         .isShared = true,
+         .value = number(in(&FrameSettings::exposureEV), {.least = -frame::kMostExposureEV,
+                                                          .most = frame::kMostExposureEV,
+                                                          .sliderLeast = -10.0f,
+                                                          .sliderMost = 10.0f,
+                                                          .format = "%+.1f EV"})},
+        {.name = "tone map",
+         .flag = "--tonemap",
+         .key = "toneMap",
+         .type = "NAME",
+         .help = "One of " + namesOf(frame::toneMapTable()),
+         .group = "Display",
+         .panel = SettingPanel::View,
+         .sameCost = true,
+         .isShared = true,
+         .isRemembered = true,
+         .value = choice(in(&FrameSettings::toneMap), frame::toneMapTable(), &frame::ToneMapInfo::toneMap)},
+    };
+}
+
+} // namespace tessera::engine
