@@ -5,7 +5,7 @@
 
 #include "apps/Progress.h"
 #include "engine/PrepareView.h"
-#include "renderer/frame/EnvironmentFilter.h"
+#include "renderer/frame/EnvironmentCache.h"
 
 namespace tessera::app {
 

@@ -4,15 +4,12 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "base/AtomicFile.h"
 #include "shaders/shared/environment.h"
 
 namespace tessera::frame {
@@ -265,9 +262,10 @@ Latitudes atMost(Latitudes map, int width) {
 
 /// A small map with its interpolation as texels of their own.
 Latitudes atLeast(const Latitudes& map, int width) {
-    if (map.width >= width) return map;
-    const int parts = (width + map.width - 1) / map.width;
-    Latitudes finer{map.width * parts, map.height * parts, {}};
+    const auto parts = [](int size, int least) { return std::max((least + size - 1) / size, 1); };
+    const int across = parts(map.width, width), down = parts(map.height, width / 2);
+    if (across == 1 && down == 1) return map;
+    Latitudes finer{map.width * across, map.height * down, {}};
     finer.texels.resize(std::size_t(finer.width) * std::size_t(finer.height));
     for (int y = 0; y < finer.height; ++y)
         for (int x = 0; x < finer.width; ++x)
@@ -309,7 +307,7 @@ const glm::vec3& Octahedron::at(int x, int y) const {
 }
 
 int filteredSideOf(const scenes::Image& map) {
-    const auto side = int(std::bit_ceil(unsigned(std::max(map.width / 2, 1))));
+    const auto side = int(std::bit_ceil(unsigned(std::max({map.width / 2, map.height, 1}))));
     return std::clamp(side, 4 * kLeastFilteredSide, kMostFilteredSide);
 }
 
@@ -401,93 +399,6 @@ std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered) {
     for (std::size_t i = 0; i < filtered.levels.size(); ++i) put(filtered.levels[i], int(i));
     put(filtered.irradiance, int(filtered.levels.size()));
     return atlas;
-}
-
-// ---- The cache -----------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// Changes with what filterEnvironment() computes.
-constexpr std::uint64_t kVersion = 4;
-
-std::uint64_t keyOf(const scenes::Image& map) {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u ^ kVersion;
-    const auto add = [&](std::uint64_t word) {
-        hash = (hash ^ word) * 0xff51afd7ed558ccdu;
-        hash ^= hash >> 32;
-    };
-    add(std::uint64_t(map.width));
-    add(std::uint64_t(map.height));
-    for (std::size_t at = 0; at + sizeof(std::uint64_t) <= map.texels.size(); at += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, map.texels.data() + at, sizeof(word));
-        add(word);
-    }
-    return hash;
-}
-
-std::vector<Octahedron> shapesOf(const scenes::Image& map) {
-    const int side = filteredSideOf(map);
-    std::vector<Octahedron> shapes;
-    for (int level = 0; level < filteredLevelsOf(side); ++level) shapes.push_back({filteredSide(side, level), {}});
-    shapes.push_back({ENVIRONMENT_IRRADIANCE_SIDE, {}});
-    for (Octahedron& shape : shapes) shape.texels.resize(std::size_t(shape.side) * std::size_t(shape.side));
-    return shapes;
-}
-
-std::size_t bytesOf(const Octahedron& level) {
-    return level.texels.size() * sizeof(glm::vec3);
-}
-
-std::optional<FilteredEnvironment> readCache(const std::filesystem::path& file, std::uint64_t key,
-                                             const scenes::Image& map) {
-    std::ifstream in(file, std::ios::binary);
-    std::uint64_t found = 0;
-    if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found != key) return {};
-    std::vector<Octahedron> levels = shapesOf(map);
-    for (Octahedron& level : levels)
-        if (!in.read(reinterpret_cast<char*>(level.texels.data()), std::streamsize(bytesOf(level)))) return {};
-    if (in.peek() != std::ifstream::traits_type::eof()) return {};
-    FilteredEnvironment result;
-    result.irradiance = std::move(levels.back());
-    levels.pop_back();
-    result.levels = std::move(levels);
-    return result;
-}
-
-void writeCache(const std::filesystem::path& file, std::uint64_t key, const FilteredEnvironment& filtered) {
-    std::string bytes(reinterpret_cast<const char*>(&key), sizeof(key));
-    const auto add = [&](const Octahedron& level) {
-        bytes.append(reinterpret_cast<const char*>(level.texels.data()), bytesOf(level));
-    };
-    for (const Octahedron& level : filtered.levels) add(level);
-    add(filtered.irradiance);
-    try {
-        std::filesystem::create_directories(file.parent_path());
-        writeFileAtomically(file.string(), bytes);
-    } catch (const std::exception&) { // it is computed anew next time
-    }
-}
-
-} // namespace
-
-std::optional<std::filesystem::path> cacheFolder() {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
-        return std::filesystem::path(folder) / "tessera";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".cache" / "tessera";
-    return {};
-}
-
-FilteredEnvironment cachedEnvironment(const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
-                                      const std::function<void(double)>& progress) {
-    if (!folder) return filterEnvironment(map, progress);
-    const std::uint64_t key = keyOf(map);
-    const std::filesystem::path file = *folder / fmt::format("environment-{:016x}.bin", key);
-    if (std::optional<FilteredEnvironment> known = readCache(file, key, map)) return std::move(*known);
-    FilteredEnvironment result = filterEnvironment(map, progress);
-    writeCache(file, key, result);
-    return result;
 }
 
 } // namespace tessera::frame

@@ -1,8 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -57,13 +55,5 @@ Octahedron irradianceOf(const scenes::Image& map, int order, int side);
 /// says where they lie.
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered);
 glm::ivec2 atlasTexels(int side);
-
-/// The same as filterEnvironment(), from a file of this folder where an earlier call left it for a map of the same
-/// texels, else left there. A folder that cannot be written or read is no error.
-FilteredEnvironment cachedEnvironment(
-    const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
-    const std::function<void(double)>& progress = [](double) {});
-/// $XDG_CACHE_HOME/tessera, ~/.cache/tessera; none where neither is known.
-std::optional<std::filesystem::path> cacheFolder();
 
 } // namespace tessera::frame

@@ -8,8 +8,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "renderer/frame/EnvironmentFilter.h"
-#include "renderer/frame/LobeTable.h"
+#include "renderer/frame/EnvironmentCache.h"
 #include "shaders/shared/lobe_table.h"
 
 namespace tessera::frame {
@@ -184,7 +183,7 @@ const gpu::Texture& EnvironmentGpu::lobes() {
     if (lobes_) return *lobes_;
     const graph::TextureDesc shape = environmentShape(environment_.map).lobes;
     auto lobes = std::make_unique<gpu::Texture>("lobe_table", shape);
-    static const std::vector<glm::vec4> table = makeLobeTable(); // the same for every map
+    static const std::vector<glm::vec4> table = cachedLobeTable(cacheFolder()); // the same for every map
     const std::size_t layer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
     for (std::size_t i = 0; i < std::size_t(LOBE_TABLE_LAYERS); ++i)
         lobes->upload(0, std::span(table).subspan(i * layer, layer), int(i));

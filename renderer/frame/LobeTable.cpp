@@ -139,7 +139,7 @@ double sheenAlbedo(double alpha, double cosine) {
 
 /// The index of refraction at a place of shared::iorPlace().
 double iorAt(int place) {
-    const double contrast = std::clamp(2.0 * place / (LOBE_TABLE_IORS - 1.0) - 1.0, -0.999, 0.999);
+    const double contrast = std::clamp((place - 8.0) / 7.0, -0.999, 0.999);
     return (1.0 + contrast) / (1.0 - contrast);
 }
 

@@ -11,11 +11,11 @@
 
 SHARED_BEGIN
 
-// Where in the table an index of refraction lies, 0..1: its contrast (n - 1) / (n + 1), of either sign, which is the
-// root of the reflectance at right angles.
+// Where in the table an index of refraction lies, 0..1: by its contrast (n - 1) / (n + 1), of either sign, which is the
+// root of the reflectance at right angles. Index 1, on whose sides lobes differ most, lies at one of the places.
 SHARED_FUNCTION float iorPlace(float ior) {
     SHARED_PRECISE float contrast = (ior - 1.0f) / (ior + 1.0f);
-    SHARED_PRECISE float place = 0.5f + 0.5f * contrast;
+    SHARED_PRECISE float place = (8.0f + 7.0f * contrast) / float(LOBE_TABLE_IORS - 1);
     return place;
 }
 

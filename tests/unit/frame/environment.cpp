@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/EnvironmentCache.h"
 #include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LobeTable.h"
@@ -57,9 +58,9 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
         for (int x = 0; x < 8; ++x)
             places.texels[std::size_t(8 * y + x)] = glm::vec3(directionOf(Octahedron::codeOfTexel(x, y, 8)));
     for (int i = 0; i < 8; ++i)
-        for (const auto& [x, y, inX, inY] :
-             {std::tuple(-1, i, 0, i), std::tuple(8, i, 7, i), std::tuple(i, -1, i, 0), std::tuple(i, 8, i, 7)})
-            EXPECT_LT(glm::distance(places.at(x, y), places.at(inX, inY)), 0.55f) << x << ", " << y;
+        for (const auto& [x, y, inX, inY] : {std::tuple(-1, i, 0, 7 - i), std::tuple(8, i, 7, 7 - i),
+                                             std::tuple(i, -1, 7 - i, 0), std::tuple(i, 8, 7 - i, 7)})
+            EXPECT_EQ(places.at(x, y), places.at(inX, inY)) << x << ", " << y;
 }
 
 TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
@@ -167,6 +168,16 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     computed = false;
     cachedEnvironment(mapOf(32, 16, [](int x, int) { return x; }), folder.path(), note);
     EXPECT_TRUE(computed);
+}
+
+TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
+    const std::vector<glm::vec4> table = makeLobeTable();
+    constexpr std::size_t kLayer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
+    const float place = shared::iorPlace(1.0f) * float(LOBE_TABLE_IORS - 1);
+    ASSERT_EQ(place, std::round(place)) << "between two places others would be mixed in";
+    const auto number = std::size_t(place);
+    for (std::size_t i = 0; i < kLayer; ++i)
+        ASSERT_LT(table[(LOBE_LAYER_DIELECTRIC + number / 4) * kLayer + i][int(number % 4)], 1e-6f) << i;
 }
 
 /// A and B of the split sum by perceptual roughness and the viewer's cosine, shading.md section 6.

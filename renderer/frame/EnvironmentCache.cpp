@@ -1,0 +1,114 @@
+#include "renderer/frame/EnvironmentCache.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/AtomicFile.h"
+#include "renderer/frame/LobeTable.h"
+#include "shaders/shared/environment.h"
+#include "shaders/shared/lobe_table.h"
+
+namespace tessera::frame {
+
+namespace {
+
+/// Change with what filterEnvironment() and makeLobeTable() compute.
+constexpr std::uint64_t kEnvironmentVersion = 5, kLobeVersion = 2;
+
+/// Parts of memory that lie in a file one after the other, behind its key.
+using Parts = std::vector<std::span<std::byte>>;
+
+/// Whether all was there, and nothing else.
+bool read(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
+    std::ifstream in(file, std::ios::binary);
+    std::uint64_t found = 0;
+    if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found != key) return false;
+    for (const std::span<std::byte>& part : parts)
+        if (!in.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()))) return false;
+    return in.peek() == std::ifstream::traits_type::eof();
+}
+
+void write(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
+    std::string bytes(reinterpret_cast<const char*>(&key), sizeof(key));
+    for (const std::span<std::byte>& part : parts)
+        bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
+    try {
+        std::filesystem::create_directories(file.parent_path());
+        writeFileAtomically(file.string(), bytes);
+    } catch (const std::exception&) { // it is computed anew next time
+    }
+}
+
+std::uint64_t keyOf(const scenes::Image& map) {
+    std::uint64_t hash = 0x9e3779b97f4a7c15u ^ kEnvironmentVersion;
+    const auto add = [&](std::uint64_t word) {
+        hash = (hash ^ word) * 0xff51afd7ed558ccdu;
+        hash ^= hash >> 32;
+    };
+    add(std::uint64_t(map.width));
+    add(std::uint64_t(map.height));
+    for (std::size_t at = 0; at + sizeof(std::uint64_t) <= map.texels.size(); at += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, map.texels.data() + at, sizeof(word));
+        add(word);
+    }
+    return hash;
+}
+
+/// Room for what a map is filtered to.
+FilteredEnvironment emptyFor(const scenes::Image& map) {
+    const auto shape = [](int side) { return Octahedron{side, std::vector<glm::vec3>(std::size_t(side * side))}; };
+    const int side = filteredSideOf(map);
+    FilteredEnvironment empty;
+    for (int level = 0; level < filteredLevelsOf(side); ++level)
+        empty.levels.push_back(shape(shared::filteredSide(side, level)));
+    empty.irradiance = shape(ENVIRONMENT_IRRADIANCE_SIDE);
+    return empty;
+}
+
+Parts partsOf(FilteredEnvironment& filtered) {
+    Parts parts;
+    for (Octahedron& level : filtered.levels) parts.push_back(std::as_writable_bytes(std::span(level.texels)));
+    parts.push_back(std::as_writable_bytes(std::span(filtered.irradiance.texels)));
+    return parts;
+}
+
+} // namespace
+
+std::optional<std::filesystem::path> cacheFolder() {
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
+        return std::filesystem::path(folder) / "tessera";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return std::filesystem::path(home) / ".cache" / "tessera";
+    return {};
+}
+
+FilteredEnvironment cachedEnvironment(const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
+                                      const std::function<void(double)>& progress) {
+    if (!folder) return filterEnvironment(map, progress);
+    const std::uint64_t key = keyOf(map);
+    const std::filesystem::path file = *folder / fmt::format("environment-{:016x}.bin", key);
+    FilteredEnvironment result = emptyFor(map);
+    if (read(file, key, partsOf(result))) return result;
+    result = filterEnvironment(map, progress);
+    write(file, key, partsOf(result));
+    return result;
+}
+
+std::vector<glm::vec4> cachedLobeTable(const std::optional<std::filesystem::path>& folder) {
+    if (!folder) return makeLobeTable();
+    const std::filesystem::path file = *folder / fmt::format("lobes-{}.bin", kLobeVersion);
+    std::vector<glm::vec4> table(std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE * LOBE_TABLE_LAYERS);
+    if (read(file, kLobeVersion, {std::as_writable_bytes(std::span(table))})) return table;
+    table = makeLobeTable();
+    write(file, kLobeVersion, {std::as_writable_bytes(std::span(table))});
+    return table;
+}
+
+} // namespace tessera::frame

@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "renderer/frame/EnvironmentFilter.h"
+
+/// What takes seconds to compute and never changes, kept in files: in a folder that may be deleted at any time. One
+/// that cannot be written or read is no error.
+namespace tessera::frame {
+
+/// $XDG_CACHE_HOME/tessera, ~/.cache/tessera; none where neither is known.
+std::optional<std::filesystem::path> cacheFolder();
+
+/// As filterEnvironment(), from a file of the folder where an earlier call left it for a map of the same texels, else
+/// left there.
+FilteredEnvironment cachedEnvironment(
+    const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
+    const std::function<void(double)>& progress = [](double) {});
+
+/// As makeLobeTable(), likewise.
+std::vector<glm::vec4> cachedLobeTable(const std::optional<std::filesystem::path>& folder);
+
+} // namespace tessera::frame
