@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "base/Error.h"
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
@@ -65,14 +63,13 @@ void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + kDefaultEnvironment, ledger, scene.warnings);
     // Stands around the camera as it does around that of a scene without one, which looks along longitude -45 degrees.
     const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
-    if (forwardWS.x != 0.0 || forwardWS.z != 0.0) {
+    constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
+    if (std::hypot(forwardWS.x, forwardWS.z) > kLevel * glm::length(forwardWS)) {
         const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
         scene.environment->rotationDegrees = float(std::remainder(-45.0 - longitude, 360.0));
     }
     scene.options.wishes.try_emplace("backdrop", "blurred");
-    scene.warnings.push_back(fmt::format("the scene has no light: lit by the built-in environment '{}'; --environment "
-                                         "chooses another, --no-default-light none",
-                                         kDefaultEnvironment));
+    scene.warnings.emplace_back(kDefaultLightWarning);
 }
 
 } // namespace tessera::scenes

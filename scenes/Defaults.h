@@ -6,6 +6,11 @@ namespace tessera::scenes {
 
 class LoadLedger;
 
+/// Of a scene that addDefaultLight() lights.
+inline constexpr const char* kDefaultLightWarning =
+    "the scene has no light: lit by the built-in environment 'studio'; --environment chooses another, "
+    "--no-default-light none";
+
 /// Name of a supplied camera.
 inline constexpr const char* kDefaultName = "default";
 

@@ -62,7 +62,8 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     hash.add(settings.prune);
     if (prepared.spec.features[Feature::Environment]) {
         hash.addFloats(std::vector{prepared.environment});
-        hash.add(settings.environment.samples);
+        hash.add(std::uint8_t(settings.environment.light));
+        if (prepared.spec.usesEnvironmentSamples()) hash.add(settings.environment.samples);
     }
     return hash.value();
 }

@@ -19,7 +19,7 @@ using std::numbers::pi;
 constexpr double kGroundRadius = 6360.0, kAirRadius = 6460.0, kEyeHeight = 0.2;
 const glm::dvec3 kRayleighScattering(5.802e-3, 13.558e-3, 33.1e-3); // 1/km at the ground
 constexpr double kRayleighHeight = 8.0;
-constexpr double kMieScattering = 40.0e-3, kMieExtinction = 44.4e-3, kMieHeight = 1.2, kMieAsymmetry = 0.8;
+constexpr double kMieScattering = 3.996e-3, kMieExtinction = 4.44e-3, kMieHeight = 1.2, kMieAsymmetry = 0.8;
 const glm::dvec3 kOzoneAbsorption(0.650e-3, 1.881e-3, 0.085e-3); // in the middle of its layer
 constexpr double kOzoneHeight = 25.0, kOzoneHalfWidth = 15.0;
 const glm::dvec3 kGroundAlbedo(0.28, 0.27, 0.25);

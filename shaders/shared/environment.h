@@ -9,8 +9,8 @@
 
 // Alpha of level 1 of the filtered map; level 0 is the map itself, the last level has alpha 1.
 #define ENVIRONMENT_LEAST_ALPHA 0.01
-#define ENVIRONMENT_IRRADIANCE_SIDE 64 // texels
-#define ENVIRONMENT_BACKDROP_LEVEL 7   // what a blurred backdrop shows
+#define ENVIRONMENT_IRRADIANCE_SIDE 64  // texels
+#define ENVIRONMENT_BACKDROP_ALPHA 0.12 // of what a blurred backdrop shows
 
 // RGBA32F texels of a sample of the map: xyz unit direction in the map, w its density in 1/sr; rgb radiance.
 #define ENVIRONMENT_SAMPLE_TEXELS 2

@@ -159,6 +159,26 @@ TEST_F(Environment, theBackdropIsTheMapAndTurnsWithIt) {
     }
 }
 
+TEST_F(Environment, theBackdropIsThatOfTheReferenceInEveryPixel) {
+    scenes::Scene scene = test::quadScene(test::unlit());
+    scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, 100.0, 1.0); // behind the camera
+    scene.cameras[0].projection = scenes::Projection::Perspective;
+    scene.cameras[0].fovYRadians = 1.8; // far from the axis
+    scene.environment =
+        mapOf(64, 32, [](int x, int y) { return glm::dvec3(1 + x % 5, 1 + y % 7, 1.0 + 0.01 * x * y); });
+    scene.environment->rotationDegrees = 40.0f;
+    frame::FrameSettings settings;
+    settings.sizePixels = {48, 27};
+    settings.filter = frame::TextureFilter::Exact;
+    const validation::ReferencePicture truth = validation::referencePicture(
+        scene, settings, [] {}, validation::Leeway::None);
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    for (std::size_t i = 0; i < seen.size(); i += 4)
+        for (std::size_t c = i; c < i + 3; ++c)
+            ASSERT_NEAR(seen[c], truth.picture.rgba[c], 1e-3) << i / 4; // steps of a texel, and fp32 angles
+}
+
 /// E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4. Compensated, all of it.
 TEST_F(Environment, aWhiteFurnaceLosesWhatThePublishedTableSays) {
     constexpr double kCosines[] = {0.1, 0.25, 0.5, 0.75, 1.0};

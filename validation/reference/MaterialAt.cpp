@@ -72,7 +72,8 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.model = material.model;
     point.color = glm::dvec3(base);
     point.opacity = std::clamp(base.a, 0.0, 1.0);
-    point.openness = std::lerp(1.0, texel(TextureSlot::Occlusion).r, double(material.occlusionStrength));
+    point.openness =
+        std::clamp(std::lerp(1.0, texel(TextureSlot::Occlusion).r, double(material.occlusionStrength)), 0.0, 1.0);
     point.metallic = double(material.metallic) * roughnessMetallic.b;
     const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
     if (model.roughness) {

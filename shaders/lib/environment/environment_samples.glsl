@@ -75,7 +75,9 @@ vec3 blinnReflection(vec2 point, float exponent, vec3 toViewer, vec3 normal, vec
     precise float angle = 2.0 * kPi * point.y;
     precise vec3 local = vec3(sine * cos(angle), sine * sin(angle), cosine);
     vec3 half_ = aroundNormal(local, normal, tangent);
-    precise vec3 reflected = 2.0 * dot(toViewer, half_) * half_ - toViewer;
+    precise float along = dot(toViewer, half_);
+    if (!(along > 0.0)) return vec3(0.0); // the viewer sees it from behind
+    precise vec3 reflected = 2.0 * along * half_ - toViewer;
     return safeNormalize(reflected, normal);
 }
 
@@ -174,6 +176,7 @@ vec3 sampledLight(SeenSurface seen, vec3 bounces, vec3 toLight, vec3 radiance, f
 
 vec3 sampledDirection(SeenSurface seen, vec3 bounces, vec3 toLight)
 {
+    if (toLight == vec3(0.0)) return vec3(0.0); // no direction was found
     vec4 found = mapRadiance(mapDirection(toLight));
     return sampledLight(seen, bounces, toLight, found.rgb, found.a);
 }
