@@ -56,8 +56,8 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return uploaded.features == features && uploaded.filter == filter && uploaded.subsurface == subsurface;
     });
     if (found == uploaded_.end()) {
+        if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // before there are three
         auto scene = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
-        if (uploaded_.size() == kMostUploaded) uploaded_.pop_back();
         uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
     } else {
         if (found->materialsChanged) found->scene->updateMaterials();

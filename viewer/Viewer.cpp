@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/Extension.h"
 #include "renderer/gpu/Commands.h"
@@ -140,6 +141,7 @@ private:
         measurements_.clear(facts_);
         facts_.shadows = {};
         state_.timings.clear();
+        state_.loadingEnvironment.clear(); // it was chosen for the scene before
         state_.open = std::move(scene);
     }
 
@@ -148,21 +150,27 @@ private:
         return extension == ".hdr" || extension == ".exr";
     }
 
-    /// Begins to load an environment for the scene that is open.
+    /// Begins to load an environment for the scene that is open, once the one under way is there.
     void chooseEnvironment(const std::string& name) {
-        if (!state_.open || environments_.isBusy()) return;
-        environments_.start(name);
+        if (!state_.open)
+            throw std::runtime_error("there is no scene yet for " + name + " to surround; open one first");
         state_.loadingEnvironment = name;
+        if (environments_.isBusy()) return;
+        environments_.start(name);
         log_.line("loading environment " + name);
     }
 
     void adoptEnvironment() {
         std::optional<ChosenEnvironment> chosen = environments_.take();
         if (!chosen) return;
+        // Another choice was made meanwhile, or another scene opened.
+        if (chosen->name != state_.loadingEnvironment) {
+            if (!state_.loadingEnvironment.empty()) environments_.start(state_.loadingEnvironment);
+            return;
+        }
         state_.loadingEnvironment.clear();
         if (!chosen->error.empty()) throw std::runtime_error(chosen->error);
-        if (!state_.open) return;
-        for (const std::string& warning : chosen->warnings) state_.notice = {warning, false};
+        if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
         log_.line("environment " + chosen->name);
         state_.open->takeEnvironment(std::move(*chosen));
         settleFrames_ = kSettleFrames;
@@ -277,7 +285,9 @@ private:
         attempt([&] {
             if (requests.open) open(*requests.open);
         });
-        if (requests.environment) chooseEnvironment(*requests.environment);
+        attempt([&] {
+            if (requests.environment) chooseEnvironment(*requests.environment);
+        });
         attempt([&] { serveSceneRequests(requests); });
         attempt([&] {
             if (requests.reloadShaders) reloadShaders();

@@ -114,9 +114,9 @@ void scaleRows(State& state) {
 
 /// The maps to choose from, and what was dropped onto the window.
 void environmentList(State& state) {
-    const auto& environment = state.open ? state.open->scene().environment : std::optional<scenes::Environment>();
     std::string shown(scenes::kNoEnvironment);
-    if (environment) {
+    if (state.open && state.open->scene().environment) {
+        const scenes::Environment* const environment = &*state.open->scene().environment;
         shown = std::filesystem::path(environment->source).filename().string();
         if (shown.starts_with(scenes::kBuiltinPrefix)) shown.erase(0, scenes::kBuiltinPrefix.size());
     }
@@ -124,7 +124,7 @@ void environmentList(State& state) {
     for (const scenes::BuiltinEnvironment& builtin : scenes::builtinEnvironments())
         choices.push_back({builtin.name, builtin.purpose});
     const auto now = std::size_t(std::ranges::find(choices, shown, &Choice::name) - choices.begin());
-    ImGui::BeginDisabled(!state.open || !state.loadingEnvironment.empty());
+    ImGui::BeginDisabled(!state.open);
     if (const auto picked = choose("Map", shown, choices, now))
         state.requests.environment = std::string(choices[*picked].name);
     ImGui::EndDisabled();

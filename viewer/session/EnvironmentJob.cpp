@@ -2,8 +2,10 @@
 
 #include <cassert>
 #include <exception>
+#include <new>
 #include <utility>
 
+#include "renderer/frame/EnvironmentCache.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
 
@@ -19,6 +21,8 @@ ChosenEnvironment loaded(const std::string& name) {
         if (chosen.environment)
             chosen.filtered = std::make_shared<frame::FilteredEnvironment>(
                 frame::cachedEnvironment(chosen.environment->map, frame::cacheFolder()));
+    } catch (const std::bad_alloc&) {
+        chosen.error = name + ": the memory is not enough for it; close other programs or choose a smaller picture";
     } catch (const std::exception& error) {
         chosen.error = error.what();
     }

@@ -29,7 +29,7 @@ public:
     EnvironmentJob(const EnvironmentJob&) = delete;
     EnvironmentJob& operator=(const EnvironmentJob&) = delete;
 
-    /// Whether one is being loaded; it cannot be given up, so the next choice waits for its end.
+    /// Whether one is being loaded. It cannot be given up: another can only be started after its end.
     bool isBusy() const;
     void start(const std::string& name);
     bool hasResult() const;

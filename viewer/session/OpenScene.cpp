@@ -1,14 +1,18 @@
 #include "viewer/session/OpenScene.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "scenes/Defaults.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
 
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
-                     scenes::SceneOrigin origin)
+                     scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
       boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
-      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_) {}
+      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), filtered_(std::move(filtered)) {}
 
 CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
     constexpr int kSidePixels = 3; // the middle one looks along the axis
@@ -28,10 +32,17 @@ void OpenScene::useCamera(int camera) {
 
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
     scene_.environment = std::move(chosen.environment);
-    load_.environment = std::move(chosen.name);
+    // What was said of the environment before is over.
+    std::vector<std::string>& warnings = scene_.warnings;
+    std::erase_if(warnings, [&](const std::string& warning) {
+        return warning == scenes::kDefaultLightWarning ||
+               std::ranges::find(environmentWarnings_, warning) != environmentWarnings_.end();
+    });
+    environmentWarnings_ = std::move(chosen.warnings);
+    warnings.insert(warnings.end(), environmentWarnings_.begin(), environmentWarnings_.end());
     filtered_ = std::move(chosen.filtered);
     ++environmentRevision_;
-    countEdit();
+    touch();
 }
 
 void OpenScene::becomes(const std::string& file) {

@@ -11,7 +11,9 @@ namespace tessera::viewer {
 /// An open scene, as loaded and with later edits. Its address is fixed, since a renderer draws it.
 class OpenScene {
 public:
-    OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded, scenes::SceneOrigin origin);
+    /// `filtered`, of the scene's environment, may be null: it is filtered when a frame needs it.
+    OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded, scenes::SceneOrigin origin,
+              std::shared_ptr<const frame::FilteredEnvironment> filtered = {});
     OpenScene(const OpenScene&) = delete;
     OpenScene& operator=(const OpenScene&) = delete;
 
@@ -27,15 +29,18 @@ public:
     const scenes::Scene& scene() const { return scene_; }
     /// For edits of lights and materials. Whoever edits says touch() or touchMaterials().
     scenes::Scene& edit() { return scene_; }
-    void touch() { countEdit(); }
+    void touch() {
+        ++revision_;
+        ++edits_;
+    }
     void touchMaterials() {
-        countEdit();
+        touch();
         ++materialRevision_;
     }
     /// Takes another environment in the place of the scene's own, as an edit.
     void takeEnvironment(ChosenEnvironment chosen);
     std::uint64_t environmentRevision() const { return environmentRevision_; }
-    /// Of the latest that was taken, which a renderer need not filter; may be null.
+    /// Of its environment, which a renderer need not filter; may be null.
     const std::shared_ptr<const frame::FilteredEnvironment>& filteredEnvironment() const { return filtered_; }
     /// Counts changes of the picture: edits, and movements of the camera.
     std::uint64_t revision() const { return revision_; }
@@ -61,10 +66,6 @@ public:
     void applyRig();
 
 private:
-    void countEdit() {
-        ++revision_;
-        ++edits_;
-    }
     const scenes::Camera& sceneCamera() const { return cameras_[std::size_t(camera_)]; }
     /// Orbits turn about what the camera shows in the middle of its picture; where that is nothing, about the middle of
     /// the scene.
@@ -85,6 +86,7 @@ private:
     std::uint64_t edits_ = 0, savedEdits_ = 0;
     std::uint64_t materialRevision_ = 0, environmentRevision_ = 0;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;
+    std::vector<std::string> environmentWarnings_; ///< of the latest that was taken
 };
 
 } // namespace tessera::viewer

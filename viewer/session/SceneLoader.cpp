@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "renderer/frame/EnvironmentCache.h"
 #include "renderer/gpu/Timer.h"
 
 namespace tessera::viewer {
@@ -18,6 +19,9 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
     try {
         result.scene = scenes::loadScene(source, options);
         result.origin = scenes::originOf(source, options, *result.scene);
+        if (result.scene->environment)
+            result.filtered = std::make_shared<frame::FilteredEnvironment>(
+                frame::cachedEnvironment(result.scene->environment->map, frame::cacheFolder()));
     } catch (const std::bad_alloc&) {
         result.scene.reset();
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";

@@ -1,10 +1,12 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneOrigin.h"
 
@@ -17,8 +19,9 @@ public:
     struct Result {
         std::string source;
         scenes::LoadOptions load;
-        std::optional<scenes::SceneOrigin> origin; ///< of the scene, for saving it with edits
-        std::optional<scenes::Scene> scene;        ///< none: `error` says why
+        std::optional<scenes::SceneOrigin> origin;                  ///< of the scene, for saving it with edits
+        std::optional<scenes::Scene> scene;                         ///< none: `error` says why
+        std::shared_ptr<const frame::FilteredEnvironment> filtered; ///< where it has an environment
         std::string error;
         double seconds = 0.0;
     };

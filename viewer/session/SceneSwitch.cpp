@@ -38,7 +38,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     if (!result->scene) throw std::runtime_error(result->error);
     const FirstLook first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
     auto scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
-                                             std::move(*result->origin));
+                                             std::move(*result->origin), std::move(result->filtered));
     scene->useCamera(first.look.settings.camera);
     scene->place(first.pose);
     show(*scene);

@@ -41,6 +41,7 @@ Screen::Screen(gpu::Context& context) : context_(context), resolution_(kMovingMs
 
 void Screen::open(const OpenScene& scene) {
     renderer_ = std::make_unique<engine::Renderer>(context_, scene.scene());
+    renderer_->environmentChanged(scene.filteredEnvironment());
     scene_ = &scene;
     // Without it a software rasteriser's passes have no times (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);

@@ -13,6 +13,13 @@ namespace {
 /// Settings that change a pixel, but not the light that enters a surface. Pixels of several samples need more of it.
 constexpr std::array<std::string_view, 3> kOfPixels{"layout", "specular", "view"};
 
+/// Settings that move light, though pixels cost the same for all their values.
+constexpr std::array<std::string_view, 2> kOfLight{"environmentRotation", "time"};
+
+bool contains(std::span<const std::string_view> keys, std::string_view key) {
+    return std::ranges::find(keys, key) != keys.end();
+}
+
 bool spreads(const scenes::Scene& scene, const Look& look) {
     return frame::showsLitPicture(look.settings.view) && frame::diffusesLight(scene, look.settings.subsurface);
 }
@@ -23,8 +30,8 @@ bool hasSameSpread(const Look& a, const Look& b) {
     like.technique = b.technique;
     like.aside = b.aside;
     for (const engine::Setting& setting : engine::settingTable())
-        if (setting.samePicture || (setting.sameCost && setting.key != "time") ||
-            std::ranges::find(kOfPixels, setting.key) != kOfPixels.end())
+        if (setting.samePicture || (setting.sameCost && !contains(kOfLight, setting.key)) ||
+            contains(kOfPixels, setting.key))
             setting.value.copy(like, b);
     return like == b;
 }

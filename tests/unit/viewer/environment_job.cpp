@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "viewer/session/OpenScene.h"
 
@@ -50,19 +51,20 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
 }
 
-TEST_F(EnvironmentJobTest, whatWasChosenIsAnEditThatTheCommandNames) {
+TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     const scenes::LoadOptions load;
-    OpenScene open("room", load, scenes::loadScene("room", load), scenes::SceneOrigin());
+    scenes::Scene room = scenes::loadScene("room", load);
+    room.warnings = {"of the file", scenes::kDefaultLightWarning};
+    OpenScene open("room", load, std::move(room), scenes::SceneOrigin());
     open.takeEnvironment(chosen("studio"));
     EXPECT_TRUE(open.isEdited());
     EXPECT_EQ(open.environmentRevision(), 1u);
-    EXPECT_EQ(open.load().environment, "studio");
     EXPECT_EQ(open.scene().environment.value().source, "builtin:studio");
     EXPECT_TRUE(open.filteredEnvironment());
+    EXPECT_EQ(open.scene().warnings, std::vector<std::string>{"of the file"});
     open.takeEnvironment(chosen("none"));
     EXPECT_FALSE(open.scene().environment);
     EXPECT_FALSE(open.filteredEnvironment());
-    EXPECT_EQ(open.load().environment, "none");
 }
 
 } // namespace

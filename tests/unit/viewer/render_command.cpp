@@ -77,7 +77,8 @@ void expectSame(const RenderRequest& request) {
     EXPECT_TRUE(result.request.scene.cameras.at(camera) ==
                 scenes::changedCamera(scene.cameras.at(camera), request.pose));
     EXPECT_TRUE(result.request.scene.lights == scene.lights);
-    EXPECT_EQ(result.request.scene.environment.has_value(), scene.environment.has_value());
+    const auto sourceOf = [](const scenes::Scene& of) { return of.environment ? of.environment->source : ""; };
+    EXPECT_EQ(sourceOf(result.request.scene), sourceOf(scene));
 }
 
 RenderRequest requestOf(const std::string& source) {

@@ -60,6 +60,8 @@ TEST_F(SpreadLightTest, whatWasDrawnIsKeptUntilWhatEntersChanges) {
         return isAnew(other);
     };
     EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.timeSeconds = 1.0; }));
+    EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.environment.rotationDegrees = 1.0f; }));
+    EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.environment.light = frame::EnvironmentLight::Sampled; }));
     EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.soloLight = 0; }));
     EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.shadowFilter = frame::ShadowFilter::Hard; }));
     EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.diffusion.sideTexels = 1024; }));
