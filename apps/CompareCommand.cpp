@@ -145,6 +145,9 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         validation::requireReferenceTakes(comparison.settings);
         // Hardware filtering would hide the compared differences; it gets a pair of its own.
         if (!options.frame.said("filter")) comparison.settings.filter = frame::TextureFilter::Exact;
+        // The reference shows the map as it is; a blurred one is a matter of taste, not of light.
+        if (comparison.settings.environment.backdrop == frame::Backdrop::Blurred)
+            comparison.settings.environment.backdrop = frame::Backdrop::Sharp;
     }
     if (!options.heatMaps.empty()) addHeatMaps(options, validation::pictureNames(request.scene, comparison), outputs);
     const frame::PreparedView prepared =

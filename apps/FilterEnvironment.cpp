@@ -4,13 +4,12 @@
 #include <memory>
 
 #include "apps/Progress.h"
-#include "engine/PrepareView.h"
 #include "renderer/frame/EnvironmentCache.h"
 
 namespace tessera::app {
 
 void filterEnvironment(const Request& request, engine::Renderer& renderer, bool quiet) {
-    if (!engine::prepareView(request.scene, request.technique, request.settings).spec.usesFilteredEnvironment()) return;
+    if (!frame::makeFrameSpec(request.scene, {}, request.settings).usesFilteredEnvironment()) return;
     constexpr std::size_t kSteps = 1000;
     Progress progress("filtering the environment", kSteps, quiet);
     std::atomic<std::size_t> done = 0;

@@ -33,7 +33,8 @@ struct MaterialConstants {
                        // exponent), z ior, w normal-map scale
     vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
     vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit; y row of its
-                       // subsurface (subsurface.h), 0 without one; z the power of the albedo before light spreads; w occlusion's strength
+                       // subsurface (subsurface.h), 0 without one; z the power of the albedo before light spreads; w
+                       // occlusion's strength
     vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z
                      // direction of its texture's x axis, along tangent and bitangent; w -1 where it mirrors y against
                      // that, else 1

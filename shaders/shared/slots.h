@@ -41,6 +41,7 @@ SHARED_BEGIN
 // environment, and so no occlusion texture, keeps to 16, and programs that never sample both share a number:
 // renderer/gpu/Program.h refuses one that samples more than the driver lets it.
 #define TEXTURE_UNITS_A_STAGE 32
+#define TEXTURE_UNITS_GUARANTEED 16
 
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
 // each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
@@ -80,7 +81,8 @@ SHARED_BEGIN
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
 static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
-static_assert(TEXTURE_UNIT_LIGHT_ENTRIES < 17, "with one left out, more than OpenGL 4.5 guarantees a stage");
+static_assert(TEXTURE_UNIT_LIGHT_ENTRIES <= TEXTURE_UNITS_GUARANTEED,
+              "without occlusion, more than OpenGL 4.5 guarantees a stage");
 #endif
 
 SHARED_END

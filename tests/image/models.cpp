@@ -29,12 +29,27 @@ std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& fold
     return models;
 }
 
+constexpr const char* kSunName = "sun of the test";
+
+/// Where a model brings no light: a studio, whose programs take long to compile, or a lamp along the view.
+enum class Light { Studio, Sun };
+
+void addSun(scenes::Scene& scene) {
+    scenes::Light& sun = scene.lights.emplace_back();
+    sun.name = kSunName;
+    sun.type = scenes::LightType::Directional;
+    sun.intensity = 3.0f;
+    sun.directionWS = -glm::dvec3(scene.cameras[0].worldFromCamera[2]);
+}
+
 /// The scene from the opposite side: for surfaces that all turn their backs to the supplied camera.
 scenes::Scene fromBehind(scenes::Scene scene) {
     const scenes::Box3 bounds = scenes::worldBounds(scene);
     const glm::dvec3 centerWS = 0.5 * (bounds.min + bounds.max);
     const glm::dvec3 eyeWS = 2.0 * centerWS - glm::dvec3(scene.cameras[0].worldFromCamera[3]);
     scene.cameras[0].worldFromCamera = glm::inverse(glm::lookAt(eyeWS, centerWS, glm::dvec3(0, 1, 0)));
+    for (scenes::Light& light : scene.lights)
+        if (light.name == kSunName) light.directionWS = -light.directionWS;
     return scene;
 }
 
@@ -43,22 +58,22 @@ enum class Verdict { Drawn, DrawsNothing, Refused, Wrong };
 class Models : public test::GlTest {
 protected:
     /// Loads and draws one model and prints its line.
-    Verdict judge(const std::filesystem::path& model, const std::string& shownName) {
+    Verdict judge(const std::filesystem::path& model, const std::string& shownName, Light light) {
         const auto start = std::chrono::steady_clock::now();
         std::size_t triangles = 0;
         std::string why;
-        const Verdict verdict = tryModel(model, triangles, why);
+        const Verdict verdict = tryModel(model, light, triangles, why);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         fmt::print("{:<62} {:>8} {:>5.1f} s  {}\n", shownName, triangles, seconds, why);
         return verdict;
     }
 
-    void sweep(const std::filesystem::path& folder) {
+    void sweep(const std::filesystem::path& folder, Light light) {
         std::size_t drawn = 0, refused = 0, empty = 0;
         for (const std::filesystem::path& model : modelsBelow(folder)) {
             const std::string name = std::filesystem::relative(model, folder).string();
             SCOPED_TRACE(name);
-            const Verdict verdict = judge(model, name);
+            const Verdict verdict = judge(model, name, light);
             drawn += verdict == Verdict::Drawn;
             refused += verdict == Verdict::Refused;
             empty += verdict == Verdict::DrawsNothing;
@@ -68,9 +83,12 @@ protected:
     }
 
 private:
-    Verdict tryModel(const std::filesystem::path& model, std::size_t& triangles, std::string& why) {
+    Verdict tryModel(const std::filesystem::path& model, Light light, std::size_t& triangles, std::string& why) {
         try {
-            const scenes::Scene scene = scenes::loadScene(model.string());
+            scenes::LoadOptions options;
+            options.defaultLight = light == Light::Studio;
+            scenes::Scene scene = scenes::loadScene(model.string(), options);
+            if (light == Light::Sun && scene.lights.empty()) addSun(scene);
             triangles = scenes::triangleCount(scene);
             if (triangles == 0) {
                 why = "draws nothing: no triangles";
@@ -126,13 +144,13 @@ private:
 TEST_F(Models, everyPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
     const std::filesystem::path folder = "/usr/share/assimp/models"; // Debian's assimp-testmodels
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
-    sweep(folder);
+    sweep(folder, Light::Sun);
 }
 
 TEST_F(Models, everyModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
     const char* folder = std::getenv("TESSERA_ASSETS");
     if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder);
+    sweep(folder, Light::Studio);
 }
 
 } // namespace

@@ -147,7 +147,10 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         return tolerance;
     }
     if (frame::isLitByEnvironment(scene, settings)) {
-        tolerance.reason = "samples of the environment have noise: the error is reported, and held to nothing";
+        tolerance.reason = settings.environment.light == frame::EnvironmentLight::Sampled
+                               ? "samples of the environment have noise: the error is reported, and held to nothing"
+                               : "filtered light of the environment is an approximation: its error is reported, and "
+                                 "held to nothing";
         return tolerance;
     }
     if (frame::diffusesLight(scene, settings.subsurface)) {

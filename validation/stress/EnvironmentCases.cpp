@@ -60,7 +60,11 @@ std::vector<StressPicture> evenMaps(StressEffort) {
         environment.rotationDegrees = rotationDegrees;
         StressPicture picture{std::move(what), surrounded(std::move(environment)),
                               surroundedSettings(EnvironmentLight::SplitSum)};
-        if (!pictures.empty()) picture.sameAs = 0;
+        constexpr double kNoise = 30.0; // of the reference's samples, and of lobes with two alphas
+        if (pictures.empty())
+            picture.allowed = kNoise;
+        else
+            picture.sameAs = 0;
         pictures.push_back(std::move(picture));
     };
     add("32 x 16 texels", kMapWidth, kMapHeight, 0.0f);
@@ -114,13 +118,15 @@ void measureRadiance(StressBench& bench, StressFigures& figures) {
 } // namespace
 
 void addEnvironmentCases(std::vector<StressCase>& cases) {
-    cases.push_back({"environment/even",
-                     "even light from maps of one texel, row or column, or turned by 1e9 degrees, is the same light",
-                     StressBound::WorstRel,
-                     1e-3,
-                     "fp32 sums of the filter, and look-ups near the edges of its table",
-                     {},
-                     &evenMaps});
+    cases.push_back(
+        {"environment/even",
+         "even light from maps of one texel, row or column, or turned by 1e9 degrees, is the same light",
+         StressBound::WorstRel,
+         1e-3,
+         "fp32 sums of the filter, and look-ups near the edges of its table; the first is held to the reference, whose "
+         "samples have noise, 30 times as loosely",
+         {},
+         &evenMaps});
     cases.push_back({"environment/radiance",
                      "pictures are as bright as their map, from 2^-60 to 2^60 of it, with all light in one texel too",
                      StressBound::WorstRel,

@@ -164,7 +164,8 @@ TEST_F(BadOptions, comparisonsThatCannotBeMadeAreRefused) {
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(run({"--quiet", "render", "m.obj", "--size", "160x90", "-o", "b.exr"}).exitCode, 0);
     expectError(
-        kBadInput, {"--quiet", "compare", "m.obj", "--against", "b.exr", "--memory-limit", "600K"},
+        kBadInput,
+        {"--quiet", "compare", "m.obj", "--no-default-light", "--against", "b.exr", "--memory-limit", "600K"},
         {"b.exr: the picture of 160x90 texels", "may take 600.0 KiB; use a smaller file, or raise the memory limit"});
     folder_.write("empty.exr", "");
     expectError(kBadInput, {"compare", "room", "--size", "16x9", "--against", "empty.exr"}, {"empty.exr", "empty"});
@@ -176,7 +177,7 @@ TEST_F(BadOptions, aMalformedMemoryLimitIsRefused) {
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     expectError(kBadInput, {"plan", "m.obj", "--memory-limit", "512"},
                 {"m.obj:", "may take 512 B; use a smaller file, or raise the memory limit"});
-    EXPECT_EQ(run({"plan", "m.obj", "--memory-limit", "1M"}).exitCode, 0);
+    EXPECT_EQ(run({"plan", "m.obj", "--no-default-light", "--memory-limit", "1M"}).exitCode, 0);
 }
 
 TEST_F(BadOptions, outputsDoNotOverwriteInputs) {

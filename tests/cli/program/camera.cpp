@@ -46,8 +46,7 @@ TEST_F(CameraOptions, everyCommandThatLooksAtAFrameTakesThem) {
     runGood({"compare", "spheres", "--techniques", "forward", "--size", "48x27", "--eye", "3,2,-4"});
 }
 
-TEST_F(CameraOptions, theDefaultLightShinesAlongTheViewThatTheOptionsGive) {
-    // A cube, which looks the same from opposite sides.
+TEST_F(CameraOptions, theDefaultLightReachesWhateverTheOptionsLookAt) {
     folder_.write("cube.obj", "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
                               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
     folder_.write("cube.json", R"({"tessera": 1, "include": [{"file": "cube.obj"}],
@@ -63,9 +62,7 @@ TEST_F(CameraOptions, theDefaultLightShinesAlongTheViewThatTheOptionsGive) {
     made("front.exr", {});
     const std::string behindText = made("behind.exr", behind);
     EXPECT_TRUE(made("named.exr", {"--camera", "behind"}) == behindText);
-    EXPECT_LT(validation::errorFigures(picture("behind.exr"), picture("front.exr")).maxRel, 1e-5)
-        << "a cube looks the same from both sides";
-    EXPECT_GT(picture("front.exr").pixel(13 * 48 + 24)[0], 0.1f);
+    for (const char* file : {"front.exr", "behind.exr"}) EXPECT_GT(picture(file).pixel(13 * 48 + 24)[0], 0.1f) << file;
     Words compare{"--quiet",      "compare", "cube.json", "--size",    "48x27",
                   "--techniques", "forward", "--against", "behind.exr"};
     compare.insert(compare.end(), behind.begin(), behind.end());

@@ -86,7 +86,7 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     }
     // Light from everywhere is light: no default one is supplied.
     options.environment = "sky";
-    EXPECT_TRUE(loadScene(saved, options).lights.empty());
+    EXPECT_EQ(loadScene(saved, options).environment.value().source, "builtin:sky");
 }
 
 TEST(Environment, wrongOnesAreRefusedByName) {

@@ -202,8 +202,8 @@ TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompiler
         EXPECT_EQ(verdicts[i].faults, "");
         const auto has = std::ranges::find(work[i]->defines, "HAS_ENVIRONMENT", &shader::Defines::value_type::first);
         const bool isSurrounded = has != work[i]->defines.end() && has->second == "1";
-        constexpr int kGuaranteed = 16; // by OpenGL 4.5
-        EXPECT_LE(verdicts[i].sampledTextures, isSurrounded ? TEXTURE_UNITS_A_STAGE : kGuaranteed) << work[i]->key();
+        EXPECT_LE(verdicts[i].sampledTextures, isSurrounded ? TEXTURE_UNITS_A_STAGE : TEXTURE_UNITS_GUARANTEED)
+            << work[i]->key();
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
     // Every texture of a material but occlusion, lights, the entries of light lists and casters are in one of them.
