@@ -1,5 +1,6 @@
 #include "renderer/gpu/Buffer.h"
 
+#include <array>
 #include <cassert>
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@ namespace tessera::gpu {
 namespace {
 
 constexpr std::size_t kLeastBytes = 16; // GL has no buffers of no bytes
+// More than any machine has. Asked for 64 TiB, NVIDIA 580 does not answer for a minute.
+constexpr std::size_t kMostBytes = std::size_t(1) << 40;
 
 GLbitfield storageFlags(BufferUse use) {
     switch (use) {
@@ -27,23 +30,34 @@ GLbitfield storageFlags(BufferUse use) {
 
 } // namespace
 
-Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use)
-    : label_(std::move(label)), bytes_(bytes == 0 ? kLeastBytes : bytes) {
+Buffer::Buffer(std::size_t bytes, std::string label)
+    : label_(std::move(label)), bytes_(bytes == 0 ? kLeastBytes : bytes) {}
+
+// What is thrown from here on finds a made object, whose destructor deletes the buffer.
+Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use) : Buffer(bytes, std::move(label)) {
+    make(nullptr, use);
+    const std::uint8_t zero = 0;
+    glClearNamedBufferData(id_.value(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero);
+    // NVIDIA 580 lets a glNamedBufferSubData of more than 64 KiB overtake the clear, which then erases what it wrote.
+    glFinish();
+    throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
+}
+
+Buffer::Buffer(std::string label, std::span<const std::byte> contents, BufferUse use)
+    : Buffer(contents.size(), std::move(label)) {
+    constexpr std::array<std::byte, kLeastBytes> kNothing{};
+    make(contents.empty() ? kNothing.data() : contents.data(), use);
+}
+
+void Buffer::make(const std::byte* contents, BufferUse use) {
     throwIfFailed(fmt::format("before creating buffer '{}'", label_));
+    if (bytes_ > kMostBytes) failAllocation(fmt::format("buffer '{}'", label_), bytes_);
     std::uint32_t id = 0;
     glCreateBuffers(1, &id);
     id_ = Id(id);
-    try {
-        glNamedBufferStorage(id, GLsizeiptr(bytes_), nullptr, storageFlags(use));
-        throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
-        const std::uint8_t zero = 0;
-        glClearNamedBufferData(id, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero);
-        labelObject(LabelKind::Buffer, id, label_);
-        throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
-    } catch (...) {
-        glDeleteBuffers(1, &id);
-        throw;
-    }
+    glNamedBufferStorage(id, GLsizeiptr(bytes_), contents, storageFlags(use));
+    throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
+    labelObject(LabelKind::Buffer, id, label_);
 }
 
 Buffer::Buffer(Buffer&&) noexcept = default;

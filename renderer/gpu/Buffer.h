@@ -27,9 +27,9 @@ public:
     /// Made and filled in one go: a Static buffer that holds a copy of `values`.
     template <std::ranges::contiguous_range Range>
     static Buffer of(std::string label, const Range& values, BufferUse use = BufferUse::Static) {
-        Buffer buffer(std::move(label), std::ranges::size(values) * sizeof(std::ranges::range_value_t<Range>), use);
-        buffer.upload(values);
-        return buffer;
+        static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>);
+        return Buffer(std::move(label), std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))),
+                      use);
     }
     ~Buffer();
     Buffer(Buffer&&) noexcept;
@@ -67,6 +67,12 @@ public:
     const std::string& label() const { return label_; }
 
 private:
+    /// No GL object yet.
+    Buffer(std::size_t bytes, std::string label);
+    Buffer(std::string label, std::span<const std::byte> contents, BufferUse use);
+    /// Makes the buffer; of undefined contents where `contents` is null.
+    void make(const std::byte* contents, BufferUse use);
+
     std::string label_;
     std::size_t bytes_ = 0;
     Id id_;

@@ -112,13 +112,16 @@ void throwIfFailed(std::string_view when) {
     if (!said.empty()) fail(when, said);
 }
 
+void failAllocation(std::string_view what, std::size_t bytes) {
+    throw std::runtime_error(fmt::format(
+        "not enough graphics memory for {} ({} bytes); use a smaller picture, fewer samples or smaller textures", what,
+        bytes));
+}
+
 void throwIfAllocationFailed(std::string_view what, std::size_t bytes) {
     const std::vector<GLenum> errors = drainErrors();
     const std::vector<std::string> said = failures(errors);
-    if (std::find(errors.begin(), errors.end(), GLenum(GL_OUT_OF_MEMORY)) != errors.end())
-        throw std::runtime_error(fmt::format(
-            "not enough graphics memory for {} ({} bytes); use a smaller picture, fewer samples or smaller textures",
-            what, bytes));
+    if (std::find(errors.begin(), errors.end(), GLenum(GL_OUT_OF_MEMORY)) != errors.end()) failAllocation(what, bytes);
     if (!said.empty()) fail(fmt::format("creating {}", what), said);
 }
 

@@ -37,6 +37,9 @@ void throwIfFailed(std::string_view when = {});
 /// As throwIfFailed(), for what allocates `bytes`: GL_OUT_OF_MEMORY becomes a text that names `what` and its size.
 void throwIfAllocationFailed(std::string_view what, std::size_t bytes);
 
+/// Throws what throwIfAllocationFailed() throws of GL_OUT_OF_MEMORY.
+[[noreturn]] void failAllocation(std::string_view what, std::size_t bytes);
+
 /// Names the GL calls of its scope in driver messages and in frame debuggers.
 class DebugGroup {
 public:
