@@ -5,14 +5,22 @@
 #include "lib/gbuffer/gbuffer_dither.glsl"
 #include "shared/normals.h"
 
-uint gbufferWords[GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1];
+const int kGBufferWords = GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1;
+uint gbufferWords[kGBufferWords];
 int gbufferBit; // where the next field begins
+
+// Where a field goes on that ends in another word than it begins in. NVIDIA's compiler refuses an index beyond the array
+// even where it is not reached.
+int wordAfter(int word)
+{
+    return min(word + 1, kGBufferWords - 1);
+}
 
 void putField(uint value, int width)
 {
     int word = gbufferBit >> 5, bit = gbufferBit & 31;
     gbufferWords[word] |= value << bit;
-    if (bit + width > 32) gbufferWords[word + 1] |= value >> (32 - bit);
+    if (bit + width > 32) gbufferWords[wordAfter(word)] |= value >> (32 - bit);
     gbufferBit += width;
 }
 
@@ -20,7 +28,7 @@ uint takeField(int width)
 {
     int word = gbufferBit >> 5, bit = gbufferBit & 31;
     uint value = gbufferWords[word] >> bit;
-    if (bit + width > 32) value |= gbufferWords[word + 1] << (32 - bit);
+    if (bit + width > 32) value |= gbufferWords[wordAfter(word)] << (32 - bit);
     gbufferBit += width;
     return value & ((1u << width) - 1u);
 }
@@ -38,9 +46,10 @@ uint encodeShare(float x, uint steps, int field)
     return below + ditheredUp(position - float(below), field, steps);
 }
 
+// The ends are exact on drivers too whose division is not (GLSL 4.50, section 4.7.1).
 float decodeShare(uint code, uint steps)
 {
-    precise float x = float(code) / float(steps);
+    precise float x = code == steps ? 1.0 : float(code) / float(steps);
     return x;
 }
 
