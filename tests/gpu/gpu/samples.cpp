@@ -26,8 +26,8 @@ TEST_F(Samples, everyNumberThatIsOfferedMakesRenderTargets) {
         const std::vector<glm::vec2> positions = Framebuffer({{&color}, &depth}).samplePositions();
         ASSERT_EQ(positions.size(), std::size_t(samples));
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            EXPECT_TRUE(positions[i].x > 0.0f && positions[i].x < 1.0f) << i;
-            EXPECT_TRUE(positions[i].y > 0.0f && positions[i].y < 1.0f) << i;
+            EXPECT_TRUE(positions[i].x >= 0.0f && positions[i].x < 1.0f) << i; // NVIDIA has some of 16 on an edge
+            EXPECT_TRUE(positions[i].y >= 0.0f && positions[i].y < 1.0f) << i;
             for (std::size_t j = 0; j < i; ++j) EXPECT_NE(positions[i], positions[j]);
         }
     }

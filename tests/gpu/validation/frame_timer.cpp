@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/ChooseSamples.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
 #include "validation/timing/FrameTimer.h"
@@ -47,7 +48,9 @@ TEST_F(FrameTimerTest, everyPointAndEveryPassHasATimeOrAReason) {
         EXPECT_GT(point.cpuMs.median, 0.0);
         EXPECT_GE(point.cpuMs.p95, point.cpuMs.median);
         const std::vector<graph::Plan::Pass> planned =
-            engine::planFrame(points[i].renderer->scene(), points[i].technique, settings()).passes;
+            engine::planFrame(points[i].renderer->scene(), points[i].technique,
+                              engine::settingsOn(context().capabilities(), settings()))
+                .passes;
         ASSERT_EQ(point.passes.size(), planned.size());
         for (std::size_t p = 0; p < planned.size(); ++p) {
             EXPECT_EQ(point.passes[p].name, planned[p].name);
