@@ -68,26 +68,26 @@ TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
         return x == 20 && y == 5 ? 100.0 : y > 12 ? 0.0 : 1.0;
     });
     std::vector<double> summed;
-    const std::vector<glm::vec4> texels = environmentTexels(map, summed);
+    const LatitudeMap texels = environmentTexels(map, summed);
     double densities = 0.0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x) {
             const double solidAngle = 2.0 * pi / 32.0 * (std::cos(pi * y / 16.0) - std::cos(pi * (y + 1) / 16.0));
-            densities += solidAngle * double(texels[std::size_t(32 * y + x)].a);
+            densities += solidAngle * double(texels.at(x, y).a);
         }
     EXPECT_NEAR(densities, 1.0, 1e-6);
     // Light between a lit texel and a dark one is there, and so are samples of it.
-    EXPECT_GT(texels[32 * 13 + 3].a, 0.0f);
-    EXPECT_EQ(texels[32 * 15 + 3].a, 0.0f);
+    EXPECT_GT(texels.at(3, 13).a, 0.0f);
+    EXPECT_EQ(texels.at(3, 15).a, 0.0f);
     // The mean of radiance over density is the light of the whole map, whatever run of samples is taken.
-    const std::vector<glm::vec4> samples = makeEnvironmentSamples(map, texels, summed);
+    const std::vector<glm::vec4> samples = makeEnvironmentSamples(texels, summed);
     double whole = 0.0;
     for (int y = 0; y < 16; ++y)
         for (int i = 0; i < 64; ++i)
             for (int j = 0; j < 64; ++j) {
                 const glm::dvec2 place((i * 0.5 + 0.25) / 32.0, (y + (j + 0.5) / 64.0) / 16.0);
-                whole += radianceInMap(texels, 32, 16, scenes::directionInMap(place)).x * std::sin(pi * place.y) *
-                         (2.0 * pi / 64.0) * (pi / 16.0 / 64.0);
+                whole += texels.radiance(scenes::directionInMap(place)).x * std::sin(pi * place.y) * (2.0 * pi / 64.0) *
+                         (pi / 16.0 / 64.0);
             }
     for (const std::size_t run : {0u, 100u, 255u}) {
         double sum = 0.0;
