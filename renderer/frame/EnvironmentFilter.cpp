@@ -19,27 +19,6 @@ namespace {
 using shared::filteredOrigin, shared::filteredSide;
 using std::numbers::pi;
 
-/// Half as wide and high, by the mean over solid angle.
-LatitudeMap halved(const LatitudeMap& map) {
-    LatitudeMap half{(map.width + 1) / 2, (map.height + 1) / 2, {}};
-    half.texels.resize(std::size_t(half.width) * std::size_t(half.height));
-    tbb::parallel_for(0, half.height, [&](int y) {
-        for (int x = 0; x < half.width; ++x) {
-            glm::dvec3 sum(0.0);
-            double weights = 0.0;
-            for (int j = 2 * y; j < std::min(2 * y + 2, map.height); ++j)
-                for (int i = 2 * x; i < std::min(2 * x + 2, map.width); ++i) {
-                    const double weight = map.solidAngle(j);
-                    sum += weight * glm::dvec3(glm::vec3(map.at(i, j)));
-                    weights += weight;
-                }
-            half.texels[std::size_t(y) * std::size_t(half.width) + std::size_t(x)] =
-                glm::vec4(glm::vec3(sum / weights), 1.0f);
-        }
-    });
-    return half;
-}
-
 template <typename Value>
 Octahedron makeOctahedron(int side, const Value& value) {
     Octahedron result{side, std::vector<glm::vec3>(std::size_t(side) * std::size_t(side))};
@@ -226,11 +205,6 @@ Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     return sum;
 }
 
-LatitudeMap atMost(LatitudeMap map, int width) {
-    while (map.width > width) map = halved(map);
-    return map;
-}
-
 /// A small map with its interpolation as texels of their own.
 LatitudeMap atLeast(const LatitudeMap& map, int width) {
     const auto parts = [](int size, int least) { return std::max((least + size - 1) / size, 1); };
@@ -295,7 +269,7 @@ double alphaOfLevel(int level, int levels) {
 
 Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
     constexpr int kLeastWidth = 256, kMostWidth = 1024; // far finer than irradiance changes
-    const Harmonics light = harmonicsOf(atLeast(atMost(latitudeMapOf(map), kMostWidth), kLeastWidth), order);
+    const Harmonics light = harmonicsOf(atLeast(coarserMap(map, kMostWidth, kMostWidth / 2), kLeastWidth), order);
     return makeOctahedron(side, [&](int x, int y) {
         const glm::dvec3 n = directionOf(Octahedron::codeOfTexel(x, y, side));
         const std::vector<double> p = legendre(order, n.y, std::sqrt(std::max(0.0, 1.0 - n.y * n.y)));
@@ -315,7 +289,7 @@ Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
     const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
     FilteredEnvironment result;
-    const LatitudeMap source = atMost(latitudeMapOf(map), 4 * side);
+    const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
     result.levels.push_back(makeOctahedron(side, [&](int x, int y) {
         constexpr int kPlaces = 4;

@@ -63,6 +63,44 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
             EXPECT_EQ(places.at(x, y), places.at(inX, inY)) << x << ", " << y;
 }
 
+TEST(LatitudeMap, aCoarserOneHoldsTheLightOfEachTexelAtItsPlace) {
+    struct Case {
+        int width, height, mostWidth, mostHeight;
+    };
+    for (const Case& one : {Case{33, 17, 16, 8}, {7, 5, 3, 3}, {5, 101, 64, 50}, {1, 99, 1, 32}, {99, 1, 98, 1}})
+        for (int i = 0; i < one.width * one.height; ++i) {
+            const int column = i % one.width, row = i / one.width;
+            SCOPED_TRACE(testing::Message() << one.width << " x " << one.height << ", texel " << column << ", " << row);
+            const scenes::Image bright =
+                mapOf(one.width, one.height, [&](int x, int y) { return x == column && y == row ? 1e5 : 0.0; });
+            const LatitudeMap fine = latitudeMapOf(bright), coarse = coarserMap(bright, one.mostWidth, one.mostHeight);
+            ASSERT_EQ(coarse.width, std::min(one.width, one.mostWidth));
+            ASSERT_EQ(coarse.height, std::min(one.height, one.mostHeight));
+            const auto middleOf = [](const LatitudeMap& map, int x, int y) {
+                return glm::dvec2((x + 0.5) / map.width, 0.5 * (map.cosineOfRow(y) + map.cosineOfRow(y + 1)));
+            };
+            const auto sizeOf = [](const LatitudeMap& map, int y) {
+                return glm::dvec2(1.0 / map.width, map.cosineOfRow(y) - map.cosineOfRow(y + 1));
+            };
+            double light = 0.0;
+            glm::dvec2 middle(0.0), largest(0.0);
+            for (int y = 0; y < coarse.height; ++y)
+                for (int x = 0; x < coarse.width; ++x) {
+                    const double here = double(coarse.at(x, y).x) * coarse.solidAngle(y);
+                    if (here == 0.0) continue;
+                    light += here;
+                    middle += here * middleOf(coarse, x, y);
+                    largest = glm::max(largest, sizeOf(coarse, y));
+                }
+            ASSERT_NEAR(light, 1e5 * fine.solidAngle(row), 1e-6 * light);
+            // What it lies in spreads it, by no more than their sizes differ.
+            const glm::dvec2 moved = glm::abs(middle / light - middleOf(fine, column, row));
+            const glm::dvec2 most = 0.5 * (largest - sizeOf(fine, row)) + 1e-6;
+            ASSERT_LE(moved.x, most.x);
+            ASSERT_LE(moved.y, most.y);
+        }
+}
+
 TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
     const scenes::Image map = mapOf(32, 16, [](int x, int y) {
         return x == 20 && y == 5 ? 100.0 : y > 12 ? 0.0 : 1.0;
@@ -147,6 +185,20 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
         before = worst;
     }
     EXPECT_LE(before, 1e-2); // where the sun stands at the horizon
+}
+
+TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {
+    constexpr int kOrder = 4, kSideTexels = 8;
+    const auto light = [](int x, int y) { return (x * 7919 + y * 104729) % 1009; };
+    const std::pair<scenes::Image, scenes::Image> finerAndCoarser[] = {
+        {mapOf(16384, 2, [&](int x, int y) { return light(x / 16, y); }), mapOf(1024, 2, light)},
+        {mapOf(3, 16384, [&](int x, int y) { return light(x, y / 32); }), mapOf(3, 512, light)}};
+    for (const auto& [finer, coarser] : finerAndCoarser) {
+        const Octahedron seen = irradianceOf(finer, kOrder, kSideTexels);
+        const Octahedron wanted = irradianceOf(coarser, kOrder, kSideTexels);
+        for (std::size_t i = 0; i < wanted.texels.size(); ++i)
+            ASSERT_NEAR(seen.texels[i].x, wanted.texels[i].x, 1e-5f * wanted.texels[i].x) << finer.width << ", " << i;
+    }
 }
 
 TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
