@@ -19,7 +19,7 @@ namespace tessera::frame {
 namespace {
 
 /// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 6, kLobeVersion = 2;
+constexpr std::uint64_t kEnvironmentVersion = 6, kLobeVersion = 3;
 
 /// Parts of memory that lie in a file one after the other, behind its key.
 using Parts = std::vector<std::span<std::byte>>;

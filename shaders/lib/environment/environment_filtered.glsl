@@ -169,8 +169,12 @@ vec3 lightOfLayersBelow(SeenSurface seen, vec3 lobeLight)
 #endif
     precise vec3 light = seen.surface.albedo * enteringIrradiance(seen, irradiance);
 #if HAS_BLINN_PHONG
-    if (seen.surface.model == MODEL_BLINN_PHONG)
-        light += seen.surface.specular * lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b * lobeLight;
+    if (seen.surface.model == MODEL_BLINN_PHONG) {
+        // The table holds it times p + 2, which hardly changes with p.
+        precise float reflected =
+            lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b / (seen.surface.parameter + 2.0);
+        light += seen.surface.specular * reflected * lobeLight;
+    }
 #endif
 #if HAS_GGX_MODELS
     if (IS_MICROFACET(seen.surface.model)) light += seen.surface.specular * reflectedByDielectric(seen) * lobeLight;
