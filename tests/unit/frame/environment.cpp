@@ -216,6 +216,18 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     std::filesystem::resize_file(file.path(), 1000);
     EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
     EXPECT_TRUE(computed);
+    // One bit is enough, in the middle as in the last number.
+    const auto size = std::streamoff(std::filesystem::file_size(file.path()));
+    for (const std::streamoff at : {size / 2, size - 1}) {
+        computed = false;
+        std::fstream bytes(file.path(), std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekg(at);
+        const int byte = bytes.get();
+        bytes.seekp(at).put(char(byte ^ 1));
+        bytes.close();
+        EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
+        EXPECT_TRUE(computed) << at;
+    }
     // Another map of the same shape has another file.
     computed = false;
     cachedEnvironment(mapOf(32, 16, [](int x, int) { return x; }), folder.path(), note);
