@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
+#include "scenes/builtin/Pictures.h"
 #include "scenes/builtin/Shapes.h"
 #include "tests/image/FlatTest.h"
 #include "tests/image/ShadowTest.h"
@@ -23,19 +23,7 @@ using frame::EnvironmentLight;
 using std::numbers::pi;
 
 scenes::Environment mapOf(int width, int height, const std::function<glm::dvec3(int, int)>& radiance) {
-    scenes::Environment environment;
-    environment.source = "test";
-    scenes::Image& map = environment.map;
-    map.name = "test";
-    map.format = scenes::TexelFormat::Rgba32Float;
-    map.width = width;
-    map.height = height;
-    std::vector<glm::vec4> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) texels.emplace_back(glm::vec3(radiance(x, y)), 1.0f);
-    map.texels.resize(texels.size() * sizeof(glm::vec4));
-    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
-    return environment;
+    return {"test", scenes::builtin::drawRadiance("test", width, height, radiance)};
 }
 
 scenes::Environment even(double radiance) {

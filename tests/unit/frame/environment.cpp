@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <numbers>
 
@@ -9,6 +8,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LobeTable.h"
+#include "scenes/builtin/Pictures.h"
 #include "shaders/shared/lobe_table.h"
 #include "tests/support/TempFolder.h"
 
@@ -18,16 +18,8 @@ namespace {
 using std::numbers::pi;
 
 scenes::Image mapOf(int width, int height, const std::function<double(int, int)>& radiance) {
-    scenes::Image map;
-    map.format = scenes::TexelFormat::Rgba32Float;
-    map.width = width;
-    map.height = height;
-    std::vector<glm::vec4> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) texels.emplace_back(glm::vec3(float(radiance(x, y))), 1.0f);
-    map.texels.resize(texels.size() * sizeof(glm::vec4));
-    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
-    return map;
+    return scenes::builtin::drawRadiance("test", width, height,
+                                         [&](int x, int y) { return glm::dvec3(radiance(x, y)); });
 }
 
 /// Mean radiance over all directions.
