@@ -141,7 +141,10 @@ double sheenAlbedo(double alpha, double cosine) {
 
 /// The index of refraction at a place of shared::iorPlace().
 double iorAt(int place) {
-    const double contrast = std::clamp((place - 8.0) / 7.0, -0.999, 0.999);
+    constexpr int kAbove = LOBE_TABLE_IORS - 1 - LOBE_TABLE_IOR_ONE;
+    const double from = place - LOBE_TABLE_IOR_ONE;
+    const double contrast =
+        std::clamp(from > 0.0 ? std::pow(from / kAbove, 1.5) : from / LOBE_TABLE_IOR_ONE, -0.999, 0.999);
     return (1.0 + contrast) / (1.0 - contrast);
 }
 
