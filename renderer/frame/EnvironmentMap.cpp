@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -52,7 +53,10 @@ shared::EnvironmentConstants packEnvironment(const scenes::Environment& environm
     shared::EnvironmentConstants constants;
     constants.mapFromLS = glm::mat4(mapFromWorld * glm::dmat4(glm::transpose(view.lsFromWorld)));
     const int side = filteredSideOf(environment.map), levels = filteredLevelsOf(side);
-    constants.light = glm::vec4(environment.intensity * settings.environment.intensity, float(levels - 1),
+    // Finite, so that a black map stays black.
+    const double intensity = std::min(double(environment.intensity) * double(settings.environment.intensity),
+                                      double(std::numeric_limits<float>::max()));
+    constants.light = glm::vec4(float(intensity), float(levels - 1),
                                 float(-(levels - 2) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
     return constants;
 }
