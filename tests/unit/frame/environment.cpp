@@ -226,8 +226,14 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     EXPECT_TRUE(computed);
 }
 
+/// Made once for all tests.
+const std::vector<glm::vec4>& lobeTable() {
+    static const std::vector<glm::vec4> table = makeLobeTable();
+    return table;
+}
+
 TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
-    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::vector<glm::vec4>& table = lobeTable();
     constexpr std::size_t kLayer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
     ASSERT_EQ(shared::iorPlace(1.0f), float(LOBE_TABLE_IOR_ONE)) << "between two places others would be mixed in";
     constexpr std::size_t number = LOBE_TABLE_IOR_ONE;
@@ -262,7 +268,7 @@ double reflectedByBlinn(double exponent, double cosView) {
 
 /// Also of lobes that are narrower than any of the table.
 TEST(LobeTable, blinnsHighlightIsInterpolatedWithinHalfAPercentAtAnyExponent) {
-    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::vector<glm::vec4>& table = lobeTable();
     for (const double exponent : {1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e9})
         for (const double cosine : {0.05, 0.15, 0.5, 0.9, 1.0}) {
             const double alpha = std::min(std::sqrt(2.0 / (exponent + 2.0)), 1.0); // lobeAlpha() of lobes.glsl
@@ -274,7 +280,7 @@ TEST(LobeTable, blinnsHighlightIsInterpolatedWithinHalfAPercentAtAnyExponent) {
 
 /// A and B of the split sum by perceptual roughness and the viewer's cosine, shading.md section 6.
 TEST(LobeTable, holdsThePublishedSplitSum) {
-    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::vector<glm::vec4>& table = lobeTable();
     constexpr double kRoughness[] = {0.25, 0.5, 0.75, 1.0}, kCosines[] = {0.1, 0.5, 1.0};
     constexpr double kA[4][3] = {
         {.5051, .9557, .9957}, {.7519, .8349, .9158}, {.7958, .6547, .6268}, {.7363, .4477, .3067}};
