@@ -283,9 +283,25 @@ void checkEnvironment(const Scene& scene, const Environment& environment) {
     const Element element{scene, "environment", 0, environment.map.name};
     checkImage(element, environment.map);
     element.require(environment.map.format == TexelFormat::Rgba32Float, "its map must hold fp32");
-    element.require(std::isfinite(environment.intensity) && environment.intensity >= 0.0f,
-                    "its intensity must be finite and not negative");
-    element.require(std::isfinite(environment.rotationDegrees), "its rotation must be finite");
+    const auto requireWithin = [&](float value, double least, const char* what) {
+        element.require(between(double(value), least, kAnyNumber),
+                        fmt::format("{} must be {}", what, boundsText(least, kAnyNumber)));
+    };
+    requireWithin(environment.intensity, 0.0, "its intensity");
+    requireWithin(environment.rotationDegrees, -kAnyNumber, "its rotation");
+    float darkest = 0.0f, brightest = 0.0f;
+    for (std::size_t offset = 0; offset < environment.map.texels.size(); offset += sizeof(glm::vec4)) {
+        glm::vec3 texel;
+        std::memcpy(&texel, environment.map.texels.data() + offset, sizeof(texel));
+        darkest = std::min({darkest, texel.r, texel.g, texel.b});
+        brightest = std::max({brightest, texel.r, texel.g, texel.b});
+    }
+    element.require(darkest >= 0.0f, "a texel is below 0");
+    const double most = double(brightest) * double(environment.intensity);
+    element.require(most <= double(kMostRadiance),
+                    fmt::format("its brightest texel times its intensity is {:g}, and at most {:g} can be shown; lower "
+                                "its intensity",
+                                most, kMostRadiance));
 }
 
 void checkSceneWide(const Scene& scene) {

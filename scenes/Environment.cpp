@@ -59,16 +59,18 @@ Image asFloat(Image image, LoadLedger& ledger) {
 }
 
 struct Replaced {
-    std::size_t nans = 0, negative = 0, infinite = 0;
+    std::size_t nans = 0, negative = 0, infinite = 0, tooBright = 0;
 };
 
-/// NaN and less than 0 are no light: 0 instead. Infinity becomes the brightest number of the map.
+/// NaN and less than 0 are no light: 0 instead. Infinity becomes the brightest number of the map, and what is above
+/// kMostRadiance that.
 Replaced replaceNoLight(Image& map) {
     std::vector<float> texels(map.texels.size() / sizeof(float));
     std::memcpy(texels.data(), map.texels.data(), map.texels.size());
     float brightest = 0.0f;
     for (std::size_t i = 0; i < texels.size(); ++i)
         if (i % 4 != 3 && std::isfinite(texels[i])) brightest = std::max(brightest, texels[i]);
+    brightest = std::min(brightest, kMostRadiance);
     Replaced replaced;
     for (std::size_t i = 0; i < texels.size(); ++i) {
         float& value = texels[i];
@@ -83,6 +85,9 @@ Replaced replaceNoLight(Image& map) {
         } else if (std::isinf(value)) {
             value = brightest > 0.0f ? brightest : 1.0f;
             ++replaced.infinite;
+        } else if (value > kMostRadiance) {
+            value = kMostRadiance;
+            ++replaced.tooBright;
         }
     }
     std::memcpy(map.texels.data(), texels.data(), map.texels.size());
@@ -102,6 +107,8 @@ void warnOfMap(const Image& map, bool hasFewBits, const Replaced& replaced, std:
     if (replaced.negative > 0) warn(fmt::format("is below 0 in {}, taken as 0", numbersText(replaced.negative)));
     if (replaced.infinite > 0)
         warn(fmt::format("holds infinity in {}, taken as its brightest", numbersText(replaced.infinite)));
+    if (replaced.tooBright > 0)
+        warn(fmt::format("is above {:g} in {}, taken as that", kMostRadiance, numbersText(replaced.tooBright)));
     // A map of one texel is the same everywhere.
     if (map.width != 2 * map.height && map.width * map.height > 1)
         warn(fmt::format("is {}x{} texels, not twice as wide as high, and is stretched around the scene", map.width,

@@ -14,12 +14,15 @@ namespace tessera::scenes {
 
 class LoadLedger;
 
+/// Of a map times its intensity: as bright as lights are taken, and far from the end of fp32.
+inline constexpr float kMostRadiance = 1e30f;
+
 /// The radiance of a direction is interpolated bilinearly between the centres of four texels, across the left and right
 /// edge alike; beyond the first and last row it is that row's.
 struct Environment {
     std::string source;           ///< "builtin:studio", or the absolute path of its file
-    Image map;                    ///< Rgba32Float, RGB finite and not negative, in latitude and longitude
-    float intensity = 1.0f;       ///< >= 0, multiplies the radiance
+    Image map;                    ///< Rgba32Float, RGB 0 to kMostRadiance, in latitude and longitude
+    float intensity = 1.0f;       ///< >= 0, multiplies the radiance, up to kMostRadiance
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
 };
 

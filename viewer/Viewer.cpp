@@ -141,7 +141,7 @@ private:
         measurements_.clear(facts_);
         facts_.shadows = {};
         state_.timings.clear();
-        state_.loadingEnvironment.clear(); // it was chosen for the scene before
+        environments_.discard(); // it was chosen for the scene before
         state_.open = std::move(scene);
     }
 
@@ -150,12 +150,10 @@ private:
         return extension == ".hdr" || extension == ".exr";
     }
 
-    /// Begins to load an environment for the scene that is open, once the one under way is there.
+    /// For the scene that is open.
     void chooseEnvironment(const std::string& name) {
         if (!state_.open)
             throw std::runtime_error("there is no scene yet for " + name + " to surround; open one first");
-        state_.loadingEnvironment = name;
-        if (environments_.isBusy()) return;
         environments_.start(name);
         log_.line("loading environment " + name);
     }
@@ -163,12 +161,6 @@ private:
     void adoptEnvironment() {
         std::optional<ChosenEnvironment> chosen = environments_.take();
         if (!chosen) return;
-        // Another choice was made meanwhile, or another scene opened.
-        if (chosen->name != state_.loadingEnvironment) {
-            if (!state_.loadingEnvironment.empty()) environments_.start(state_.loadingEnvironment);
-            return;
-        }
-        state_.loadingEnvironment.clear();
         if (!chosen->error.empty()) throw std::runtime_error(chosen->error);
         if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
         log_.line("environment " + chosen->name);
@@ -240,6 +232,7 @@ private:
             if (!heardAt_) heardAt_ = event.heardSeconds;
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
+        state_.loadingEnvironment = environments_.choice();
         for (int side = 0; side < 2; ++side) facts_.shown[std::size_t(side)] = screen_.shownLook(side);
         drawInterface(state_, facts_, area_, uiScale());
         gui_.endFrame();

@@ -1,5 +1,6 @@
 #include "renderer/frame/EnvironmentCache.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -19,23 +20,51 @@ namespace tessera::frame {
 namespace {
 
 /// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 5, kLobeVersion = 2;
+constexpr std::uint64_t kEnvironmentVersion = 6, kLobeVersion = 4;
 
-/// Parts of memory that lie in a file one after the other, behind its key.
+/// Of words and bytes; another one in the place of any single word gives another hash for sure.
+class WordHash {
+public:
+    explicit WordHash(std::uint64_t start) : value_(start) {}
+    void add(std::uint64_t word) {
+        value_ = (value_ ^ word) * 0xff51afd7ed558ccdu;
+        value_ ^= value_ >> 32;
+    }
+    void add(std::span<const std::byte> bytes) {
+        for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), sizeof(std::uint64_t)))) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof(word)));
+            add(word);
+        }
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_;
+};
+
+/// Parts of memory that lie in a file one after the other, behind its key and their hash.
 using Parts = std::vector<std::span<std::byte>>;
 
-/// Whether all was there, and nothing else.
+std::uint64_t hashOf(std::uint64_t key, const Parts& parts) {
+    WordHash hash(key);
+    for (const std::span<std::byte>& part : parts) hash.add(part);
+    return hash.value();
+}
+
+/// Whether all was there as it was written, and nothing else.
 bool read(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
     std::ifstream in(file, std::ios::binary);
-    std::uint64_t found = 0;
-    if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found != key) return false;
+    std::uint64_t found[2] = {};
+    if (!in.read(reinterpret_cast<char*>(found), sizeof(found)) || found[0] != key) return false;
     for (const std::span<std::byte>& part : parts)
         if (!in.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()))) return false;
-    return in.peek() == std::ifstream::traits_type::eof();
+    return in.peek() == std::ifstream::traits_type::eof() && found[1] == hashOf(key, parts);
 }
 
 void write(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
-    std::string bytes(reinterpret_cast<const char*>(&key), sizeof(key));
+    const std::uint64_t head[] = {key, hashOf(key, parts)};
+    std::string bytes(reinterpret_cast<const char*>(head), sizeof(head));
     for (const std::span<std::byte>& part : parts)
         bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
     try {
@@ -46,19 +75,11 @@ void write(const std::filesystem::path& file, std::uint64_t key, const Parts& pa
 }
 
 std::uint64_t keyOf(const scenes::Image& map) {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u ^ kEnvironmentVersion;
-    const auto add = [&](std::uint64_t word) {
-        hash = (hash ^ word) * 0xff51afd7ed558ccdu;
-        hash ^= hash >> 32;
-    };
-    add(std::uint64_t(map.width));
-    add(std::uint64_t(map.height));
-    for (std::size_t at = 0; at + sizeof(std::uint64_t) <= map.texels.size(); at += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, map.texels.data() + at, sizeof(word));
-        add(word);
-    }
-    return hash;
+    WordHash hash(0x9e3779b97f4a7c15u ^ kEnvironmentVersion);
+    hash.add(std::uint64_t(map.width));
+    hash.add(std::uint64_t(map.height));
+    hash.add(map.texels);
+    return hash.value();
 }
 
 /// Room for what a map is filtered to.

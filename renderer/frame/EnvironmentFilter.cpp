@@ -4,12 +4,12 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/frame/LatitudeMap.h"
 #include "shaders/shared/environment.h"
 
 namespace tessera::frame {
@@ -18,56 +18,6 @@ namespace {
 
 using shared::filteredOrigin, shared::filteredSide;
 using std::numbers::pi;
-
-/// A map in memory: rows from the top, left and right neighbours.
-struct Latitudes {
-    int width = 0, height = 0;
-    std::vector<glm::vec3> texels;
-
-    const glm::vec3& at(int x, int y) const {
-        const int column = (x % width + width) % width, row = std::clamp(y, 0, height - 1);
-        return texels[std::size_t(row) * std::size_t(width) + std::size_t(column)];
-    }
-    glm::vec3 interpolated(const glm::dvec3& direction) const {
-        const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(width, height) - 0.5;
-        const glm::dvec2 corner = glm::floor(place);
-        const glm::vec2 share(place - corner);
-        const int x = int(corner.x), y = int(corner.y);
-        return glm::mix(glm::mix(at(x, y), at(x + 1, y), share.x), glm::mix(at(x, y + 1), at(x + 1, y + 1), share.x),
-                        share.y);
-    }
-    double rowSolidAngle(int row) const {
-        return 2.0 * pi / width * (std::cos(pi * row / height) - std::cos(pi * (row + 1) / height));
-    }
-};
-
-Latitudes latitudesOf(const scenes::Image& map) {
-    Latitudes result{map.width, map.height, {}};
-    result.texels.resize(std::size_t(map.width) * std::size_t(map.height));
-    for (std::size_t i = 0; i < result.texels.size(); ++i)
-        std::memcpy(&result.texels[i], map.texels.data() + i * sizeof(glm::vec4), sizeof(glm::vec3));
-    return result;
-}
-
-/// Half as wide and high, by the mean over solid angle.
-Latitudes halved(const Latitudes& map) {
-    Latitudes half{(map.width + 1) / 2, (map.height + 1) / 2, {}};
-    half.texels.resize(std::size_t(half.width) * std::size_t(half.height));
-    tbb::parallel_for(0, half.height, [&](int y) {
-        for (int x = 0; x < half.width; ++x) {
-            glm::dvec3 sum(0.0);
-            double weights = 0.0;
-            for (int j = 2 * y; j < std::min(2 * y + 2, map.height); ++j)
-                for (int i = 2 * x; i < std::min(2 * x + 2, map.width); ++i) {
-                    const double weight = map.rowSolidAngle(j);
-                    sum += weight * glm::dvec3(map.at(i, j));
-                    weights += weight;
-                }
-            half.texels[std::size_t(y) * std::size_t(half.width) + std::size_t(x)] = glm::vec3(sum / weights);
-        }
-    });
-    return half;
-}
 
 template <typename Value>
 Octahedron makeOctahedron(int side, const Value& value) {
@@ -219,15 +169,15 @@ struct Harmonics {
     std::vector<glm::dvec3> cosines, sines; ///< as legendre()
 };
 
-Harmonics harmonicsOf(const Latitudes& map, int order) {
+Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     const std::size_t count = std::size_t(order + 1) * std::size_t(order + 2) / 2;
     Harmonics sum{std::vector<glm::dvec3>(count, glm::dvec3(0.0)), std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
     std::vector<glm::dvec2> turns(
         std::size_t(map.width)); // cosine and sine of each column's longitude, and its multiples
     for (int row = 0; row < map.height; ++row) {
-        const double cosine = 0.5 * (std::cos(pi * row / map.height) + std::cos(pi * (row + 1) / map.height));
+        const double cosine = 0.5 * (map.cosineOfRow(row) + map.cosineOfRow(row + 1));
         const std::vector<double> p = legendre(order, cosine, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)));
-        const double solidAngle = map.rowSolidAngle(row);
+        const double solidAngle = map.solidAngle(row);
         for (int m = 0; m <= order; ++m) {
             glm::dvec3 c(0.0), s(0.0);
             for (int x = 0; x < map.width; ++x) {
@@ -241,7 +191,7 @@ Harmonics harmonicsOf(const Latitudes& map, int order) {
                     const double cosOne = std::cos(longitude), sinOne = std::sin(longitude);
                     turn = {turn.x * cosOne - turn.y * sinOne, turn.x * sinOne + turn.y * cosOne};
                 }
-                const glm::dvec3 light(map.at(x, row));
+                const glm::dvec3 light(glm::vec3(map.at(x, row)));
                 c += turn.x * light;
                 s += turn.y * light;
             }
@@ -255,22 +205,18 @@ Harmonics harmonicsOf(const Latitudes& map, int order) {
     return sum;
 }
 
-Latitudes atMost(Latitudes map, int width) {
-    while (map.width > width) map = halved(map);
-    return map;
-}
-
 /// A small map with its interpolation as texels of their own.
-Latitudes atLeast(const Latitudes& map, int width) {
+LatitudeMap atLeast(const LatitudeMap& map, int width) {
     const auto parts = [](int size, int least) { return std::max((least + size - 1) / size, 1); };
     const int across = parts(map.width, width), down = parts(map.height, width / 2);
     if (across == 1 && down == 1) return map;
-    Latitudes finer{map.width * across, map.height * down, {}};
+    LatitudeMap finer{map.width * across, map.height * down, {}};
     finer.texels.resize(std::size_t(finer.width) * std::size_t(finer.height));
     for (int y = 0; y < finer.height; ++y)
         for (int x = 0; x < finer.width; ++x)
-            finer.texels[std::size_t(y) * std::size_t(finer.width) + std::size_t(x)] =
-                map.interpolated(scenes::directionInMap({(x + 0.5) / finer.width, (y + 0.5) / finer.height}));
+            finer.texels[std::size_t(y) * std::size_t(finer.width) + std::size_t(x)] = glm::vec4(
+                glm::vec3(map.radiance(scenes::directionInMap({(x + 0.5) / finer.width, (y + 0.5) / finer.height}))),
+                1.0f);
     return finer;
 }
 
@@ -323,7 +269,7 @@ double alphaOfLevel(int level, int levels) {
 
 Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
     constexpr int kLeastWidth = 256, kMostWidth = 1024; // far finer than irradiance changes
-    const Harmonics light = harmonicsOf(atLeast(atMost(latitudesOf(map), kMostWidth), kLeastWidth), order);
+    const Harmonics light = harmonicsOf(atLeast(coarserMap(map, kMostWidth, kMostWidth / 2), kLeastWidth), order);
     return makeOctahedron(side, [&](int x, int y) {
         const glm::dvec3 n = directionOf(Octahedron::codeOfTexel(x, y, side));
         const std::vector<double> p = legendre(order, n.y, std::sqrt(std::max(0.0, 1.0 - n.y * n.y)));
@@ -343,14 +289,14 @@ Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
     const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
     FilteredEnvironment result;
-    const Latitudes source = atMost(latitudesOf(map), 4 * side);
+    const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
     result.levels.push_back(makeOctahedron(side, [&](int x, int y) {
         constexpr int kPlaces = 4;
         glm::dvec3 sum(0.0);
         for (int i = 0; i < kPlaces * kPlaces; ++i)
-            sum += glm::dvec3(source.interpolated(directionOf(
-                Octahedron::codeOfTexel(kPlaces * x + i % kPlaces, kPlaces * y + i / kPlaces, kPlaces * side))));
+            sum += source.radiance(directionOf(
+                Octahedron::codeOfTexel(kPlaces * x + i % kPlaces, kPlaces * y + i / kPlaces, kPlaces * side)));
         return sum / double(kPlaces * kPlaces);
     }));
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);

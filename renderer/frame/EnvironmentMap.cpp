@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -15,7 +15,6 @@ namespace tessera::frame {
 
 namespace {
 
-using std::numbers::pi;
 constexpr std::size_t kSamples = std::size_t{1} << ENVIRONMENT_SAMPLES_LOG2;
 
 /// The bits of a number in reverse order, as a fraction: the sequence of van der Corput.
@@ -32,21 +31,6 @@ double sobol(std::uint32_t index) {
     for (std::uint32_t direction = 1u << 31; index != 0; index >>= 1, direction ^= direction >> 1)
         if ((index & 1u) != 0) result ^= direction;
     return double(result) * 0x1p-32;
-}
-
-struct MapTexels {
-    const std::vector<glm::vec4>& texels;
-    int width, height;
-    /// Left and right are neighbours; the first and last row go on.
-    const glm::vec4& at(int x, int y) const {
-        const int column = (x % width + width) % width, row = std::clamp(y, 0, height - 1);
-        return texels[std::size_t(row) * std::size_t(width) + std::size_t(column)];
-    }
-};
-
-/// The cosine to the top at the upper edge of a row.
-double cosineOfRow(int row, int height) {
-    return std::cos(pi * row / height);
 }
 
 } // namespace
@@ -69,26 +53,27 @@ shared::EnvironmentConstants packEnvironment(const scenes::Environment& environm
     shared::EnvironmentConstants constants;
     constants.mapFromLS = glm::mat4(mapFromWorld * glm::dmat4(glm::transpose(view.lsFromWorld)));
     const int side = filteredSideOf(environment.map), levels = filteredLevelsOf(side);
-    constants.light = glm::vec4(environment.intensity * settings.environment.intensity, float(levels - 1),
+    // Finite, so that a black map stays black.
+    const double intensity = std::min(double(environment.intensity) * double(settings.environment.intensity),
+                                      double(std::numeric_limits<float>::max()));
+    constants.light = glm::vec4(float(intensity), float(levels - 1),
                                 float(-(levels - 2) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
     return constants;
 }
 
-std::vector<glm::vec4> environmentTexels(const scenes::Image& map, std::vector<double>& summed) {
-    std::vector<glm::vec4> texels(std::size_t(map.width) * std::size_t(map.height));
-    std::memcpy(texels.data(), map.texels.data(), texels.size() * sizeof(glm::vec4));
-    const MapTexels of{texels, map.width, map.height};
-    summed.resize(texels.size());
+LatitudeMap environmentTexels(const scenes::Image& picture, std::vector<double>& summed) {
+    LatitudeMap map = latitudeMapOf(picture);
+    summed.resize(map.texels.size());
     double sum = 0.0;
-    std::vector<double> averages(texels.size());
+    std::vector<double> averages(map.texels.size());
     for (int y = 0; y < map.height; ++y) {
-        const double solidAngle = 2.0 * pi / map.width * (cosineOfRow(y, map.height) - cosineOfRow(y + 1, map.height));
+        const double solidAngle = map.solidAngle(y);
         for (int x = 0; x < map.width; ++x) {
             // Over a texel the interpolated radiance has the average 1/8, 6/8, 1/8 of its row, and so of its column.
             double average = 0.0;
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
-                    const glm::vec4& texel = of.at(x + i, y + j);
+                    const glm::vec4& texel = map.at(x + i, y + j);
                     const double weight = (i == 0 ? 0.75 : 0.125) * (j == 0 ? 0.75 : 0.125);
                     average += weight * (double(texel.r) + double(texel.g) + double(texel.b));
                 }
@@ -99,12 +84,11 @@ std::vector<glm::vec4> environmentTexels(const scenes::Image& map, std::vector<d
     }
     if (!(sum > 0.0)) summed.clear();
     for (double& part : summed) part /= sum;
-    for (std::size_t i = 0; i < texels.size(); ++i) texels[i].a = sum > 0.0 ? float(averages[i] / sum) : 0.0f;
-    return texels;
+    for (std::size_t i = 0; i < averages.size(); ++i) map.texels[i].a = sum > 0.0 ? float(averages[i] / sum) : 0.0f;
+    return map;
 }
 
-std::vector<glm::vec4> makeEnvironmentSamples(const scenes::Image& map, const std::vector<glm::vec4>& texels,
-                                              const std::vector<double>& summed) {
+std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std::vector<double>& summed) {
     std::vector<glm::vec4> samples;
     samples.reserve(kSamples * ENVIRONMENT_SAMPLE_TEXELS);
     if (summed.empty()) return std::vector<glm::vec4>(kSamples * ENVIRONMENT_SAMPLE_TEXELS, glm::vec4(0.0f));
@@ -116,22 +100,13 @@ std::vector<glm::vec4> makeEnvironmentSamples(const scenes::Image& map, const st
         const int x = int(at % std::size_t(map.width)), y = int(at / std::size_t(map.width));
         // Within the texel: what is left of u to the right, v by solid angle downwards.
         const double right = part > 0.0 ? std::clamp((u - before) / part, 0.0, 1.0) : 0.5;
-        const double cosine = std::lerp(cosineOfRow(y, map.height), cosineOfRow(y + 1, map.height), v);
-        const glm::dvec3 direction =
-            scenes::directionInMap({(x + right) / map.width, std::acos(std::clamp(cosine, -1.0, 1.0)) / pi});
-        samples.emplace_back(glm::vec3(direction), texels[at].a);
-        samples.emplace_back(glm::vec3(radianceInMap(texels, map.width, map.height, direction)), 0.0f);
+        const double cosine = std::lerp(map.cosineOfRow(y), map.cosineOfRow(y + 1), v);
+        const glm::dvec3 direction = scenes::directionInMap(
+            {(x + right) / map.width, std::acos(std::clamp(cosine, -1.0, 1.0)) / std::numbers::pi});
+        samples.emplace_back(glm::vec3(direction), map.texels[at].a);
+        samples.emplace_back(glm::vec3(map.radiance(direction)), 0.0f);
     }
     return samples;
-}
-
-glm::dvec3 radianceInMap(const std::vector<glm::vec4>& texels, int width, int height, const glm::dvec3& direction) {
-    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(width, height) - 0.5;
-    const glm::dvec2 corner = glm::floor(place), share = place - corner;
-    const MapTexels of{texels, width, height};
-    const int x = int(corner.x), y = int(corner.y);
-    const auto color = [&](int i, int j) { return glm::dvec3(glm::vec3(of.at(x + i, y + j))); };
-    return glm::mix(glm::mix(color(0, 0), color(1, 0), share.x), glm::mix(color(0, 1), color(1, 1), share.x), share.y);
 }
 
 EnvironmentShape environmentShape(const scenes::Image& map) {
@@ -152,11 +127,11 @@ EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
 void EnvironmentGpu::makeMap() {
     if (map_) return;
     std::vector<double> summed;
-    const std::vector<glm::vec4> texels = environmentTexels(environment_.map, summed);
+    const LatitudeMap texels = environmentTexels(environment_.map, summed);
     auto map = std::make_unique<gpu::Texture>("environment_map", environmentShape(environment_.map).map);
-    map->upload(0, texels);
-    samples_ = std::make_unique<gpu::Buffer>(
-        gpu::Buffer::of("environment_samples", makeEnvironmentSamples(environment_.map, texels, summed)));
+    map->upload(0, texels.texels);
+    samples_ =
+        std::make_unique<gpu::Buffer>(gpu::Buffer::of("environment_samples", makeEnvironmentSamples(texels, summed)));
     map_ = std::move(map);
 }
 

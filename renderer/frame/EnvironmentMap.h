@@ -9,6 +9,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/LatitudeMap.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Sampler.h"
 #include "renderer/gpu/Texture.h"
@@ -26,18 +27,14 @@ bool showsEnvironment(const scenes::Scene& scene, const FrameSettings& settings)
 shared::EnvironmentConstants packEnvironment(const scenes::Environment& environment, const FrameSettings& settings,
                                              const CameraView& view);
 
-/// A map's texels, rows from the top: RGB radiance; A the density in 1/sr with which makeEnvironmentSamples() samples
+/// A map's texels: RGB radiance; A the density in 1/sr with which makeEnvironmentSamples() samples
 /// directions there, the same over the texel. Densities follow the average radiance of the texel, interpolated as it
 /// is, so that no light is missed. `summed` receives the sum of all texels' parts up to each, from 0 to 1; empty: no
 /// texel has any light.
-std::vector<glm::vec4> environmentTexels(const scenes::Image& map, std::vector<double>& summed);
+LatitudeMap environmentTexels(const scenes::Image& picture, std::vector<double>& summed);
 
 /// 2^ENVIRONMENT_SAMPLES_LOG2 samples of a map by those sums, each of ENVIRONMENT_SAMPLE_TEXELS.
-std::vector<glm::vec4> makeEnvironmentSamples(const scenes::Image& map, const std::vector<glm::vec4>& texels,
-                                              const std::vector<double>& summed);
-
-/// Radiance of a unit direction in a map, interpolated.
-glm::dvec3 radianceInMap(const std::vector<glm::vec4>& texels, int width, int height, const glm::dvec3& direction);
+std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std::vector<double>& summed);
 
 /// The textures and the buffer of a map on the GPU.
 struct EnvironmentShape {

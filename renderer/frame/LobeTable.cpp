@@ -81,18 +81,20 @@ double diffuseMean(double cosView, const Value& value) {
     return sum / (kNodes * kTurns);
 }
 
-/// Of Blinn's highlight (n.h)^p [n.l > 0] over all lights, by half vectors with the density (p + 1) / 2 pi (n.h)^p.
+/// Of Blinn's highlight (n.h)^p [n.l > 0] over all lights, by half vectors with the density (p + 1) / 2 pi (n.h)^p,
+/// times p + 2: it tends to 8 pi n.v, and so can be interpolated, and holds for lobes narrower than any of the table.
 double blinn(double exponent, double cosView) {
     const double sine = std::sqrt(1.0 - cosView * cosView);
     double sum = 0.0;
     for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j < kTurns; ++j) {
             const double cosHalf = std::pow((i + 0.5) / kNodes, 1.0 / (exponent + 1.0));
-            const double angle = 2.0 * pi * (j + 0.5) / kTurns;
+            // Each circle is turned a golden angle on, so that the edges where light ends average out.
+            const double angle = 2.0 * pi * (j + std::fmod(0.618033988749895 * (i + 0.5), 1.0)) / kTurns;
             const double incidence = cosHalf * cosView + std::sqrt(1.0 - cosHalf * cosHalf) * sine * std::cos(angle);
             if (incidence > 0.0 && 2.0 * incidence * cosHalf - cosView > 0.0) sum += 4.0 * incidence;
         }
-    return sum / (kNodes * kTurns) * 2.0 * pi / (exponent + 1.0);
+    return sum / (kNodes * kTurns) * 2.0 * pi * (exponent + 2.0) / (exponent + 1.0);
 }
 
 // Of sheens, the formulas of shaders/lib/reflectance/sheen.glsl.
@@ -139,7 +141,10 @@ double sheenAlbedo(double alpha, double cosine) {
 
 /// The index of refraction at a place of shared::iorPlace().
 double iorAt(int place) {
-    const double contrast = std::clamp((place - 8.0) / 7.0, -0.999, 0.999);
+    constexpr int kAbove = LOBE_TABLE_IORS - 1 - LOBE_TABLE_IOR_ONE;
+    const double from = place - LOBE_TABLE_IOR_ONE;
+    const double contrast =
+        std::clamp(from > 0.0 ? std::pow(from / kAbove, 1.5) : from / LOBE_TABLE_IOR_ONE, -0.999, 0.999);
     return (1.0 + contrast) / (1.0 - contrast);
 }
 

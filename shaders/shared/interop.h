@@ -13,6 +13,7 @@ using glm::log2;
 using glm::mat4;
 using glm::max;
 using glm::min;
+using glm::pow;
 using glm::sqrt;
 using glm::uintBitsToFloat;
 using glm::uvec2;

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "engine/PrepareView.h"
 #include "tests/image/DiffusionTest.h"
+#include "tests/image/EnvironmentTest.h"
 
 namespace tessera {
 namespace {
@@ -155,6 +156,56 @@ TEST_F(Diffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
         renderer.materialsChanged();
         moved([] {}, true);
     }
+}
+
+TEST_F(Diffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnotherWay) {
+    scenes::Scene ball = sphereScene(0.03, 12);
+    // Another colour from every side.
+    const auto surround = [&](double brightness) {
+        ball.environment = environmentOf(8, 4, [&](int x, int y) { return brightness * glm::dvec3(x, y, 8 - x); });
+    };
+    surround(0.1);
+    frame::FrameSettings settings;
+    settings.sizePixels = {80, 45};
+    settings.diffusion.sideTexels = 64;
+    settings.environment.samples = 4;
+    engine::Renderer renderer(context(), ball);
+    renderer.render(Technique::Deferred, settings);
+    EXPECT_FALSE(passesThatSpread(renderer).empty());
+    const auto moved = [&](const char* what, const auto& change, bool keeps) {
+        change();
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << what;
+        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen) << what;
+    };
+    moved(
+        "nothing", [] {}, true);
+    moved(
+        "its backdrop", [&] { settings.environment.backdrop = frame::Backdrop::Off; }, true);
+    moved(
+        "turned by the frame", [&] { settings.environment.rotationDegrees = 70.0f; }, false);
+    moved(
+        "turned by the scene", [&] { ball.environment->rotationDegrees = -30.0f; }, false);
+    moved(
+        "brighter by the frame", [&] { settings.environment.intensity = 2.0f; }, false);
+    moved(
+        "brighter by the scene", [&] { ball.environment->intensity = 0.7f; }, false);
+    moved(
+        "more samples where none are taken", [&] { settings.environment.samples = 16; }, true);
+    moved(
+        "sampled", [&] { settings.environment.light = frame::EnvironmentLight::Sampled; }, false);
+    moved(
+        "more samples", [&] { settings.environment.samples = 4; }, false);
+    moved(
+        "turned while sampled", [&] { settings.environment.rotationDegrees = 0.0f; }, false);
+    moved(
+        "off", [&] { settings.environment.light = frame::EnvironmentLight::Off; }, false);
+    moved(
+        "filtered", [&] { settings.environment.light = frame::EnvironmentLight::SplitSum; }, false);
+    surround(0.2);
+    renderer.environmentChanged();
+    moved(
+        "another map", [] {}, false);
 }
 
 TEST_F(Diffusion, lightingOnlyWhatIsSeenChangesNoBit) {

@@ -2,13 +2,13 @@
 // any magnitude.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "engine/Renderer.h"
+#include "scenes/builtin/Pictures.h"
 #include "validation/stress/StressCase.h"
 #include "validation/stress/StressScene.h"
 
@@ -21,20 +21,8 @@ using frame::EnvironmentLight;
 /// Small, so that filtering takes no time.
 constexpr int kMapWidth = 32, kMapHeight = 16;
 
-scenes::Environment mapOf(int width, int height, const std::function<glm::vec3(int, int)>& radiance) {
-    scenes::Environment environment;
-    environment.source = "stress";
-    scenes::Image& map = environment.map;
-    map.name = "stress";
-    map.format = scenes::TexelFormat::Rgba32Float;
-    map.width = width;
-    map.height = height;
-    std::vector<glm::vec4> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) texels.emplace_back(radiance(x, y), 1.0f);
-    map.texels.resize(texels.size() * sizeof(glm::vec4));
-    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
-    return environment;
+scenes::Environment mapOf(int width, int height, const std::function<glm::dvec3(int, int)>& radiance) {
+    return {"stress", scenes::builtin::drawRadiance("stress", width, height, radiance)};
 }
 
 frame::FrameSettings surroundedSettings(EnvironmentLight light) {
@@ -56,7 +44,7 @@ scenes::Scene surrounded(scenes::Environment environment) {
 std::vector<StressPicture> evenMaps(StressEffort) {
     std::vector<StressPicture> pictures;
     const auto add = [&](std::string what, int width, int height, float rotationDegrees) {
-        scenes::Environment environment = mapOf(width, height, [](int, int) { return glm::vec3(0.5f, 1.0f, 2.0f); });
+        scenes::Environment environment = mapOf(width, height, [](int, int) { return glm::dvec3(0.5, 1.0, 2.0); });
         environment.rotationDegrees = rotationDegrees;
         StressPicture picture{std::move(what), surrounded(std::move(environment)),
                               surroundedSettings(EnvironmentLight::SplitSum)};
@@ -78,22 +66,21 @@ std::vector<StressPicture> evenMaps(StressEffort) {
 
 /// A map and what multiplies it: pictures are as many times as bright, whatever the number.
 void measureRadiance(StressBench& bench, StressFigures& figures) {
-    const std::pair<const char*, std::function<glm::vec3(int, int)>> maps[] = {
-        {"a bright texel", [](int x, int y) { return glm::vec3(x == 9 && y == 5 ? 1000.0f : 0.0f); }},
-        {"a half", [](int, int y) { return glm::vec3(y < kMapHeight / 2 ? 1.0f : 0.0f); }},
-        {"noise",
-         [](int x, int y) { return glm::vec3(float((x * 7919 + y * 104729) % 1009), 1.0f, float(x)) / 100.0f; }},
-        {"black", [](int, int) { return glm::vec3(0.0f); }}};
+    const std::pair<const char*, std::function<glm::dvec3(int, int)>> maps[] = {
+        {"a bright texel", [](int x, int y) { return glm::dvec3(x == 9 && y == 5 ? 1000.0 : 0.0); }},
+        {"a half", [](int, int y) { return glm::dvec3(y < kMapHeight / 2 ? 1.0 : 0.0); }},
+        {"noise", [](int x, int y) { return glm::dvec3((x * 7919 + y * 104729) % 1009, 1.0, x) / 100.0; }},
+        {"black", [](int, int) { return glm::dvec3(0.0); }}};
     // A power of 2 changes no digit.
     const int exponents[] = {0, -60, -20, 20, 60};
     std::size_t done = 0;
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
-        scenes::Scene scene = surrounded(mapOf(1, 1, [](int, int) { return glm::vec3(1.0f); }));
+        scenes::Scene scene = surrounded(mapOf(1, 1, [](int, int) { return glm::dvec3(1.0); }));
         engine::Renderer renderer(bench.context(), scene, bench.shaders());
         for (const auto& [name, radiance] : maps) {
             std::vector<float> plain;
             for (const int exponent : exponents) {
-                const float factor = std::ldexp(1.0f, exponent);
+                const double factor = std::ldexp(1.0, exponent);
                 scene.environment = mapOf(kMapWidth, kMapHeight, [&](int x, int y) { return factor * radiance(x, y); });
                 renderer.environmentChanged();
                 const std::vector<float> seen =
@@ -102,7 +89,7 @@ void measureRadiance(StressBench& bench, StressFigures& figures) {
                 for (std::size_t i = 0; i < seen.size(); i += 4) {
                     figures.count(std::span(&seen[i], 3));
                     for (std::size_t c = i; c < i + 3; ++c) {
-                        const double now = double(bench.measuredTimes()) * double(seen[c]) / double(factor);
+                        const double now = double(bench.measuredTimes()) * double(seen[c]) / factor;
                         const double least = 1e-6; // of the brightness around it, which is some hundredth
                         figures.error(std::abs(now - double(plain[c])) / (std::abs(double(plain[c])) + least), [&] {
                             return fmt::format("{}, {}, times 2^{}", infoOf(light).name, name, exponent);

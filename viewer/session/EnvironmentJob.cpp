@@ -31,26 +31,52 @@ ChosenEnvironment loaded(const std::string& name) {
 
 } // namespace
 
-bool EnvironmentJob::isBusy() const {
-    const std::lock_guard lock(mutex_);
-    return isBusy_;
+void EnvironmentJob::choose(const std::string& name) {
+    ++generation_;
+    choice_ = name;
+    result_.reset();
 }
 
 void EnvironmentJob::start(const std::string& name) {
-    assert(!isBusy());
+    assert(!name.empty());
     {
         const std::lock_guard lock(mutex_);
-        isBusy_ = true;
+        choose(name);
+        if (std::exchange(isBusy_, true)) return; // its thread goes on with this one
     }
-    thread_ = std::jthread([this, name] {
+    thread_ = std::jthread([this](const std::stop_token& stop) { load(stop); });
+}
+
+void EnvironmentJob::discard() {
+    const std::lock_guard lock(mutex_);
+    choose({});
+}
+
+void EnvironmentJob::load(const std::stop_token& stop) {
+    for (;;) {
+        std::string name;
+        std::uint64_t generation = 0;
+        {
+            const std::lock_guard lock(mutex_);
+            isBusy_ = !choice_.empty() && !stop.stop_requested();
+            if (!isBusy_) return;
+            name = choice_;
+            generation = generation_;
+        }
         ChosenEnvironment chosen = loaded(name);
         {
             const std::lock_guard lock(mutex_);
+            if (generation != generation_) continue;
             result_ = std::move(chosen);
             isBusy_ = false;
         }
-        done_();
-    });
+        return done_();
+    }
+}
+
+std::string EnvironmentJob::choice() const {
+    const std::lock_guard lock(mutex_);
+    return choice_;
 }
 
 bool EnvironmentJob::hasResult() const {
@@ -60,7 +86,9 @@ bool EnvironmentJob::hasResult() const {
 
 std::optional<ChosenEnvironment> EnvironmentJob::take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(result_, std::nullopt);
+    std::optional<ChosenEnvironment> result = std::exchange(result_, std::nullopt);
+    if (result) choose({});
+    return result;
 }
 
 } // namespace tessera::viewer

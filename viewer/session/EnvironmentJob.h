@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,7 @@ struct ChosenEnvironment {
     std::string error; ///< not empty: it could not be loaded, and the scene keeps its own
 };
 
-/// Loads and filters an environment in the background, one at a time.
+/// Loads and filters environments in the background, one at a time; of several choices the latest counts.
 class EnvironmentJob {
 public:
     /// `done` is called on the loading thread when a result waits.
@@ -29,17 +30,26 @@ public:
     EnvironmentJob(const EnvironmentJob&) = delete;
     EnvironmentJob& operator=(const EnvironmentJob&) = delete;
 
-    /// Whether one is being loaded. It cannot be given up: another can only be started after its end.
-    bool isBusy() const;
+    /// Chooses an environment in the place of what was chosen before. One that is being loaded cannot be given up: the
+    /// choice waits for its end, and its result is dropped.
     void start(const std::string& name);
+    /// Drops what was chosen.
+    void discard();
+    /// What was chosen and not taken yet; empty: nothing.
+    std::string choice() const;
     bool hasResult() const;
-    /// The result, once.
+    /// The result of the latest choice, once.
     std::optional<ChosenEnvironment> take();
 
 private:
+    void choose(const std::string& name); ///< the caller holds the mutex
+    void load(const std::stop_token& stop);
+
     std::function<void()> done_;
     mutable std::mutex mutex_;
     bool isBusy_ = false;
+    std::uint64_t generation_ = 0; ///< of the choice
+    std::string choice_;
     std::optional<ChosenEnvironment> result_;
     std::jthread thread_; ///< last: it ends before what it writes to
 };

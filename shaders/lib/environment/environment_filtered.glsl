@@ -125,16 +125,23 @@ vec3 enteringIrradiance(SeenSurface seen, vec3 irradiance)
 }
 
 #if HAS_GGX_MODELS
-// What a dielectric's lobe reflects of even light.
+// What a dielectric's lobe reflects of even light. By parabolas above index 1, where reflectances go by the square of
+// the contrast; by lines below it, where total reflection begins at an edge.
 float reflectedByDielectric(SeenSurface seen)
 {
-    precise float place = clamp(iorPlace(seen.surface.iorOrF90), 0.0, 1.0) * float(LOBE_TABLE_IORS - 1);
-    int before = min(int(place), LOBE_TABLE_IORS - 2), after = before + 1;
+    float place = iorPlace(seen.surface.iorOrF90);
+    bool isDenser = place >= float(LOBE_TABLE_IOR_ONE);
+    int first = isDenser ? min(int(place), LOBE_TABLE_IORS - 3) : max(int(place), 0);
+    precise float t = place - float(first);
+    precise vec3 shares = isDenser ? vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0))
+                                   : vec3(1.0 - t, t, 0.0);
     float alpha = lobeAlpha(seen.surface);
-    float low = lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + before / 4)[before % 4];
-    float high = lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + after / 4)[after % 4];
-    precise float reflected = low + (place - float(before)) * (high - low);
-    return reflected;
+    precise float reflected = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        int number = first + i;
+        reflected += shares[i] * lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + number / 4)[number % 4];
+    }
+    return max(reflected, 0.0);
 }
 
 vec3 metallicRoughnessLight(SeenSurface seen, vec3 irradiance, vec3 lobeLight)
@@ -169,8 +176,12 @@ vec3 lightOfLayersBelow(SeenSurface seen, vec3 lobeLight)
 #endif
     precise vec3 light = seen.surface.albedo * enteringIrradiance(seen, irradiance);
 #if HAS_BLINN_PHONG
-    if (seen.surface.model == MODEL_BLINN_PHONG)
-        light += seen.surface.specular * lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b * lobeLight;
+    if (seen.surface.model == MODEL_BLINN_PHONG) {
+        // The table holds it times p + 2, which hardly changes with p.
+        precise float reflected =
+            lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b / (seen.surface.parameter + 2.0);
+        light += seen.surface.specular * reflected * lobeLight;
+    }
 #endif
 #if HAS_GGX_MODELS
     if (IS_MICROFACET(seen.surface.model)) light += seen.surface.specular * reflectedByDielectric(seen) * lobeLight;

@@ -23,7 +23,9 @@ float lobeAlpha(Surface surface)
 #endif
 #if HAS_TANGENT_FRAME
     if (isAnisotropic(surface)) {
-        precise float mean = sqrt(surface.alpha * surface.alphaBitangent);
+        // Slopes of facets vary by the square of alpha, so that this is their mean over all azimuths.
+        precise float mean2 = 0.5 * (surface.alpha * surface.alpha + surface.alphaBitangent * surface.alphaBitangent);
+        precise float mean = sqrt(mean2);
         return mean;
     }
 #endif

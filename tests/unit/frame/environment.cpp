@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <numbers>
 
@@ -9,6 +8,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LobeTable.h"
+#include "scenes/builtin/Pictures.h"
 #include "shaders/shared/lobe_table.h"
 #include "tests/support/TempFolder.h"
 
@@ -18,16 +18,8 @@ namespace {
 using std::numbers::pi;
 
 scenes::Image mapOf(int width, int height, const std::function<double(int, int)>& radiance) {
-    scenes::Image map;
-    map.format = scenes::TexelFormat::Rgba32Float;
-    map.width = width;
-    map.height = height;
-    std::vector<glm::vec4> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) texels.emplace_back(glm::vec3(float(radiance(x, y))), 1.0f);
-    map.texels.resize(texels.size() * sizeof(glm::vec4));
-    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
-    return map;
+    return scenes::builtin::drawRadiance("test", width, height,
+                                         [&](int x, int y) { return glm::dvec3(radiance(x, y)); });
 }
 
 /// Mean radiance over all directions.
@@ -63,31 +55,69 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
             EXPECT_EQ(places.at(x, y), places.at(inX, inY)) << x << ", " << y;
 }
 
+TEST(LatitudeMap, aCoarserOneHoldsTheLightOfEachTexelAtItsPlace) {
+    struct Case {
+        int width, height, mostWidth, mostHeight;
+    };
+    for (const Case& one : {Case{33, 17, 16, 8}, {7, 5, 3, 3}, {5, 101, 64, 50}, {1, 99, 1, 32}, {99, 1, 98, 1}})
+        for (int i = 0; i < one.width * one.height; ++i) {
+            const int column = i % one.width, row = i / one.width;
+            SCOPED_TRACE(testing::Message() << one.width << " x " << one.height << ", texel " << column << ", " << row);
+            const scenes::Image bright =
+                mapOf(one.width, one.height, [&](int x, int y) { return x == column && y == row ? 1e5 : 0.0; });
+            const LatitudeMap fine = latitudeMapOf(bright), coarse = coarserMap(bright, one.mostWidth, one.mostHeight);
+            ASSERT_EQ(coarse.width, std::min(one.width, one.mostWidth));
+            ASSERT_EQ(coarse.height, std::min(one.height, one.mostHeight));
+            const auto middleOf = [](const LatitudeMap& map, int x, int y) {
+                return glm::dvec2((x + 0.5) / map.width, 0.5 * (map.cosineOfRow(y) + map.cosineOfRow(y + 1)));
+            };
+            const auto sizeOf = [](const LatitudeMap& map, int y) {
+                return glm::dvec2(1.0 / map.width, map.cosineOfRow(y) - map.cosineOfRow(y + 1));
+            };
+            double light = 0.0;
+            glm::dvec2 middle(0.0), largest(0.0);
+            for (int y = 0; y < coarse.height; ++y)
+                for (int x = 0; x < coarse.width; ++x) {
+                    const double here = double(coarse.at(x, y).x) * coarse.solidAngle(y);
+                    if (here == 0.0) continue;
+                    light += here;
+                    middle += here * middleOf(coarse, x, y);
+                    largest = glm::max(largest, sizeOf(coarse, y));
+                }
+            ASSERT_NEAR(light, 1e5 * fine.solidAngle(row), 1e-6 * light);
+            // What it lies in spreads it, by no more than their sizes differ.
+            const glm::dvec2 moved = glm::abs(middle / light - middleOf(fine, column, row));
+            const glm::dvec2 most = 0.5 * (largest - sizeOf(fine, row)) + 1e-6;
+            ASSERT_LE(moved.x, most.x);
+            ASSERT_LE(moved.y, most.y);
+        }
+}
+
 TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
     const scenes::Image map = mapOf(32, 16, [](int x, int y) {
         return x == 20 && y == 5 ? 100.0 : y > 12 ? 0.0 : 1.0;
     });
     std::vector<double> summed;
-    const std::vector<glm::vec4> texels = environmentTexels(map, summed);
+    const LatitudeMap texels = environmentTexels(map, summed);
     double densities = 0.0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 32; ++x) {
             const double solidAngle = 2.0 * pi / 32.0 * (std::cos(pi * y / 16.0) - std::cos(pi * (y + 1) / 16.0));
-            densities += solidAngle * double(texels[std::size_t(32 * y + x)].a);
+            densities += solidAngle * double(texels.at(x, y).a);
         }
     EXPECT_NEAR(densities, 1.0, 1e-6);
     // Light between a lit texel and a dark one is there, and so are samples of it.
-    EXPECT_GT(texels[32 * 13 + 3].a, 0.0f);
-    EXPECT_EQ(texels[32 * 15 + 3].a, 0.0f);
+    EXPECT_GT(texels.at(3, 13).a, 0.0f);
+    EXPECT_EQ(texels.at(3, 15).a, 0.0f);
     // The mean of radiance over density is the light of the whole map, whatever run of samples is taken.
-    const std::vector<glm::vec4> samples = makeEnvironmentSamples(map, texels, summed);
+    const std::vector<glm::vec4> samples = makeEnvironmentSamples(texels, summed);
     double whole = 0.0;
     for (int y = 0; y < 16; ++y)
         for (int i = 0; i < 64; ++i)
             for (int j = 0; j < 64; ++j) {
                 const glm::dvec2 place((i * 0.5 + 0.25) / 32.0, (y + (j + 0.5) / 64.0) / 16.0);
-                whole += radianceInMap(texels, 32, 16, scenes::directionInMap(place)).x * std::sin(pi * place.y) *
-                         (2.0 * pi / 64.0) * (pi / 16.0 / 64.0);
+                whole += texels.radiance(scenes::directionInMap(place)).x * std::sin(pi * place.y) * (2.0 * pi / 64.0) *
+                         (pi / 16.0 / 64.0);
             }
     for (const std::size_t run : {0u, 100u, 255u}) {
         double sum = 0.0;
@@ -149,6 +179,20 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
     EXPECT_LE(before, 1e-2); // where the sun stands at the horizon
 }
 
+TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {
+    constexpr int kOrder = 4, kSideTexels = 8;
+    const auto light = [](int x, int y) { return (x * 7919 + y * 104729) % 1009; };
+    const std::pair<scenes::Image, scenes::Image> finerAndCoarser[] = {
+        {mapOf(16384, 2, [&](int x, int y) { return light(x / 16, y); }), mapOf(1024, 2, light)},
+        {mapOf(3, 16384, [&](int x, int y) { return light(x, y / 32); }), mapOf(3, 512, light)}};
+    for (const auto& [finer, coarser] : finerAndCoarser) {
+        const Octahedron seen = irradianceOf(finer, kOrder, kSideTexels);
+        const Octahedron wanted = irradianceOf(coarser, kOrder, kSideTexels);
+        for (std::size_t i = 0; i < wanted.texels.size(); ++i)
+            ASSERT_NEAR(seen.texels[i].x, wanted.texels[i].x, 1e-5f * wanted.texels[i].x) << finer.width << ", " << i;
+    }
+}
+
 TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     test::TempFolder folder;
     const scenes::Image map = mapOf(32, 16, [](int x, int y) { return x + 0.1 * y; });
@@ -164,40 +208,86 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     std::filesystem::resize_file(file.path(), 1000);
     EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
     EXPECT_TRUE(computed);
+    // One bit is enough, in the middle as in the last number.
+    const auto size = std::streamoff(std::filesystem::file_size(file.path()));
+    for (const std::streamoff at : {size / 2, size - 1}) {
+        computed = false;
+        std::fstream bytes(file.path(), std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekg(at);
+        const int byte = bytes.get();
+        bytes.seekp(at).put(char(byte ^ 1));
+        bytes.close();
+        EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
+        EXPECT_TRUE(computed) << at;
+    }
     // Another map of the same shape has another file.
     computed = false;
     cachedEnvironment(mapOf(32, 16, [](int x, int) { return x; }), folder.path(), note);
     EXPECT_TRUE(computed);
 }
 
+/// Made once for all tests.
+const std::vector<glm::vec4>& lobeTable() {
+    static const std::vector<glm::vec4> table = makeLobeTable();
+    return table;
+}
+
 TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
-    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::vector<glm::vec4>& table = lobeTable();
     constexpr std::size_t kLayer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
-    const float place = shared::iorPlace(1.0f) * float(LOBE_TABLE_IORS - 1);
-    ASSERT_EQ(place, std::round(place)) << "between two places others would be mixed in";
-    const auto number = std::size_t(place);
+    ASSERT_EQ(shared::iorPlace(1.0f), float(LOBE_TABLE_IOR_ONE)) << "between two places others would be mixed in";
+    constexpr std::size_t number = LOBE_TABLE_IOR_ONE;
     for (std::size_t i = 0; i < kLayer; ++i)
         ASSERT_LT(table[(LOBE_LAYER_DIELECTRIC + number / 4) * kLayer + i][int(number % 4)], 1e-6f) << i;
 }
 
+/// Of the first layer, as shaders do it.
+glm::vec4 lookedUp(const std::vector<glm::vec4>& table, double cosine, double alpha) {
+    const glm::dvec2 place = glm::sqrt(glm::dvec2(cosine, alpha)) * (LOBE_TABLE_SIDE - 1.0);
+    const glm::ivec2 low = glm::min(glm::ivec2(place), glm::ivec2(LOBE_TABLE_SIDE - 2));
+    const glm::vec2 share(place - glm::dvec2(low));
+    const auto texel = [&](int i, int j) { return table[std::size_t((low.y + j) * LOBE_TABLE_SIDE + low.x + i)]; };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x), glm::mix(texel(0, 1), texel(1, 1), share.x), share.y);
+}
+
+/// Blinn's highlight (n.h)^p over all lights dl = 4 v.h dh, by circles of half vectors.
+double reflectedByBlinn(double exponent, double cosView) {
+    constexpr int kRings = 1000, kTurns = 256;
+    const double sine = std::sqrt(1.0 - cosView * cosView), widest = std::min(0.5 * pi, 20.0 / std::sqrt(exponent));
+    double sum = 0.0;
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+            const double away = widest * (i + 0.5) / kRings, turn = 2.0 * pi * (j + 0.5) / kTurns;
+            const double cosHalf = std::cos(away);
+            const double incidence = cosHalf * cosView + std::sin(away) * sine * std::cos(turn);
+            if (incidence > 0.0 && 2.0 * incidence * cosHalf > cosView)
+                sum += std::sin(away) * std::pow(cosHalf, exponent) * 4.0 * incidence;
+        }
+    return sum * (widest / kRings) * (2.0 * pi / kTurns);
+}
+
+/// Also of lobes that are narrower than any of the table.
+TEST(LobeTable, blinnsHighlightIsInterpolatedWithinHalfAPercentAtAnyExponent) {
+    const std::vector<glm::vec4>& table = lobeTable();
+    for (const double exponent : {1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e9})
+        for (const double cosine : {0.05, 0.15, 0.5, 0.9, 1.0}) {
+            const double alpha = std::min(std::sqrt(2.0 / (exponent + 2.0)), 1.0); // lobeAlpha() of lobes.glsl
+            const double reflected = double(lookedUp(table, cosine, alpha).z) / (exponent + 2.0);
+            const double truth = reflectedByBlinn(exponent, cosine);
+            EXPECT_NEAR(reflected, truth, 5e-3 * truth) << exponent << ", cosine " << cosine;
+        }
+}
+
 /// A and B of the split sum by perceptual roughness and the viewer's cosine, shading.md section 6.
 TEST(LobeTable, holdsThePublishedSplitSum) {
-    const std::vector<glm::vec4> table = makeLobeTable();
+    const std::vector<glm::vec4>& table = lobeTable();
     constexpr double kRoughness[] = {0.25, 0.5, 0.75, 1.0}, kCosines[] = {0.1, 0.5, 1.0};
     constexpr double kA[4][3] = {
         {.5051, .9557, .9957}, {.7519, .8349, .9158}, {.7958, .6547, .6268}, {.7363, .4477, .3067}};
     constexpr double kB[4][3] = {{.3916, .0326, .0}, {.1397, .0223, .0}, {.0526, .0085, .0}, {.0239, .0030, .0}};
-    const auto at = [&](double cosine, double alpha) {
-        const glm::dvec2 place = glm::sqrt(glm::dvec2(cosine, alpha)) * (LOBE_TABLE_SIDE - 1.0);
-        const glm::ivec2 low = glm::min(glm::ivec2(place), glm::ivec2(LOBE_TABLE_SIDE - 2));
-        const glm::vec2 share(place - glm::dvec2(low));
-        const auto texel = [&](int i, int j) { return table[std::size_t((low.y + j) * LOBE_TABLE_SIDE + low.x + i)]; };
-        return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x), glm::mix(texel(0, 1), texel(1, 1), share.x),
-                        share.y);
-    };
     for (int r = 0; r < 4; ++r)
         for (int m = 0; m < 3; ++m) {
-            const glm::vec4 lobe = at(kCosines[m], kRoughness[r] * kRoughness[r]);
+            const glm::vec4 lobe = lookedUp(table, kCosines[m], kRoughness[r] * kRoughness[r]);
             EXPECT_NEAR(lobe.x - lobe.y, kA[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
             EXPECT_NEAR(lobe.y, kB[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
         }

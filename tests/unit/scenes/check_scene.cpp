@@ -6,12 +6,18 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "scenes/builtin/Pictures.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::scenes {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+Environment sky(float radiance, float intensity, float rotationDegrees) {
+    return {"test", builtin::drawRadiance("sky", 2, 1, [=](int, int) { return glm::dvec3(radiance); }), intensity,
+            rotationDegrees};
+}
 
 /// The message checkScene() gives for the tiny scene after `spoil`, or "" when it passes.
 std::string verdict(const std::function<void(Scene&)>& spoil) {
@@ -197,6 +203,15 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"the index of refraction", [](Scene& s) { s.materials[0].ior = 1.1e6f; }},
         {"background", [](Scene& s) { s.background.x = kNaN; }},
         {"the option exposureEV is not finite", [](Scene& s) { s.options.wishes["exposureEV"] = double(kNaN); }},
+        {"environment 0 'sky': its intensity must be finite and not negative",
+         [](Scene& s) { s.environment = sky(1.0f, kInfinity, 0.0f); }},
+        {"its intensity must be finite and not negative", [](Scene& s) { s.environment = sky(1.0f, -1.0f, 0.0f); }},
+        {"its rotation must be finite", [](Scene& s) { s.environment = sky(1.0f, 1.0f, kNaN); }},
+        {"its rotation must be finite", [](Scene& s) { s.environment = sky(1.0f, 1.0f, -kInfinity); }},
+        {"a texel is not finite", [](Scene& s) { s.environment = sky(kInfinity, 1.0f, 0.0f); }},
+        {"a texel is below 0", [](Scene& s) { s.environment = sky(-1.0f, 1.0f, 0.0f); }},
+        {"its brightest texel times its intensity is 2e+30, and at most 1e+30 can be shown; lower its intensity",
+         [](Scene& s) { s.environment = sky(2e20f, 1e10f, 0.0f); }},
         {"the option size is not finite",
          [](Scene& s) {
              s.options.wishes["size"] = std::vector<double>{double(kNaN), 5.0};
@@ -215,6 +230,7 @@ TEST(CheckScene, extremesThatAreAllowedPass) {
                   s.cameras[0].farMetres = std::numeric_limits<double>::infinity();
                   s.materials[0].ior = 1e6f;
                   s.materials[0].alpha = 0.0f;
+                  s.environment = sky(1e-8f, 1e38f, -3e38f);
               }),
               "");
 }

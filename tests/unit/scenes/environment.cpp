@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
@@ -15,6 +16,8 @@
 
 namespace tessera::scenes {
 namespace {
+
+using testing::HasSubstr;
 
 std::vector<float> numbersOf(const Image& map) {
     std::vector<float> texels(map.texels.size() / sizeof(float));
@@ -51,6 +54,7 @@ TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
     test::TempFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const auto file = folder.write("bad.pfm", pfm(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, -0.0f}));
+    const auto extreme = folder.write("extreme.pfm", pfm(2, 1, {1e30f, 2e30f, 3e38f, infinite, 0.0f, 0.0f}));
     LoadLedger ledger;
     std::vector<std::string> warnings;
     const Environment environment = loadEnvironment(file.string(), ledger, warnings);
@@ -59,6 +63,12 @@ TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
                             "the environment 'bad.pfm' holds NaN in 1 number, taken as 0",
                             "the environment 'bad.pfm' is below 0 in 1 number, taken as 0",
                             "the environment 'bad.pfm' holds infinity in 1 number, taken as its brightest"}));
+    warnings.clear();
+    EXPECT_EQ(numbersOf(loadEnvironment(extreme.string(), ledger, warnings).map),
+              (std::vector<float>{1e30f, 1e30f, 1e30f, 1.0f, 1e30f, 0.0f, 0.0f, 1.0f}));
+    EXPECT_EQ(warnings, (std::vector<std::string>{
+                            "the environment 'extreme.pfm' holds infinity in 1 number, taken as its brightest",
+                            "the environment 'extreme.pfm' is above 1e+30 in 2 numbers, taken as that"}));
 }
 
 TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
@@ -97,6 +107,24 @@ TEST(Environment, wrongOnesAreRefusedByName) {
               "/environment: says how a map lies or shines, and there is none; name a 'map'");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"intensity": -1}})"),
               "/environment/intensity: is -1; at least 0 is needed");
+    folder.write("sky.pfm", pfm(2, 1, {1e20f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}));
+    const auto errorOf = [&](const std::string& how) {
+        return folder.errorOf(R"({"tessera": 1, "environment": {"map": "sky.pfm", )" + how + "}}");
+    };
+    EXPECT_THAT(errorOf(R"("intensity": 1e39)"), HasSubstr("/environment/intensity: is 1e+39; at most 3.4"));
+    EXPECT_THAT(errorOf(R"("rotationDegrees": -1e39)"), HasSubstr("/environment/rotationDegrees: is -1e+39; at least"));
+    const std::string bright = folder
+                                   .write("bright.json", R"({"tessera": 1, "environment": {"map": "sky.pfm", )"
+                                                         R"("intensity": 1e11}})")
+                                   .string();
+    try {
+        loadScene(bright);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), (bright + ": scene 'bright': environment 0 'sky.pfm': its brightest texel times its "
+                                             "intensity is 1e+31, and at most 1e+30 can be shown; lower its intensity")
+                                       .c_str());
+    }
 }
 
 /// Of level ground, divided by pi: the radiance of a white floor.

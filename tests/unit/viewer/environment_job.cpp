@@ -15,24 +15,26 @@ namespace {
 class EnvironmentJobTest : public testing::Test {
 protected:
     ChosenEnvironment chosen(const std::string& name) {
-        isDone_ = false;
         job_.start(name);
+        EXPECT_EQ(job_.choice(), name);
         std::unique_lock lock(mutex_);
-        EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [this] { return isDone_; }));
-        EXPECT_FALSE(job_.isBusy());
+        EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [this] { return results_ > taken_; }));
+        ++taken_; // what is dropped is not told of
         EXPECT_TRUE(job_.hasResult());
         std::optional<ChosenEnvironment> result = job_.take();
         EXPECT_FALSE(job_.hasResult());
+        EXPECT_EQ(job_.choice(), "");
         return result.value_or(ChosenEnvironment());
     }
+    EnvironmentJob& job() { return job_; }
 
 private:
     std::mutex mutex_;
     std::condition_variable changed_;
-    bool isDone_ = false;
+    int results_ = 0, taken_ = 0;
     EnvironmentJob job_{[this] {
         const std::lock_guard lock(mutex_);
-        isDone_ = true;
+        ++results_;
         changed_.notify_all();
     }};
 };
@@ -49,6 +51,17 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     const ChosenEnvironment unknown = chosen("stduio");
     EXPECT_FALSE(unknown.environment);
     EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
+}
+
+TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {
+    job().start("studio");
+    job().start("sky");
+    EXPECT_EQ(chosen("none").name, "none");
+    // One that is given up has no result, though its name is chosen again.
+    job().start("studio");
+    job().discard();
+    EXPECT_EQ(job().choice(), "");
+    EXPECT_EQ(chosen("studio").environment.value().source, "builtin:studio");
 }
 
 TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
