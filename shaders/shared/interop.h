@@ -1,7 +1,7 @@
 #pragma once
 // Lets one file declare a struct, or define a function, for C++ and GLSL alike. Such structs hold only vec4, uvec4,
 // mat4 and arrays of them, whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with
-// what the driver reports. Shared functions take and return such values and plain numbers.
+// what the driver reports. Shared functions take and return such values, mat3 and plain numbers.
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -10,6 +10,7 @@ using glm::abs;
 using glm::dot;
 using glm::length;
 using glm::log2;
+using glm::mat3;
 using glm::mat4;
 using glm::max;
 using glm::min;
