@@ -31,8 +31,8 @@ struct ReferencePicture {
     std::vector<std::uint8_t> undecidedShadows; ///< as in reference::Rendered
     std::vector<reference::Noise> shadowNoise;  ///< as in reference::Rendered
 
-    std::vector<reference::Diffusion::Answer> spread;          ///< as in reference::Rendered
-    std::vector<reference::Surroundings::Answer> surroundings; ///< the same
+    std::vector<reference::Diffusion::Answer> spread; ///< as in reference::Rendered
+    std::vector<reference::Estimate> surroundings;    ///< the same
 
     /// What is known of the shadows of `shown` against the picture. `excluded` as errorFigures() takes it.
     ShadowFigures shadowFigures(const Picture& shown, std::span<const std::uint8_t> excluded) const;

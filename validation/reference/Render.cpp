@@ -143,7 +143,7 @@ private:
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
         mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
         mutable std::vector<std::optional<Diffusion::Answer>> spread{};                 ///< the same, by surface
-        mutable std::vector<std::optional<Surroundings::Answer>> surroundings{};        ///< the same
+        mutable std::vector<std::optional<Estimate>> surroundings{};                    ///< the same
         std::uint32_t seed = 0; ///< of Diffusion and Surroundings
 
         bool hasUndecidedShadows() const {

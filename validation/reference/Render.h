@@ -62,8 +62,8 @@ struct Rendered {
     /// Of the sum of the channels, by Settings::shadowSamples rays to each light with a size; none where there is
     /// another alternative than their noise.
     std::vector<Noise> shadowNoise;
-    std::vector<Diffusion::Answer> spread;          ///< of opaque surfaces that light spreads over; all 0 elsewhere
-    std::vector<Surroundings::Answer> surroundings; ///< of opaque surfaces in light of an environment; all 0 elsewhere
+    std::vector<Diffusion::Answer> spread; ///< of opaque surfaces that light spreads over; all 0 elsewhere
+    std::vector<Estimate> surroundings;    ///< of opaque surfaces in light of an environment; all 0 elsewhere
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

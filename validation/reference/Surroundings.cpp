@@ -4,111 +4,17 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <random>
 
 #include "validation/reference/Lobes.h"
 #include "validation/reference/Microfacet.h"
 #include "validation/reference/Reflectance.h"
-#include "validation/reference/TangentFrame.h"
 
 namespace tessera::reference {
 
 namespace {
 
 using std::numbers::pi;
-constexpr int kParts = 8; ///< independent parts of the samples
 constexpr int kIrradianceRows = 60, kIrradianceColumns = 120;
-
-struct Frame {
-    glm::dvec3 x, y, z;
-    glm::dvec3 out(const glm::dvec3& local) const { return local.x * x + local.y * y + local.z * z; }
-    glm::dvec3 in(const glm::dvec3& world) const {
-        return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)};
-    }
-};
-
-Frame frameOf(const glm::dvec3& normal, const glm::dvec3& tangent) {
-    const glm::dvec3 other = std::abs(normal.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-    const glm::dvec3 x = glm::normalize(tangent == glm::dvec3(0.0) ? glm::cross(other, normal) : tangent);
-    return {x, glm::cross(normal, x), normal};
-}
-
-/// A distribution of directions around a surface.
-class Strategy {
-public:
-    virtual ~Strategy() = default;
-    virtual glm::dvec3 direction(const glm::dvec2& random) const = 0;
-    virtual double density(const glm::dvec3& direction) const = 0; ///< 1/sr
-};
-
-class ByCosine : public Strategy {
-public:
-    explicit ByCosine(const glm::dvec3& normal) : frame_(frameOf(normal, glm::dvec3(0.0))) {}
-    glm::dvec3 direction(const glm::dvec2& random) const override {
-        const double sine = std::sqrt(random.x), angle = 2.0 * pi * random.y;
-        return frame_.out({sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1.0 - random.x)});
-    }
-    double density(const glm::dvec3& direction) const override {
-        return std::max(glm::dot(frame_.z, direction), 0.0) / pi;
-    }
-
-private:
-    Frame frame_;
-};
-
-/// Half vectors by GGX, whether the viewer sees such microfacets or not. Source: Walter et al. 2007, equations 35
-/// to 38.
-class ByMicrofacets : public Strategy {
-public:
-    ByMicrofacets(const glm::dvec2& alpha, const glm::dvec3& normal, const glm::dvec3& tangent,
-                  const glm::dvec3& toViewer)
-        : frame_(frameOf(normal, tangent)), alpha_(alpha), toViewer_(toViewer) {}
-    glm::dvec3 direction(const glm::dvec2& random) const override {
-        const double slope = std::sqrt(random.x / (1.0 - random.x)), angle = 2.0 * pi * random.y;
-        const glm::dvec3 half = frame_.out(
-            glm::normalize(glm::dvec3(alpha_.x * slope * std::cos(angle), alpha_.y * slope * std::sin(angle), 1.0)));
-        return glm::normalize(2.0 * glm::dot(half, toViewer_) * half - toViewer_);
-    }
-    double density(const glm::dvec3& direction) const override {
-        const glm::dvec3 sum = direction + toViewer_;
-        if (sum == glm::dvec3(0.0)) return 0.0;
-        const glm::dvec3 half = glm::normalize(sum), local = frame_.in(half);
-        if (!(local.z > 0.0)) return 0.0;
-        return distributionGgx(alpha_, local) * local.z / (4.0 * std::abs(glm::dot(half, direction)));
-    }
-
-private:
-    Frame frame_;
-    glm::dvec2 alpha_;
-    glm::dvec3 toViewer_;
-};
-
-/// Half vectors by a power of their cosine.
-class ByPower : public Strategy {
-public:
-    ByPower(double exponent, const glm::dvec3& normal, const glm::dvec3& toViewer)
-        : frame_(frameOf(normal, glm::dvec3(0.0))), exponent_(exponent), toViewer_(toViewer) {}
-    glm::dvec3 direction(const glm::dvec2& random) const override {
-        const double cosine = std::pow(1.0 - random.x, 1.0 / (exponent_ + 1.0)), angle = 2.0 * pi * random.y;
-        const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
-        const glm::dvec3 half = frame_.out({sine * std::cos(angle), sine * std::sin(angle), cosine});
-        return glm::normalize(2.0 * glm::dot(half, toViewer_) * half - toViewer_);
-    }
-    double density(const glm::dvec3& direction) const override {
-        const glm::dvec3 sum = direction + toViewer_;
-        if (sum == glm::dvec3(0.0)) return 0.0;
-        const glm::dvec3 half = glm::normalize(sum);
-        const double cosine = glm::dot(half, frame_.z);
-        if (!(cosine > 0.0)) return 0.0;
-        return (exponent_ + 1.0) / (2.0 * pi) * std::pow(cosine, exponent_) /
-               (4.0 * std::abs(glm::dot(half, direction)));
-    }
-
-private:
-    Frame frame_;
-    double exponent_;
-    glm::dvec3 toViewer_;
-};
 
 } // namespace
 
@@ -191,7 +97,7 @@ void Surroundings::makeDensities() {
     for (double& row : rowsSummed_) row /= all;
 }
 
-Surroundings::Sample Surroundings::ofMap(const glm::dvec2& random) const {
+glm::dvec3 Surroundings::ofMap(const glm::dvec2& random) const {
     const auto choose = [](const double* begin, const double* end, double& u) {
         const double* const found = std::min(std::upper_bound(begin, end, u), end - 1);
         const double before = found == begin ? 0.0 : found[-1];
@@ -206,8 +112,7 @@ Surroundings::Sample Surroundings::ofMap(const glm::dvec2& random) const {
     const double sine = std::lerp(std::sin(top), std::sin(top - pi / map_->height), v);
     const double azimuth = 2.0 * pi * ((double(column) + u) / map_->width - 0.5) - turnRadians_;
     const double level = std::sqrt(std::max(1.0 - sine * sine, 0.0));
-    return {{level * std::sin(azimuth), sine, -level * std::cos(azimuth)},
-            densities_[std::size_t(row) * std::size_t(map_->width) + std::size_t(column)]};
+    return {level * std::sin(azimuth), sine, -level * std::cos(azimuth)};
 }
 
 double Surroundings::mapDensity(const glm::dvec3& direction) const {
@@ -264,61 +169,30 @@ glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
 
 } // namespace
 
-Surroundings::Answer Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular,
-                                      bool onlyLobes, std::uint32_t seed) const {
-    const ByCosine cosine(point.normal);
-    std::vector<std::unique_ptr<Strategy>> lobes;
-    const scenes::MaterialModelInfo& model = scenes::infoOf(point.model);
-    if (specular && model.microsurface == scenes::Microsurface::Parameter)
-        lobes.push_back(std::make_unique<ByPower>(point.roughness, point.normal, toViewer));
-    else if (specular && model.highlight != scenes::Highlight::None)
-        lobes.push_back(std::make_unique<ByMicrofacets>(glm::dvec2(point.alpha, point.alphaAcross), point.normal,
-                                                        point.tangent, toViewer));
-    if (specular && point.coat > 0.0)
-        lobes.push_back(
-            std::make_unique<ByMicrofacets>(glm::dvec2(point.coatAlpha), point.coatNormal, glm::dvec3(0.0), toViewer));
-    std::vector<const Strategy*> strategies{&cosine};
-    for (const auto& lobe : lobes) strategies.push_back(lobe.get());
+class Surroundings::ByMap : public Strategy {
+public:
+    explicit ByMap(const Surroundings& of) : of_(of) {}
+    glm::dvec3 direction(const glm::dvec2& random) const override { return of_.ofMap(random); }
+    double density(const glm::dvec3& direction) const override { return of_.mapDensity(direction); }
 
+private:
+    const Surroundings& of_;
+};
+
+Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
+                          std::uint32_t seed) const {
+    const ByMap map(*this);
+    const std::vector<std::unique_ptr<Strategy>> ofSurface = strategiesOf(point, toViewer, specular);
+    std::vector<const Strategy*> strategies{&map};
+    for (const auto& strategy : ofSurface) strategies.push_back(strategy.get());
     const glm::dvec3 bounces = compensates_ && specular ? bouncesOf(point, toViewer) : glm::dvec3(0.0);
-    const auto side = int(std::ceil(std::sqrt(double(paths_) / kParts)));
-    const auto worth = [&](const glm::dvec3& direction, double ownDensity) {
+    const Estimate all = sampled(strategies, paths_, seed, [&](const glm::dvec3& direction) {
         glm::dvec3 share = reflected(point, direction, toViewer, specular);
         if (onlyLobes) share -= reflected(point, direction, toViewer, false);
         share += bounces * std::max(glm::dot(point.normal, direction), 0.0);
-        if (share == glm::dvec3(0.0) || !(ownDensity > 0.0)) return glm::dvec3(0.0);
-        const double ofMap = mapDensity(direction);
-        double squares = ofMap * ofMap;
-        for (const Strategy* strategy : strategies) {
-            const double density = strategy->density(direction);
-            squares += density * density;
-        }
-        return share * radianceOf(direction) * (ownDensity / squares);
-    };
-    std::mt19937 generator(seed * 2654435761u + 12345u);
-    std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    glm::dvec3 sum(0.0), squares(0.0);
-    for (int part = 0; part < kParts; ++part) {
-        glm::dvec3 ofPart(0.0);
-        for (int cell = 0; cell < side * side; ++cell) {
-            const auto random = [&] {
-                const double x = uniform(generator), y = uniform(generator);
-                return glm::dvec2(cell % side + x, cell / side + y) / double(side);
-            };
-            const Sample sample = ofMap(random());
-            ofPart += worth(sample.direction, sample.density);
-            for (const Strategy* strategy : strategies) {
-                const glm::dvec3 direction = strategy->direction(random());
-                ofPart += worth(direction, strategy->density(direction));
-            }
-        }
-        ofPart /= double(side * side);
-        sum += ofPart;
-        squares += ofPart * ofPart;
-    }
-    const glm::dvec3 mean = sum / double(kParts);
-    const glm::dvec3 variance = glm::max(squares / double(kParts) - mean * mean, glm::dvec3(0.0)) / (kParts - 1.0);
-    return {point.openness * mean, point.openness * point.openness * variance};
+        return share == glm::dvec3(0.0) ? share : share * radianceOf(direction);
+    });
+    return all.times(point.openness);
 }
 
 void Surroundings::makeIrradiances() {

@@ -2,15 +2,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "validation/reference/MaterialAt.h"
+#include "validation/reference/Sampling.h"
 #include "validation/reference/Settings.h"
 
 namespace tessera::reference {
 
 /// Light from everywhere: the scene's environment, by Monte Carlo integration in double precision. Directions are
-/// sampled by the map's texels, by the cosine, and by the microfacets of each lobe; they are weighted by the power
-/// heuristic. Source: Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 9.2. May be used
-/// by several threads.
+/// sampled by the map's texels and by the surface (Sampling.h). May be used by several threads.
 class Surroundings {
 public:
     /// The scene must outlive it.
@@ -21,23 +19,17 @@ public:
     /// From a unit direction, world axes.
     glm::dvec3 radianceOf(const glm::dvec3& direction) const;
 
-    struct Answer {
-        glm::dvec3 light{0.0};    ///< radiance towards the viewer
-        glm::dvec3 variance{0.0}; ///< of it, by how far independent parts of the samples differ
-    };
     /// What a surface reflects of it; `onlyLobes` leaves out what enters the surface.
-    Answer on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
-              std::uint32_t seed) const;
+    Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
+                std::uint32_t seed) const;
 
     /// On a surface that faces this way, interpolated between directions three degrees apart.
     glm::dvec3 irradiance(const glm::dvec3& normal) const;
 
 private:
-    struct Sample {
-        glm::dvec3 direction{0.0};
-        double density = 0.0; ///< 1/sr
-    };
-    Sample ofMap(const glm::dvec2& random) const;
+    class ByMap;
+    /// With the density of the map's texels.
+    glm::dvec3 ofMap(const glm::dvec2& random) const;
     double mapDensity(const glm::dvec3& direction) const;
     glm::dvec3 texel(int column, int row) const;
     /// Texels from the left and from the top.
