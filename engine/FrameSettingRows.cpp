@@ -221,7 +221,7 @@ std::vector<Setting> frameSettings() {
          .flag = "--range-tolerance",
          .key = "rangeTolerance",
          .type = "EPS",
-         .help = "Ends lights of A B C falloff where they fall to this; compare tells what it drops",
+         .help = "Ends lights of A B C falloff and area lights where they fall to this; compare tells what it drops",
          .panel = SettingPanel::None,
          .value = number(in(&FrameSettings::rangeTolerance), {.least = 0.0})},
         {.name = "view",

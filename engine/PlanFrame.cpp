@@ -20,14 +20,14 @@ namespace tessera::engine {
 namespace {
 
 std::string truncationWords(const frame::TruncatedLights& lights, double tolerance) {
-    if (lights.sum() == 0) return "no light that is on falls off by A B C, so it ends none";
+    if (lights.sum() == 0) return "no light that is on falls off by A B C or from an area, so it ends none";
     if (tolerance == 0.0)
-        return fmt::format("falloff by A B C of {} never ends; a tolerance above 0 gives it a radius",
+        return fmt::format("falloff by A B C or from an area of {} never ends; a tolerance above 0 gives it a radius",
                            frame::lightsText(lights.sum()));
     std::string words;
     const auto add = [&](const std::string& part) { words += (words.empty() ? "" : "; ") + part; };
     if (lights.ended > 0)
-        add(fmt::format("{} with falloff by A B C made finite, radii {:.4g} m to {:.4g} m",
+        add(fmt::format("{} with falloff by A B C or from an area made finite, radii {:.4g} m to {:.4g} m",
                         frame::lightsText(lights.ended), lights.shortestMetres, lights.longestMetres));
     if (lights.belowAlready > 0)
         add(fmt::format("{} nowhere above it, so dark", frame::lightsText(lights.belowAlready)));

@@ -96,6 +96,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.drawn.prepared = prepared.diffused[cell];
         own.drawn.scene = view.scene;
         own.drawn.environment = view.environment;
+        own.drawn.lobes = view.lobes;
         const frame::FrameSpec& spec = own.drawn.prepared.spec;
         if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
@@ -131,6 +132,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
             environment_ =
                 std::make_unique<frame::EnvironmentGpu>(*scene_.environment, std::move(filteredEnvironment_));
         view.environment = environment_.get();
+        view.lobes = &lobes_;
         if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;

@@ -59,6 +59,7 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
     }
     shared.scene.environment =
         frame::importEnvironment(graph, specs, anyView.drawn ? anyView.drawn->environment : nullptr);
+    shared.scene.lobes = frame::importLobes(graph, specs, anyView.drawn ? anyView.drawn->lobes : nullptr);
     return shared;
 }
 
@@ -84,8 +85,12 @@ struct ViewWiring {
                     {},
                     {},
                     {},
+                    {},
                     {}};
         if (lights.environment) addEnvironment(frame.scene.environment, *lights.environment);
+        lighting.lobes.lobes = frame.scene.lobes.lobes;
+        if (spec.usesLobeTable()) lighting.lobes.table = frame.scene.lobes.table;
+        if (spec.usesLobeShapes()) lighting.lobes.shapes = frame.scene.lobes.shapes;
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
@@ -94,21 +99,20 @@ struct ViewWiring {
 
     void addEnvironment(const frame::EnvironmentHandles& all, graph::BufferHandle constants) {
         if (spec.showsEnvironment) {
-            backdrop = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}, {}};
+            backdrop = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}};
             if (spec.settings.environment.backdrop == frame::Backdrop::Sharp)
                 backdrop->map = all.map;
             else
                 backdrop->filtered = all.filtered;
         }
         if (!spec.features[frame::Feature::Environment]) return;
-        lighting.environment = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}, {}};
+        lighting.environment = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}};
         if (spec.usesEnvironmentSamples()) {
             lighting.environment->map = all.map;
             lighting.environment->samples = all.samples;
         } else {
             lighting.environment->filtered = all.filtered;
         }
-        if (spec.usesLobeTable()) lighting.environment->lobes = all.lobes;
     }
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known

@@ -246,6 +246,15 @@ void checkLight(const Element& element, const Light& light) {
     element.require(isNearEnough(light.positionWS),
                     fmt::format("it lies more than {:g} m from the origin; move it nearer", kFarthestMetres));
     element.require(isUnit(light.directionWS), "its direction must be of unit length");
+    element.require(isUnit(light.alongWS), "the direction of its width must be of unit length");
+    const LightTypeInfo& info = infoOf(light.type);
+    if (info.hasSides())
+        element.require(std::abs(glm::dot(light.alongWS, light.directionWS)) <= kUnitTolerance,
+                        "the direction of its width must be at right angles to its direction");
+    if (info.isArea && light.falloff != Falloff::InverseSquare)
+        element.require(false, fmt::format("a {} light falls off by its shape; it takes no falloff by A B C, only the "
+                                           "range of an inverse-square one",
+                                           info.name));
     element.require(light.rangeMetres >= 0.0f, "its range must not be negative");
     element.require(light.falloff != Falloff::Attenuation || light.attenuation != glm::vec3(0.0f),
                     "the attenuation coefficients A, B, C are all 0; give at least one");

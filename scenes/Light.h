@@ -32,6 +32,10 @@ enum class LightType : std::uint8_t {
     Directional, ///< from far away, everywhere along its direction
     Point,       ///< from its position, alike in all directions
     Spot,        ///< from its position, into a cone around its direction
+    Rectangle,   ///< from a rectangle around its position that faces its direction
+    Disk,        ///< from a disk around its position that faces its direction
+    Sphere,      ///< from a sphere around its position
+    Tube,        ///< from a closed cylinder around its position, along its direction
     Count
 };
 
@@ -66,7 +70,8 @@ struct Light {
     LightType type = LightType::Point;
     bool enabled = true;
     bool castsShadow = false;          ///< casters hide it from surfaces (scenes/Shadows.h)
-    float radiusMetres = 0.0f;         ///< with a position: of the disk that its shadows see (scenes/Shadows.h)
+    float radiusMetres = 0.0f;         ///< with a position: of the disk that its shadows see (scenes/Shadows.h); Disk,
+                                       ///< Sphere and Tube: of what shines
     float angularRadiusRadians = 0.0f; ///< without one: the same as seen from anywhere
     glm::vec3 color{1.0f};             ///< linear RGB
     float intensity = 1.0f;            ///< in the unit of its type; a plain factor with Falloff::Attenuation
@@ -77,6 +82,11 @@ struct Light {
     glm::vec3 attenuation{1.0f, 0.0f, 0.0f}; ///< A, B (1/m), C (1/m^2) of Falloff::Attenuation, >= 0, not all 0
     float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
     float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
+    float widthMetres = 1.0f;                ///< Rectangle: along alongWS
+    float heightMetres = 1.0f;               ///< Rectangle: across it
+    float lengthMetres = 1.0f;               ///< Tube: along its direction
+    glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle: unit, at right angles to directionWS
+    bool isTwoSided = false;                 ///< Rectangle and Disk: shine from the back too
     std::optional<LightAnimation> animation;
     bool operator==(const Light&) const = default;
 };
@@ -103,6 +113,11 @@ inline constexpr std::tuple kLightFields{
           std::numbers::pi_v<float>, " radians"},
     Field{"outerConeRadians", &Light::outerConeRadians, "the half angle of the outer cone", 0.0,
           std::numbers::pi_v<float>, " radians"},
+    Field{"widthMetres", &Light::widthMetres, "the width", 0.0, kMostRadiusMetres, " m"},
+    Field{"heightMetres", &Light::heightMetres, "the height", 0.0, kMostRadiusMetres, " m"},
+    Field{"lengthMetres", &Light::lengthMetres, "the length", 0.0, kMostRadiusMetres, " m"},
+    Field{"alongWS", &Light::alongWS},
+    Field{"isTwoSided", &Light::isTwoSided},
     Field{"animation", &Light::animation},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
@@ -114,7 +129,8 @@ static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<L
 struct LightParameter {
     enum class Kind : std::uint8_t {
         Number,
-        Angle ///< radians in its member, degrees in scene files and the viewer
+        Metres, ///< the viewer's slider goes as far as the scene is large
+        Angle   ///< radians in its member, degrees in scene files and the viewer
     };
     Kind kind;
     const char* key;   ///< of scene files
@@ -140,11 +156,16 @@ struct LightTypeInfo {
     LightReach reach;
     bool hasDirection;
     std::span<const LightParameter> parameters{};
+    /// It shines from a surface that is seen: intensity is its radiance, and Light::falloff is InverseSquare.
+    bool isArea = false;
+    bool isFlat = false; ///< an area with a front, towards its direction, and a back: Light::isTwoSided
 
     /// A position, and with it a falloff, perhaps a range, and perhaps an animation.
     constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }
+    /// Light::widthMetres along Light::alongWS and Light::heightMetres across it, in place of a radius.
+    constexpr bool hasSides() const { return type == LightType::Rectangle; }
     /// Whether shaders read LightShapeTexels for this type (shaders/shared/light.h).
-    constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty(); }
+    constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty() || isArea; }
 };
 
 namespace detail {
@@ -154,7 +175,13 @@ inline constexpr LightParameter kCones[] = {
     // 90 degrees is KHR_lights_punctual's limit.
     {LightParameter::Kind::Angle, "outerDegrees", "Outer cone", &Light::outerConeRadians, 0.0f, 90.0f}};
 
-inline constexpr LightParameter kRadius{LightParameter::Kind::Number, "radius", "Radius",
+inline constexpr LightParameter kSides[] = {
+    {LightParameter::Kind::Metres, "width", "Width", &Light::widthMetres, 0.0f, float(kMostRadiusMetres)},
+    {LightParameter::Kind::Metres, "height", "Height", &Light::heightMetres, 0.0f, float(kMostRadiusMetres)}};
+inline constexpr LightParameter kLength[] = {
+    {LightParameter::Kind::Metres, "length", "Length", &Light::lengthMetres, 0.0f, float(kMostRadiusMetres)}};
+
+inline constexpr LightParameter kRadius{LightParameter::Kind::Metres, "radius", "Radius",
                                         &Light::radiusMetres,         0.0f,     float(kMostRadiusMetres)};
 inline constexpr LightParameter kAngularRadius{
     LightParameter::Kind::Angle,     "angularRadiusDegrees", "Angular radius", &Light::angularRadiusRadians, 0.0f,
@@ -164,6 +191,10 @@ inline constexpr std::array kLightTypes{
     LightTypeInfo{LightType::Directional, "directional", "lx", LightReach::Everywhere, true},
     LightTypeInfo{LightType::Point, "point", "cd", LightReach::Sphere, false},
     LightTypeInfo{LightType::Spot, "spot", "cd", LightReach::Cone, true, kCones},
+    LightTypeInfo{LightType::Rectangle, "rectangle", "cd/m2", LightReach::Sphere, true, kSides, true, true},
+    LightTypeInfo{LightType::Disk, "disk", "cd/m2", LightReach::Sphere, true, {}, true, true},
+    LightTypeInfo{LightType::Sphere, "sphere", "cd/m2", LightReach::Sphere, false, {}, true},
+    LightTypeInfo{LightType::Tube, "tube", "cd/m2", LightReach::Sphere, true, kLength, true},
 };
 consteval bool areLightTypesSound() {
     for (std::size_t i = 0; i < kLightTypes.size(); ++i) {
@@ -186,9 +217,11 @@ constexpr const LightTypeInfo& infoOf(LightType type) {
     return detail::kLightTypes[std::size_t(type)];
 }
 
-/// What makes a type's shadows soft: every type has such a parameter beside those of its row.
-constexpr const LightParameter& sizeParameter(const LightTypeInfo& type) {
-    return type.hasPosition() ? detail::kRadius : detail::kAngularRadius;
+/// What every type has beside the parameters of its row, but those with sides: what makes its shadows soft, and of an
+/// area light how far its surface reaches.
+constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
+    if (type.hasSides()) return nullptr;
+    return type.hasPosition() ? &detail::kRadius : &detail::kAngularRadius;
 }
 
 } // namespace tessera::scenes

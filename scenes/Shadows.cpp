@@ -1,7 +1,10 @@
 #include "scenes/Shadows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "scenes/AreaLight.h"
 #include "scenes/InUse.h"
 
 namespace tessera::scenes {
@@ -20,8 +23,14 @@ bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& req
     return false;
 }
 
+double shadowRadiusMetres(const Light& light) {
+    if (!infoOf(light.type).isArea || light.type == LightType::Disk || light.type == LightType::Sphere)
+        return light.radiusMetres;
+    return std::sqrt(largestSeenArea(light) / std::numbers::pi);
+}
+
 bool hasSize(const Light& light) {
-    return light.*sizeParameter(infoOf(light.type)).member > 0.0f;
+    return infoOf(light.type).hasPosition() ? shadowRadiusMetres(light) > 0.0 : light.angularRadiusRadians > 0.0f;
 }
 
 bool castsShadow(const Material& material) {

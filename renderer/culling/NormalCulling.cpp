@@ -12,12 +12,15 @@ namespace {
 
 constexpr float kLongestNormal = 1.7320509f; ///< a cube's half diagonal, rounded up
 
-/// Where a light that ends somewhere is; w is how far off that and the surfaces that it reaches may be by rounding,
-/// times the length of the longest normal. A light and all that it reaches lie within three radii of its sphere's
-/// centre. The apex of a cone stands back by its share of the error (CullLights.cpp).
+/// Where a light that ends somewhere is; w is how far from there it may shine from, with the rounding of its place and
+/// of the surfaces that it reaches, times the length of the longest normal. A light and all that it reaches lie within
+/// three radii of its sphere's centre, but for the surface of an area light. The apex of a cone stands back by its
+/// share of the error (CullLights.cpp).
 glm::vec4 positionAndError(const shared::CullLight& light, const glm::vec4& depthKey) {
-    float error = shared::roundingMargin(3.0f * light.sphere.w + glm::length(glm::vec3(light.sphere)), depthKey);
-    if (!shared::hasCone(light)) return {glm::vec3(light.sphere), kLongestNormal * error};
+    const float surfaceMetres = shared::hasCone(light) ? 0.0f : light.apex.w;
+    const float farthestMetres = 3.0f * light.sphere.w + glm::length(glm::vec3(light.sphere)) + surfaceMetres;
+    float error = shared::roundingMargin(farthestMetres, depthKey);
+    if (!shared::hasCone(light)) return {glm::vec3(light.sphere), kLongestNormal * (surfaceMetres + error)};
     if (light.apex.w > 0.0f) error += shared::roundingMargin(0.0f, depthKey) / light.apex.w;
     return {glm::vec3(light.apex), kLongestNormal * error};
 }

@@ -23,7 +23,7 @@ private:
     const BuildInput& input_;
     const TileGrid& grid_;
     const NormalPicture& normals_;
-    std::vector<glm::vec4> lights_; ///< position in culling space, and how far off it and what it lights may be
+    std::vector<glm::vec4> lights_; ///< position in culling space, and how far from it the light may shine from
 };
 
 } // namespace tessera::culling

@@ -34,6 +34,7 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
     const glm::vec4& depthKey = view.constants.depthKey;
     const double margin = double(shared::roundingMargin(float(reach + glm::length(position)), depthKey));
     Sphere sphere{position, reach};
+    cull.apex.w = surfaceReachMetres(typeOf(light), shape);
     if (scenes::infoOf(typeOf(light)).reach == scenes::LightReach::Cone) {
         const double cosOuter = std::clamp(double(shared::coneCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
         const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shared::coneTravel(shape)));

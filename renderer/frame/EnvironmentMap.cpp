@@ -9,7 +9,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/frame/EnvironmentCache.h"
-#include "shaders/shared/lobe_table.h"
 
 namespace tessera::frame {
 
@@ -114,8 +113,6 @@ EnvironmentShape environmentShape(const scenes::Image& map) {
     EnvironmentShape shape;
     shape.map = {graph::Format::Rgba32Float, map.width, map.height};
     shape.filtered = {graph::Format::Rgba32Float, atlas.x, atlas.y};
-    shape.lobes = {graph::Format::Rgba32Float, LOBE_TABLE_SIDE,    LOBE_TABLE_SIDE, 1, 1,
-                   LOBE_TABLE_LAYERS,          graph::Shape::Array};
     shape.sampleBytes = kSamples * ENVIRONMENT_SAMPLE_TEXELS * sizeof(glm::vec4);
     return shape;
 }
@@ -152,18 +149,6 @@ const gpu::Texture& EnvironmentGpu::filtered() {
     filtered_ = std::move(filtered);
     known_.reset();
     return *filtered_;
-}
-
-const gpu::Texture& EnvironmentGpu::lobes() {
-    if (lobes_) return *lobes_;
-    const graph::TextureDesc shape = environmentShape(environment_.map).lobes;
-    auto lobes = std::make_unique<gpu::Texture>("lobe_table", shape);
-    static const std::vector<glm::vec4> table = cachedLobeTable(cacheFolder()); // the same for every map
-    const std::size_t layer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
-    for (std::size_t i = 0; i < std::size_t(LOBE_TABLE_LAYERS); ++i)
-        lobes->upload(0, std::span(table).subspan(i * layer, layer), int(i));
-    lobes_ = std::move(lobes);
-    return *lobes_;
 }
 
 } // namespace tessera::frame

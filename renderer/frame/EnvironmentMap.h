@@ -38,7 +38,7 @@ std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std:
 
 /// The textures and the buffer of a map on the GPU.
 struct EnvironmentShape {
-    graph::TextureDesc map, filtered, lobes;
+    graph::TextureDesc map, filtered;
     std::size_t sampleBytes = 0;
     bool operator==(const EnvironmentShape&) const = default;
 };
@@ -54,7 +54,6 @@ public:
     const gpu::Texture& map();                             ///< as environmentTexels()
     const gpu::Buffer& samples();                          ///< as makeEnvironmentSamples()
     const gpu::Texture& filtered();                        ///< as atlasOf()
-    const gpu::Texture& lobes();                           ///< as makeLobeTable()
     const gpu::Sampler& smooth() const { return smooth_; } ///< between texels
 
 private:
@@ -62,7 +61,7 @@ private:
 
     const scenes::Environment& environment_;
     std::shared_ptr<const FilteredEnvironment> known_; ///< until it is on the GPU
-    std::unique_ptr<gpu::Texture> map_, filtered_, lobes_;
+    std::unique_ptr<gpu::Texture> map_, filtered_;
     std::unique_ptr<gpu::Buffer> samples_;
     gpu::Sampler smooth_;
 };

@@ -197,15 +197,20 @@ void addModels(const FeatureSet& features, Defines& defines) {
 }
 
 void addLightTypes(const FeatureSet& features, Defines& defines) {
-    std::vector<std::string> cones;
+    std::vector<std::string> cones, areas;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
         defines.emplace_back("LIGHT_" + inCapitals(type.name), fmt::format("{}", int(type.type)));
-        if (features[type.type] && type.reach == scenes::LightReach::Cone)
-            cones.push_back(fmt::format("(type) == {}", int(type.type)));
+        if (!features[type.type]) continue;
+        const std::string isType = fmt::format("(type) == {}", int(type.type));
+        if (type.reach == scenes::LightReach::Cone) cones.push_back(isType);
+        if (type.isArea) areas.push_back(isType);
     }
     // Whether a light's type is one of those.
-    defines.emplace_back("IS_CONE_LIGHT(type)",
-                         cones.empty() ? "(false)" : fmt::format("({})", fmt::join(cones, " || ")));
+    const auto any = [](const std::vector<std::string>& types) {
+        return types.empty() ? "(false)" : fmt::format("({})", fmt::join(types, " || "));
+    };
+    defines.emplace_back("IS_CONE_LIGHT(type)", any(cones));
+    defines.emplace_back("IS_AREA_LIGHT(type)", any(areas));
 }
 
 } // namespace
@@ -287,6 +292,10 @@ bool FeatureSet::placedLights() const {
 
 bool FeatureSet::coneLights() const {
     return any([](const scenes::LightTypeInfo& type) { return type.reach == scenes::LightReach::Cone; });
+}
+
+bool FeatureSet::areaLights() const {
+    return any([](const scenes::LightTypeInfo& type) { return type.isArea; });
 }
 
 bool FeatureSet::lightShapes() const {
@@ -383,6 +392,7 @@ Defines featureDefines(const FeatureSet& features) {
     addFlag("HAS_ENTERING_LIGHT", features.enteringLight());
     addFlag("HAS_PLACED_LIGHTS", features.placedLights());
     addFlag("HAS_CONE_LIGHTS", features.coneLights());
+    addFlag("HAS_AREA_LIGHTS", features.areaLights());
     addFlag("HAS_LIGHT_SHAPES", features.lightShapes());
     addFlag("HAS_LIGHT_SHADOW_TEXELS", features.lightShadowTexels());
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)

@@ -99,6 +99,7 @@ struct FeatureSet {
     bool anyLights() const;
     bool placedLights() const;      ///< lights with a position
     bool coneLights() const;        ///< lights of LightReach::Cone
+    bool areaLights() const;        ///< lights of a surface
     bool lightShapes() const;       ///< lights of which shaders read LightShapeTexels
     bool lightShadowTexels() const; ///< lights of which shaders read LightShadowTexels
     bool operator==(const FeatureSet&) const = default;

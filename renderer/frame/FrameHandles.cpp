@@ -108,10 +108,9 @@ void CasterTreeHandles::bind(const graph::PassContext& context) const {
 }
 
 EnvironmentHandles EnvironmentHandles::read(graph::PassBuilder& pass) const {
-    EnvironmentHandles result{environment, pass.read(constants, Access::UniformRead), {}, {}, {}, {}};
+    EnvironmentHandles result{environment, pass.read(constants, Access::UniformRead), {}, {}, {}};
     result.map = readWhereThere(pass, map, Access::Sampled);
     result.filtered = readWhereThere(pass, filtered, Access::Sampled);
-    result.lobes = readWhereThere(pass, lobes, Access::Sampled);
     result.samples = readWhereThere(pass, samples, Access::TexelRead);
     return result;
 }
@@ -119,12 +118,18 @@ EnvironmentHandles EnvironmentHandles::read(graph::PassBuilder& pass) const {
 void EnvironmentHandles::bind(const graph::PassContext& context) const {
     gpu::bindUniformBuffer(UNIFORM_ENVIRONMENT, context.buffer(constants), 0, sizeof(shared::EnvironmentConstants));
     if (map) gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT, context.texture(*map));
-    const auto bindSmooth = [&](std::uint32_t unit, const std::optional<graph::TextureHandle>& texture) {
-        if (texture) gpu::bindTexture(unit, context.texture(*texture), &environment->smooth());
-    };
-    bindSmooth(TEXTURE_UNIT_ENVIRONMENT_FILTERED, filtered);
-    bindSmooth(TEXTURE_UNIT_LOBES, lobes);
+    if (filtered)
+        gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT_FILTERED, context.texture(*filtered), &environment->smooth());
     if (samples) bindTexels(context, TEXTURE_UNIT_ENVIRONMENT_SAMPLES, *samples, Format::Rgba32Float);
+}
+
+LobeHandles LobeHandles::read(graph::PassBuilder& pass) const {
+    return {lobes, readWhereThere(pass, table, Access::Sampled), readWhereThere(pass, shapes, Access::Sampled)};
+}
+
+void LobeHandles::bind(const graph::PassContext& context) const {
+    if (table) gpu::bindTexture(TEXTURE_UNIT_LOBES, context.texture(*table), &lobes->smooth());
+    if (shapes) gpu::bindTexture(TEXTURE_UNIT_LOBE_SHAPES, context.texture(*shapes), &lobes->smooth());
 }
 
 LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
@@ -136,7 +141,8 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
                           {},
                           {},
                           readWhereThere(pass, shadowAtlas, Access::Sampled),
-                          {}};
+                          {},
+                          lobes.read(pass)};
     if (environment) result.environment = environment->read(pass);
     if (lists) result.lists = lists->read(pass);
     if (casterTree) result.casterTree = casterTree->read(pass);
@@ -155,6 +161,7 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     if (casterTree) casterTree->bind(context);
     if (shadowAtlas) gpu::bindTexture(TEXTURE_UNIT_SHADOWS, context.texture(*shadowAtlas));
     if (environment) environment->bind(context);
+    lobes.bind(context);
 }
 
 GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
@@ -225,8 +232,18 @@ EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameS
     if (some(&FrameSpec::usesFilteredEnvironment))
         handles.filtered =
             graph.import("environment_filtered", shape.filtered, environment ? &environment->filtered() : nullptr);
+    return handles;
+}
+
+LobeHandles importLobes(graph::Graph& graph, std::span<const FrameSpec* const> specs, LobesGpu* lobes) {
+    LobeHandles handles{lobes, {}, {}};
+    const auto some = [&](bool (FrameSpec::*uses)() const) {
+        return std::ranges::any_of(specs, [&](const FrameSpec* spec) { return (spec->*uses)(); });
+    };
     if (some(&FrameSpec::usesLobeTable))
-        handles.lobes = graph.import("lobe_table", shape.lobes, environment ? &environment->lobes() : nullptr);
+        handles.table = graph.import("lobe_table", LobesGpu::tableDesc(), lobes ? &lobes->table() : nullptr);
+    if (some(&FrameSpec::usesLobeShapes))
+        handles.shapes = graph.import("lobe_shapes", LobesGpu::shapesDesc(), lobes ? &lobes->shapes() : nullptr);
     return handles;
 }
 

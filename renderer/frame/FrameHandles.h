@@ -6,6 +6,7 @@
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/Diffusion.h"
 #include "renderer/frame/EnvironmentMap.h"
+#include "renderer/frame/LobesGpu.h"
 #include "renderer/frame/PreparedView.h"
 #include "renderer/frame/SceneGpu.h"
 #include "renderer/frame/ShadowMemory.h"
@@ -28,6 +29,7 @@ struct DrawnView {
     PreparedView prepared;
     const SceneGpu* scene = nullptr;
     EnvironmentGpu* environment = nullptr; ///< where the view has use for it
+    LobesGpu* lobes = nullptr;             ///< likewise
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
@@ -56,9 +58,17 @@ struct ViewHandles {
 struct EnvironmentHandles {
     EnvironmentGpu* environment = nullptr; ///< null if the frame is only planned
     graph::BufferHandle constants;         ///< shared::EnvironmentConstants
-    std::optional<graph::TextureHandle> map, filtered, lobes;
+    std::optional<graph::TextureHandle> map, filtered;
     std::optional<graph::BufferHandle> samples;
     EnvironmentHandles read(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+};
+
+/// The tables of lobes (LobesGpu). A pass reads what it is given.
+struct LobeHandles {
+    LobesGpu* lobes = nullptr; ///< null if the frame is only planned
+    std::optional<graph::TextureHandle> table, shapes;
+    LobeHandles read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
 };
 
@@ -71,6 +81,7 @@ struct SceneHandles {
     std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
     std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
     EnvironmentHandles environment;                   ///< without constants; what some view has use for
+    LobeHandles lobes;                                ///< what some view has use for
 };
 
 /// The scene as a view draws it.
@@ -134,6 +145,7 @@ struct LightingInputs {
     std::optional<CasterTreeHandles> casterTree;      ///< where the view has shadows that are traced
     std::optional<graph::TextureHandle> shadowAtlas;  ///< where it has shadow maps
     std::optional<EnvironmentHandles> environment;    ///< where it lights surfaces
+    LobeHandles lobes;                                ///< those that lights and the environment need
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -170,5 +182,7 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
 /// The same of what views of these specs use of the environment; null where the frame is only planned.
 EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
                                      EnvironmentGpu* environment);
+/// The same of the tables of lobes.
+LobeHandles importLobes(graph::Graph& graph, std::span<const FrameSpec* const> specs, LobesGpu* lobes);
 
 } // namespace tessera::frame

@@ -133,7 +133,7 @@ struct FrameSettings {
     LightingSpace space = LightingSpace::World;
     bool prune = true;
     bool specular = true;
-    double rangeTolerance = 0.0;   ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
+    double rangeTolerance = 0.0;   ///< A B C and area lights end where they fall to it (LightRange.h); 0: nowhere
     std::optional<int> soloLight;  ///< index into Scene::lights: only this one shines
     scenes::ShadowRequest shadows; ///< which lights cast shadows
     ShadowFilter shadowFilter = ShadowFilter::Traced;

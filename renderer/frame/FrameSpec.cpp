@@ -276,7 +276,12 @@ bool FrameSpec::usesEnvironmentMap() const {
 }
 
 bool FrameSpec::usesLobeTable() const {
-    return features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes());
+    return features.areaLights() ||
+           (features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes()));
+}
+
+bool FrameSpec::usesLobeShapes() const {
+    return features.areaLights();
 }
 
 bool FrameSpec::compensatesLobes() const {
@@ -381,7 +386,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                        {}});
     }
     addLights(out, lights.features, lights.off, "off, or not the solo light");
-    addLights(out, lights.features, lights.dark, "no intensity, range or cone");
+    addLights(out, lights.features, lights.dark, "no intensity, range, cone or surface");
     addLights(out, lights.features, lights.unseen, "their range ends outside the view");
     return out;
 }

@@ -48,6 +48,7 @@ struct FrameSpec {
     bool usesEnvironmentSamples() const;
     bool usesFilteredEnvironment() const;
     bool usesLobeTable() const;
+    bool usesLobeShapes() const;
     bool compensatesLobes() const;
 
     /// Whether shadows follow rays through the casters.

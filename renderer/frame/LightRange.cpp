@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/AreaLight.h"
+
 namespace tessera::frame {
 
 namespace {
-
-bool fallsOffByABC(const scenes::Light& light) {
-    return scenes::infoOf(light.type).hasPosition() && light.falloff == scenes::Falloff::Attenuation;
-}
 
 /// The positive root of c + b r + a r^2, where brightest / (A + B r + C r^2) is the tolerance: a = C, b = B,
 /// c = A - brightest / tolerance. As 2c / (-b - sqrt(b^2 - 4ac)), in which nothing cancels, also right for a = 0.
@@ -25,22 +23,44 @@ double truncatedReachMetres(double brightest, const glm::dvec3& abc, double tole
     return minusC / (halfB + std::hypot(halfB, std::sqrt(abc.z) * std::sqrt(minusC)));
 }
 
+/// At d metres from its position a light of the radiance L causes an irradiance of at most L A / (d - b)^2: with A the
+/// largest area that its surface shows and b the radius of the ball that it lies in, no part of it is nearer than d -
+/// b.
+double areaReachMetres(const scenes::Light& light, double brightest, double tolerance) {
+    return scenes::surfaceReachMetres(light) + std::sqrt(brightest * scenes::largestSeenArea(light) / tolerance);
+}
+
+double brightestOf(const scenes::Light& light) {
+    const glm::dvec3 color = lightColor(light);
+    return std::max({color.r, color.g, color.b});
+}
+
 } // namespace
 
 glm::dvec3 lightColor(const scenes::Light& light) {
     return glm::min(glm::dvec3(light.color) * double(light.intensity), glm::dvec3(1e30));
 }
 
+bool takesTolerance(const scenes::Light& light) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (info.isArea) return std::isinf(light.rangeMetres);
+    return info.hasPosition() && light.falloff == scenes::Falloff::Attenuation;
+}
+
 double reachMetres(const scenes::Light& light, double rangeTolerance) {
-    if (!scenes::infoOf(light.type).hasPosition()) return scenes::kInfinity;
-    if (light.falloff == scenes::Falloff::InverseSquare) return light.rangeMetres;
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (!info.hasPosition()) return scenes::kInfinity;
+    if (info.isArea && !scenes::hasSurface(light)) return 0.0;
+    if (!takesTolerance(light)) return light.rangeMetres;
     if (rangeTolerance == 0.0) return scenes::kInfinity;
-    const glm::dvec3 color = lightColor(light);
-    return truncatedReachMetres(std::max({color.r, color.g, color.b}), glm::dvec3(light.attenuation), rangeTolerance);
+    const double brightest = brightestOf(light);
+    if (info.isArea) return areaReachMetres(light, brightest, rangeTolerance);
+    return truncatedReachMetres(brightest, glm::dvec3(light.attenuation), rangeTolerance);
 }
 
 void TruncatedLights::add(const scenes::Light& light, double rangeTolerance) {
-    if (!fallsOffByABC(light) || glm::vec3(lightColor(light)) == glm::vec3(0.0f)) return;
+    if (!takesTolerance(light) || glm::vec3(lightColor(light)) == glm::vec3(0.0f)) return;
+    if (scenes::infoOf(light.type).isArea && !scenes::hasSurface(light)) return;
     const double reach = reachMetres(light, rangeTolerance);
     if (std::isinf(reach)) {
         ++endless;

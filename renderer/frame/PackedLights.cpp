@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Shadows.h"
 #include "shaders/shared/culling.h"
 
@@ -71,6 +72,28 @@ static_assert(std::ranges::all_of(scenes::lightTypes(),
                                   [](const scenes::LightTypeInfo& info) { return info.parameters.size() <= 2; }),
               "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
 
+/// The surface of an area light (shared/light.h).
+void packArea(const scenes::Light& light, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
+    const glm::dvec3 travelLS = lsFromWorld * light.directionWS;
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    const auto metres = [](const glm::dvec3& directionLS, float length) {
+        return glm::vec3(directionLS * double(length));
+    };
+    if (info.isFlat) {
+        // A disk may be turned in its plane.
+        const glm::dvec3 alongLS =
+            lsFromWorld * (info.hasSides() ? light.alongWS : scenes::usualAlong(light.directionWS));
+        const glm::dvec3 acrossLS = glm::cross(travelLS, alongLS);
+        const float along = info.hasSides() ? 0.5f * light.widthMetres : light.radiusMetres;
+        const float across = info.hasSides() ? 0.5f * light.heightMetres : light.radiusMetres;
+        shape.axis = glm::vec4(metres(alongLS, along), 0.0f);
+        shape.attenuation = glm::vec4(metres(acrossLS, across), light.isTwoSided ? 1.0f : 0.0f);
+    } else {
+        const float along = info.hasDirection ? 0.5f * light.lengthMetres : 0.0f;
+        shape.axis = glm::vec4(metres(travelLS, along), light.radiusMetres);
+    }
+}
+
 PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
     PackedLight result;
     shared::LightTexels& packed = result.texels;
@@ -87,9 +110,11 @@ PackedLight packLight(const scenes::Light& light, double reach, const CameraView
         }
     }
     result.shadow.shadow.x =
-        info.hasPosition() ? light.radiusMetres : float(std::tan(double(light.angularRadiusRadians)));
+        float(info.hasPosition() ? scenes::shadowRadiusMetres(light) : std::tan(double(light.angularRadiusRadians)));
     if (info.reach == scenes::LightReach::Cone)
         kind |= packCone(light, travelLS, result.shape);
+    else if (info.isArea)
+        packArea(light, view.lsFromWorld, result.shape);
     else if (info.hasShape())
         packParameters(light, travelLS, result.shape);
     packed.color = glm::vec4(isDark(light, reach) ? glm::vec3(0.0f) : glm::vec3(lightColor(light)), float(kind));
@@ -110,6 +135,14 @@ void addShadow(const scenes::Light& light, const FrameSettings& settings, Packed
 }
 
 } // namespace
+
+float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels& shape) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(type);
+    if (!info.isArea) return 0.0f;
+    const float along = glm::length(glm::vec3(shape.axis));
+    if (info.hasSides()) return std::hypot(along, glm::length(glm::vec3(shape.attenuation)));
+    return AREA_OUTLINE_REACH * (info.isFlat ? along : std::hypot(along, shape.axis.w));
+}
 
 static_assert(scenes::kLightTypeCount <= LIGHT_TYPE_MASK + 1);
 

@@ -13,6 +13,10 @@ namespace tessera::frame {
 /// The type of a packed light.
 scenes::LightType typeOf(const shared::LightTexels& light);
 
+/// The radius in metres of the ball around its position that the surface of a packed area light lies in; of other types
+/// 0.
+float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels& shape);
+
 /// The lights of one frame as the GPU reads them: those that casters may hide, then the others, each in document order.
 /// Lights that cannot change the picture are left out.
 struct PackedLights {
@@ -27,7 +31,7 @@ struct PackedLights {
     std::size_t everywhere = 0; ///< those among texels without a range
     std::size_t shadowed = 0;   ///< those among texels that casters may hide
     std::size_t off = 0;        ///< left out: disabled, or not the solo light
-    std::size_t dark = 0;       ///< left out: no intensity, no range or no cone
+    std::size_t dark = 0;       ///< left out: no intensity, no range, no cone or no surface
     std::size_t unseen = 0;     ///< left out: the range ends outside the view
     TruncatedLights truncated;  ///< what settings.rangeTolerance did to those that are on, left out or not
 };

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/AreaLight.h"
 #include "scenes/Direction.h"
 
 namespace tessera::scenes {
@@ -49,6 +50,9 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     const glm::dmat3 linear(worldFromPart);
     light.positionWS = movedPoint(worldFromPart, light.positionWS);
     light.directionWS = movedDirection(linear * light.directionWS, "light", light.name);
+    if (infoOf(light.type).hasSides())
+        light.alongWS = acrossFrom(light.directionWS, movedDirection(linear * light.alongWS, "light", light.name))
+                            .value_or(usualAlong(light.directionWS));
     if (!light.animation) return;
     LightAnimation& animation = *light.animation;
     animation.centerWS = movedPoint(worldFromPart, animation.centerWS);

@@ -16,7 +16,7 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-using Json = nlohmann::json;
+using GltfJson = nlohmann::json;
 
 // ---- Container -----------------------------------------------------------------------------------------------------
 
@@ -113,11 +113,11 @@ bool isSupported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
 }
 
-Json parseDocument(const std::string& text, const std::string& file) {
+GltfJson parseDocument(const std::string& text, const std::string& file) {
     requireJsonDepth(text, file);
     try {
-        return Json::parse(text);
-    } catch (const Json::exception& error) {
+        return GltfJson::parse(text);
+    } catch (const GltfJson::exception& error) {
         std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line ..."
         if (const std::size_t end = what.find("] "); what.starts_with('[') && end != std::string::npos)
             what.erase(0, end + 2);
@@ -127,7 +127,7 @@ Json parseDocument(const std::string& text, const std::string& file) {
 }
 
 /// Refuses unreadable versions before the shape is checked, because another version has another shape.
-void checkVersion(const Json& json, const std::string& file) {
+void checkVersion(const GltfJson& json, const std::string& file) {
     const auto asset = json.is_object() ? json.find("asset") : json.end();
     if (!json.is_object() || asset == json.end() || !asset->is_object())
         throw InputError(
@@ -169,7 +169,7 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
     ledger.charge(parsedJsonBytes(container.json), [&] { return document.file + ": its JSON"; });
-    Json json = parseDocument(container.json, document.file);
+    GltfJson json = parseDocument(container.json, document.file);
     checkVersion(json, document.file);
     const Source source{json, document.file, ledger};
     Value(source, json, Place()).read(document.model);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/AreaLight.h"
 #include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonNames.h"
 
@@ -15,9 +16,10 @@ namespace {
 LightType readType(const JsonValue& value) {
     const std::string name = value.text();
     if (name == "area") {
-        std::vector<std::string_view> shaded;
-        for (const auto& [typeName, type] : kLightTypes) shaded.push_back(typeName);
-        value.fail(fmt::format("lights of type 'area' are not shaded yet; shaded are {}", fmt::join(shaded, ", ")));
+        std::vector<std::string_view> areas;
+        for (const LightTypeInfo& info : lightTypes())
+            if (info.isArea) areas.push_back(info.name);
+        value.fail(fmt::format("'area' names no shape; types of area lights are {}", fmt::join(areas, ", ")));
     }
     if (name == "environment")
         value.fail("light from everywhere is no light of this list; give the document a key 'environment'");
@@ -34,7 +36,13 @@ float readCoefficient(JsonObject& object, std::string_view key) {
 
 void readFalloff(const JsonValue& value, Light& light) {
     JsonObject object = value.object();
-    light.falloff = object.require("type").oneOf<Falloff>("falloff", kFalloffs);
+    const JsonValue type = object.require("type");
+    light.falloff = type.oneOf<Falloff>("falloff", kFalloffs);
+    const LightTypeInfo& info = infoOf(light.type);
+    if (info.isArea && light.falloff != Falloff::InverseSquare)
+        type.fail(fmt::format("a {} light has no falloff '{}', since its shape decides how its light falls off; "
+                              "inverse_square may end it by a range",
+                              info.name, type.text()));
     if (light.falloff == Falloff::InverseSquare) {
         if (const auto range = object.find("range")) light.rangeMetres = range->single(0.0);
         object.done("an inverse_square falloff");
@@ -104,6 +112,20 @@ void readDirection(JsonObject& object, Light& light) {
     }
 }
 
+void readAlong(JsonObject& object, Light& light) {
+    light.alongWS = usualAlong(light.directionWS);
+    const auto along = object.find("along");
+    if (!along) return;
+    const std::optional<glm::dvec3> across = acrossFrom(light.directionWS, along->direction());
+    if (!across) {
+        const glm::dvec3 given = along->vector3();
+        along->fail(
+            fmt::format("is ({:g}, {:g}, {:g}), which runs along the light's direction; give a vector across it",
+                        given.x, given.y, given.z));
+    }
+    light.alongWS = *across;
+}
+
 void readParameter(JsonObject& object, const LightParameter& parameter, Light& light) {
     const auto value = object.find(parameter.key);
     if (!value) return;
@@ -135,15 +157,23 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (const auto enabled = object.find("enabled")) light.enabled = enabled->boolean();
     if (const auto color = object.find("color")) light.color = color->color();
     if (const auto intensity = object.find("intensity")) light.intensity = intensity->single(0.0);
-    if (infoOf(light.type).hasPosition()) {
+    const LightTypeInfo& info = infoOf(light.type);
+    if (info.hasPosition()) {
         light.positionWS = object.require("position").vector3();
         if (const auto falloff = object.find("falloff")) readFalloff(*falloff, light);
         if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation);
     }
-    if (infoOf(light.type).hasDirection) readDirection(object, light);
+    if (info.hasDirection) readDirection(object, light);
+    if (info.hasSides()) readAlong(object, light);
     readParameters(object, light);
+    if (info.isFlat) {
+        if (const auto twoSided = object.find("twoSided")) light.isTwoSided = twoSided->boolean();
+    }
     if (const auto casts = object.find("castsShadow")) light.castsShadow = casts->boolean();
-    readParameter(object, sizeParameter(infoOf(light.type)), light);
+    if (const LightParameter* size = sizeParameter(info)) {
+        if (info.isArea) object.require(size->key);
+        readParameter(object, *size, light);
+    }
     readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
     return light;

@@ -5,7 +5,7 @@
 namespace tessera::scenes::scenejson {
 
 /// A light of any type of lightTypes(), with its falloff and animation; `index` names a nameless one. Throws
-/// InputError; the types that no shader evaluates yet are refused by name.
+/// InputError; "area" and "environment" are refused with what to write instead.
 Light readLight(const JsonValue& value, std::size_t index);
 
 /// A perspective or orthographic camera, placed by position and target or direction, or by a matrix.

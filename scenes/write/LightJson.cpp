@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Shadows.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/import/SceneJsonNames.h"
@@ -67,13 +68,16 @@ Json byKeys(const Light& light) {
         if (light.animation) json["animation"] = animationJson(*light.animation);
     }
     if (info.hasDirection) json["direction"] = numbers(light.directionWS);
+    if (info.hasSides() && light.alongWS != usualAlong(light.directionWS)) json["along"] = numbers(light.alongWS);
     const auto write = [&](const LightParameter& parameter) {
         const float value = light.*parameter.member;
         json[parameter.key] = parameter.kind == LightParameter::Kind::Angle ? degreesOf(value) : number(value);
     };
     for (const LightParameter& parameter : info.parameters) write(parameter);
+    if (info.isFlat && light.isTwoSided) json["twoSided"] = true;
     if (light.castsShadow) json["castsShadow"] = true;
-    if (hasSize(light)) write(sizeParameter(info));
+    if (const LightParameter* size = sizeParameter(info); size != nullptr && (info.isArea || hasSize(light)))
+        write(*size);
     return json;
 }
 

@@ -14,6 +14,8 @@ void main()
     if (!takesLight(surface)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
     precise vec3 given = vec3(0.0); // the blending adds
-    addLightOnSurface(light, true, seenSurface(surface, viewpoint.toViewerLS), viewpoint, given);
+    SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
+    prepareForLights(seen);
+    addLightOnSurface(light, true, seen, viewpoint, given);
     radiance = vec4(given, 0.0);
 }

@@ -31,7 +31,7 @@ SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
 // culling space.
 struct CullLight {
     vec4 sphere; // xyz centre, w radius: encloses all of it; w < 0: reaches everywhere
-    vec4 apex;   // cone: xyz position, w sine of the outer angle
+    vec4 apex;   // cone: xyz position, w sine of the outer angle; else w how far from its middle its surface reaches
     vec4 axis;   // cone: xyz unit direction of travel, w cosine of the outer angle; else w is -2
 };
 

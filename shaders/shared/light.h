@@ -18,6 +18,10 @@
 #define LIGHT_SHAPE_TEXELS 2
 #define LIGHT_SHADOW_TEXELS 1
 
+// Round outlines are drawn with straight edges of the same area, whose vertices lie at most so many times as far out
+// (lib/light/area_outline.glsl).
+#define AREA_OUTLINE_REACH 1.015f
+
 SHARED_BEGIN
 
 // The data of every kind of light.
@@ -33,6 +37,10 @@ struct LightTexels {
 // Both are (cos angle - cos outer) x scale, scale = 1/max(0.001, cos inner - cos outer): with a the unit direction in
 // which the light travels, |l + a|^2 / 2 = 1 - cos angle. Cosines of small angles share their leading digits; this
 // difference keeps its own.
+// Of an area light (LightTypeInfo::isArea) position is its middle, color its radiance. A rectangle and a disk reach
+// from the middle by axis.xyz and attenuation.xyz, at right angles, whose cross product points where they shine;
+// attenuation.w is 1 where they shine from both sides. A sphere has its radius in axis.w; a tube reaches from the
+// middle by axis.xyz and its opposite, and has its radius in axis.w.
 struct LightShapeTexels {
     vec4 axis;        // xyz a LS, w first parameter; cone: -a where cos outer <= -0.5, w weight: scale/2, -scale/2,
                       // broad: scale

@@ -38,8 +38,8 @@ SHARED_BEGIN
 #define STORAGE_LIGHTS 7
 
 // Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. What needs no
-// environment, and so no occlusion texture, keeps to 16, and programs that never sample both share a number:
-// renderer/gpu/Program.h refuses one that samples more than the driver lets it.
+// environment, and so no occlusion texture, and no area lights keeps to 16, and programs that never sample both share a
+// number: renderer/gpu/Program.h refuses one that samples more than the driver lets it.
 #define TEXTURE_UNITS_A_STAGE 32
 #define TEXTURE_UNITS_GUARANTEED 16
 
@@ -52,6 +52,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_ENVIRONMENT_SAMPLES 18
 #define TEXTURE_UNIT_ENVIRONMENT_FILTERED 19
 #define TEXTURE_UNIT_LOBES 20
+#define TEXTURE_UNIT_LOBE_SHAPES 21
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).

@@ -32,11 +32,9 @@ struct Change {
 /// Each change alone, applied to the scene of every feature, must show.
 class Features : public test::GlTest {
 protected:
-    /// Without pruning: all scenes share their programs. Invariance holds pruned pictures to these.
     static frame::FrameSettings small() {
         frame::FrameSettings settings;
         settings.sizePixels = {160, 90};
-        settings.prune = false;
         return settings;
     }
     static std::size_t changedPixels(const Picture& a, const Picture& b) {

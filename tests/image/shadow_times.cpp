@@ -118,7 +118,7 @@ public:
         for (const Way& way : kWays) {
             auto own = std::make_unique<Seen>(scene, settings);
             for (scenes::Light& light : own->scene.lights)
-                if (way.sizeMetres > 0.0f) light.*scenes::sizeParameter(infoOf(light.type)).member = way.sizeMetres;
+                if (way.sizeMetres > 0.0f) light.*scenes::sizeParameter(infoOf(light.type))->member = way.sizeMetres;
             if (!way.filter) own->settings.shadows = {scenes::ShadowRequest::Kind::None};
             own->settings.shadowFilter = way.filter.value_or(ShadowFilter::Traced);
             own->renderer.emplace(context, own->scene);

@@ -8,6 +8,7 @@
 #include "engine/ChooseCulling.h"
 #include "engine/PrepareView.h"
 #include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/LightRange.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::validation {
@@ -33,9 +34,8 @@ std::string layoutName(const frame::GBufferLayout& layout) {
 
 /// Ranges say something only of lights that fall off by A B C.
 bool rangesMatter(const scenes::Scene& scene) {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), [](const scenes::Light& light) {
-        return light.enabled && light.falloff == scenes::Falloff::Attenuation;
-    });
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const scenes::Light& light) { return light.enabled && frame::takesTolerance(light); });
 }
 
 void skip(BenchPlan& plan, const std::string& what, const std::string& why) {

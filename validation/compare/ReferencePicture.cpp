@@ -1,5 +1,6 @@
 #include "validation/compare/ReferencePicture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -66,6 +67,7 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.shadowNoise = std::move(rendered.shadowNoise);
     result.spread = std::move(rendered.spread);
     result.surroundings = std::move(rendered.surroundings);
+    result.areaLights = std::move(rendered.areaLights);
     return result;
 }
 
@@ -151,6 +153,12 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
                                ? "samples of the environment have noise: the error is reported, and held to nothing"
                                : "filtered light of the environment is an approximation: its error is reported, and "
                                  "held to nothing";
+        return tolerance;
+    }
+    const auto isArea = [](const scenes::Light& light) { return scenes::infoOf(light.type).isArea; };
+    if (std::ranges::any_of(scene.lights, isArea)) {
+        tolerance.reason = "transformed cosines approximate lobes under area lights: their error is reported, and held "
+                           "to nothing";
         return tolerance;
     }
     if (frame::diffusesLight(scene, settings.subsurface)) {

@@ -33,6 +33,7 @@ struct ReferencePicture {
 
     std::vector<reference::Diffusion::Answer> spread; ///< as in reference::Rendered
     std::vector<reference::Estimate> surroundings;    ///< the same
+    std::vector<reference::Estimate> areaLights;      ///< the same
 
     /// What is known of the shadows of `shown` against the picture. `excluded` as errorFigures() takes it.
     ShadowFigures shadowFigures(const Picture& shown, std::span<const std::uint8_t> excluded) const;

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/gpu/Context.h"
+#include "scenes/AreaLight.h"
 #include "validation/culling/PixelPositions.h"
 #include "validation/culling/VisitedLights.h"
 
@@ -24,6 +25,9 @@ struct TrueLight {
     bool fallsOffByABC = false;
     glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
     double brightest = 0.0;      ///< channel of colour x intensity
+    double surfaceMetres = 0.0;  ///< of the ball around its position that it shines from
+    double dimSquared = 0.0;     ///< of an area light that a tolerance ends: the squared distance from that ball
+    bool isDimmed = false;       ///< whether it is one
     bool isCone = false;
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
@@ -32,7 +36,8 @@ struct TrueLight {
 /// A light that reaches everywhere.
 struct EndlessLight {
     int sceneLight = 0;
-    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
+    glm::dvec4 placeWS{0.0};    ///< homogeneous: its position, or with w = 0 the direction that it comes from
+    double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
     bool isCone = false;
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
@@ -44,9 +49,11 @@ struct TrueLights {
 };
 
 /// Lights without a position, and those whose falloff never ends: without a range, or of A B C where no tolerance ends
-/// it or only A is not 0.
+/// it or only A is not 0, or of an area where none does.
 bool reachesEverywhere(const scenes::Light& light, double rangeTolerance) {
-    if (!scenes::infoOf(light.type).hasPosition()) return true;
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (!info.hasPosition()) return true;
+    if (info.isArea) return std::isinf(light.rangeMetres) && rangeTolerance == 0.0;
     if (light.falloff == scenes::Falloff::InverseSquare) return std::isinf(light.rangeMetres);
     return rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f);
 }
@@ -60,11 +67,14 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const scenes::LightReach reach = scenes::infoOf(light.type).reach;
         const bool isCone = reach == scenes::LightReach::Cone;
         if (isCone && !(light.outerConeRadians > 0.0f)) continue;
+        const bool isArea = scenes::infoOf(light.type).isArea;
+        if (isArea && !scenes::hasSurface(light)) continue;
         if (reachesEverywhere(light, settings.rangeTolerance)) {
             const bool isFar = reach == scenes::LightReach::Everywhere;
             lights.everywhere.push_back(
-                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0), isCone,
-                 light.directionWS, std::cos(double(light.outerConeRadians))});
+                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0),
+                 scenes::surfaceReachMetres(light), isCone, light.directionWS,
+                 std::cos(double(light.outerConeRadians))});
             continue;
         }
         TrueLight plain;
@@ -78,6 +88,10 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const glm::dvec3 color = glm::dvec3(light.color) * double(light.intensity);
         // Colours are held to 1e30 (docs/numerics.md).
         plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
+        plain.surfaceMetres = scenes::surfaceReachMetres(light);
+        plain.isDimmed = isArea && std::isinf(light.rangeMetres);
+        if (plain.isDimmed)
+            plain.dimSquared = plain.brightest * scenes::largestSeenArea(light) / settings.rangeTolerance;
         plain.isCone = isCone;
         plain.directionWS = light.directionWS;
         plain.cosOuter = std::cos(double(light.outerConeRadians));
@@ -92,9 +106,19 @@ bool isInCone(const Light& light, const glm::dvec3& toLight) {
     return !light.isCone || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
 }
 
+/// Whether any place that the light may shine from is in front of a surface. `normal` is of unit length, or 0.
+template <class Light>
+bool isInFront(const Light& light, const glm::dvec3& normal, const glm::dvec3& toLight) {
+    return glm::dot(normal, toLight) + light.surfaceMetres * glm::length(normal) > 0.0;
+}
+
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
     // The falloff itself, not the radius that solves it, is held against the tolerance.
     const double distance = std::sqrt(squaredDistance);
+    if (light.isDimmed) {
+        const double fromSurface = distance - light.surfaceMetres;
+        return !(fromSurface > 0.0) || fromSurface * fromSurface < light.dimSquared;
+    }
     if (light.fallsOffByABC ? !(light.brightest > light.attenuation.x + light.attenuation.y * distance +
                                                       light.attenuation.z * squaredDistance)
                             : !(squaredDistance < light.squaredRange))
@@ -161,16 +185,16 @@ private:
             const double squaredDistance = glm::dot(toLight, toLight);
             if (!reaches(light, positionWS, squaredDistance)) continue;
             ++figures.needed;
-            const double cosine = glm::dot(normal, toLight);
-            if (cosine > 0.0) ++figures.neededLit;
-            if (byNormals_ && isUnit && cosine <= 0.0) continue;
+            const bool inFront = isInFront(light, normal, toLight);
+            if (inFront) ++figures.neededLit;
+            if (byNormals_ && isUnit && !inFront) continue;
             next = std::lower_bound(next, visited.end(), light.sceneLight);
             if (next == visited.end() || *next != light.sceneLight) miss(light.sceneLight, pixel, figures);
         }
         std::uint64_t everywhere = 0;
         for (const EndlessLight& light : lights_.everywhere) {
             const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
-            if (glm::dot(normal, toLight) > 0.0 && isInCone(light, toLight)) ++figures.everywhereLit;
+            if (isInFront(light, normal, toLight) && isInCone(light, toLight)) ++figures.everywhereLit;
             if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
                 ++everywhere;
             else

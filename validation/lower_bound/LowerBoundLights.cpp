@@ -27,11 +27,18 @@ shared::LightTexels lowerBoundLight(int kind, int index, int count) {
     return light;
 }
 
-/// A cone of full intensity everywhere ahead (cos inner 0, cos outer -1), or parameters of 1 in that direction; and a
-/// mild falloff.
+/// A surface half a metre wide that faces ahead; a cone of full intensity everywhere ahead (cos inner 0, cos outer -1),
+/// or parameters of 1 in that direction, and a mild falloff.
 shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
-    const bool isCone = scenes::infoOf(type).reach == scenes::LightReach::Cone;
+    const scenes::LightTypeInfo& info = scenes::infoOf(type);
+    const bool isCone = info.reach == scenes::LightReach::Cone;
     shared::LightShapeTexels shape{};
+    if (info.isArea) {
+        shape.axis =
+            glm::vec4(type == scenes::LightType::Sphere ? 0.0f : 0.25f, 0.0f, 0.0f, info.isFlat ? 0.0f : 0.25f);
+        if (info.isFlat) shape.attenuation = glm::vec4(0.0f, -0.25f, 0.0f, 0.0f);
+        return shape;
+    }
     shape.axis = isCone ? glm::vec4(0.0f, 0.0f, 1.0f, -0.5f) : glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
     shape.attenuation = glm::vec4(1.0f, 0.1f, 0.01f, isCone ? 0.0f : 1.0f);
     return shape;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "validation/reference/AreaLights.h"
 #include "validation/reference/Trees.h"
 
 namespace tessera::reference {
@@ -108,15 +109,18 @@ struct Diffusion::Surfaces {
         if (surroundings.lights()) sum += surface.openness * surroundings.irradiance(surface.normal);
         for (const ShiningLight& light : lights) {
             const Incident incident = incidentAt(light, pointRWS);
-            if (incident.irradiance == glm::dvec3(0.0)) continue;
             const double cosine = glm::dot(surface.normal, incident.toLight);
-            if (cosine > 0.0) {
+            const glm::dvec3 irradiance = scenes::infoOf(light.light.type).isArea
+                                              ? irradianceOf(light, pointRWS, surface.normal, settings)
+                                              : std::max(cosine, 0.0) * incident.irradiance;
+            if (irradiance != glm::dvec3(0.0)) {
                 const double share =
                     light.castsShadow ? occlusion.of(light, hit, surface, pointRWS, front, settings).share : 1.0;
-                sum += cosine * share * incident.irradiance;
-            } else if (cosine < 0.0 && light.castsShadow && surface.passes) {
-                sum -= cosine * occlusion.passageOf(light, hit, surface, pointRWS, false).share * incident.irradiance;
+                sum += share * irradiance;
             }
+            const bool isBehind = cosine < 0.0 && incident.irradiance != glm::dvec3(0.0);
+            if (isBehind && light.castsShadow && surface.passes)
+                sum -= cosine * occlusion.passageOf(light, hit, surface, pointRWS, false).share * incident.irradiance;
         }
         return sum * powered(surface.color, double(hit.object->material->subsurface.preScatterShare));
     }
@@ -151,6 +155,7 @@ Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span
     surfaces_->settings.shadowSamples = 0;
     surfaces_->settings.shadowRings = 2;
     surfaces_->settings.penumbraRings = 2;
+    surfaces_->settings.areaTolerance = 1e-3;
     std::vector<const Object*> spreading;
     for (const std::vector<Object>* list : {&objects.opaque(), &objects.transparent()})
         for (const Object& object : *list)

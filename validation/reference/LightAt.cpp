@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tessera::reference {
 
@@ -23,12 +24,38 @@ double attenuationAt(const scenes::Light& light, double distanceMetres) {
            double(light.attenuation.z) * distanceMetres * distanceMetres;
 }
 
-/// 1 at the light, 0 at its range with a slope of 0: (1 - (d/r)^4)^2.
-double rangeWindow(double distanceMetres, double rangeMetres) {
-    if (std::isinf(rangeMetres)) return 1.0;
-    if (!(distanceMetres < rangeMetres)) return 0.0;
-    const double open = 1.0 - std::pow(distanceMetres / rangeMetres, 4);
-    return open * open;
+/// The projected area of an area light, m^2, by the cosine between its direction and that to the point: on its front
+/// above 0.
+double projectedArea(const scenes::Light& light, double cosFront) {
+    const double radius = double(light.radiusMetres), circle = std::numbers::pi * radius * radius;
+    const double facing = light.isTwoSided ? std::abs(cosFront) : std::max(cosFront, 0.0);
+    switch (light.type) {
+    case LightType::Rectangle:
+        return double(light.widthMetres) * double(light.heightMetres) * facing;
+    case LightType::Disk:
+        return circle * facing;
+    case LightType::Sphere:
+        return circle;
+    case LightType::Tube:
+        return 2.0 * radius * double(light.lengthMetres) * std::sqrt(std::max(1.0 - cosFront * cosFront, 0.0)) +
+               circle * std::abs(cosFront);
+    default:
+        return 0.0;
+    }
+}
+
+/// At least the area that is seen of an area light from any side.
+double mostProjectedArea(const scenes::Light& light) {
+    if (light.type == LightType::Tube) return projectedArea(light, 0.0) + projectedArea(light, 1.0);
+    return projectedArea(light, 1.0);
+}
+
+/// Of the sphere around an area light's middle that holds it.
+double boundingRadiusMetres(const scenes::Light& light) {
+    if (light.type == LightType::Rectangle)
+        return 0.5 * std::hypot(double(light.widthMetres), double(light.heightMetres));
+    if (light.type == LightType::Tube) return std::hypot(double(light.radiusMetres), 0.5 * double(light.lengthMetres));
+    return double(light.radiusMetres);
 }
 
 /// KHR_lights_punctual's cone, squared as it recommends.
@@ -63,12 +90,28 @@ Incident spot(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     return incident;
 }
 
+Incident area(const ShiningLight& shining, const glm::dvec3& positionRWS) {
+    const glm::dvec3 toLight = shining.positionRWS - positionRWS;
+    const double distance = glm::length(toLight);
+    const double window = rangeWindow(distance, shining.rangeMetres);
+    if (window == 0.0 || distance == 0.0) return {};
+    const double projected = projectedArea(shining.light, -glm::dot(shining.light.directionWS, toLight) / distance);
+    // From afar the solid angle; never more than a hemisphere, whose irradiance is pi times the radiance.
+    return {toLight / distance,
+            shining.color * (window * projected / (distance * distance + projected / std::numbers::pi))};
+}
+
 struct Type {
     LightType type;
     Incident (*at)(const ShiningLight& shining, const glm::dvec3& positionRWS);
 };
-constexpr std::array kTypes{Type{LightType::Directional, directional}, Type{LightType::Point, point},
-                            Type{LightType::Spot, spot}};
+constexpr std::array kTypes{Type{LightType::Directional, directional},
+                            Type{LightType::Point, point},
+                            Type{LightType::Spot, spot},
+                            Type{LightType::Rectangle, area},
+                            Type{LightType::Disk, area},
+                            Type{LightType::Sphere, area},
+                            Type{LightType::Tube, area}};
 consteval bool isInOrder() {
     for (std::size_t i = 0; i < kTypes.size(); ++i)
         if (kTypes[i].type != LightType(i)) return false;
@@ -78,9 +121,21 @@ static_assert(isInOrder(), "a function for every light type, in their order");
 
 } // namespace
 
+double rangeWindow(double distanceMetres, double rangeMetres) {
+    if (std::isinf(rangeMetres)) return 1.0;
+    if (!(distanceMetres < rangeMetres)) return 0.0;
+    const double open = 1.0 - std::pow(distanceMetres / rangeMetres, 4);
+    return open * open;
+}
+
 double rangeOf(const scenes::Light& light, double brightest, double rangeTolerance) {
-    if (!scenes::infoOf(light.type).hasPosition()) return kEndless;
-    if (light.falloff == Falloff::InverseSquare) return double(light.rangeMetres);
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (!info.hasPosition()) return kEndless;
+    if (info.isArea && std::isinf(light.rangeMetres) && rangeTolerance > 0.0) {
+        // All of it at its nearest place gives more than it does.
+        return boundingRadiusMetres(light) + std::sqrt(brightest * mostProjectedArea(light) / rangeTolerance);
+    }
+    if (info.isArea || light.falloff == Falloff::InverseSquare) return double(light.rangeMetres);
     if (rangeTolerance == 0.0 || (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f)) return kEndless;
     const auto isAbove = [&](double metres) { return brightest > rangeTolerance * attenuationAt(light, metres); };
     if (!isAbove(0.0)) return 0.0;

@@ -23,11 +23,16 @@ struct Incident {
 
 std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settings& settings, const glm::dvec3& eyeWS);
 
-/// The irradiance of a light at a point, by its type, falloff and range window.
+/// The irradiance of a light at a point, by its type, falloff and range window. An area light is small here, and of the
+/// same size as seen from the point, at its middle.
 Incident incidentAt(const ShiningLight& shining, const glm::dvec3& positionRWS);
 
+/// 1 at a light with a position, 0 at its range with a slope of 0: (1 - (d/r)^4)^2.
+double rangeWindow(double distanceMetres, double rangeMetres);
+
 /// Where a light ends. With Falloff::Attenuation a tolerance above 0 ends it where its brightest channel has fallen to
-/// the tolerance; found by bisection, to the last digit.
+/// the tolerance; found by bisection, to the last digit. An area light without a range ends where its brightest channel
+/// can be no more than the tolerance.
 double rangeOf(const scenes::Light& light, double brightest, double rangeTolerance);
 
 } // namespace tessera::reference

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "scenes/Shadows.h"
 #include "validation/reference/MaterialAt.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/Trees.h"
@@ -267,7 +268,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     const double distance = glm::length(toLight);
     if (distance == 0.0) return {};
     const double radius =
-        isPlaced ? double(light.light.radiusMetres) : std::tan(double(light.light.angularRadiusRadians));
+        isPlaced ? scenes::shadowRadiusMetres(light.light) : std::tan(double(light.light.angularRadiusRadians));
     // Past all casters, where the light has no place.
     const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0;
     const glm::dvec3 ahead = toLight / distance;

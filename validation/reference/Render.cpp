@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "validation/reference/AreaLights.h"
 #include "validation/reference/Diffusion.h"
 #include "validation/reference/LightAt.h"
 #include "validation/reference/Occlusion.h"
@@ -117,6 +118,7 @@ private:
         const Lit lit = litBy(ray, seen, Nudge());
         const glm::dvec3 radiance = lit.radiance;
         rendered.radiance[at] = radiance;
+        rendered.areaLights[at] = lit.areaLights;
         if (seen.opaque && !seen.spread.empty() && seen.spread[0]) rendered.spread[at] = *seen.spread[0];
         if (seen.opaque && !seen.surroundings.empty()) rendered.surroundings[at] = *seen.surroundings[0];
         if (!settings_.leeway) return;
@@ -144,7 +146,8 @@ private:
         mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
         mutable std::vector<std::optional<Diffusion::Answer>> spread{};                 ///< the same, by surface
         mutable std::vector<std::optional<Estimate>> surroundings{};                    ///< the same
-        std::uint32_t seed = 0; ///< of Diffusion and Surroundings
+        mutable std::vector<std::vector<std::optional<Estimate>>> areaLights{}; ///< by light too, nothing hidden
+        std::uint32_t seed = 0;                                                 ///< of Diffusion and Surroundings
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
@@ -222,7 +225,8 @@ private:
     struct Lit {
         glm::dvec3 radiance{0.0};
         double opacity = 1.0;
-        Noise noise = {}; ///< as Rendered::shadowNoise
+        Noise noise = {};         ///< as Rendered::shadowNoise
+        Estimate areaLights = {}; ///< as Rendered::areaLights
     };
 
     Lit litBy(const Ray& ray, const Seen& seen, const Nudge& nudge, Shadows shadows = Shadows::Exact) const {
@@ -235,6 +239,8 @@ private:
             all.radiance = own.opacity * own.radiance + before * all.radiance;
             all.noise = all.noise.times(before);
             all.noise += own.noise.times(own.opacity);
+            all.areaLights = all.areaLights.times(before);
+            all.areaLights += own.areaLights.times(own.opacity);
         }
         return all;
     }
@@ -265,9 +271,10 @@ private:
             lit.radiance += seen.surroundings[surface]->light;
         }
         for (std::size_t light = 0; light < lights_.size(); ++light) {
-            glm::dvec3 unhidden = lightOn(point, lights_[light], positionRWS, toViewer, settings_.specular);
-            // Of light that spreads only the highlight leaves where it is met.
-            if (point.spreads) unhidden -= lightOn(point, lights_[light], positionRWS, toViewer, false);
+            const bool isArea = scenes::infoOf(lights_[light].light.type).isArea;
+            const Estimate found = isArea ? areaLightOn(seen, surface, nudge, point, light, positionRWS, toViewer)
+                                          : Estimate{lightOn(point, lights_[light], positionRWS, toViewer)};
+            const glm::dvec3& unhidden = found.light;
             if (unhidden == glm::dvec3(0.0)) continue;
             const Occlusion::Answer answer = shadowOf(seen, surface, hit, point, positionRWS, toViewer, light);
             const double share = shadows == Shadows::Exact  ? answer.share
@@ -275,6 +282,7 @@ private:
                                                             : answer.most;
             lit.radiance += share * unhidden;
             lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
+            if (isArea) lit.areaLights += found.times(share);
         }
         if (point.spreads) {
             if (seen.spread.size() <= surface) seen.spread.resize(surface + 1);
@@ -319,12 +327,35 @@ private:
         return *known[light];
     }
 
-    /// What one light gives to a point that nothing hides from it: radiance towards the viewer.
+    /// What one light gives to a point that nothing hides from it: radiance towards the viewer. Of light that spreads
+    /// only the highlight leaves where it is met.
     glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
-                       const glm::dvec3& toViewer, bool specular) const {
+                       const glm::dvec3& toViewer) const {
         const Incident incident = incidentAt(light, positionRWS);
         if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
-        return reflected(point, incident.toLight, toViewer, specular) * incident.irradiance;
+        glm::dvec3 share = reflected(point, incident.toLight, toViewer, settings_.specular);
+        if (point.spreads) share -= reflected(point, incident.toLight, toViewer, false);
+        return share * incident.irradiance;
+    }
+
+    /// The same of an area light.
+    Estimate areaLightOn(const Seen& seen, std::size_t surface, const Nudge& nudge, const SurfacePoint& point,
+                         std::size_t light, const glm::dvec3& positionRWS, const glm::dvec3& toViewer) const {
+        // What other values of a texture change need not be known better.
+        constexpr double kNudgedTolerance = 1e-3;
+        const bool isNudged = !(nudge == Nudge());
+        Settings settings = settings_;
+        if (isNudged) settings.areaTolerance = std::max(settings.areaTolerance, kNudgedTolerance);
+        const auto integral = [&] {
+            return reflectedOf(lights_[light], point, positionRWS, toViewer, settings_.specular, point.spreads,
+                               settings);
+        };
+        if (isNudged) return integral();
+        if (seen.areaLights.size() <= surface) seen.areaLights.resize(surface + 1);
+        std::vector<std::optional<Estimate>>& known = seen.areaLights[surface];
+        known.resize(lights_.size());
+        if (!known[light]) known[light] = integral();
+        return *known[light];
     }
 
     const scenes::Scene& scene_;
@@ -358,6 +389,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.shadowNoise.resize(pixels);
     rendered.spread.resize(pixels);
     rendered.surroundings.resize(pixels);
+    rendered.areaLights.resize(pixels);
     const Pixels picture(scene, settings);
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);

@@ -44,13 +44,16 @@ struct Settings {
     bool environmentIsSeen = true;       ///< where nothing is drawn
     double environmentIntensity = 1.0, environmentRotationDegrees = 0.0; ///< besides the scene's own
     int environmentPaths = 1024;                                         ///< of each kind, from every surface
-    int shadowRings = 16;   ///< on the disk of a light with a size, four times as many rays each
-    int penumbraRings = 64; ///< of points that those find to see part of it
-    int shadowSamples = 0;  ///< rays that a program tries: their noise is allowed it too; 0: none is
-    bool specular = true;   ///< false leaves the specular lobe out
+    int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
+    double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
+    int shadowRings = 16;        ///< on the disk of a light with a size, four times as many rays each
+    int penumbraRings = 64;      ///< of points that those find to see part of it
+    int shadowSamples = 0;       ///< rays that a program tries: their noise is allowed it too; 0: none is
+    bool specular = true;        ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
-    double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C lights end where they fall to it; 0: nowhere
+    double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C and area lights end where they fall to it;
+                                 ///< 0: nowhere
 };
 
 } // namespace tessera::reference

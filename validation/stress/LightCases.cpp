@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "renderer/frame/LightBuffer.h"
+#include "scenes/AreaLight.h"
 #include "validation/reference/LightAt.h"
 #include "validation/stress/StressCase.h"
 #include "validation/stress/StressRandom.h"
@@ -25,9 +26,11 @@ struct Probe {
 };
 
 constexpr double kLightTolerance = 3e-6;
-constexpr const char* kLightReason = "some twenty roundings of 6e-8, of the light without its range: that subtracts "
-                                     "from one; a cone counts with what it "
-                                     "changes by when the directions it is computed from move by four roundings";
+constexpr const char* kLightReason =
+    "some twenty roundings of 6e-8, of the light without its range: that subtracts "
+    "from one; a cone counts with what it "
+    "changes by when the directions it is computed from move by four roundings, and an "
+    "area with the most that it shows, of which its angle leaves a share";
 
 reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
     scenes::Scene scene;
@@ -61,21 +64,29 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
     return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
 }
 
-/// The scale of relative errors: the light without range, times the sum of the cone's factor and its condition over the
-/// tolerance. 0 where the light is certain to be 0.
+/// The scale of relative errors: the light without range and of an area light the largest area that it shows, times the
+/// sum of the cone's factor and its condition over the tolerance. 0 where the light is certain to be 0.
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (info.isArea && !scenes::hasSurface(light)) return 0.0;
     Light open = light;
     open.rangeMetres = scenes::kInfinity;
-    if (scenes::infoOf(open.type).hasPosition()) open.type = LightType::Point;
+    if (info.hasPosition()) open.type = LightType::Point;
     const Cone cone = coneOf(light, positionWS);
-    return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).irradiance.x;
+    const double area = info.isArea ? scenes::largestSeenArea(light) : 1.0;
+    return (cone.factor + cone.condition / kLightTolerance) * area * truthAt(open, positionWS).irradiance.x;
 }
 
 std::string describe(const Light& light, const glm::vec3& positionWS) {
-    return fmt::format("{}, intensity {:g}, range {:g}, cone {:g} to {:g}, A B C {:g} {:g} {:g}, {:g} m away",
-                       scenes::infoOf(light.type).name, light.intensity, light.rangeMetres, light.innerConeRadians,
-                       light.outerConeRadians, light.attenuation.x, light.attenuation.y, light.attenuation.z,
-                       glm::length(light.positionWS - glm::dvec3(positionWS)));
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    const std::string shape =
+        info.isArea
+            ? fmt::format("{:g} m by {:g} m, length {:g} m, radius {:g} m{}", light.widthMetres, light.heightMetres,
+                          light.lengthMetres, light.radiusMetres, light.isTwoSided ? ", two-sided" : "")
+            : fmt::format("cone {:g} to {:g}, A B C {:g} {:g} {:g}", light.innerConeRadians, light.outerConeRadians,
+                          light.attenuation.x, light.attenuation.y, light.attenuation.z);
+    return fmt::format("{}, intensity {:g}, range {:g}, {}, {:g} m away", info.name, light.intensity, light.rangeMetres,
+                       shape, glm::length(light.positionWS - glm::dvec3(positionWS)));
 }
 
 void measure(StressBench& bench, const std::vector<Light>& lights, const std::vector<Probe>& probes,
@@ -158,6 +169,7 @@ void measureIntensities(StressBench& bench, StressFigures& figures) {
         for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
             lights.push_back(pointLight(float(std::pow(10.0, exponent))));
             lights.back().type = type.type;
+            if (type.isArea) lights.back().radiusMetres = 0.5f;
         }
     }
     everyLightAtEveryPoint(bench, lights, 12, figures);
@@ -204,6 +216,15 @@ void measureCones(StressBench& bench, StressFigures& figures) {
     measure(bench, lights, probes, figures);
 }
 
+/// A surface from millimetres to hundreds of metres wide, turned at random.
+void drawSurface(StressRandom& random, Light& light) {
+    for (float* metres : {&light.widthMetres, &light.heightMetres, &light.lengthMetres, &light.radiusMetres})
+        *metres = float(random.logarithmic(1e-3, 1e3));
+    light.alongWS = random.around(light.directionWS, 0.0);
+    light.isTwoSided = random.index(2) == 0;
+    light.falloff = Falloff::InverseSquare;
+}
+
 /// Those of the light's type beside its cone, between their bounds.
 void drawOtherParameters(StressRandom& random, Light& light) {
     for (const scenes::LightParameter& parameter : scenes::infoOf(light.type).parameters) {
@@ -229,7 +250,10 @@ void measureRandomLights(StressBench& bench, StressFigures& figures) {
         light.attenuation = random.color() + glm::vec3(1e-3f);
         light.outerConeRadians = float(random.between(0.0, std::numbers::pi_v<float>));
         light.innerConeRadians = float(random.unit()) * light.outerConeRadians;
-        drawOtherParameters(random, light);
+        if (scenes::infoOf(light.type).isArea)
+            drawSurface(random, light);
+        else
+            drawOtherParameters(random, light);
         lights.push_back(light);
         probes.push_back({glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)), i});
     }

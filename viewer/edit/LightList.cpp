@@ -1,10 +1,14 @@
 #include "viewer/edit/LightList.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <unordered_set>
 
 #include <fmt/format.h>
+
+#include "scenes/AreaLight.h"
+#include "scenes/Direction.h"
 
 namespace tessera::viewer {
 namespace {
@@ -71,6 +75,30 @@ void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo) {
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index) {
     if (solo == int(index)) return {};
     return int(index);
+}
+
+void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres) {
+    constexpr double kFirstRadiusShare = 0.01; // of the scene's size
+    light.type = type;
+    if (!scenes::infoOf(type).isArea) return;
+    light.falloff = scenes::Falloff::InverseSquare;
+    if (!(light.radiusMetres > 0.0f))
+        light.radiusMetres = float(std::min(kFirstRadiusShare * sceneSizeMetres, scenes::kMostRadiusMetres));
+    turnLight(light, light.directionWS);
+}
+
+void turnLight(scenes::Light& light, const glm::dvec3& directionWS) {
+    light.directionWS = glm::normalize(directionWS);
+    if (scenes::infoOf(light.type).hasSides() && !layLight(light, light.alongWS))
+        light.alongWS = scenes::usualAlong(light.directionWS);
+}
+
+bool layLight(scenes::Light& light, const glm::dvec3& alongWS) {
+    const std::optional<glm::dvec3> direction = scenes::directionOf(alongWS);
+    if (!direction) return false;
+    const std::optional<glm::dvec3> across = scenes::acrossFrom(light.directionWS, *direction);
+    if (across) light.alongWS = *across;
+    return across.has_value();
 }
 
 void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& positionWS) {

@@ -32,6 +32,18 @@ void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo);
 /// Solo of a light: on, or off where it was on already.
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);
 
+/// Gives a light a type. One that becomes an area light falls off as such, and gets a radius where it has none: a
+/// hundredth of the scene's size.
+void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres);
+
+/// Turns a light to a direction of any length above 0; the width of a rectangle stays across it, turned as little as
+/// can be.
+void turnLight(scenes::Light& light, const glm::dvec3& directionWS);
+
+/// Lets the width of a rectangle run along a vector, of which counts what is across the light's direction. Returns
+/// false, and changes nothing, where that is nothing.
+bool layLight(scenes::Light& light, const glm::dvec3& alongWS);
+
 /// Puts a light, with its path where it is animated, so that it is at a place at this time.
 void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& positionWS);
 

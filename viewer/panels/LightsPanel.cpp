@@ -17,6 +17,8 @@ namespace {
 
 constexpr float kListRows = 7.0f;
 constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
+constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: sides and lengths that are slid to
+constexpr double kMostRadiusShare = 0.1;   ///< the same of radii
 
 bool tableRow(State& state, scenes::Scene& scene, int index) {
     scenes::Light& light = scene.lights[std::size_t(index)];
@@ -108,14 +110,30 @@ bool rangeRow(scenes::Light& light) {
     return changed;
 }
 
-bool parameterRows(scenes::Light& light) {
-    const std::span<const scenes::LightParameter> parameters = scenes::infoOf(light.type).parameters;
+/// Lengths are slid up to `mostMetres`.
+bool lightParameterRow(const scenes::LightParameter& parameter, scenes::Light& light, double mostMetres) {
+    using Kind = scenes::LightParameter::Kind;
+    float& value = light.*parameter.member;
+    switch (parameter.kind) {
+    case Kind::Angle:
+        return angleSlider(parameter.label, value, parameter.least, parameter.most);
+    case Kind::Metres:
+        return slider(parameter.label, value, parameter.least, std::min(parameter.most, float(mostMetres)), "%.3g m");
+    case Kind::Number:
+        break;
+    }
+    return slider(parameter.label, value, parameter.least, parameter.most);
+}
+
+bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    const std::span<const scenes::LightParameter> parameters = info.parameters;
     bool changed = false;
-    for (const scenes::LightParameter& parameter : parameters) {
-        float& value = light.*parameter.member;
-        changed |= parameter.kind == scenes::LightParameter::Kind::Angle
-                       ? angleSlider(parameter.label, value, parameter.least, parameter.most)
-                       : slider(parameter.label, value, parameter.least, parameter.most);
+    for (const scenes::LightParameter& parameter : parameters)
+        changed |= lightParameterRow(parameter, light, kMostSurfaceShare * sceneSizeMetres);
+    if (info.isFlat) {
+        row("Shines");
+        changed |= ImGui::Checkbox("from both sides##light", &light.isTwoSided);
     }
     if (!changed) return false;
     for (const scenes::LightParameter& parameter : parameters)
@@ -144,29 +162,34 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     if (scenes::infoOf(light.type).hasDirection) {
         glm::dvec3 directionWS = light.directionWS;
         if (dragVector("Direction", directionWS, 0.01f, kMostDirection) && glm::length(directionWS) > 1e-3) {
-            light.directionWS = glm::normalize(directionWS);
+            turnLight(light, directionWS);
             changed = true;
         }
+    }
+    if (scenes::infoOf(light.type).hasSides()) {
+        glm::dvec3 alongWS = light.alongWS;
+        if (dragVector("Width along", alongWS, 0.01f, kMostDirection)) changed |= layLight(light, alongWS);
+        tip("Where its width runs, across its direction");
     }
     return changed;
 }
 
 bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
-    bool changed = chooseNamed("Type", light.type);
+    scenes::LightType type = light.type;
+    bool changed = chooseNamed("Type", type);
+    if (changed) chooseType(light, type, sceneSizeMetres);
     changed |= brightnessRows(light);
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const bool isAttenuated = light.falloff == scenes::Falloff::Attenuation;
-    if (scenes::infoOf(light.type).hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
-    changed |= parameterRows(light);
+    if (info.hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
+    changed |= parameterRows(light, sceneSizeMetres);
     changed |= placeRows(light, timeSeconds, sceneSizeMetres);
     row("Shadow");
     changed |= ImGui::Checkbox("casts##light", &light.castsShadow);
-    const scenes::LightParameter& size = scenes::sizeParameter(scenes::infoOf(light.type));
-    float& value = light.*size.member;
-    if (size.kind == scenes::LightParameter::Kind::Angle)
-        changed |= angleSlider(size.label, value, size.least, size.most);
-    else
-        changed |= slider(size.label, value, size.least, std::min(size.most, float(0.1 * sceneSizeMetres)), "%.3g m");
-    tip("Softens the light's shadows");
+    const scenes::LightParameter* size = scenes::sizeParameter(info);
+    if (size == nullptr) return changed;
+    changed |= lightParameterRow(*size, light, kMostRadiusShare * sceneSizeMetres);
+    tip(info.isArea ? "Of what shines, and softens its shadows" : "Softens the light's shadows");
     return changed;
 }
 

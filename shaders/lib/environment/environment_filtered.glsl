@@ -3,7 +3,7 @@
 // Engine 4". Exact for light that is the same everywhere; elsewhere its error is stated in docs/environment.md.
 #pragma once
 #include "lib/environment/filtered_map.glsl"
-#include "lib/environment/lobes.glsl"
+#include "lib/reflectance/even_light.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
 vec3 irradianceOn(vec3 normalLS)
@@ -36,15 +36,6 @@ vec3 lobeAxis(vec3 normal, vec3 toViewer, float alpha)
     return safeNormalize(axis, normal);
 }
 
-bool hasFilteredLobe(SeenSurface seen)
-{
-#if HAS_GLOSSY_MODELS
-    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
-#else
-    return false;
-#endif
-}
-
 #if HAS_TANGENT_FRAME
 const int kStretchedTaps = 8;
 
@@ -75,7 +66,7 @@ struct LobeLight {
 // One loop over all look-ups, so that a program holds their code once.
 LobeLight lightOfLobes(SeenSurface seen)
 {
-    int baseTaps = hasFilteredLobe(seen) ? 1 : 0, coatTaps = 0;
+    int baseTaps = hasLobe(seen) ? 1 : 0, coatTaps = 0;
 #if HAS_TANGENT_FRAME
     if (baseTaps > 0 && isAnisotropic(seen.surface)) baseTaps = kStretchedTaps;
 #endif
@@ -124,81 +115,16 @@ vec3 enteringIrradiance(SeenSurface seen, vec3 irradiance)
     return entering;
 }
 
-#if HAS_GGX_MODELS
-// What a dielectric's lobe reflects of even light. By parabolas above index 1, where reflectances go by the square of
-// the contrast; by lines below it, where total reflection begins at an edge.
-float reflectedByDielectric(SeenSurface seen)
-{
-    float place = iorPlace(seen.surface.iorOrF90);
-    bool isDenser = place >= float(LOBE_TABLE_IOR_ONE);
-    int first = isDenser ? min(int(place), LOBE_TABLE_IORS - 3) : max(int(place), 0);
-    precise float t = place - float(first);
-    precise vec3 shares = isDenser ? vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0))
-                                   : vec3(1.0 - t, t, 0.0);
-    float alpha = lobeAlpha(seen.surface);
-    precise float reflected = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        int number = first + i;
-        reflected += shares[i] * lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + number / 4)[number % 4];
-    }
-    return max(reflected, 0.0);
-}
-
-vec3 metallicRoughnessLight(SeenSurface seen, vec3 irradiance, vec3 lobeLight)
-{
-    Surface surface = seen.surface;
-    vec4 lobe = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX);
-    precise vec3 diffuse =
-        seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a) * enteringIrradiance(seen, irradiance);
-    precise vec3 highlight = (seen.f0 * lobe.r + seen.fresnelRise * lobe.g) * lobeLight;
-#if ENVIRONMENT_COMPENSATION
-    highlight += lostToBounces(seen) * (irradiance * kInversePi);
-#endif
-#if HAS_SHEEN
-    if (strongestSheen(surface) > 0.0) {
-        vec2 sheen = lobeTexel(max(seen.nv, 0.0), surface.sheenAlpha, LOBE_LAYER_SHEEN).rg;
-        diffuse *= max(1.0 - strongestSheen(surface) * sheen.g, 0.0);
-        highlight *= max(1.0 - strongestSheen(surface) * sheenAlbedo(surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
-        // A sheen is as broad as a diffuse reflection.
-        if (hasFilteredLobe(seen)) highlight += surface.sheenColor * sheen.r * irradiance * kInversePi;
-    }
-#endif
-    precise vec3 light = diffuse + highlight;
-    return light;
-}
-#endif
-
-vec3 lightOfLayersBelow(SeenSurface seen, vec3 lobeLight)
-{
-    vec3 irradiance = irradianceOn(seen.surface.normalLS);
-#if HAS_GGX_MODELS
-    if (HAS_METALLIC(seen.surface.model)) return metallicRoughnessLight(seen, irradiance, lobeLight);
-#endif
-    precise vec3 light = seen.surface.albedo * enteringIrradiance(seen, irradiance);
-#if HAS_BLINN_PHONG
-    if (seen.surface.model == MODEL_BLINN_PHONG) {
-        // The table holds it times p + 2, which hardly changes with p.
-        precise float reflected =
-            lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b / (seen.surface.parameter + 2.0);
-        light += seen.surface.specular * reflected * lobeLight;
-    }
-#endif
-#if HAS_GGX_MODELS
-    if (IS_MICROFACET(seen.surface.model)) light += seen.surface.specular * reflectedByDielectric(seen) * lobeLight;
-#endif
-    return light;
-}
-
 // Radiance towards the viewer of the environment's light.
 vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 {
     LobeLight lobes = lightOfLobes(seen);
-    precise vec3 light = lightOfLayersBelow(seen, lobes.base);
+    EvenShares shares = evenShares(seen, true);
+    vec3 irradiance = irradianceOn(seen.surface.normalLS);
+    precise vec3 light = shares.ofEntering * enteringIrradiance(seen, irradiance) + shares.ofIrradiance * irradiance
+                         + shares.ofLobe * lobes.base;
 #if HAS_CLEARCOAT
-    if (seen.surface.coatFactor > 0.0) {
-        float reflected = lobeTexel(seen.coatNv, seen.surface.coatAlpha, LOBE_LAYER_GGX).r;
-        light = light * (1.0 - seen.coatWeight) + seen.coatWeight * reflected * lobes.coat;
-    }
+    light += shares.ofCoat * lobes.coat;
 #endif
     precise vec3 scaled = light * (environment.light.x * openShare(seen.surface));
     return scaled;

@@ -5,7 +5,7 @@
 #pragma once
 #include "lib/environment/environment_map.glsl"
 #if ENVIRONMENT_COMPENSATION
-#include "lib/environment/lobes.glsl"
+#include "lib/reflectance/lobes.glsl"
 #endif
 #include "lib/maths/random.glsl"
 #include "lib/reflectance/reflectance.glsl"

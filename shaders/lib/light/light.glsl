@@ -2,6 +2,7 @@
 // in every technique, also where nothing is culled.
 #pragma once
 #include "lib/light/light_store.glsl"
+#include "lib/maths/math.glsl"
 
 // Light as it arrives at a point.
 struct Incident {
@@ -23,6 +24,28 @@ float spotShare(int kind, vec3 toLightLS, LightShapeTexels shape)
 }
 #endif
 
+#if HAS_AREA_LIGHTS
+// In place of a share, square metres that an area light shows towards a direction: as a small source at its middle.
+float areaFacing(int type, vec3 toLightLS, LightShapeTexels shape)
+{
+    if (type == LIGHT_SPHERE) {
+        precise float disk = kPi * shape.axis.w * shape.axis.w;
+        return disk;
+    }
+    precise float along = dot(toLightLS, shape.axis.xyz);
+    if (type == LIGHT_TUBE) {
+        precise float halfLength2 = dot(shape.axis.xyz, shape.axis.xyz);
+        precise float across = length(cross(toLightLS, shape.axis.xyz));
+        precise float ends = kPi * shape.axis.w * abs(along) / sqrt(max(halfLength2, 1e-36));
+        precise float facing = shape.axis.w * (4.0 * across + ends);
+        return facing;
+    }
+    precise vec3 faces = cross(shape.axis.xyz, shape.attenuation.xyz) * (type == LIGHT_DISK ? kPi : 4.0);
+    precise float facing = -dot(faces, toLightLS);
+    return shape.attenuation.w != 0.0 ? abs(facing) : max(facing, 0.0);
+}
+#endif
+
 #if HAS_LIGHT_SHAPES
 // By the light's type. A point light sends the same in every direction.
 float shareTowards(int index, int kind, vec3 toLightLS, vec4 attenuation)
@@ -30,6 +53,9 @@ float shareTowards(int index, int kind, vec3 toLightLS, vec4 attenuation)
     int type = kind & LIGHT_TYPE_MASK;
 #if HAS_SPOT_LIGHTS
     if (type == LIGHT_SPOT) return spotShare(kind, toLightLS, LightShapeTexels(lightShapeTexel(index, 0), attenuation));
+#endif
+#if HAS_AREA_LIGHTS
+    if (IS_AREA_LIGHT(type)) return areaFacing(type, toLightLS, LightShapeTexels(lightShapeTexel(index, 0), attenuation));
 #endif
     return 1.0;
 }
@@ -71,8 +97,16 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
 #endif
     precise vec3 direction = toLight * (sqrt(held2) * inverse2);
 #if HAS_LIGHT_SHAPES
-    precise float share = shareTowards(index, kind, direction, attenuation);
+    float share = shareTowards(index, kind, direction, attenuation);
     reaches = reaches && share > 0.0;
+#if HAS_AREA_LIGHTS
+    // Never more than a hemisphere of its radiance.
+    if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) {
+        precise float seenShare = share / (distance2 + share * kInversePi);
+        share = 1.0;
+        falloff = (window * window) * seenShare;
+    }
+#endif
     falloff *= share;
 #endif
     precise vec3 irradiance = color.rgb * falloff;

@@ -5,6 +5,9 @@
 #include "lib/light/light.glsl"
 #include "lib/light/light_cursor.glsl"
 #include "lib/maths/cut_loop.glsl"
+#if HAS_AREA_LIGHTS
+#include "lib/light/area_light.glsl"
+#endif
 #if HAS_SHADOWS
 #include "lib/shadow/shadow.glsl"
 #endif
@@ -32,12 +35,30 @@ bool takesLight(Surface surface)
 vec3 passedLight = vec3(0.0); // of it, what the lights added so far send through the surface's body
 #endif
 
+// To be called with a surface before lights are added on it.
+void prepareForLights(SeenSurface seen)
+{
+#if HAS_AREA_LIGHTS
+    prepareAreaLobes(seen);
+#endif
+}
+
+// Radiance towards the viewer that the surface reflects of a light that reaches it, without shadows.
+vec3 reflectedLight(int light, SeenSurface seen, vec3 positionLS, Incident incident)
+{
+#if HAS_AREA_LIGHTS
+    int kind = int(lightTexel(light, 1).w);
+    if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) return areaLightOnSurface(light, kind, seen, positionLS, incident.toLightLS, incident.irradiance);
+#endif
+    precise vec3 reflected = layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;
+    return reflected;
+}
+
 // Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every
 // pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
-// for here, and area lights belong here, not in a loop; data of the surface that they need besides the shading normal
-// become members of Surface. It adds instead of returning: a rasteriser that masks lanes would choose between the
-// result and 0 before it adds (5 % of the time of 1,024 lights). It also runs the code of shadows for all lights, so
-// callers say where none can be `shadowed`.
+// for here. It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it
+// adds (5 % of the time of 1,024 lights). It also runs the code of shadows for all lights, so callers say where none
+// can be `shadowed`.
 void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance)
 {
 #if VISIT_COUNTS
@@ -45,9 +66,8 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 #else
     Incident incident;
     if (incidentLight(light, viewpoint.positionLS, incident)) {
-        vec3 brdfCosine = layeredBrdfCosine(seen, incident.toLightLS);
+        precise vec3 unshadowed = reflectedLight(light, seen, viewpoint.positionLS, incident);
 #if HAS_SHADOWS
-        precise vec3 unshadowed = brdfCosine * incident.irradiance;
         // A shadow costs far more than what it would hide.
         if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
 #if HAS_SUBSURFACE_DEPTH_MAP
@@ -63,10 +83,8 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
             }
         }
 #endif
-        precise vec3 sum = radiance + unshadowed;
-#else
-        precise vec3 sum = radiance + brdfCosine * incident.irradiance;
 #endif
+        precise vec3 sum = radiance + unshadowed;
         radiance = sum;
     }
 #endif
@@ -86,6 +104,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     precise vec3 radiance = before;
 #if HAS_LIT_MODELS
     if (!takesLight(seen.surface)) return radiance;
+    prepareForLights(seen);
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;

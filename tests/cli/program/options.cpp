@@ -77,7 +77,8 @@ TEST_F(FrameOptions, aRangeToleranceDropsLightAndPlanAndCompareTellHowMuch) {
         return nlohmann::json();
     };
     EXPECT_EQ(choice("range tolerance")["chosen"], "0.5");
-    EXPECT_EQ(choice("range tolerance")["why"], "2 lights with falloff by A B C made finite, radii 2 m to 4 m");
+    EXPECT_EQ(choice("range tolerance")["why"],
+              "2 lights with falloff by A B C or from an area made finite, radii 2 m to 4 m");
     EXPECT_TRUE(choice("light that the range tolerance drops").is_null()) << "not measured";
     runGood({"plan", "quad.json", "--range-tolerance", "0.5", "--measure", "--size", "48x27", "--json", "p.json"});
     EXPECT_THAT(choice("light that the range tolerance drops")["chosen"].get<std::string>(),

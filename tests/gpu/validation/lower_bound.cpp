@@ -23,7 +23,8 @@ frame::PackedLights everyKind() {
     frame::PackedLights lights;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
         lights.texels.emplace_back().color.w = float(int(type.type));
-        if (type.hasPosition()) lights.texels.emplace_back().color.w = float(int(type.type) | LIGHT_ATTENUATION);
+        if (type.hasPosition() && !type.isArea)
+            lights.texels.emplace_back().color.w = float(int(type.type) | LIGHT_ATTENUATION);
     }
     return lights;
 }

@@ -38,10 +38,12 @@ std::string said(const scenes::Scene& scene, double tolerance) {
 TEST(RangeTolerance, thePlanTellsWhichLightsItEndsAndWhere) {
     const scenes::Scene scene = sceneWith({attenuated(8.0f, {0, 0, 1}), attenuated(8.0f, {0, 0, 4}),
                                            attenuated(1.0f, {2, 1, 0}), attenuated(1.0f, {1, 0, 0}), scenes::Light()});
-    EXPECT_EQ(said(scene, 0.5), "0.5: 2 lights with falloff by A B C made finite, radii 2 m to 4 m; 1 light nowhere "
-                                "above it, so dark; 1 light without end, B = C = 0");
-    EXPECT_EQ(said(scene, 0.0), "0: falloff by A B C of 4 lights never ends; a tolerance above 0 gives it a radius");
-    EXPECT_EQ(said(sceneWith({scenes::Light()}), 0.5), "0.5: no light that is on falls off by A B C, so it ends none");
+    EXPECT_EQ(said(scene, 0.5), "0.5: 2 lights with falloff by A B C or from an area made finite, radii 2 m to 4 m; 1 "
+                                "light nowhere above it, so dark; 1 light without end, B = C = 0");
+    EXPECT_EQ(said(scene, 0.0),
+              "0: falloff by A B C or from an area of 4 lights never ends; a tolerance above 0 gives it a radius");
+    EXPECT_EQ(said(sceneWith({scenes::Light()}), 0.5),
+              "0.5: no light that is on falls off by A B C or from an area, so it ends none");
     EXPECT_EQ(said(sceneWith({scenes::Light()}), 0.0), "");
 }
 

@@ -36,6 +36,15 @@ std::string verdict(const std::function<void(Scene&)>& spoil) {
 TEST(CheckScene, soundScenePasses) {
     EXPECT_EQ(verdict([](Scene&) {}), "");
     EXPECT_EQ(verdict([](Scene& s) { s = Scene(); }), "");
+    EXPECT_EQ(verdict([](Scene& s) {
+                  s.lights[0].alongWS = s.lights[0].directionWS; // of a point light, which has no width
+              }),
+              "");
+    EXPECT_EQ(verdict([](Scene& s) {
+                  s.lights[0].type = LightType::Rectangle;
+                  s.lights[0].widthMetres = 0.0f; // dark, and no mistake
+              }),
+              "");
 }
 
 TEST(CheckScene, messageNamesSceneAndElement) {
@@ -161,6 +170,20 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              s.cameras[0].halfHeightMetres = 1e30;
          }},
         {"unit length", [](Scene& s) { s.lights[0].directionWS = glm::dvec3(0.0); }},
+        {"the direction of its width must be of unit length", [](Scene& s) { s.lights[0].alongWS *= 2.0; }},
+        {"the direction of its width must be at right angles to its direction",
+         [](Scene& s) {
+             s.lights[0].type = LightType::Rectangle;
+             s.lights[0].alongWS = glm::normalize(glm::dvec3(1.0, 0.0, 0.01));
+         }},
+        {"the width must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].widthMetres = 1.1e6f; }},
+        {"the height must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].heightMetres = -1.0f; }},
+        {"the length must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].lengthMetres = kNaN; }},
+        {"a tube light falls off by its shape",
+         [](Scene& s) {
+             s.lights[0].type = LightType::Tube;
+             s.lights[0].falloff = Falloff::Attenuation;
+         }},
         {"range", [](Scene& s) { s.lights[0].rangeMetres = -1.0f; }},
         {"range", [](Scene& s) { s.lights[0].rangeMetres = kNaN; }},
         {"A, B, C must",

@@ -20,6 +20,10 @@ std::string keysOf(const LightTypeInfo& type, float share) {
     if (type.hasDirection) keys += R"(, "direction": [0, -1, 0])";
     for (const LightParameter& parameter : type.parameters)
         keys += fmt::format(R"(, "{}": {})", parameter.key, glm::mix(parameter.least, parameter.most, share));
+    if (const LightParameter* size = sizeParameter(type); size != nullptr && type.isArea)
+        keys += fmt::format(R"(, "{}": {})", size->key, glm::mix(size->least, size->most, share));
+    if (type.hasSides()) keys += R"(, "along": [0, 0, -2])";
+    if (type.isFlat) keys += R"(, "twoSided": true)";
     return keys;
 }
 
@@ -31,8 +35,8 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     std::set<std::string_view> names, fields;
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
-        std::set<std::string_view> keys{"type",     "name",    "enabled",   "fields",    "color", "intensity",
-                                        "position", "falloff", "animation", "direction", "target"};
+        std::set<std::string_view> keys{"type",    "name",      "enabled",   "fields", "color", "intensity", "position",
+                                        "falloff", "animation", "direction", "target", "along", "twoSided"};
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
@@ -60,6 +64,8 @@ TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
                 const bool isAngle = parameter.kind == LightParameter::Kind::Angle;
                 EXPECT_FLOAT_EQ(light.*parameter.member, isAngle ? glm::radians(value) : value) << parameter.key;
             }
+            EXPECT_EQ(light.isTwoSided, type.isFlat);
+            EXPECT_EQ(light.alongWS, type.hasSides() ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0));
         }
     }
 }
@@ -69,13 +75,17 @@ TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
     const auto isRefused = [&](const std::string& keys) { EXPECT_NE(folder.errorOf(document(keys)), ""); };
     for (const LightTypeInfo& type : lightTypes()) {
         const std::string keys = keysOf(type, 0.5f);
+        LightTypeInfo bare = type;
+        bare.parameters = {};
         if (!type.hasPosition()) isRefused(keys + R"(, "position": [1, 2, 3])");
         if (!type.hasPosition() || !type.hasDirection) isRefused(keys + R"(, "target": [1, 2, 4])");
         if (!type.hasDirection) isRefused(keys + R"(, "direction": [0, -1, 0])");
         for (const LightParameter& parameter : type.parameters)
             for (const float beyond : {parameter.least - 1.0f, parameter.most + 1.0f})
-                isRefused(keysOf({type.type, type.name, type.unit, type.reach, type.hasDirection}, 0.0f) +
-                          fmt::format(R"(, "{}": {})", parameter.key, beyond));
+                isRefused(keysOf(bare, 0.0f) + fmt::format(R"(, "{}": {})", parameter.key, beyond));
+        if (!type.hasSides()) isRefused(keys + R"(, "along": [1, 0, 0])");
+        if (!type.isFlat) isRefused(keys + R"(, "twoSided": false)");
+        if (sizeParameter(type) == nullptr) isRefused(keys + R"(, "radius": 1)");
         for (const LightTypeInfo& other : lightTypes())
             if (other.type != type.type)
                 for (const LightParameter& parameter : other.parameters)
@@ -94,6 +104,10 @@ TEST(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
         if (type.hasDirection) light.directionWS = {0.0, -1.0, 0.0};
         for (const LightParameter& parameter : type.parameters)
             light.*parameter.member = parameter.kind == LightParameter::Kind::Angle ? glm::radians(30.0f) : 0.375f;
+        if (const LightParameter* size = sizeParameter(type); size != nullptr && type.isArea)
+            light.*size->member = 0.625f;
+        if (type.hasSides()) light.alongWS = {0.6, 0.0, -0.8};
+        light.isTwoSided = type.isFlat;
         const nlohmann::json written(write::lightJson(light));
         EXPECT_FALSE(written.contains("fields")) << written.dump();
         EXPECT_TRUE(scenejson::readLight(JsonValue(written, {}), 0) == light) << written.dump();
@@ -134,6 +148,7 @@ TEST(LightTypes, everyTypeAlwaysHasItsNumberAndItsFlagInShaders) {
         EXPECT_TRUE(one.anyLights());
         EXPECT_EQ(one.placedLights(), type.hasPosition());
         EXPECT_EQ(one.coneLights(), type.reach == LightReach::Cone);
+        EXPECT_EQ(one.areaLights(), type.isArea);
         EXPECT_EQ(one.lightShapes(), type.hasShape());
     }
 }

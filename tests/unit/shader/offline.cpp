@@ -18,7 +18,6 @@
 #include "renderer/shader/ProgramDesc.h"
 #include "scenes/Load.h"
 #include "shaders/shared/slots.h"
-#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 #include "validation/lower_bound/LowerBoundGeometry.h"
 #include "validation/lower_bound/LowerBoundLighting.h"
@@ -96,13 +95,9 @@ std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndS
     return all;
 }
 
-/// Adds the variants that frames of the scene would use, by their key: with every `step`th of the settings from `first`
-/// on.
-void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene, std::size_t first,
-                 std::size_t step) {
-    const std::vector<frame::FrameSettings> all = settingsThatMatter();
-    for (std::size_t i = first; i < all.size(); i += step) {
-        const frame::FrameSettings& settings = all[i];
+/// Adds the variants that frames of the scene would use, by their key.
+void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene) {
+    for (const frame::FrameSettings& settings : settingsThatMatter()) {
         if (settings.view == frame::DebugView::Final && settings.samples == 1)
             addLowerBoundPrograms(programs, engine::prepareView(scene, engine::Technique::Forward, settings).spec);
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
@@ -117,17 +112,14 @@ void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const sce
             programs.emplace(desc.key(), desc);
 }
 
-/// Of every built-in scene with all settings, or with a third of them in turn.
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {
-    const std::size_t step = test::isWholeSweep() ? 1 : 3;
-    std::size_t turn = 0;
     std::map<std::string, shader::ProgramDesc> programs;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         scenes::LoadOptions options;
         options.useAssets = false;
-        addPrograms(programs, scenes::loadScene(std::string(builtin.name), options), turn++ % step, step);
+        addPrograms(programs, scenes::loadScene(std::string(builtin.name), options));
     }
-    addPrograms(programs, test::evenScene(), 0, 1); // materials by number beside maps and layers
+    addPrograms(programs, test::evenScene()); // materials by number beside maps and layers
     return programs;
 }
 
@@ -194,10 +186,10 @@ private:
     shader::SourceTree tree_ = shader::SourceTree::embedded();
 };
 
-void expectProgramsOfEveryBuiltinScene() {
+TEST(Offline, everyProgramOfEveryBuiltinSceneAlwaysSatisfiesTheReferenceCompilerAndSamplesNoMoreThanAStageMay) {
     const std::map<std::string, shader::ProgramDesc> programs = requestedPrograms();
     ASSERT_FALSE(programs.empty());
-    testing::Test::RecordProperty("variants", int(programs.size()));
+    RecordProperty("variants", int(programs.size()));
     fmt::print("{} distinct program variants\n", programs.size());
 
     std::vector<const shader::ProgramDesc*> work;
@@ -208,21 +200,16 @@ void expectProgramsOfEveryBuiltinScene() {
     int mostSampled = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(verdicts[i].faults, "");
-        const auto has = std::ranges::find(work[i]->defines, "HAS_ENVIRONMENT", &shader::Defines::value_type::first);
-        const bool isSurrounded = has != work[i]->defines.end() && has->second == "1";
-        EXPECT_LE(verdicts[i].sampledTextures, isSurrounded ? TEXTURE_UNITS_A_STAGE : TEXTURE_UNITS_GUARANTEED)
+        const bool needsMore = std::ranges::any_of(work[i]->defines, [](const auto& define) {
+            return define.second == "1" && (define.first == "HAS_ENVIRONMENT" || define.first == "HAS_AREA_LIGHTS");
+        });
+        EXPECT_LE(verdicts[i].sampledTextures, needsMore ? TEXTURE_UNITS_A_STAGE : TEXTURE_UNITS_GUARANTEED)
             << work[i]->key();
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
-    // Every texture of a material but occlusion, lights, the entries of light lists and casters are in one of them.
-    EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT - 1 + 3);
-}
-
-TEST(Offline, programsOfEveryBuiltinSceneSatisfyTheReferenceCompilerAndSampleNoMoreThanAStageMay) {
-    expectProgramsOfEveryBuiltinScene();
-}
-TEST(OfflineSlow, everyProgramOfEveryBuiltinSceneSatisfiesTheReferenceCompilerAndSamplesNoMoreThanAStageMay) {
-    expectProgramsOfEveryBuiltinScene();
+    // Every texture of a material but occlusion, lights, the entries of light lists and casters, and where areas shine
+    // the two tables of lobes, are in one of them.
+    EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT - 1 + 3 + 2);
 }
 
 TEST(Offline, aFaultyProgramIsSeenByTheReferenceCompiler) {

@@ -1,5 +1,7 @@
 #include "viewer/edit/LightList.h"
 
+#include "scenes/AreaLight.h"
+
 #include "tests/unit/viewer/CameraTest.h"
 
 namespace tessera::viewer {
@@ -126,6 +128,51 @@ TEST(LightList, anOrbitBeginsAndAStopEndsWhereTheLightIs) {
         EXPECT_FALSE(light.animation);
         EXPECT_EQ(light.positionWS, halfwayWS);
     }
+}
+
+TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
+    for (const scenes::LightTypeInfo& first : scenes::lightTypes()) {
+        for (const scenes::LightTypeInfo& second : scenes::lightTypes()) {
+            scenes::Scene scene;
+            scenes::Light& light = scene.lights.emplace_back();
+            if (!first.isArea) light.falloff = scenes::Falloff::Attenuation;
+            light.directionWS = glm::normalize(glm::dvec3(0.8, 0.1, 0.2));
+            chooseType(light, first.type, 10.0);
+            chooseType(light, second.type, 10.0);
+            EXPECT_EQ(light.type, second.type);
+            EXPECT_NO_THROW(scenes::checkScene(scene)) << first.name << ", then " << second.name;
+            EXPECT_EQ(scenes::hasSurface(light), second.isArea);
+            if (!first.isArea && !second.isArea) {
+                EXPECT_EQ(light.falloff, scenes::Falloff::Attenuation);
+                EXPECT_EQ(light.radiusMetres, 0.0f);
+            }
+        }
+    }
+    scenes::Light light;
+    light.radiusMetres = 0.125f;
+    chooseType(light, scenes::LightType::Sphere, 10.0);
+    EXPECT_EQ(light.radiusMetres, 0.125f) << "it has one already";
+}
+
+TEST(LightList, theWidthOfARectangleStaysAcrossItsDirection) {
+    scenes::Light light;
+    light.type = scenes::LightType::Rectangle;
+    turnLight(light, {3.0, 0.0, -4.0});
+    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(0.6, 0.0, -0.8)), 1e-15);
+    EXPECT_LT(glm::distance(light.alongWS, glm::dvec3(0.8, 0.0, 0.6)), 1e-15);
+    EXPECT_TRUE(layLight(light, {0.0, 5.0, 0.0}));
+    EXPECT_EQ(light.alongWS, glm::dvec3(0, 1, 0));
+    turnLight(light, {0.0, -2.0, 0.0}); // where its width was
+    EXPECT_NEAR(glm::dot(light.alongWS, light.directionWS), 0.0, 1e-15);
+    EXPECT_NEAR(glm::length(light.alongWS), 1.0, 1e-15);
+    const scenes::Light before = light;
+    EXPECT_FALSE(layLight(light, {0.0, 3.0, 0.0}));
+    EXPECT_FALSE(layLight(light, glm::dvec3(0.0)));
+    EXPECT_TRUE(light == before);
+    scenes::Light spot;
+    spot.type = scenes::LightType::Spot;
+    turnLight(spot, {1.0, 0.0, 0.0});
+    EXPECT_EQ(spot.alongWS, scenes::Light().alongWS) << "others have no width";
 }
 
 TEST(LightList, aNewLightGivesTheFocusThreeLux) {

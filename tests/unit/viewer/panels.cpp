@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <imgui.h>
 #include <imgui_internal.h>
 
-#include "viewer/panels/Frame.h"
+#include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Widgets.h"
@@ -17,72 +16,7 @@
 namespace tessera::viewer {
 namespace {
 
-class Panels : public testing::Test {
-protected:
-    Panels() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {1280.0f, 2000.0f};
-        io.Fonts->Build();
-    }
-    ~Panels() override { ImGui::DestroyContext(); }
-
-    /// One frame of the user interface in which nobody touches anything.
-    template <typename Draw>
-    void frame(const Draw& draw) {
-        ImGui::NewFrame();
-        draw();
-        ImGui::EndFrame();
-    }
-    /// A panel in a window of its own, with all its rows.
-    template <typename Panel>
-    void show(const Panel& panel) {
-        for (int i = 0; i < 3; ++i) { // a window is measured before it is laid out
-            frame([&] {
-                ImGui::SetNextWindowSize({300.0f, 2000.0f});
-                ImGui::Begin("panel");
-                panel();
-                ImGui::End();
-            });
-        }
-    }
-    /// What a panel says, as the window could copy it.
-    template <typename Panel>
-    std::string textOf(const Panel& panel) {
-        std::string text;
-        show([&] { text = logged(panel); });
-        return text;
-    }
-    /// What the first window of the interface says.
-    std::string firstWindowText(State& state, const Facts& facts) {
-        std::string text;
-        for (int i = 0; i < 3; ++i)
-            frame([&] { text = logged([&] { drawInterface(state, facts, area(state), 1.0f); }); });
-        return text;
-    }
-    static PictureArea area(const State& state) { return pictureArea(state, {1280.0f, 2000.0f}, 1.0f); }
-    template <typename Draw>
-    static std::string logged(const Draw& draw) {
-        ImGui::LogToClipboard();
-        draw();
-        ImGui::LogFinish(); // at the end of the first window
-        return std::string("\n") + ImGui::GetClipboardText();
-    }
-    /// Left and right end of what is drawn over the picture; empty where nothing is.
-    template <typename Draw>
-    std::optional<std::pair<float, float>> overlaySpan(const Draw& draw) {
-        std::optional<std::pair<float, float>> span;
-        frame([&] {
-            draw();
-            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
-                if (!span) span = {vertex.pos.x, vertex.pos.x};
-                span = {std::min(span->first, vertex.pos.x), std::max(span->second, vertex.pos.x)};
-            }
-        });
-        return span;
-    }
-};
+class Panels : public test::PanelTest {};
 
 /// The number behind a label at the start of a line.
 double numberBehind(const std::string& text, const std::string& label) {
@@ -115,6 +49,8 @@ State unusualScene() {
     attenuated.attenuation = glm::vec3(1e8f, 0.1f, 0.0f);
     attenuated.animation.emplace().amplitudeMetres = {1.0, 0.0, 0.0};
     scene.lights.emplace_back().type = scenes::LightType::Directional;
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes())
+        if (type.isArea) scene.lights.emplace_back().type = type.type;
     for (std::size_t model = 0; model < scenes::kMaterialModelCount; ++model) {
         scenes::Material& material = scene.materials.emplace_back();
         material.model = scenes::MaterialModel(model);

@@ -122,10 +122,10 @@ TEST(SceneJsonLights, impossibleSpotsAreRefused) {
               "/lights/0/target: is given beside 'direction'; keep one");
 }
 
-TEST(SceneJsonLights, typesThatAreNotShadedYetAreRefusedByName) {
+TEST(SceneJsonLights, typesThatThereAreNotAreRefusedByName) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfLight(folder, R"({"type": "area"})"),
-              "/lights/0/type: lights of type 'area' are not shaded yet; shaded are directional, point, spot");
+              "/lights/0/type: 'area' names no shape; types of area lights are rectangle, disk, sphere, tube");
     EXPECT_EQ(errorOfLight(folder, R"({"type": "environment"})"),
               "/lights/0/type: light from everywhere is no light of this list; give the document a key 'environment'");
     EXPECT_EQ(errorOfLight(folder, R"({"type": "spott"})"),

@@ -44,6 +44,12 @@ public:
         light.attenuation = color();
         light.outerConeRadians = share();
         light.innerConeRadians = share() * light.outerConeRadians;
+        light.widthMetres = 2.0f * share();
+        light.heightMetres = 2.0f * share();
+        light.lengthMetres = 2.0f * share();
+        light.radiusMetres = share();
+        light.alongWS = glm::normalize(glm::cross(light.directionWS, direction()));
+        light.isTwoSided = share() < 0.5f;
         return light;
     }
 

@@ -30,6 +30,11 @@ Scene saved(const Scene& scene, const SceneOrigin& origin, const std::filesystem
     return loadScene(file.string());
 }
 
+std::vector<Falloff> falloffsOf(const LightTypeInfo& type) {
+    if (type.isArea) return {Falloff::InverseSquare};
+    return {Falloff::InverseSquare, Falloff::Attenuation};
+}
+
 /// Changes everything that can be edited: materials by every model in turn, lights and cameras of every kind.
 void edit(Scene& scene) {
     Edits edits(7);
@@ -40,8 +45,7 @@ void edit(Scene& scene) {
     }
     if (!scene.lights.empty()) scene.lights.erase(scene.lights.begin());
     for (const LightTypeInfo& type : lightTypes())
-        for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation})
-            scene.lights.push_back(edits.light(type.type, falloff));
+        for (const Falloff falloff : falloffsOf(type)) scene.lights.push_back(edits.light(type.type, falloff));
     scene.cameras.front().worldFromCamera[3] = glm::dvec4(edits.point(), 1.0);
     Camera plan = scene.cameras.front();
     plan.projection = Projection::Orthographic;
@@ -121,7 +125,7 @@ TEST(SceneText, everyLightIsLoadedBackIdenticallyWithUnusedFields) {
     Edits edits(1);
     bust.scene.lights.clear();
     for (const LightTypeInfo& type : lightTypes())
-        for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation}) {
+        for (const Falloff falloff : falloffsOf(type)) {
             bust.scene.lights.push_back(edits.light(type.type, falloff));
             for (const LightAnimationKind kind : {LightAnimationKind::Orbit, LightAnimationKind::Wobble,
                                                   LightAnimationKind::Path, LightAnimationKind::Keyframes})

@@ -2,6 +2,7 @@
 #include "validation/reference/Diffusion.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -86,6 +87,27 @@ TEST(ReferenceDiffusion, aDotOfLightIsTheProfile) {
     fmt::print("dot: {:.2e}\n", error);
     // The noise of points that find the dot: measured 0.015.
     EXPECT_LE(error, 0.03);
+}
+
+TEST(ReferenceDiffusion, anAreaLightEntersAsOneFromFarAwayDoesOfTheSameIrradiance) {
+    scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    scene.lights.clear();
+    scenes::Light& light = scene.lights.emplace_back();
+    light.type = scenes::LightType::Directional;
+    light.directionWS = {0.0, -1.0, 0.0};
+    const Rendered wanted = strip(scene, builtin::kTruthDotWS, {8, 4}, 0.1);
+    // Seen at 45 degrees all around; a small light of its area would give twice as much.
+    light.type = scenes::LightType::Disk;
+    light.positionWS = glm::dvec3(0.0, 1000.0, 0.0);
+    light.radiusMetres = 1000.0f;
+    light.intensity = float(2.0 / std::numbers::pi);
+    const Rendered found = strip(scene, builtin::kTruthDotWS, {8, 4}, 0.1);
+    for (std::size_t i = 0; i < wanted.radiance.size(); ++i) {
+        ASSERT_GT(wanted.radiance[i].g, 0.0);
+        // The integral that spreads takes irradiance to 1e-3 at worst.
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(found.radiance[i][c], wanted.radiance[i][c], 1e-3 * wanted.radiance[i][c]) << i;
+    }
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "scenes/Shadows.h"
 #include "validation/reference/LightAt.h"
 
 #include <cmath>
@@ -115,6 +116,70 @@ TEST(ReferenceLight, aToleranceEndsALightWhereTheProductEndsIt) {
             EXPECT_NEAR(rangeOf(light, 1.0, tolerance), wanted, 1e-12 * wanted) << tolerance;
         }
         EXPECT_EQ(rangeOf(light, 1.0, 0.0), double(scenes::kInfinity));
+    }
+}
+
+// ---- Area lights ---------------------------------------------------------------------------------------------------
+
+/// Two metres over the origin, and 4 m2 seen from straight below, but the tube's 2 m2 of mantle.
+Light areaLight(LightType type) {
+    Light light = candela(3.0f, {0, 0, 2});
+    light.type = type;
+    light.widthMetres = 2.0f;
+    light.heightMetres = 2.0f;
+    light.lengthMetres = 2.0f;
+    light.radiusMetres = type == LightType::Tube ? 0.5f : 2.0f / std::sqrt(std::numbers::pi_v<float>);
+    if (type == LightType::Tube) light.directionWS = {1, 0, 0};
+    return light;
+}
+
+TEST(ReferenceLight, theIrradianceOfASmallAreaLightGoesWithItsProjectedArea) {
+    // From the middle's distance of 2 m; held to pi times the radiance.
+    const auto given = [](double area) { return 3.0 * area / (4.0 + area / std::numbers::pi); };
+    const auto at = [](Light light, double angle) {
+        light.directionWS = {std::sin(angle), 0.0, -std::cos(angle)};
+        return incidentAt(shining(light), {0, 0, 0}).irradiance.r;
+    };
+    for (const LightType type : {LightType::Rectangle, LightType::Disk}) {
+        Light light = areaLight(type);
+        EXPECT_NEAR(at(light, 0.0), given(4.0), 1e-6) << "the radius is rounded to fp32";
+        EXPECT_NEAR(at(light, 1.0), given(4.0 * std::cos(1.0)), 1e-6);
+        EXPECT_EQ(at(light, 2.0), 0.0);
+        light.isTwoSided = true;
+        EXPECT_NEAR(at(light, 2.0), given(-4.0 * std::cos(2.0)), 1e-6);
+        light.rangeMetres = 4.0f;
+        EXPECT_NEAR(at(light, 0.0), given(4.0) * std::pow(1.0 - 1.0 / 16.0, 2), 1e-6);
+    }
+    EXPECT_NEAR(at(areaLight(LightType::Sphere), 1.7), given(4.0), 1e-6);
+    const double end = std::numbers::pi / 4.0;
+    for (const double angle : {0.0, 0.4, 1.5, 2.5}) {
+        const double area = 2.0 * std::sin(angle) + end * std::abs(std::cos(angle));
+        EXPECT_NEAR(at(areaLight(LightType::Tube), angle), given(area), 1e-12) << angle;
+    }
+    // However near and large: no more than a hemisphere of its radiance.
+    Light vast = areaLight(LightType::Rectangle);
+    vast.widthMetres = vast.heightMetres = 1e6f;
+    EXPECT_NEAR(at(vast, 0.0), 3.0 * std::numbers::pi, 1e-9);
+}
+
+TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTolerance) {
+    constexpr double kTolerance = 1e-3;
+    Settings settings;
+    settings.rangeTolerance = kTolerance;
+    for (int type = int(LightType::Rectangle); type <= int(LightType::Tube); ++type) {
+        Light light = areaLight(LightType(type));
+        EXPECT_EQ(rangeOf(light, 3.0, 0.0), double(scenes::kInfinity));
+        const double range = rangeOf(light, 3.0, kTolerance);
+        EXPECT_DOUBLE_EQ(shining(light, settings).rangeMetres, range);
+        // From there the whole light, were it no farther than its nearest place, gives just the tolerance.
+        const double bound = LightType(type) == LightType::Rectangle ? std::sqrt(2.0)
+                             : LightType(type) == LightType::Tube    ? std::sqrt(1.25)
+                                                                     : double(light.radiusMetres);
+        const double area = LightType(type) == LightType::Tube ? 2.0 + std::numbers::pi / 4.0 : 4.0;
+        EXPECT_NEAR(3.0 * area / std::pow(range - bound, 2), kTolerance, 1e-9) << type;
+        EXPECT_NEAR(std::numbers::pi * std::pow(scenes::shadowRadiusMetres(light), 2), area, 1e-6) << type;
+        light.rangeMetres = 7.0f;
+        EXPECT_EQ(rangeOf(light, 3.0, kTolerance), 7.0);
     }
 }
 

@@ -1,6 +1,8 @@
 #include "validation/reference/Render.h"
 
 #include <atomic>
+#include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -182,6 +184,60 @@ TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
     }
     settings.leeway = false;
     EXPECT_TRUE(render(scene, settings).alternatives[0].empty());
+}
+
+// ---- Area lights ---------------------------------------------------------------------------------------------------
+
+/// A white triangle of Lambert's model under a sphere of 0.2 m, 2 m above (0.5, 1, 0), where the only pixel looks from
+/// the side.
+Settings settingsUnderASphere(scenes::Scene& scene) {
+    scene = scenes::tinyScene();
+    scene.materials.front().model = scenes::MaterialModel::Lambert;
+    scenes::Light& light = scene.lights.emplace_back();
+    light.type = scenes::LightType::Sphere;
+    light.radiusMetres = 0.2f;
+    light.positionWS = {0.5, 1.0, 2.0};
+    light.castsShadow = true;
+    Settings settings;
+    settings.sizePixels = {1, 1};
+    settings.camera.worldFromCamera = scenes::worldFromLookAt({-3.0, 1.0, 3.0}, {0.5, 1.0, 0.0});
+    return settings;
+}
+
+TEST(ReferenceRender, aSurfaceShowsAnAreaLightAndTheErrorOfItsIntegralIsTold) {
+    scenes::Scene scene;
+    const Settings settings = settingsUnderASphere(scene);
+    const Rendered rendered = render(scene, settings);
+    constexpr double kWanted = 0.01 * std::numbers::pi; // (r / d)^2
+    // The radius is rounded to fp32.
+    EXPECT_NEAR(rendered.radiance[0].g, kWanted, 1e-6 * kWanted);
+    EXPECT_EQ(rendered.areaLights[0].light, rendered.radiance[0]);
+    EXPECT_LE(std::sqrt(rendered.areaLights[0].variance.g), 2e-5 * kWanted);
+    EXPECT_TRUE(rendered.alternatives[0].empty());
+}
+
+TEST(ReferenceRender, ofAnAreaLightTheShareOfTheDiskThatFacesAPointReachesIt) {
+    scenes::Scene scene;
+    const Settings settings = settingsUnderASphere(scene);
+    scenes::Light& light = scene.lights.front();
+    light.type = scenes::LightType::Rectangle;
+    light.widthMetres = 0.4f;
+    light.heightMetres = 0.1f;
+    const double whole = render(scene, settings).radiance[0].g;
+    ASSERT_GT(whole, 0.0);
+    // A triangle half way to the light hides what lies beyond a straight edge, in the light's plane 4 cm from the
+    // middle of a disk as large as the light.
+    scenes::Mesh& mesh = scene.meshes.emplace_back(scene.meshes.front());
+    mesh.positionsOS = {{0.52f, -50.0f, 1.0f}, {50.0f, 1.0f, 1.0f}, {0.52f, 50.0f, 1.0f}};
+    scene.nodes.front().instances.push_back({1, 0});
+    const Rendered part = render(scene, settings);
+    const double t = 0.04 / std::sqrt(0.04 / std::numbers::pi);
+    const double hidden = (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+    // Rays of 64 rings, as far apart as a hundredth of the disk along the edge.
+    EXPECT_NEAR(part.radiance[0].g, (1.0 - hidden) * whole, 2e-3 * whole);
+    EXPECT_EQ(part.areaLights[0].light, part.radiance[0]);
+    scene.meshes[1].positionsOS[0].x = scene.meshes[1].positionsOS[2].x = 0.4f;
+    EXPECT_EQ(render(scene, settings).radiance[0], glm::dvec3(0.0));
 }
 
 TEST(ReferenceRender, idsOfTransparentTrianglesStayBelowTheirBound) {

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+
+#include "scenes/Light.h"
+
+/// The surfaces of area lights (LightTypeInfo::isArea) as numbers.
+namespace tessera::scenes {
+
+/// A width, height, length or radius below this counts as none, and the light is dark: products of two of them keep
+/// their digits in single precision.
+inline constexpr float kLeastAreaMetres = 1e-6f;
+
+/// Whether there is a surface that shines.
+bool hasSurface(const Light& light);
+
+/// The largest area in m^2 that the surface shows from anywhere, seen from afar.
+double largestSeenArea(const Light& light);
+
+/// The radius in metres of the ball around the light's position that its surface lies in.
+double surfaceReachMetres(const Light& light);
+
+/// The unit vector at right angles to a unit direction that is nearest to `wish`, of unit length too; nothing where
+/// that runs along the direction.
+std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& wish);
+
+/// A unit vector at right angles to a unit direction, horizontal where the direction is not vertical, else near +X:
+/// Light::alongWS of a light that states none.
+glm::dvec3 usualAlong(const glm::dvec3& directionWS);
+
+} // namespace tessera::scenes

@@ -1,0 +1,135 @@
+// What a point sees of an area light: a convex outline of straight edges. Round ones have kRoundEdges of them and
+// the area of the circle, so that their light is right to 1e-4 and their edge to 3e-3 of the radius; an end of a tube half
+// as many, and 1.4e-2.
+#pragma once
+#include "shared/light.h"
+#include "lib/maths/math.glsl"
+
+const int kRoundEdges = 32;
+const float kRoundGrowth = 1.0032206; // sqrt(2 pi / (32 sin(2 pi / 32)))
+
+// The vertices lie on two arcs around places on the axis; the other shapes have one of the two.
+struct Outline {
+    vec3 middle;    // metres from the point, as all
+    vec3 faces;     // what is seen as flat: along its normal, as long as it is large
+    vec3 right, up; // of a rectangle the halves of its sides; else radii at right angles
+    vec3 toEnds;    // from the middle to the middle of the first arc, and back to the second
+    vec2 turns;     // of a tube the angle between two vertices of the first arc, and of the second
+    vec2 firstTurn; // the angle of the first vertex of either
+    int edges;      // 0 where nothing is seen
+    bool isRound;
+};
+
+const Outline kNoOutline = Outline(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0), 0, false);
+
+Outline roundOutline(vec3 middle, vec3 right, vec3 up, vec3 faces)
+{
+    const float kTurn = 2.0 * kPi / float(kRoundEdges);
+    return Outline(middle, faces, right, up, vec3(0.0), vec2(kTurn), vec2(0.0), kRoundEdges, true);
+}
+
+#if HAS_SPHERE_LIGHTS
+// A sphere is the disk that its outline spans.
+Outline sphereOutline(vec3 middle, float radius)
+{
+    precise float distance2 = dot(middle, middle);
+    precise float outside2 = distance2 - radius * radius;
+    if (!(outside2 > 0.0)) return kNoOutline;
+    precise vec3 ahead = middle / sqrt(distance2);
+    precise vec3 aside = anyPerpendicular(ahead);
+    precise float share = outside2 / distance2;
+    precise float seenRadius = radius * sqrt(share);
+    precise vec3 right = seenRadius * aside;
+    precise vec3 up = seenRadius * cross(ahead, aside);
+    precise vec3 seenMiddle = share * middle;
+    precise vec3 faces = (kPi * seenRadius * seenRadius) * ahead;
+    return roundOutline(seenMiddle, right, up, faces);
+}
+#endif
+
+#if HAS_TUBE_LIGHTS
+// A closed cylinder: of each end the half of its edge that lies outwards, and the two lines between them.
+Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
+{
+    precise float halfMetres = max(length(halfLength), 1e-18);
+    precise vec3 axis = halfLength / halfMetres;
+    precise float along = -dot(middle, axis); // of the point
+    precise vec3 outwards = -middle - along * axis;
+    precise float away2 = dot(outwards, outwards), away = sqrt(away2);
+    bool seesFirst = along > halfMetres, seesSecond = along < -halfMetres;
+    vec3 radial = away > radius ? safeNormalize(outwards, anyPerpendicular(axis)) : anyPerpendicular(axis);
+    precise vec3 right = radius * radial;
+    precise vec3 up = radius * cross(axis, radial);
+    if (!(away > radius)) {
+        // Within the cylinder's continuation: one of the ends, or nothing.
+        if (!seesFirst && !seesSecond) return kNoOutline;
+        precise vec3 end = seesFirst ? middle + halfLength : middle - halfLength;
+        precise vec3 faces = (kPi * radius * radius) * axis;
+        return roundOutline(end, right, up, faces);
+    }
+    float seenHalf = acos(clamp(radius / away, 0.0, 1.0)); // the tube's side is seen that far to either side
+    // Round the front of an end that is hidden, round the back of one that is seen.
+    const int kEdges = kRoundEdges / 2;
+    precise vec2 arcs = vec2(seesFirst ? 2.0 * seenHalf - 2.0 * kPi : 2.0 * seenHalf,
+                             seesSecond ? 2.0 * kPi - 2.0 * seenHalf : -2.0 * seenHalf);
+    precise vec2 turns = arcs / float(kEdges);
+    precise float distance = sqrt(max(dot(middle, middle), 1e-36));
+    precise float side = 4.0 * radius * halfMetres * away / distance;
+    precise float ends = kPi * radius * radius * abs(along) / distance;
+    precise vec3 faces = middle * ((side + ends) / distance);
+    return Outline(middle, faces, right, up, halfLength, turns, vec2(-seenHalf, seenHalf), 2 * kEdges + 2, true);
+}
+#endif
+
+// Of an area light; `first` and `second` are its LightShapeTexels.
+Outline areaOutline(int kind, vec3 middle, vec4 first, vec4 second)
+{
+    int type = kind & LIGHT_TYPE_MASK;
+#if HAS_SPHERE_LIGHTS
+    if (type == LIGHT_SPHERE) return sphereOutline(middle, first.w);
+#endif
+#if HAS_TUBE_LIGHTS
+    if (type == LIGHT_TUBE) return tubeOutline(middle, first.xyz, first.w);
+#endif
+    precise vec3 faces = cross(first.xyz, second.xyz);
+    if (second.w == 0.0 && !(dot(faces, middle) < 0.0)) return kNoOutline; // seen from behind
+#if HAS_DISK_LIGHTS
+    if (type == LIGHT_DISK) return roundOutline(middle, first.xyz, second.xyz, kPi * faces);
+#endif
+    return Outline(middle, 4.0 * faces, first.xyz, second.xyz, vec3(0.0), vec2(0.0), vec2(0.0), 4, false);
+}
+
+// From the point to a vertex; vertex `edges` is the first again.
+vec3 outlineVertex(Outline outline, int vertex)
+{
+    int number = vertex == outline.edges ? 0 : vertex;
+    if (!outline.isRound) {
+        precise vec3 corner = outline.middle + (number == 0 || number == 3 ? outline.right : -outline.right)
+                              + (number < 2 ? outline.up : -outline.up);
+        return corner;
+    }
+    vec3 end = outline.toEnds;
+    bool isFirst = true, isInner = true;
+    int onArc = number;
+    float growth = kRoundGrowth;
+#if HAS_TUBE_LIGHTS
+    if (outline.edges != kRoundEdges) {
+        const int kEdges = kRoundEdges / 2;
+        isFirst = number <= kEdges;
+        if (!isFirst) onArc -= kEdges + 1;
+        // The ends of an arc lie on it, so that the lines between arcs are the tube's; those between are moved out until
+        // the area is that of the arc.
+        float turn = abs(isFirst ? outline.turns.x : outline.turns.y);
+        precise float ratio = turn > 1e-3 ? turn / sin(turn) : 1.0;
+        const float kInner = float(kEdges - 2);
+        precise float grown = (sqrt(1.0 + kInner * float(kEdges) * ratio) - 1.0) / kInner;
+        growth = onArc == 0 || onArc == kEdges ? 1.0 : grown;
+    }
+#endif
+    precise float angle = isFirst ? outline.firstTurn.x + float(onArc) * outline.turns.x
+                                  : outline.firstTurn.y + float(onArc) * outline.turns.y;
+    precise vec2 place = growth * vec2(cos(angle), sin(angle));
+    precise vec3 from = isFirst ? outline.middle + end : outline.middle - end;
+    precise vec3 corner = from + place.x * outline.right + place.y * outline.up;
+    return corner;
+}

@@ -1,0 +1,120 @@
+// What a surface reflects of light that is the same over each of its lobes: the radiance towards the viewer is the sum of
+// these shares times what enters, what falls on the surface, and what each lobe sees.
+#pragma once
+#include "lib/reflectance/lobes.glsl"
+
+struct EvenShares {
+    vec3 ofEntering;   // of the irradiance that enters the surface, around the horizon too where it wraps
+    vec3 ofIrradiance; // of the irradiance on the surface, besides
+    vec3 ofLobe;       // of the radiance that its lobe sees; 0 where it has none
+#if HAS_CLEARCOAT
+    vec3 ofCoat;
+#endif
+};
+
+bool hasLobe(SeenSurface seen)
+{
+#if HAS_GLOSSY_MODELS
+    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
+#else
+    return false;
+#endif
+}
+
+#if HAS_GGX_MODELS
+// What a dielectric's lobe reflects of even light. By parabolas above index 1, where reflectances go by the square of
+// the contrast; by lines below it, where total reflection begins at an edge.
+float reflectedByDielectric(SeenSurface seen)
+{
+    float place = iorPlace(seen.surface.iorOrF90);
+    bool isDenser = place >= float(LOBE_TABLE_IOR_ONE);
+    int first = isDenser ? min(int(place), LOBE_TABLE_IORS - 3) : max(int(place), 0);
+    precise float t = place - float(first);
+    precise vec3 shares = isDenser ? vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0))
+                                   : vec3(1.0 - t, t, 0.0);
+    float alpha = lobeAlpha(seen.surface);
+    precise float reflected = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        int number = first + i;
+        reflected += shares[i] * lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + number / 4)[number % 4];
+    }
+    return max(reflected, 0.0);
+}
+
+void addMetallicRoughness(SeenSurface seen, const bool compensated, inout EvenShares shares)
+{
+    Surface surface = seen.surface;
+    vec4 lobe = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX);
+    precise vec3 entering = seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a);
+    precise vec3 highlight = hasLobe(seen) ? seen.f0 * lobe.r + seen.fresnelRise * lobe.g : vec3(0.0);
+    precise vec3 besides = vec3(0.0);
+#if ENVIRONMENT_COMPENSATION
+    if (compensated) besides = lostToBounces(seen) * kInversePi;
+#endif
+#if HAS_SHEEN
+    if (strongestSheen(surface) > 0.0) {
+        vec2 sheen = lobeTexel(max(seen.nv, 0.0), surface.sheenAlpha, LOBE_LAYER_SHEEN).rg;
+        entering *= max(1.0 - strongestSheen(surface) * sheen.g, 0.0);
+        precise float below = max(1.0 - strongestSheen(surface) * sheenAlbedo(surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
+        highlight *= below;
+        besides *= below;
+        // A sheen is as broad as a diffuse reflection.
+        if (hasLobe(seen)) besides += surface.sheenColor * sheen.r * kInversePi;
+    }
+#endif
+    shares.ofEntering = entering;
+    shares.ofIrradiance = besides;
+    shares.ofLobe = highlight;
+}
+#endif
+
+void addTeachingModels(SeenSurface seen, inout EvenShares shares)
+{
+    shares.ofEntering = seen.surface.albedo;
+    if (!hasLobe(seen)) return;
+#if HAS_BLINN_PHONG
+    if (seen.surface.model == MODEL_BLINN_PHONG) {
+        // The table holds it times p + 2, which hardly changes with p.
+        precise float reflected =
+            lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b / (seen.surface.parameter + 2.0);
+        precise vec3 highlight = seen.surface.specular * reflected;
+        shares.ofLobe = highlight;
+    }
+#endif
+#if HAS_GGX_MODELS
+    if (IS_MICROFACET(seen.surface.model)) {
+        precise vec3 highlight = seen.surface.specular * reflectedByDielectric(seen);
+        shares.ofLobe = highlight;
+    }
+#endif
+}
+
+// `compensated`: with what the lobe loses between microfacets, where that is asked for.
+EvenShares evenShares(SeenSurface seen, const bool compensated)
+{
+    EvenShares shares;
+    shares.ofEntering = shares.ofIrradiance = shares.ofLobe = vec3(0.0);
+    bool isMetallic = false;
+#if HAS_GGX_MODELS
+    isMetallic = HAS_METALLIC(seen.surface.model);
+    if (isMetallic) addMetallicRoughness(seen, compensated, shares);
+#endif
+    if (!isMetallic) addTeachingModels(seen, shares);
+#if HAS_CLEARCOAT
+    shares.ofCoat = vec3(0.0);
+    if (seen.surface.coatFactor > 0.0) {
+        precise float below = 1.0 - seen.coatWeight;
+        shares.ofEntering *= below;
+        shares.ofIrradiance *= below;
+        shares.ofLobe *= below;
+#if !SPECULAR_OFF
+        if (seen.coatNv > 0.0) {
+            precise vec3 coat =
+                vec3(seen.coatWeight * lobeTexel(seen.coatNv, seen.surface.coatAlpha, LOBE_LAYER_GGX).r);
+            shares.ofCoat = coat;
+        }
+#endif
+    }
+#endif
+    return shares;
+}

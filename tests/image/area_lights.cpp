@@ -1,0 +1,339 @@
+// Area lights: every technique, what they leave out, known answers, and the reference.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/PrepareView.h"
+#include "renderer/graph/Plan.h"
+#include "tests/image/EnvironmentTest.h"
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::LightType;
+using std::numbers::pi;
+using namespace test;
+
+scenes::Light areaLight(LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS, float radiance) {
+    scenes::Light light;
+    light.type = type;
+    light.positionWS = positionWS;
+    light.directionWS = glm::normalize(directionWS);
+    const glm::dvec3 aside = glm::cross(glm::dvec3(0.0, 1.0, 0.0), light.directionWS);
+    light.alongWS = glm::length(aside) > 1e-3 ? glm::normalize(aside) : glm::dvec3(1.0, 0.0, 0.0);
+    light.radiusMetres = type == LightType::Rectangle ? 0.0f : 0.3f;
+    light.intensity = radiance;
+    return light;
+}
+
+constexpr LightType kAreaTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+
+/// The scene's lights and one of each type, with and without a range, from the front and on both sides.
+scenes::Scene withAreaLights(scenes::Scene scene) {
+    double x = -1.5;
+    for (const LightType type : kAreaTypes) {
+        scenes::Light light = areaLight(type, {x, 1.0, 1.5}, {-0.3 * x, -0.5, -1.0}, 3.0f);
+        light.rangeMetres = type == LightType::Disk ? 4.0f : scenes::kInfinity;
+        light.isTwoSided = type == LightType::Disk;
+        scene.lights.push_back(light);
+        x += 1.0;
+    }
+    return scene;
+}
+
+class AreaLights : public EnvironmentTest {};
+
+TEST_F(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
+    struct Case {
+        scenes::Scene scene;
+        int samples;
+        scenes::ShadowRequest shadows;
+        std::vector<Technique> techniques; ///< besides forward; none: all
+    };
+    for (Case& one : std::vector<Case>{
+             {withAreaLights(evenScene()), 1, {}, {}},
+             {withAreaLights(everythingScene()), 1, {}, {Technique::TiledDeferred, Technique::ClusteredForward}},
+             {withAreaLights(evenScene()), 1, kAllLightsCast, {Technique::DeferredVolumes, Technique::ForwardPlus}},
+             {withAreaLights(quadScene({})), 4, {}, {}}}) {
+        SCOPED_TRACE(fmt::format("{}, {} samples", one.scene.name, one.samples));
+        engine::Renderer renderer(context(), one.scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        settings.diffusion = coarseDiffusion();
+        settings.samples = one.samples;
+        settings.shadows = one.shadows;
+        expectParity(renderer, settings, one.techniques);
+    }
+}
+
+TEST_F(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
+    scenes::Scene scene = quadScene({});
+    for (const LightType type : kAreaTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        scene.lights = {areaLight(type, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        const auto radiance = [&](bool prune) {
+            settings.prune = prune;
+            return engine::Renderer(context(), scene).render(Technique::TiledDeferred, settings).radiance;
+        };
+        EXPECT_EQ(radiance(true), radiance(false));
+    }
+}
+
+TEST_F(AreaLights, aSceneWithoutThemHasNoTraceOfThem) {
+    frame::FrameSettings settings;
+    const scenes::Scene scene = scenes::loadScene("spheres");
+    for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, settings))
+        for (const auto& [name, value] : program.defines)
+            if (name == "HAS_AREA_LIGHTS") {
+                EXPECT_EQ(value, "0");
+            }
+    const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, settings);
+    EXPECT_EQ(planText(plan).find("lobe_"), std::string::npos) << planText(plan);
+}
+
+/// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`.
+class AreaLightTruth : public EnvironmentTest {
+protected:
+    double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
+                const glm::dvec3& toViewer = {0.0, 0.0, 1.0}) {
+        scenes::Scene scene = quadScene(material);
+        scene.lights = lights;
+        scenes::Camera& camera = scene.cameras[0];
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = 1e-4;
+        const glm::dvec3 back = glm::normalize(toViewer);
+        camera.worldFromCamera = scenes::worldFromLookAt(3.0 * back, glm::dvec3(0.0));
+        frame::FrameSettings settings;
+        settings.sizePixels = {3, 3};
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+        return double(radiance[4 * 4]);
+    }
+    /// k_d 1, without 1/pi: shows the irradiance.
+    static scenes::Material matte() {
+        scenes::Material material;
+        material.model = scenes::MaterialModel::Lambert;
+        material.doubleSided = true;
+        return material;
+    }
+};
+
+// Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".
+TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
+    constexpr double kRelative = 1e-4; // of round outlines; straight ones are within 2e-6
+    const auto sideways = [](LightType type, const glm::dvec3& at, const glm::dvec3& to) {
+        return areaLight(type, at, to, 1.0f);
+    };
+    // A parallel rectangle a x b above one of its corners (B-4), four times.
+    for (const double height : {0.05, 0.5, 2.0, 50.0}) {
+        scenes::Light light = sideways(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        light.widthMetres = 2.0f;
+        light.heightMetres = 1.0f;
+        const double x = 1.0 / height, y = 0.5 / height;
+        const double corner = (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
+                               y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
+                              (2.0 * pi);
+        EXPECT_NEAR(seen(matte(), {light}) / (4.0 * pi * corner), 1.0, kRelative) << "rectangle at " << height;
+    }
+    // A perpendicular one that stands on the surface's plane, seen from before the middle of its edge (B-3, twice):
+    // half of it is below the horizon where it is let down by half its height.
+    for (const double distance : {0.1, 0.5, 3.0})
+        for (const double down : {0.0, 1.0}) {
+            scenes::Light light = sideways(LightType::Rectangle, {0.0, distance, 1.0 - down}, {0.0, -1.0, 0.0});
+            light.widthMetres = 2.0f;
+            light.heightMetres = 2.0f;
+            const double high = 2.0 - down, x = 1.0 / distance, y = high / distance;
+            const double half =
+                (std::atan(x) - std::atan(x / std::sqrt(1 + y * y)) / std::sqrt(1 + y * y)) / (2.0 * pi);
+            EXPECT_NEAR(seen(matte(), {light}) / (2.0 * pi * half), 1.0, kRelative)
+                << "standing rectangle at " << distance << ", let down by " << down;
+        }
+    // A parallel disk above the point (B-13).
+    for (const double height : {0.03, 0.3, 3.0, 300.0}) {
+        const scenes::Light light = sideways(LightType::Disk, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        const double factor = 0.09 / (0.09 + height * height);
+        EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative) << "disk at " << height;
+    }
+    // A sphere that is all above the horizon: (r/d)^2 cos (B-37).
+    for (const double angle : {0.0, 0.5, 1.0}) {
+        for (const double distance : {0.7, 5.0, 400.0}) {
+            const scenes::Light light = sideways(
+                LightType::Sphere, distance * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)), {0.0, 0.0, -1.0});
+            const double factor = 0.09 / (distance * distance) * std::cos(angle);
+            EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative)
+                << "sphere at " << distance << ", " << angle;
+        }
+    }
+    // An endless tube above the surface: r/h, as a strip of its width.
+    scenes::Light tube = sideways(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0});
+    tube.lengthMetres = 2e4f;
+    EXPECT_NEAR(seen(matte(), {tube}) / (pi * 0.3), 1.0, 2e-3) << "tube";
+}
+
+TEST_F(AreaLightTruth, flatLightsShineFromTheirFrontAndWhereTheyAreTwoSidedFromTheBack) {
+    for (const LightType type : {LightType::Rectangle, LightType::Disk}) {
+        scenes::Light light = areaLight(type, {0.1, 0.2, 1.0}, {0.0, 0.0, 1.0}, 1.0f);
+        EXPECT_EQ(seen(matte(), {light}), 0.0);
+        light.isTwoSided = true;
+        scenes::Light front = light;
+        front.directionWS = -light.directionWS;
+        front.isTwoSided = false;
+        EXPECT_NEAR(seen(matte(), {light}), seen(matte(), {front}), 1e-6);
+    }
+}
+
+/// Six walls of a box: each lobe sees the same light all over the hemisphere, and so what it reflects of even light.
+TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
+    std::vector<scenes::Light> walls;
+    for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+        for (const double side : {-1.0, 1.0}) {
+            scenes::Light wall = areaLight(LightType::Rectangle, side * 2.0 * axis, -side * axis, 1.0f);
+            wall.widthMetres = wall.heightMetres = 4.0f;
+            walls.push_back(wall);
+        }
+    EXPECT_NEAR(seen(matte(), walls), pi, 2e-5);
+    // E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4.
+    constexpr double kCosines[] = {0.1, 0.5, 1.0}, kAlphas[] = {0.05, 0.25, 1.0};
+    constexpr double kReflected[3][3] = {{.9113, .9927, .9973}, {.8916, .8572, .9158}, {.7602, .4507, .3069}};
+    scenes::Material white;
+    white.metallic = 1.0f;
+    white.doubleSided = true;
+    for (int a = 0; a < 3; ++a)
+        for (int m = 0; m < 3; ++m) {
+            white.perceptualRoughness = float(std::sqrt(kAlphas[a]));
+            const glm::dvec3 toViewer(std::sqrt(1.0 - kCosines[m] * kCosines[m]), 0.0, kCosines[m]);
+            EXPECT_NEAR(seen(white, walls, toViewer), kReflected[a][m], 1e-3)
+                << "alpha " << kAlphas[a] << ", cosine " << kCosines[m];
+        }
+}
+
+/// Just above the size at which outlines count as places, on a surface that they graze: (r/d)^2 cos.
+TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
+    for (const double cosine : {0.1, 0.3, 0.7})
+        for (const double share : {2.1e-3, 1e-2}) {
+            const double distance = 0.3 / share;
+            const glm::dvec3 at = distance * glm::dvec3(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+            const double factor = share * share * cosine;
+            EXPECT_NEAR(seen(matte(), {areaLight(LightType::Sphere, at, -at, 1.0f)}) / (pi * factor), 1.0, 1e-3)
+                << cosine << ", " << share;
+        }
+}
+
+/// What an environment's light gets back between microfacets is not the lights'.
+TEST_F(AreaLightTruth, lightsAreNotCompensated) {
+    scenes::Material metal;
+    metal.metallic = 1.0f;
+    metal.doubleSided = true;
+    scenes::Scene scene = quadScene(metal);
+    scene.lights = {areaLight(LightType::Disk, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
+    scene.environment = evenEnvironment(0.0);
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 9};
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> plain = renderer.render(Technique::Deferred, settings).radiance;
+    settings.environment.compensates = true;
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, plain);
+}
+
+/// A mirror sees a light all or nothing, wherever its outline is.
+TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
+    scenes::Material mirror;
+    mirror.metallic = 1.0f;
+    mirror.perceptualRoughness = 0.0f;
+    mirror.doubleSided = true;
+    for (const LightType type : kAreaTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        const scenes::Light light = areaLight(type, {-1.0, 0.0, 1.0}, {1.0, 0.0, -1.0}, 2.0f);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 0.0, 1.0}), 2.0, 0.02);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 2.0, 1.0}), 0.0, 0.02);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 0.0, 6.0}), 0.0, 0.02);
+    }
+}
+
+/// Where outlines are so small that they count as places, nothing jumps.
+TEST_F(AreaLightTruth, lightsGoOverIntoSmallOnesWithoutAStep) {
+    scenes::Material metal;
+    metal.metallic = 1.0f;
+    metal.doubleSided = true;
+    for (const double roughness : {0.1, 0.5, 1.0})
+        for (const LightType type : kAreaTypes) {
+            metal.perceptualRoughness = float(roughness);
+            double before = 0.0;
+            for (double distance = 20.0; distance < 3000.0; distance *= 1.07) {
+                const glm::dvec3 at = distance * glm::normalize(glm::dvec3(-0.5, 0.1, 1.0));
+                const scenes::Light light = areaLight(type, at, -at, 1.0f);
+                const double here = seen(metal, {light}, {0.5, 0.0, 1.0}) * distance * distance;
+                if (before > 0.0) {
+                    EXPECT_NEAR(here / before, 1.0, 0.03) << scenes::infoOf(type).name << " at " << distance;
+                }
+                before = here;
+            }
+        }
+}
+
+TEST_F(AreaLightTruth, extremeSizesAndPlacesGiveFiniteLight) {
+    scenes::Material metal;
+    metal.metallic = 0.5f;
+    metal.doubleSided = true;
+    for (const LightType type : kAreaTypes)
+        for (const double roughness : {0.0, 0.3, 1.0})
+            for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f})
+                for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1e-5), glm::dvec3(0.0, 0.0, -0.1),
+                                             glm::dvec3(0.5, 0.0, 0.0), glm::dvec3(1e5, 0.0, 1.0)}) {
+                    metal.perceptualRoughness = float(roughness);
+                    scenes::Light light = areaLight(type, at, {0.3, 0.0, -1.0}, 1e6f);
+                    light.alongWS = glm::normalize(glm::cross(light.directionWS, glm::dvec3(0.0, 1.0, 0.0)));
+                    light.widthMetres = light.heightMetres = light.lengthMetres = light.radiusMetres = size;
+                    for (const glm::dvec3& toViewer : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, 1e-3)}) {
+                        const double radiance = seen(metal, {light}, toViewer);
+                        // Half a metal reflects up to 1.07 of even light at grazing angles.
+                        EXPECT_TRUE(std::isfinite(radiance) && radiance >= 0.0 && radiance <= 1.1e6)
+                            << scenes::infoOf(type).name << " of " << size << " at " << at.x << " " << at.z << ": "
+                            << radiance;
+                    }
+                }
+}
+
+/// Against the integral over the light, by roughness and shape: docs/area-lights.md.
+TEST_F(AreaLightTruth, onABallIsNearTheIntegralOverTheLight) {
+    for (const LightType type : kAreaTypes)
+        for (const double roughness : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            scenes::Material metal;
+            metal.metallic = 1.0f;
+            metal.perceptualRoughness = float(roughness);
+            scenes::Scene scene = ballUnderSky(metal);
+            scene.lights = {areaLight(type, {1.2, 1.5, 2.0}, {-1.2, -1.5, -2.0}, 1.0f)};
+            frame::FrameSettings settings;
+            settings.sizePixels = {48, 48};
+            const validation::ReferencePicture truth = validation::referencePicture(
+                scene, settings, [] {}, validation::Leeway::None);
+            engine::Renderer renderer(context(), scene);
+            const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+            double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
+            for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
+                if (truth.picture.covered[i] == 0) continue;
+                const double own = double(radiance[4 * i]), other = double(truth.picture.rgba[4 * i]);
+                shown += own;
+                light += other;
+                squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
+                count += 1.0;
+            }
+            fmt::print("{:9} roughness {:.2f} bias {:+.1e} relMSE {:.1e}\n", scenes::infoOf(type).name, roughness,
+                       shown / light - 1.0, squares / count);
+            // The shapes of lobes: the worst is half as large. A mirror has the outline alone, of which pixels may
+            // differ.
+            EXPECT_LE(std::abs(shown / light - 1.0), roughness > 0.0 ? 0.03 : 2e-3);
+            EXPECT_LE(squares / count, roughness > 0.0 ? 0.025 : 1e-4);
+        }
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,284 @@
+// Area lights as the GPU reads them: their surfaces, where they end, and what culling takes them for.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "renderer/culling/LightLists.h"
+#include "renderer/frame/CullLights.h"
+#include "scenes/AreaLight.h"
+#include "tests/support/Random.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::LightType;
+
+constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+
+/// In sight of the default camera, which looks along -z.
+scenes::Light surfaceLight(LightType type) {
+    scenes::Light light;
+    light.type = type;
+    light.positionWS = {0.0, 0.0, -5.0};
+    light.radiusMetres = 0.5f;
+    return light;
+}
+
+scenes::Light randomSurface(test::Random& random, LightType type) {
+    scenes::Light light = surfaceLight(type);
+    light.directionWS = random.direction();
+    light.alongWS = random.around(light.directionWS, 0.0, 0.0);
+    for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
+                                         &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
+        light.*metres = float(random.logarithmic(0.1, 2.0));
+    return light;
+}
+
+PackedLights packSurfaces(const std::vector<scenes::Light>& lights, const FrameSettings& settings = {}) {
+    scenes::Scene scene;
+    scene.lights = lights;
+    return packLights(scene, makeCameraView({}, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
+}
+
+TEST(PackedAreaLights, aFlatSurfaceReachesByTwoVectorsWhoseProductPointsWhereItShines) {
+    scenes::Light panel = surfaceLight(LightType::Rectangle);
+    panel.widthMetres = 3.0f;
+    panel.heightMetres = 0.5f;
+    panel.color = {1.0f, 0.5f, 0.25f};
+    panel.intensity = 8.0f;
+    const PackedLights packed = packSurfaces({panel});
+    EXPECT_EQ(packed.texels.at(0).position, glm::vec4(0, 0, -5, 0)); // no range: 1/range^2 is 0
+    EXPECT_EQ(packed.texels.at(0).color, glm::vec4(8, 4, 2, float(int(LightType::Rectangle))));
+    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(1.5f, 0, 0, 0));
+    EXPECT_EQ(packed.shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 0));
+    panel.isTwoSided = true;
+    EXPECT_EQ(packSurfaces({panel}).shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 1));
+
+    test::Random random(6);
+    for (int i = 0; i < 200; ++i) {
+        const scenes::Light light = randomSurface(random, i % 2 == 0 ? LightType::Rectangle : LightType::Disk);
+        const bool isDisk = light.type == LightType::Disk;
+        const shared::LightShapeTexels shape = packSurfaces({light}).shapes.at(0);
+        const glm::dvec3 axis(shape.axis), across(shape.attenuation);
+        const double a = isDisk ? double(light.radiusMetres) : 0.5 * double(light.widthMetres);
+        const double b = isDisk ? double(light.radiusMetres) : 0.5 * double(light.heightMetres);
+        // Roundings of fp32.
+        EXPECT_NEAR(glm::length(axis), a, 2e-7 * a);
+        EXPECT_NEAR(glm::length(across), b, 2e-7 * b);
+        EXPECT_LT(glm::distance(glm::cross(axis, across) / (a * b), light.directionWS), 4e-7);
+        if (!isDisk) {
+            EXPECT_LT(glm::distance(axis / a, light.alongWS), 2e-7);
+        }
+    }
+}
+
+TEST(PackedAreaLights, aSphereHasARadiusAndATubeHalfOfItselfToo) {
+    EXPECT_EQ(packSurfaces({surfaceLight(LightType::Sphere)}).shapes.at(0).axis, glm::vec4(0, 0, 0, 0.5f));
+    scenes::Light tube = surfaceLight(LightType::Tube);
+    tube.lengthMetres = 3.0f;
+    tube.directionWS = {0.0, 1.0, 0.0};
+    const PackedLights packed = packSurfaces({tube});
+    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(0, 1.5f, 0, 0.5f));
+    EXPECT_TRUE(packed.features.areaLights());
+    EXPECT_TRUE(packed.features[LightType::Tube]);
+    EXPECT_FALSE(packed.features[LightType::Sphere]);
+    EXPECT_FLOAT_EQ(packed.shadows.at(0).shadow.x, float(std::sqrt((3.0 + test::pi * 0.25) / test::pi)));
+}
+
+TEST(PackedAreaLights, inViewSpaceTheSurfaceIsTurnedWithTheView) {
+    scenes::Camera camera; // looks along +x: view (x, y, -z) is world (z, y, x)
+    camera.worldFromCamera = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
+    scenes::Scene scene;
+    scene.lights = {surfaceLight(LightType::Rectangle)};
+    scene.lights[0].positionWS = {5.0, 0.0, 0.0};
+    scene.lights[0].directionWS = {-1.0, 0.0, 0.0};
+    scene.lights[0].alongWS = {0.0, 1.0, 0.0};
+    FrameSettings settings;
+    settings.space = LightingSpace::View;
+    const PackedLights packed =
+        packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
+    EXPECT_EQ(packed.texels.at(0).position, glm::vec4(0, 0, -5, 0));
+    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(0, 0.5f, 0, 0));
+    EXPECT_EQ(packed.shapes.at(0).attenuation, glm::vec4(-0.5f, 0, 0, 0));
+}
+
+TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
+    std::vector<scenes::Light> lights;
+    for (const LightType type : kShapes) {
+        scenes::Light& light = lights.emplace_back(surfaceLight(type));
+        light.radiusMetres = light.widthMetres = 0.0f;
+        lights.emplace_back(surfaceLight(type)).intensity = 0.0f;
+    }
+    lights.push_back(surfaceLight(LightType::Sphere));
+    const PackedLights pruned = packSurfaces(lights);
+    EXPECT_EQ(pruned.dark, 8u);
+    EXPECT_THAT(pruned.sceneIndex, testing::ElementsAre(8));
+    FrameSettings keep;
+    keep.prune = false;
+    const PackedLights whole = packSurfaces(lights, keep);
+    ASSERT_EQ(whole.texels.size(), 9u);
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
+}
+
+TEST(PackedAreaLights, theirSurfaceLiesInTheBallThatCullingTakesThemFor) {
+    test::Random random(7);
+    for (const LightType type : kShapes) {
+        for (int i = 0; i < 50; ++i) {
+            const scenes::Light light = randomSurface(random, type);
+            const bool isRound = type != LightType::Rectangle;
+            const double exact = scenes::surfaceReachMetres(light) * double(isRound ? AREA_OUTLINE_REACH : 1.0f);
+            EXPECT_NEAR(surfaceReachMetres(type, packSurfaces({light}).shapes.at(0)), exact, 3e-7 * exact);
+        }
+    }
+    EXPECT_EQ(surfaceReachMetres(LightType::Spot, packSurfaces({surfaceLight(LightType::Spot)}).shapes.at(0)), 0.0f);
+}
+
+TEST(AreaLightReach, isItsRangeOrWhereItCanCauseNoMoreThanTheTolerance) {
+    scenes::Light panel = surfaceLight(LightType::Rectangle);
+    panel.widthMetres = 3.0f;
+    panel.heightMetres = 4.0f;
+    panel.color = {0.25f, 0.5f, 0.125f};
+    panel.intensity = 6.0f;
+    EXPECT_EQ(reachMetres(panel, 0.0), scenes::kInfinity);
+    // In a ball of 2.5 m; 3 cd/m^2 from 12 m^2 cause 1/4 lx at 12 m from it.
+    EXPECT_DOUBLE_EQ(reachMetres(panel, 0.25), 14.5);
+    panel.rangeMetres = 7.0f;
+    EXPECT_EQ(reachMetres(panel, 0.25), 7.0);
+    EXPECT_FALSE(takesTolerance(panel));
+    panel.heightMetres = 0.0f;
+    EXPECT_EQ(reachMetres(panel, 0.0), 0.0);
+    for (const LightType type : kShapes) {
+        scenes::Light light = surfaceLight(type);
+        EXPECT_TRUE(takesTolerance(light));
+        double last = scenes::kInfinity;
+        for (double tolerance = 1e-9; tolerance < 1e6; tolerance *= 10.0) {
+            const double reach = reachMetres(light, tolerance), beyond = reach - scenes::surfaceReachMetres(light);
+            EXPECT_LT(reach, last);
+            EXPECT_NEAR(scenes::largestSeenArea(light) / (beyond * beyond), tolerance, 1e-6 * tolerance);
+            last = reach;
+        }
+        light.intensity = 1e30f;
+        light.color = glm::vec3(1e8f);
+        EXPECT_EQ(reachMetres(light, std::numeric_limits<double>::denorm_min()), scenes::kInfinity);
+    }
+}
+
+TEST(AreaLightReach, aToleranceCountsThemAsEnded) {
+    scenes::Light black = surfaceLight(LightType::Sphere), none = black, ranged = black;
+    black.intensity = 0.0f;
+    none.radiusMetres = 0.0f;
+    ranged.rangeMetres = 2.0f;
+    const std::vector<scenes::Light> lights{black, none, ranged, surfaceLight(LightType::Disk)};
+    EXPECT_EQ(packSurfaces(lights).truncated.endless, 1u);
+    EXPECT_EQ(packSurfaces(lights).truncated.sum(), 1u);
+    EXPECT_EQ(packSurfaces(lights).everywhere, 1u);
+    FrameSettings settings;
+    settings.rangeTolerance = test::pi * 0.25 / 16.0; // 4 m from the disk's ball
+    const PackedLights packed = packSurfaces(lights, settings);
+    EXPECT_EQ(packed.truncated.ended, 1u);
+    EXPECT_NEAR(packed.truncated.longestMetres, 4.5, 1e-12);
+    EXPECT_EQ(packed.everywhere, 0u);
+    EXPECT_NEAR(packed.texels.back().position.w, 1.0f / (4.5f * 4.5f), 1e-7f);
+    EXPECT_EQ(packed.texels.back().position.w, packSurfaces({lights.back()}, settings).texels.at(0).position.w);
+}
+
+/// A wall of 16x16 pixels, 5 m ahead of the camera, whose normals point any way; one tile.
+class WallOfNormals {
+public:
+    explicit WallOfNormals(test::Random& random) {
+        camera_.projection = scenes::Projection::Orthographic;
+        camera_.nearMetres = 0.0;
+        camera_.farMetres = 10.0;
+        camera_.halfHeightMetres = 1.0;
+        const glm::dvec3 middle = random.direction();
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                depth_.push_back(float(random.between(0.48, 0.52)));
+                normals_.push_back(glm::vec3(random.around(middle, 0.99, 1.0)));
+                positions_.emplace_back((x + 0.5) * 2.0 / kSide - 1.0, (y + 0.5) * 2.0 / kSide - 1.0,
+                                        -10.0 * (1.0 - double(depth_.back())));
+                const glm::vec3 normal = normals_.back();
+                for (const float part : {normal.x, normal.y, normal.z})
+                    words_.push_back(std::bit_cast<std::uint32_t>(part));
+            }
+        }
+    }
+
+    /// Indices into the scene's lights of those that the tile lists.
+    std::vector<int> listed(const std::vector<scenes::Light>& lights, culling::NormalTest test) const {
+        scenes::Scene scene;
+        scene.lights = lights;
+        FrameSettings settings;
+        settings.prune = false;
+        const CameraView view = makeCameraView(camera_, glm::ivec2(kSide), LightingSpace::World, glm::vec3(0.0f));
+        const PackedLights packed = packLights(scene, view, settings);
+        const std::vector<shared::CullLight> culls = cullLights(packed, view);
+        shared::LightingConstants lighting{};
+        culling::setTileGrid(lighting, view.constants, kSide);
+        culling::BuildInput input{
+            {view.constants, lighting}, culls, culling::Method::TileMinmax, {depth_, false}, {}, test, {}};
+        input.readNormals = [&] {
+            // Culling space looks along +z.
+            return culling::NormalPicture{
+                words_, 3, {culling::NormalForm::Vector, 0, 0}, glm::mat3(1, 0, 0, 0, 1, 0, 0, 0, -1)};
+        };
+        culling::LightListBuilder builder;
+        const culling::LightLists& lists = builder.build(input);
+        std::vector<int> indices;
+        const glm::uvec4 words = lists.tiles.at(0).words;
+        for (std::uint32_t i = 0; i < words.w; ++i) indices.push_back(packed.sceneIndex[lists.entries.at(words.z + i)]);
+        return indices;
+    }
+
+    /// Whether any place of the light's ball is in front of any pixel's surface that the light reaches.
+    bool mayLight(const scenes::Light& light) const {
+        for (std::size_t i = 0; i < positions_.size(); ++i) {
+            const glm::dvec3 toLight = light.positionWS - positions_[i];
+            if (glm::length(toLight) < double(light.rangeMetres) &&
+                glm::dot(toLight, glm::dvec3(normals_[i])) + scenes::surfaceReachMetres(light) > 0.0)
+                return true;
+        }
+        return false;
+    }
+
+private:
+    static constexpr int kSide = 16;
+    scenes::Camera camera_;
+    std::vector<float> depth_;
+    std::vector<glm::vec3> normals_;
+    std::vector<glm::dvec3> positions_;
+    std::vector<std::uint32_t> words_;
+};
+
+TEST(AreaLightCulling, aListByNormalsNeverLacksALightThatHasAPartInFrontOfASurface) {
+    test::Random random(9);
+    std::size_t behind = 0, saved = 0; // lights whose middle is behind though they are needed; those that are left out
+    for (int turn = 0; turn < 20; ++turn) {
+        const WallOfNormals wall(random);
+        std::vector<scenes::Light> lights;
+        for (int i = 0; i < 300; ++i) {
+            scenes::Light& light = lights.emplace_back(randomSurface(random, kShapes[random.index(4)]));
+            light.positionWS = glm::dvec3(0.0, 0.0, -5.0) + random.direction() * random.between(0.0, 5.0);
+            light.rangeMetres = float(random.between(1.0, 8.0));
+        }
+        const std::vector<int> listed = wall.listed(lights, culling::NormalTest::On);
+        const std::vector<int> all = wall.listed(lights, culling::NormalTest::Off);
+        saved += all.size() - listed.size();
+        for (int i = 0; i < int(lights.size()); ++i) {
+            scenes::Light middle = lights[std::size_t(i)];
+            const bool isNeeded = wall.mayLight(middle);
+            middle.type = LightType::Point;
+            if (isNeeded && !wall.mayLight(middle)) ++behind;
+            EXPECT_TRUE(!isNeeded || std::binary_search(listed.begin(), listed.end(), i)) << turn << ", light " << i;
+        }
+    }
+    EXPECT_GT(behind, 100u);
+    EXPECT_GT(saved, 100u);
+}
+
+} // namespace
+} // namespace tessera::frame

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include "scenes/AreaLight.h"
+#include "scenes/import/SceneJsonLights.h"
+#include "scenes/write/ElementJson.h"
+#include "tests/support/Random.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+using test::SceneFolder;
+
+std::string areaDocument(const std::string& light) {
+    return R"({"tessera": 1, "lights": [{"position": [1, 2, 3], )" + light + "}]}";
+}
+Light areaLight(const SceneFolder& folder, const std::string& light) {
+    return folder.import(areaDocument(light)).lights.at(0);
+}
+
+TEST(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
+    const SceneFolder folder;
+    const Light panel = areaLight(folder, R"("type": "rectangle", "direction": [0, -2, 0], "width": 3, "height": 0.5,
+        "along": [0, 7, -2], "twoSided": true, "intensity": 40, "falloff": {"type": "inverse_square", "range": 9})");
+    EXPECT_EQ(panel.type, LightType::Rectangle);
+    EXPECT_EQ(panel.widthMetres, 3.0f);
+    EXPECT_EQ(panel.heightMetres, 0.5f);
+    EXPECT_EQ(panel.directionWS, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(panel.alongWS, glm::dvec3(0, 0, -1)) << "what is along the direction does not count";
+    EXPECT_TRUE(panel.isTwoSided);
+    EXPECT_EQ(panel.rangeMetres, 9.0f);
+    const Light disk = areaLight(folder, R"("type": "disk", "target": [1, 2, 4], "radius": 0.25)");
+    EXPECT_EQ(disk.radiusMetres, 0.25f);
+    EXPECT_EQ(disk.directionWS, glm::dvec3(0, 0, 1));
+    EXPECT_FALSE(disk.isTwoSided);
+    EXPECT_EQ(disk.rangeMetres, kInfinity);
+    EXPECT_EQ(areaLight(folder, R"("type": "sphere", "radius": 2)").radiusMetres, 2.0f);
+    const Light tube = areaLight(folder, R"("type": "tube", "direction": [1, 0, 0], "length": 1.5, "radius": 0.02)");
+    EXPECT_EQ(tube.lengthMetres, 1.5f);
+    EXPECT_EQ(tube.radiusMetres, 0.02f);
+}
+
+TEST(SceneJsonAreaLights, aWidthThatIsNotStatedIsHorizontal) {
+    const SceneFolder folder;
+    const auto along = [&](const char* direction) {
+        return areaLight(folder, fmt::format(R"("type": "rectangle", "direction": {})", direction)).alongWS;
+    };
+    EXPECT_EQ(along("[0, 0, 1]"), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(along("[0, 0, -1]"), glm::dvec3(-1, 0, 0));
+    EXPECT_EQ(along("[1, 0, 0]"), glm::dvec3(0, 0, -1));
+    EXPECT_EQ(along("[0, 1, 0]"), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(along("[0, -1, 0]"), glm::dvec3(1, 0, 0));
+    tessera::test::Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+        glm::dvec3 direction = random.direction();
+        if (i % 2 == 0) direction.y = random.logarithmic(1.0, 1e20); // all but vertical
+        direction = glm::normalize(direction);
+        const glm::dvec3 usual = usualAlong(direction);
+        EXPECT_NEAR(glm::dot(usual, direction), 0.0, 1e-15);
+        EXPECT_NEAR(glm::length(usual), 1.0, 1e-15);
+        EXPECT_NEAR(usual.y, 0.0, 1e-6);
+    }
+}
+
+TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
+    const SceneFolder folder;
+    const auto error = [&](const std::string& light) { return folder.errorOf(areaDocument(light)); };
+    const std::string panel = R"("type": "rectangle", "direction": [0, 0, 1])";
+    EXPECT_EQ(folder.errorBeyondSchemaOf(areaDocument(panel + R"(, "along": [0, 0, -2.5])")),
+              "/lights/0/along: is (0, 0, -2.5), which runs along the light's direction; give a vector across it");
+    EXPECT_EQ(error(panel + R"(, "along": [0, 0, 0])"), "/lights/0/along: has no length; give a direction");
+    EXPECT_EQ(error(panel + R"(, "width": -1)"), "/lights/0/width: is -1; at least 0 is needed");
+    EXPECT_EQ(error(panel + R"(, "height": 1000001)"), "/lights/0/height: is 1000001; at most 1000000 is allowed");
+    EXPECT_EQ(error(panel + R"(, "radius": 1)"),
+              "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, "
+              "position, falloff, animation, direction, target, along, width, height, twoSided, castsShadow, fields");
+    EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
+    EXPECT_EQ(error(R"("type": "sphere")"), "/lights/0: lacks the key 'radius'; add it");
+    EXPECT_EQ(error(R"("type": "sphere", "radius": 1, "twoSided": true)").substr(0, 45),
+              "/lights/0: a sphere light has no key 'twoSide");
+    EXPECT_EQ(error(R"("type": "tube", "radius": 1)"), "/lights/0: lacks the key 'direction'; add it");
+    for (const char* shape :
+         {R"("type": "rectangle", "direction": [0, 0, 1])", R"("type": "disk", "direction": [0, 0, 1], "radius": 1)",
+          R"("type": "sphere", "radius": 1)", R"("type": "tube", "direction": [0, 0, 1], "radius": 1)"}) {
+        const std::string text = error(std::string(shape) + R"(, "falloff": {"type": "attenuation", "C": 1})");
+        EXPECT_NE(text.find("light has no falloff 'attenuation', since its shape decides how its light falls off; "
+                            "inverse_square may end it by a range"),
+                  std::string::npos)
+            << text;
+        EXPECT_EQ(text.find("/lights/0/falloff/type: a "), 0u) << text;
+    }
+}
+
+TEST(SceneJsonAreaLights, aRectangleTurnedAnyWayIsReadBackIdentically) {
+    tessera::test::Random random(8);
+    for (int i = 0; i < 500; ++i) {
+        Light light;
+        light.name = "panel";
+        light.type = LightType::Rectangle;
+        light.directionWS = random.direction();
+        light.alongWS = random.around(light.directionWS, 0.0, 0.0);
+        if (i % 2 == 0) light.alongWS = usualAlong(light.directionWS);
+        const nlohmann::json written(write::lightJson(light));
+        EXPECT_EQ(written.contains("along"), i % 2 == 1);
+        EXPECT_TRUE(scenejson::readLight(JsonValue(written, {}), 0) == light) << written.dump();
+    }
+}
+
+TEST(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
+    const SceneFolder folder;
+    folder.write("parts/panel.json", R"({"tessera": 1, "lights": [
+        {"type": "rectangle", "position": [0, 1, 0], "direction": [0, 0, -1], "along": [1, 0, 0], "width": 2}]})");
+    const Scene scene = folder.import(R"({"tessera": 1, "include": [
+        {"file": "parts/panel.json", "transform": {"scale": [3, 1, 1], "eulerDegrees": [0, 90, 0]}}]})");
+    const Light& light = scene.lights.at(0);
+    EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(-1, 0, 0)), 1e-12);
+    EXPECT_LT(glm::distance(light.alongWS, glm::dvec3(0, 0, -1)), 1e-12);
+    EXPECT_EQ(light.widthMetres, 2.0f) << "scales change directions alone";
+}
+
+} // namespace
+} // namespace tessera::scenes

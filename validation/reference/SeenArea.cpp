@@ -1,0 +1,161 @@
+#include "validation/reference/SeenArea.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tessera::reference {
+
+using scenes::LightType;
+using std::numbers::pi;
+
+SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
+    const scenes::Light& light = shining.light;
+    const glm::dvec3 middle = shining.positionRWS - positionRWS;
+    glm::dvec3 front = light.directionWS;
+    const double radius = double(light.radiusMetres);
+    if (scenes::infoOf(light.type).isFlat) {
+        const double before = -glm::dot(middle, front);
+        if (before == 0.0 || (before < 0.0 && !light.isTwoSided)) return;
+        if (before < 0.0) front = -front;
+    }
+    if (light.type == LightType::Rectangle) {
+        const Frame frame{light.alongWS, glm::cross(light.directionWS, light.alongWS), front};
+        patches_.push_back({Shape::Rectangle, middle, frame, {light.widthMetres, light.heightMetres}, 0.0, 1.0});
+    } else if (light.type == LightType::Disk) {
+        patches_.push_back({Shape::Disk, middle, frameOf(front), glm::dvec2(radius), 0.0, 1.0});
+    } else if (light.type == LightType::Sphere) {
+        addSphere(middle, radius);
+    } else if (light.type == LightType::Tube) {
+        addTube(middle, light);
+    }
+    std::erase_if(patches_, [](const Patch& patch) { return !(patch.area() > 0.0); });
+    double all = 0.0;
+    for (const Patch& patch : patches_) all += patch.area();
+    for (Patch& patch : patches_) patch.share = patch.area() / all;
+}
+
+void SeenArea::addSphere(const glm::dvec3& middle, double radiusMetres) {
+    const double distance = glm::length(middle);
+    if (!(distance > radiusMetres)) return;
+    const double sine = radiusMetres / distance;
+    const double opening = sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
+    patches_.push_back({Shape::Cone, middle, frameOf(middle / distance), glm::dvec2(radiusMetres), opening});
+}
+
+void SeenArea::addTube(const glm::dvec3& middle, const scenes::Light& light) {
+    const double radius = double(light.radiusMetres), length = double(light.lengthMetres);
+    const glm::dvec3& axis = light.directionWS;
+    const double along = -glm::dot(middle, axis); // of the point, from the middle
+    if (std::abs(along) > 0.5 * length) {
+        const glm::dvec3 front = along < 0.0 ? -axis : axis;
+        patches_.push_back({Shape::Disk, middle + 0.5 * length * front, frameOf(front), glm::dvec2(radius)});
+    }
+    const glm::dvec3 outwards = -middle - along * axis;
+    const double away = glm::length(outwards);
+    if (!(away > radius)) return;
+    const glm::dvec3 towards = outwards / away;
+    patches_.push_back({Shape::Mantle,
+                        middle,
+                        {glm::cross(axis, towards), axis, towards},
+                        {radius, length},
+                        std::acos(radius / away)});
+}
+
+double SeenArea::Patch::area() const {
+    switch (shape) {
+    case Shape::Rectangle:
+        return sizeMetres.x * sizeMetres.y;
+    case Shape::Disk:
+        return pi * sizeMetres.x * sizeMetres.x;
+    case Shape::Cone:
+        return 2.0 * pi * opening;
+    case Shape::Mantle:
+        return 2.0 * opening * sizeMetres.x * sizeMetres.y;
+    }
+    return 0.0;
+}
+
+bool SeenArea::isRound(std::size_t patch) const {
+    return patches_[patch].shape == Shape::Disk || patches_[patch].shape == Shape::Cone;
+}
+
+SeenArea::Place SeenArea::at(std::size_t patchNumber, const glm::dvec2& square) const {
+    const Patch& patch = patches_[patchNumber];
+    const Frame& frame = patch.frame;
+    const double turn = 2.0 * pi * square.y;
+    // Rings grow with the distance from the middle, by which the mean is 1/2.
+    const double ring = isRound(patchNumber) ? 2.0 * square.x : 1.0;
+    if (patch.shape == Shape::Cone) {
+        const double opened = patch.opening * square.x * square.x;
+        const double sine = std::sqrt(opened * (2.0 - opened));
+        return {frame.out({sine * std::cos(turn), sine * std::sin(turn), 1.0 - opened}), ring * patch.area()};
+    }
+    glm::dvec3 place = patch.middle, normal = frame.z;
+    if (patch.shape == Shape::Rectangle) {
+        const glm::dvec2 across = (square - 0.5) * patch.sizeMetres;
+        place += across.x * frame.x + across.y * frame.y;
+    } else if (patch.shape == Shape::Disk) {
+        place += square.x * patch.sizeMetres.x * (std::cos(turn) * frame.x + std::sin(turn) * frame.y);
+    } else {
+        const double angle = (2.0 * square.x - 1.0) * patch.opening;
+        normal = std::cos(angle) * frame.z + std::sin(angle) * frame.x;
+        place += patch.sizeMetres.x * normal + (square.y - 0.5) * patch.sizeMetres.y * frame.y;
+    }
+    const double distance2 = glm::dot(place, place);
+    if (distance2 == 0.0) return {frame.z, 0.0};
+    const glm::dvec3 direction = place / std::sqrt(distance2);
+    return {direction, ring * patch.area() * std::max(-glm::dot(normal, direction), 0.0) / distance2};
+}
+
+glm::dvec3 SeenArea::direction(const glm::dvec2& random) const {
+    double x = random.x;
+    for (std::size_t patch = 0; patch < patches_.size(); ++patch) {
+        const double share = patches_[patch].share;
+        if (x < share || patch + 1 == patches_.size()) {
+            const double u = std::clamp(x / share, 0.0, 1.0);
+            return at(patch, {isRound(patch) ? std::sqrt(u) : u, random.y}).direction;
+        }
+        x -= share;
+    }
+    return {0.0, 0.0, 1.0};
+}
+
+double SeenArea::density(const glm::dvec3& direction) const {
+    double sum = 0.0;
+    for (const Patch& patch : patches_) sum += patch.share * density(patch, direction);
+    return sum;
+}
+
+double SeenArea::density(const Patch& patch, const glm::dvec3& direction) {
+    const Frame& frame = patch.frame;
+    if (patch.shape == Shape::Cone) {
+        const glm::dvec3 aside = direction - frame.z;
+        return 0.5 * glm::dot(aside, aside) <= patch.opening ? 1.0 / patch.area() : 0.0;
+    }
+    double distance = 0.0, cosine = 0.0;
+    if (patch.shape == Shape::Mantle) {
+        // In the plane across the axis, from the point: |t d - m| is the radius.
+        const glm::dvec3 d = frame.in(direction), m = frame.in(patch.middle);
+        const glm::dvec2 flat(d.x, d.z), to(m.x, m.z);
+        const double radius = patch.sizeMetres.x;
+        const double a = glm::dot(flat, flat), b = glm::dot(flat, to), c = glm::dot(to, to) - radius * radius;
+        const double inRoot = b * b - a * c;
+        if (!(a > 0.0 && b > 0.0 && inRoot > 0.0)) return 0.0;
+        distance = c / (b + std::sqrt(inRoot));
+        if (std::abs(distance * d.y - m.y) > 0.5 * patch.sizeMetres.y) return 0.0;
+        cosine = -glm::dot(flat, distance * flat - to) / radius;
+    } else {
+        cosine = -glm::dot(frame.z, direction);
+        if (!(cosine > 0.0)) return 0.0;
+        distance = -glm::dot(patch.middle, frame.z) / cosine;
+        const glm::dvec3 place = frame.in(distance * direction - patch.middle);
+        const bool isInside = patch.shape == Shape::Rectangle ? std::abs(place.x) <= 0.5 * patch.sizeMetres.x &&
+                                                                    std::abs(place.y) <= 0.5 * patch.sizeMetres.y
+                                                              : glm::length(glm::dvec2(place)) <= patch.sizeMetres.x;
+        if (!isInside) return 0.0;
+    }
+    return cosine > 0.0 ? distance * distance / (cosine * patch.area()) : 0.0;
+}
+
+} // namespace tessera::reference
