@@ -67,6 +67,13 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     return *uploaded_.front().scene;
 }
 
+/// What the view's shadows ask of the scene.
+void Renderer::makeForShadows(const frame::FrameSpec& spec) {
+    frame::SceneGpu& scene = *uploaded_.front().scene;
+    if (spec.features[frame::Feature::Shadows]) scene.makeTriangleNormals();
+    if (spec.tracesShadows()) scene.makeCasters();
+}
+
 /// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
 /// their triangle, anywhere in the atlas.
 frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
@@ -98,7 +105,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.drawn.environment = view.environment;
         own.drawn.lobes = view.lobes;
         const frame::FrameSpec& spec = own.drawn.prepared.spec;
-        if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
+        makeForShadows(spec);
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
         if (spec.features[frame::Feature::ShadowMaps])
@@ -133,7 +140,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
                 std::make_unique<frame::EnvironmentGpu>(*scene_.environment, std::move(filteredEnvironment_));
         view.environment = environment_.get();
         view.lobes = &lobes_;
-        if (spec.tracesShadows()) uploaded_.front().scene->makeCasters();
+        makeForShadows(spec);
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);

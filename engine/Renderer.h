@@ -116,6 +116,7 @@ public:
 
     /// The scene as frames of this spec have it on the GPU.
     const frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
+    void makeForShadows(const frame::FrameSpec& spec);
 
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }

@@ -46,17 +46,13 @@ struct FrameHandles {
 };
 
 FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> views) {
-    const bool tracesShadows = std::ranges::any_of(views, [](const ViewSource& view) {
-        return view.spec.tracesShadows() || std::ranges::any_of(view.spec.diffused, &frame::FrameSpec::tracesShadows);
-    });
     const ViewSource& anyView = views.front();
-    FrameHandles shared{frame::importScene(graph, anyView.spec.features, anyView.drawn ? anyView.drawn->scene : nullptr,
-                                           tracesShadows)};
     std::vector<const frame::FrameSpec*> specs;
     for (const ViewSource& view : views) {
         specs.push_back(&view.spec);
         for (const frame::FrameSpec& object : view.spec.diffused) specs.push_back(&object);
     }
+    FrameHandles shared{frame::importScene(graph, specs, anyView.drawn ? anyView.drawn->scene : nullptr)};
     shared.scene.environment =
         frame::importEnvironment(graph, specs, anyView.drawn ? anyView.drawn->environment : nullptr);
     shared.scene.lobes = frame::importLobes(graph, specs, anyView.drawn ? anyView.drawn->lobes : nullptr);
@@ -76,6 +72,7 @@ struct ViewWiring {
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, {}};
+        if (!spec.features[frame::Feature::Shadows]) surfaces.scene.triangleNormals.reset();
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
         lighting = {surfaces.view,
                     lights.constants,

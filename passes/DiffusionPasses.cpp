@@ -100,13 +100,9 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::
     struct Data {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
-        std::optional<graph::BufferHandle> triangleNormals;
         Light light;
         TextureHandle mask;
     };
-    const gpu::Buffer* const normals = atlas ? &atlas->triangleNormals : nullptr;
-    const graph::BufferHandle imported =
-        graph.import("triangle_normals" + suffix, graph::BufferDesc{normals ? normals->bytes() : 0}, normals);
     const int side = spec.settings.sizePixels.x;
     const bool isHalved = side != spec.spreadTexels();
     const Light lit =
@@ -117,8 +113,6 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::
                     pass.program(lightProgram(spec));
                     out.surfaces = inputs.surfaces.read(pass);
                     out.lighting = inputs.lighting.read(pass);
-                    if (spec.features[frame::Feature::Shadows])
-                        out.triangleNormals = pass.read(imported, Access::TexelRead);
                     if (isHalved)
                         out.light = {pass.create("whole_entering_light", square(side)),
                                      pass.create("whole_unblurred_light", square(side))};
@@ -143,9 +137,6 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::
                     gpu::useProgram(context.program());
                     out.lighting.bind(context);
                     context.constants(UNIFORM_PASS, constants);
-                    if (out.triangleNormals)
-                        gpu::bindTexelBuffer(TEXTURE_UNIT_TRIANGLE_NORMALS,
-                                             context.buffer(*out.triangleNormals).texels(graph::Format::Rgba32Float));
                     gpu::PipelineState state;
                     state.bothSides = true;
                     state.depthTest = gpu::DepthTest::Greater;

@@ -49,18 +49,6 @@ DepthCoding depthCoding(const DepthInterval& depths, bool isPerspective) {
     return coding;
 }
 
-/// By how much rounding of depth may turn the normal that facet_normal.glsl finds. Depth and its planes' sums are
-/// rounded to fp32, so that depths of neighbours differ by four roundings of 2^-24 more or less. Across a pixel that
-/// turns each of two components of the normal by as much: (orthographic) of the metres from depth 0 to 1; (perspective)
-/// of the depth itself, which is at most what the component ahead is, times the square of the ray's length.
-double facetTurnRadians(const Lens& lens, bool isPerspective, const DepthInterval& depths,
-                        const glm::dvec2& pixelStep) {
-    constexpr double kRounding = 4.0 * 0x1p-24;
-    const double metres = isPerspective ? glm::dot(glm::dvec3(lens.halfExtent, 1.0), glm::dvec3(lens.halfExtent, 1.0))
-                                        : depths.farMetres - depths.nearMetres;
-    return std::numbers::sqrt2 * kRounding * metres / std::min(pixelStep.x, pixelStep.y);
-}
-
 glm::dvec4 row(const glm::dmat4& m, int i) {
     return {m[0][i], m[1][i], m[2][i], m[3][i]};
 }
@@ -114,8 +102,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;
-    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span),
-                           float(facetTurnRadians(lens, !orthographic, view.depths, pixelStep)), 0.0f);
+    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span), 0.0f, 0.0f);
     return view;
 }
 

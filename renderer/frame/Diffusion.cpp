@@ -178,23 +178,12 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
                              texel.isCovered ? double(texel.chart) : -double(texel.chart));
         continued[i] = glm::vec2(texel.continued);
     }
-    std::vector<glm::vec4> normals;
-    const double sign = glm::determinant(glm::dmat3(worldFromObject)) < 0.0 ? -1.0 : 1.0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const auto corner = [&](std::size_t c) {
-            return glm::dvec3(worldFromObject * glm::dvec4(glm::dvec3(mesh.positionsOS[mesh.indices[i + c]]), 1.0));
-        };
-        const glm::dvec3 normal = sign * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-        const double length = glm::length(normal);
-        normals.emplace_back(length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f, 0.0f, 1.0f), 0.0f);
-    }
     const auto texture = [&](const char* label, graph::Format format) {
         return gpu::Texture(label, graph::TextureDesc{format, sideTexels, sideTexels});
     };
-    kept = std::make_unique<DiffusionAtlas>(
-        DiffusionAtlas{border, texture("diffusion_steps", graph::Format::Rgba32Float),
-                       texture("diffusion_continued", graph::Format::Rg32Float),
-                       gpu::Buffer::of("triangle_normals", normals), diffusionTiles(atlas, mesh, worldFromObject)});
+    kept = std::make_unique<DiffusionAtlas>(DiffusionAtlas{
+        border, texture("diffusion_steps", graph::Format::Rgba32Float),
+        texture("diffusion_continued", graph::Format::Rg32Float), diffusionTiles(atlas, mesh, worldFromObject)});
     kept->steps.upload(0, steps);
     kept->continued.upload(0, continued);
     return *kept;

@@ -83,9 +83,8 @@ DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
 /// An object's atlas on the GPU.
 struct DiffusionAtlas {
     int borderTexels = 0;
-    gpu::Texture steps;          ///< RGBA32F: shaders/shared/diffusion.h
-    gpu::Texture continued;      ///< RG32F, the same
-    gpu::Buffer triangleNormals; ///< vec4 each, unit, of the front, axes of the world
+    gpu::Texture steps;     ///< RGBA32F: shaders/shared/diffusion.h
+    gpu::Texture continued; ///< RG32F, the same
     std::vector<DiffusionTile> tiles;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -18,8 +19,9 @@ struct Draw {
     bool mirrored = false;   ///< the node's transform turns the winding round
     bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
     int diffusedNumber = 0;  ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
-    float largestColor = 0;  ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
-    scenes::Box3 boxWS{};    ///< around the mesh's own box; empty without vertices
+    std::uint32_t firstTriangle = 0; ///< in the scene's index buffer
+    float largestColor = 0;          ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
+    scenes::Box3 boxWS{};            ///< around the mesh's own box; empty without vertices
     double reachMetres = 0; ///< the largest sum of magnitudes that fp32 adds a vertex up from, without the node's place
     glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
 };
@@ -65,6 +67,7 @@ double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const Camera
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];
+    std::uint32_t firstTriangle = 0; ///< Draw::firstTriangle
 };
 
 /// Pixels [low, high) of a picture, lower-left origin.

@@ -49,6 +49,7 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
 SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
+    result.scene.triangleNormals = readWhereThere(pass, scene.triangleNormals, Access::StorageRead);
     result.diffused = readWhereThere(pass, diffused, Access::ImageRead);
     return result;
 }
@@ -75,6 +76,10 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<cons
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
     view.bind(context);
+    if (scene.triangleNormals) {
+        const gpu::Buffer& normals = context.buffer(*scene.triangleNormals);
+        gpu::bindStorageBuffer(STORAGE_TRIANGLE_NORMALS, normals, 0, normals.bytes());
+    }
     if (diffused) gpu::bindImage(IMAGE_UNIT_DIFFUSED, context.texture(*diffused), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
     drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
@@ -193,7 +198,8 @@ void LitDepths::bind(const graph::PassContext& context) const {
     if (transparent) gpu::bindTexture(TEXTURE_UNIT_TRANSPARENT_DEPTH, context.texture(*transparent));
 }
 
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool tracesShadows) {
+SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> specs, const SceneGpu* scene) {
+    const FeatureSet& features = specs.front()->features;
     const auto import = [&](std::string name, const gpu::Buffer* buffer) {
         return graph.import(std::move(name), graph::BufferDesc{buffer ? buffer->bytes() : 0}, buffer);
     };
@@ -209,7 +215,10 @@ SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const 
     if (!features[Feature::VaryingMaterials] && (!scene || table))
         handles.materialTable = import("material_table", table);
     if (features.enteringLight()) handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
-    if (tracesShadows) handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
+    if (std::ranges::any_of(specs, [](const FrameSpec* spec) { return spec->features[Feature::Shadows]; }))
+        handles.triangleNormals = import("triangle_normals", scene ? scene->triangleNormals() : nullptr);
+    if (std::ranges::any_of(specs, &FrameSpec::tracesShadows))
+        handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;
 }
 

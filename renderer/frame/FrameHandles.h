@@ -76,12 +76,13 @@ struct LobeHandles {
 struct SceneHandles {
     std::vector<graph::BufferHandle> vertices; ///< a stream each
     graph::BufferHandle indices;
-    graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
-    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
-    std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
-    EnvironmentHandles environment;                   ///< without constants; what some view has use for
-    LobeHandles lobes;                                ///< what some view has use for
+    graph::BufferHandle materials;                      ///< shared::MaterialConstants of each
+    std::optional<graph::BufferHandle> materialTable;   ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> subsurfaces;     ///< where lighting reads them: shared::SubsurfaceConstants
+    std::optional<graph::BufferHandle> triangleNormals; ///< where there are shadows: SceneGpu::makeTriangleNormals()
+    std::optional<graph::BufferHandle> casters;         ///< where shadows are traced: shaders/shared/caster_tree.h
+    EnvironmentHandles environment;                     ///< without constants; what some view has use for
+    LobeHandles lobes;                                  ///< what some view has use for
 };
 
 /// The scene as a view draws it.
@@ -178,7 +179,7 @@ struct LitDepths {
 /// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
 /// the scene, so any of the frame's views has them.
 /// `tracesShadows`: some view does; then `scene` has its casters.
-SceneHandles importScene(graph::Graph& graph, const FeatureSet& features, const SceneGpu* scene, bool tracesShadows);
+SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> specs, const SceneGpu* scene);
 /// The same of what views of these specs use of the environment; null where the frame is only planned.
 EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
                                      EnvironmentGpu* environment);

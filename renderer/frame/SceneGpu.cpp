@@ -55,9 +55,9 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 }
 
 /// The rows of a draw. Each view has a buffer of its own for them.
-const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
-    static const std::array<gpu::VertexAttribute, 6> attributes = [] {
-        std::array<gpu::VertexAttribute, 6> result;
+const std::array<gpu::VertexAttribute, 7>& drawAttributes() {
+    static const std::array<gpu::VertexAttribute, 7> attributes = [] {
+        std::array<gpu::VertexAttribute, 7> result;
         for (std::uint32_t row = 0; row < 3; ++row) {
             const std::size_t offset = row * sizeof(glm::vec4);
             result[row] = attribute(ATTRIBUTE_DRAW_POSITION_ROW0 + row, 4, nullptr, sizeof(DrawRows),
@@ -65,6 +65,11 @@ const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
             result[3 + row] = attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, nullptr, sizeof(DrawRows),
                                         offsetof(DrawRows, normal) + offset, 1);
         }
+        gpu::VertexAttribute& triangle = result.back();
+        triangle = attribute(ATTRIBUTE_DRAW_FIRST_TRIANGLE, 1, nullptr, sizeof(DrawRows),
+                             offsetof(DrawRows, firstTriangle), 1);
+        triangle.type = gpu::VertexType::Uint32;
+        triangle.integer = true;
         return result;
     }();
     return attributes;
@@ -123,6 +128,7 @@ SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
+        draw.firstTriangle = draws.ranges.back().firstIndex / 3;
         const auto own = std::ranges::find(diffused, draw.instance, &DiffusedObject::instance);
         if (own != diffused.end()) draw.diffusedNumber = 1 + int(own - diffused.begin());
     }
@@ -201,6 +207,12 @@ void SceneGpu::makeCasters() {
                                              tree.texels.size(), read));
     casters_ = std::move(casters);
     treeMaterials_ = std::move(materials);
+}
+
+void SceneGpu::makeTriangleNormals() {
+    if (geometry_.triangleNormals) return;
+    const std::vector<glm::vec3> normals = triangleNormalsOS(scene_, geometry_.ranges);
+    geometry_.triangleNormals = std::make_unique<gpu::Buffer>(gpu::Buffer::of("triangle_normals", normals));
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

@@ -81,6 +81,11 @@ public:
     /// Those that were made last; null before.
     const Casters* casters() const { return casters_ ? &*casters_ : nullptr; }
 
+    /// triangleNormalsOS(), three floats each: what shadows ask of the triangles that are rasterised.
+    void makeTriangleNormals();
+    /// Null before.
+    const gpu::Buffer* triangleNormals() const { return geometry_.triangleNormals.get(); }
+
 private:
     struct BoundTexture {
         const gpu::Texture* texture = nullptr;
@@ -92,6 +97,7 @@ private:
         std::vector<std::unique_ptr<gpu::Buffer>> vertices;
         std::vector<const gpu::Buffer*> streams; ///< the same
         std::unique_ptr<gpu::Buffer> indices;
+        std::unique_ptr<gpu::Buffer> triangleNormals; ///< null until makeTriangleNormals()
         std::unique_ptr<gpu::VertexArray> array;
     };
     struct Draws {

@@ -119,4 +119,20 @@ VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& fe
     return streams;
 }
 
+std::vector<glm::vec3> triangleNormalsOS(const scenes::Scene& scene, const VertexStreams::Ranges& ranges) {
+    std::vector<glm::vec3> normals;
+    for (const auto& [key, range] : ranges) {
+        const scenes::Mesh& mesh = scene.meshes[std::size_t(key.first)];
+        const std::size_t first = range.firstIndex / 3, count = range.indexCount / 3;
+        if (normals.size() < first + count) normals.resize(first + count, glm::vec3(0.0f));
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto corner = [&](std::size_t c) { return glm::dvec3(mesh.positionsOS[mesh.indices[3 * i + c]]); };
+            const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+            const double length = glm::length(normal);
+            if (length > 0.0) normals[first + i] = glm::vec3(normal / length);
+        }
+    }
+    return normals;
+}
+
 } // namespace tessera::frame

@@ -35,4 +35,8 @@ std::vector<std::string> streamNames(const FeatureSet& features);
 /// Throws InputError where that would make very many copies.
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features);
 
+/// The normal of each triangle of the streams, in their order: unit, out of the front of its mesh, in the mesh's space;
+/// zero without an area. Triangles stay what and where they are in `indices` of their mesh, whatever their tangents.
+std::vector<glm::vec3> triangleNormalsOS(const scenes::Scene& scene, const VertexStreams::Ranges& ranges);
+
 } // namespace tessera::frame

@@ -19,6 +19,7 @@ layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0) in vec4 drawNormal0;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 1) in vec4 drawNormal1;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 2) in vec4 drawNormal2;
+layout(location = ATTRIBUTE_DRAW_FIRST_TRIANGLE) in uint drawFirstTriangle; // of the scene's index buffer
 
 invariant gl_Position;
 #if !DEPTH_ONLY
@@ -37,10 +38,13 @@ layout(location = 3) out vec2 texCoord1;
 layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS && !DEPTH_ONLY
+#if (HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS) && !DEPTH_ONLY
 layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
+#endif
+#if HAS_SHADOWS && !DEPTH_ONLY
+layout(location = 9) flat out uint firstTriangle;
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
 layout(location = 11) flat out vec3 objectRow0;
@@ -94,7 +98,10 @@ void main()
     vec3 tangentRWS = vec3(dot(drawRow0.xyz, tangentOS.xyz), dot(drawRow1.xyz, tangentOS.xyz), dot(drawRow2.xyz, tangentOS.xyz));
     tangentLS = vec4(lsFromRWS(tangentRWS), tangentOS.w * sign(drawNormal0.w));
 #endif
-#if HAS_OBJECT_SPACE_NORMALS
+#if HAS_SHADOWS
+    firstTriangle = drawFirstTriangle;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
     normalFromObject0 = drawNormal0.xyz;
     normalFromObject1 = drawNormal1.xyz;
     normalFromObject2 = drawNormal2.xyz;

@@ -24,7 +24,11 @@ layout(location = 16) flat out vec3 triangleNormalLS[3];
 layout(location = 1) in vec4 vertexTangentLS[];
 layout(location = 1) out vec4 tangentLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS
+#if HAS_SHADOWS
+layout(location = 9) flat in uint vertexFirstTriangle[];
+layout(location = 9) flat out uint firstTriangle;
+#endif
+#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
 layout(location = 5) flat in vec3 vertexNormalFromObject0[];
 layout(location = 6) flat in vec3 vertexNormalFromObject1[];
 layout(location = 7) flat in vec3 vertexNormalFromObject2[];
@@ -76,7 +80,10 @@ void main()
 #if HAS_TANGENTS
         tangentLS = vertexTangentLS[corner];
 #endif
-#if HAS_OBJECT_SPACE_NORMALS
+#if HAS_SHADOWS
+        firstTriangle = vertexFirstTriangle[corner];
+#endif
+#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
         normalFromObject0 = vertexNormalFromObject0[corner];
         normalFromObject1 = vertexNormalFromObject1[corner];
         normalFromObject2 = vertexNormalFromObject2[corner];

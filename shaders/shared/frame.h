@@ -24,8 +24,7 @@ struct ViewConstants {
     vec4 rayFromPixel;   // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the
                          // eye, or (orthographic) anywhere; window coordinates, lower-left origin
     vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
-                         // distance or nearly so, else 0; z by how many radians rounding of depth may turn the normal
-                         // of a triangle (lib/shadow/own_triangle.glsl)
+                         // distance or nearly so, else 0
     uvec4 sizePixels;    // x width, y height of the picture
 };
 

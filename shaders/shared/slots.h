@@ -13,6 +13,7 @@ SHARED_BEGIN
 #define ATTRIBUTE_COLOR 5
 #define ATTRIBUTE_DRAW_POSITION_ROW0 6
 #define ATTRIBUTE_DRAW_NORMAL_ROW0 9
+#define ATTRIBUTE_DRAW_FIRST_TRIANGLE 12
 
 // Uniform blocks.
 #define UNIFORM_VIEW 0
@@ -31,6 +32,7 @@ SHARED_BEGIN
 #define STORAGE_LIGHT_CELLS 1
 #define STORAGE_LIGHT_ENTRIES 2
 #define STORAGE_LIGHT_REACH 3
+#define STORAGE_TRIANGLE_NORMALS 3 // of what is rasterised, where shadows are
 #define STORAGE_TILE_DEPTHS 4
 #define STORAGE_TILE_COUNTS 5
 #define STORAGE_LIST_TOTALS 6
@@ -57,9 +59,6 @@ SHARED_BEGIN
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).
 #define TEXTURE_SLOT_COUNT 14
-
-// What lights the texels of an object (passes/diffusion_light.frag): it reads no light lists.
-#define TEXTURE_UNIT_TRIANGLE_NORMALS 16
 
 // What reads stored surfaces and pictures.
 #define TEXTURE_UNIT_GBUFFER 0 // to 7

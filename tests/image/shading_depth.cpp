@@ -48,12 +48,10 @@ protected:
         gpu::GraphBackend backend;
         graph::Graph graph;
         const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, &view);
-        const frame::SurfaceHandles surfaces{&view,
-                                             frame::importScene(graph, spec.features, &sceneGpu, false),
-                                             {uploaded.constants},
-                                             uploaded.rows,
-                                             uploaded.commands,
-                                             {}};
+        const frame::FrameSpec* const specs[] = {&spec};
+        const frame::SurfaceHandles surfaces{
+            &view, frame::importScene(graph, specs, &sceneGpu), {uploaded.constants}, uploaded.rows, uploaded.commands,
+            {}};
         const passes::DepthPrepass::Outputs drawn = passes::DepthPrepass::add(graph, spec, {true}, {surfaces});
         const graph::BufferHandle read = readBack(graph, drawn, spec.samples);
         graph.output(read);

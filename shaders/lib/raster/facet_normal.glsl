@@ -1,24 +1,26 @@
-// The normal of the triangle that is rasterised, in lighting space. Depth is linear over the picture, so its change from
-// pixel to pixel is that of the triangle's plane.
+// The normal of the triangle that is rasterised, in lighting space and away from the viewer: the mesh's own, carried as
+// normals of vertices are. Differences of gl_FragCoord.z between pixels would do where a driver keeps the digits of
+// depth; NVIDIA's does not.
 #pragma once
 #include "lib/surface/camera.glsl"
 
-vec3 rasterisedFacetNormal()
+// Three numbers a triangle of the scene's index buffer: unit, out of the front of the mesh in its own space.
+layout(std430, binding = STORAGE_TRIANGLE_NORMALS) readonly buffer TriangleNormals
 {
-    vec2 change = vec2(dFdxFine(gl_FragCoord.z), dFdyFine(gl_FragCoord.z));
-    vec2 place = gl_FragCoord.xy - view.rayFromPixel.zw;
-    // Towards the viewer's right, up and ahead. A plane is where the product of this with a pixel's ray is as depth and a
-    // constant, which go with 1/distance; of parallel rays it is where the distance ahead is linear.
-    precise vec3 normal = vec3(change, gl_FragCoord.z + view.aheadFromDepth.z - dot(change, place));
-#if HAS_ORTHOGRAPHIC_CAMERA
-    if (view.forwardLS.w != 0.0) normal = vec3(-change * view.aheadFromDepth.y, 1.0);
-#endif
-    normal.xy /= view.rayFromPixel.xy;
-    precise vec3 turned = normal.x * view.rayDxLS.xyz / view.rayFromPixel.x
-                          + normal.y * view.rayDyLS.xyz / view.rayFromPixel.y + normal.z * view.forwardLS.xyz;
-    // Depths of far scenes are small; a triangle that pixels show edge-on may be of any steepness.
+    float triangleNormalsOS[];
+};
+layout(location = 9) flat in uint firstTriangle; // of the draw
+
+// `normalFromObject` as passes/geometry.vert has its rows.
+vec3 rasterisedFacetNormal(mat3 normalFromObject, bool frontFacing)
+{
+    uint first = 3u * (firstTriangle + uint(gl_PrimitiveID));
+    vec3 normalOS = vec3(triangleNormalsOS[first], triangleNormalsOS[first + 1u], triangleNormalsOS[first + 2u]);
+    precise vec3 turned = normalFromObject * normalOS;
+    if (frontFacing) turned = -turned;
     precise vec3 scaled = turned / max(max(abs(turned.x), abs(turned.y)), max(abs(turned.z), 1e-37));
     precise float length2 = dot(scaled, scaled);
+    // A triangle without area, of which rounding leaves some.
     if (!(length2 >= 1.0 && length2 <= 3.5)) return view.forwardLS.xyz;
     return scaled * inversesqrt(length2);
 }

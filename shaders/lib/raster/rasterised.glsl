@@ -8,7 +8,7 @@
 #else
 #define BY_TRIANGLE 0
 #endif
-#if HAS_SHADOWS && !DEPTH_ONLY && !IN_ATLAS
+#if HAS_SHADOWS && !DEPTH_ONLY
 #include "lib/raster/facet_normal.glsl"
 #endif
 
@@ -19,7 +19,7 @@ layout(location = 0) in vec3 normalLS;
 #if HAS_TANGENTS
 layout(location = 1) in vec4 tangentLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS
+#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
 layout(location = 5) flat in vec3 normalFromObject0;
 layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
@@ -45,13 +45,11 @@ layout(location = 3) in vec2 texCoord1;
 layout(location = 4) in vec4 vertexColor;
 layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
-#if IN_ATLAS && HAS_SHADOWS
-layout(binding = TEXTURE_UNIT_TRIANGLE_NORMALS) uniform samplerBuffer triangleNormals; // unit, of the front, in LS
-#endif
 
 Fragment rasterisedFragment()
 {
     Fragment fragment = plainFragment();
+    fragment.frontFacing = IN_ATLAS != 0 || gl_FrontFacing;
 #if BY_TRIANGLE
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif
@@ -61,17 +59,18 @@ Fragment rasterisedFragment()
 #else
     fragment.normalLS = normalLS;
 #endif
-#if HAS_SHADOWS && IN_ATLAS
-    fragment.facetNormalLS = -texelFetch(triangleNormals, gl_PrimitiveID).xyz; // texels are of the front
-#elif HAS_SHADOWS
-    fragment.facetNormalLS = rasterisedFacetNormal();
-#endif
 #if HAS_TANGENTS
     fragment.tangentLS = tangentLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS
+#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
     // The vertex stage has the rows of the matrix.
-    fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
+    mat3 normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
+#endif
+#if HAS_OBJECT_SPACE_NORMALS
+    fragment.normalFromObject = normalFromObject;
+#endif
+#if HAS_SHADOWS
+    fragment.facetNormalLS = rasterisedFacetNormal(normalFromObject, fragment.frontFacing);
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
     fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);
@@ -107,6 +106,5 @@ Fragment rasterisedFragment()
     fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
 #endif
 #endif
-    fragment.frontFacing = IN_ATLAS != 0 || gl_FrontFacing;
     return fragment;
 }

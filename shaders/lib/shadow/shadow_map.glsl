@@ -71,7 +71,6 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     precise vec2 width = sqrt(width2);
     precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
                                dot(forward.xyz, facetNormalRWS));
-    float facetError = facetErrorRadians();
     bool isParallel = place.w < 0.0;
     precise FacePoint point;
     point.isSoft = SHADOW_FILTER == SHADOW_FILTER_PCSS && shadow.x > 0.0;
@@ -96,11 +95,11 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
         point.depth = place.w * perMetre;
         point.texel = place.xy + (place.z * perMetre) * position.xy;
     }
-    precise float leastDistance = abs(distance) - facetError * atOne;
+    precise float leastDistance = abs(distance) - FACET_ERROR_RADIANS * atOne;
     point.isSeen = leastDistance > 0.0;
     precise float perDistance = scale / max(leastDistance, 1e-30);
     precise vec2 slope = normal.xy * (scale / (distance * place.z));
-    precise vec2 steepest = (abs(normal.xy) + facetError * width) * (perDistance / place.z);
+    precise vec2 steepest = (abs(normal.xy) + FACET_ERROR_RADIANS * width) * (perDistance / place.z);
     precise float rounding = isParallel ? perDistance * roundingMetres + 4.8e-7
                                         : point.depth * (roundingMetres / max(leastDistance, 1e-30) + 4.8e-7);
     precise vec2 rising = normal.xy / width * (isParallel ? 1.0 : position.z);
@@ -114,7 +113,7 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     point.slope = slope;
     // The stored normal's error in what is divided, and in what it is divided by.
     point.doubt = (width + abs(normal.xy) * (atOne / max(leastDistance, 1e-30))) *
-                  (facetError * perDistance / place.z);
+                  (FACET_ERROR_RADIANS * perDistance / place.z);
     point.bias = rounding;
     point.steepest = steepest;
     point.perSize = place.z / (width.x * scale);

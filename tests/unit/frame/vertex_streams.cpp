@@ -250,5 +250,13 @@ TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleT
     EXPECT_GT(streams.positionsOS.size(), mesh.positionsOS.size() + kTriangles / 2);
 }
 
+TEST(VertexStreams, trianglesHaveTheNormalOfTheirFrontInTheirMeshesSpaceOrNone) {
+    scenes::Scene scene = twoMeshes();
+    scene.meshes[0].indices = {0, 1, 1, 0, 1, 2};
+    const VertexStreams streams = makeVertexStreams(scene, allFeatures());
+    EXPECT_THAT(triangleNormalsOS(scene, streams.ranges),
+                ElementsAre(glm::vec3(0.0f), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)));
+}
+
 } // namespace
 } // namespace tessera::frame
