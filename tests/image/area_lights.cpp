@@ -191,6 +191,18 @@ TEST_F(AreaLightTruth, flatLightsShineFromTheirFrontAndWhereTheyAreTwoSidedFromT
 }
 
 /// Six walls of a box: each lobe sees the same light all over the hemisphere, and so what it reflects of even light.
+TEST_F(AreaLightTruth, aLightThatSetsWithNothingInItsWayLosesNothingToShadows) {
+    for (const LightType type : {LightType::Sphere, LightType::Tube, LightType::Disk}) {
+        for (const double height : {0.2, 0.0, -0.2}) {
+            scenes::Light light = areaLight(type, {0.9, 0.0, height}, {-1.0, 0.0, 0.0}, 3.0f);
+            const double open = seen(matte(), {light});
+            EXPECT_GT(open, 1e-3);
+            light.castsShadow = true;
+            EXPECT_NEAR(seen(matte(), {light}), open, 1e-6 * open) << scenes::infoOf(type).name << " at " << height;
+        }
+    }
+}
+
 TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
     std::vector<scenes::Light> walls;
     for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})

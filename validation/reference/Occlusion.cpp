@@ -285,30 +285,38 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     if (radius == 0.0) return casters.decide(toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // of every other ray
+    // The outline of an area is cut at the surface already, so only what lies before the own triangle counts.
+    const bool isCut = own && scenes::infoOf(light.light.type).isArea;
+    double counted = 0.0; // the share of the disk
     const auto trace = [&](int rings) {
         halves[0] = halves[1] = 0.0;
         const int sectors = 4 * rings;
+        int rays = 0;
         for (int ring = 0; ring < rings; ++ring) {
             const double share = std::sqrt((ring + 0.5) / rings);
             for (int sector = 0; sector < sectors; ++sector) {
                 // Rings are turned against each other, so that no straight edge meets many samples at once.
                 const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
                 const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
+                if (isCut && own->hides(place)) continue;
+                ++rays;
                 halves[(ring + sector) % 2] +=
                     casters.decide({from, place * reach}, isPlaced, light, start, own, pointMetres, false).share;
             }
         }
-        sum.share = (halves[0] + halves[1]) / double(rings * sectors);
+        counted = double(rays) / double(rings * sectors);
+        sum.share = (halves[0] + halves[1]) / double(std::max(rays, 1));
     };
     trace(settings.shadowRings);
     if (sum.share > 0.0 && sum.share < 1.0 && settings.penumbraRings > settings.shadowRings) {
         trace(settings.penumbraRings);
-        const double error = (halves[0] - halves[1]) / double(4 * settings.penumbraRings * settings.penumbraRings);
+        const double rays = counted * double(4 * settings.penumbraRings * settings.penumbraRings);
+        const double error = (halves[0] - halves[1]) / rays;
         sum.noise.ofReference = error * error;
     }
     // Independent rays would stray by five of these in one case of 10^6; two rays are for distributions far from normal
     // ones. Where all agree, a program's must too.
-    const double rays = double(settings.shadowSamples);
+    const double rays = std::max(counted * double(settings.shadowSamples), 1.0);
     const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
     const double spread = sum.share * (1.0 - sum.share);
     if (isNoisy) {
@@ -325,7 +333,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     const double metres = pointMetres + casters.leewayMetres(isPlaced, light, pointMetres, distance * reach);
     const double cut = ownTriangle.leewayRadians * distance + metres / reach;
     if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= radius + cut) {
-        const double share = 2.0 * cut / (std::numbers::pi * radius);
+        const double share = 2.0 * cut / (std::numbers::pi * radius) / std::max(counted, 1e-9);
         stray += share;
         sum.isUndecided = sum.isUndecided || share > kDecisiveShare;
     }

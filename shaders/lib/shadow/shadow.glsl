@@ -21,6 +21,11 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #else
     bool isFar = false;
 #endif
+#if HAS_AREA_LIGHTS
+    bool isCut = IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK);
+#else
+    bool isCut = false;
+#endif
     vec3 placeLS = lightTexel(index, 0).xyz;
     bool triangleHides = true;
 #if HAS_SUBSURFACE_WRAP
@@ -35,7 +40,7 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #if HAS_SHADOW_MAPS
     return mappedShadow(index, kind, placeLS, isFar, surface.facetNormalLS, triangleHides, viewpoint);
 #else
-    return tracedShadow(index, placeLS, isFar, surface.facetNormalLS, triangleHides, viewpoint);
+    return tracedShadow(index, placeLS, isFar, isCut, surface.facetNormalLS, triangleHides, viewpoint);
 #endif
 }
 

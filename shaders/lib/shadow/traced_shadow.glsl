@@ -8,11 +8,13 @@
 #include "lib/shadow/disk_samples.glsl"
 #endif
 
-// 0 where something hides what is at that place, else 1.
-float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, bool triangleHides, vec3 originLS)
+// 0 where something hides what is at that place, else 1. `behind` grows by 1 where the point's own triangle does.
+float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, bool triangleHides, vec3 originLS,
+                   inout float behind)
 {
     ShadowRay ray = shadowRay(originLS, toPlaceCS, placeRounding);
     bool isBehind = triangleHides && isBehindFacet(facetNormal, toPlaceCS, ray.originRounding + placeRounding);
+    behind += isBehind ? 1.0 : 0.0;
     return visibilityAlong(ray, isBehind);
 }
 
@@ -34,8 +36,10 @@ float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoi
 
 // What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
 // rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space. `triangleHides`:
-// the point's own triangle hides lights behind it.
-float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, bool triangleHides, Viewpoint viewpoint)
+// the point's own triangle hides lights behind it. Of lights that are cut at the horizon (isCut), the share is that of
+// what lies before the triangle.
+float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, vec3 facetNormalLS, bool triangleHides,
+                   Viewpoint viewpoint)
 {
     precise vec3 facetNormal = mat3(view.worldFromLS) * facetNormalLS;
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
@@ -43,11 +47,11 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, bool
     precise float farAway = 2.0 * (casterTree.rounding.z + length(positionCS(viewpoint.positionLS)));
     float reach = isFar ? farAway : casterTree.rwsOriginCS.w;
     float lightRounding = isFar ? 0.0 : roundingAt(placeLS);
+    float behind = 0.0;
 #if HAS_SOFT_SHADOWS
     // A light without a size takes one ray.
     vec4 shadow = lightShadowTexel(index);
     int rays = shadow.x > 0.0 ? SHADOW_SAMPLES : 1;
-    precise float perRay = 1.0 / float(rays);
     precise vec3 ahead = toLight * (1.0 / sqrt(max(dot(toLight, toLight), 1e-37)));
     precise vec3 aside = abs(ahead.x) < 0.6 ? vec3(0.0, ahead.z, -ahead.y) : vec3(-ahead.z, 0.0, ahead.x);
     precise vec3 across = aside * (shadow.x / max(length(aside), 1e-18));
@@ -58,11 +62,14 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, vec3 facetNormalLS, bool
     for (; i < rays; ++i) {
         vec2 place = diskPlace(i, random);
         precise vec3 toDisk = toLight + place.x * across + place.y * up;
-        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, triangleHides, viewpoint.positionLS);
+        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, triangleHides, viewpoint.positionLS,
+                             behind);
     }
     if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()
+    float counted = float(rays) - (isCut ? behind : 0.0);
+    precise float perRay = 1.0 / max(counted, 1.0);
     return seen * perRay;
 #else
-    return visibilityOf(reach * toLight, lightRounding, facetNormal, triangleHides, viewpoint.positionLS);
+    return visibilityOf(reach * toLight, lightRounding, facetNormal, triangleHides, viewpoint.positionLS, behind);
 #endif
 }
