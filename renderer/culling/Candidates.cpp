@@ -13,7 +13,7 @@ void Candidates::resize(std::size_t count) {
 void Candidates::assign(std::span<const std::uint32_t> indices, std::span<const shared::CullLight> lights) {
     lights_ = lights;
     resize(indices.size());
-    haveCones_ = false;
+    haveSides_ = false;
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const shared::CullLight& light = lights[indices[i]];
         index_[i] = indices[i];
@@ -21,7 +21,7 @@ void Candidates::assign(std::span<const std::uint32_t> indices, std::span<const 
         y_[i] = light.sphere.y;
         z_[i] = light.sphere.z;
         squaredRadius_[i] = light.sphere.w * light.sphere.w;
-        haveCones_ = haveCones_ || shared::hasCone(light);
+        haveSides_ = haveSides_ || shared::hasCone(light) || shared::hasFront(light);
     }
 }
 
@@ -32,7 +32,7 @@ void Candidates::mark(std::span<const shared::CellBox> boxes) {
     std::uint32_t* const marks = mark_.data();
     for (const shared::CellBox& given : boxes) {
         const shared::CellBox box = given;
-        if (haveCones_) {
+        if (haveSides_) {
             for (std::size_t i = 0; i < count; ++i)
                 marks[i] |= std::uint32_t(shared::lightTouchesBox(lights_[index_[i]], box));
         } else {
@@ -55,7 +55,7 @@ void Candidates::appendMarked(std::vector<std::uint32_t>& indices) const {
 
 void Candidates::copyMarkedTo(Candidates& other) const {
     other.lights_ = lights_;
-    other.haveCones_ = haveCones_;
+    other.haveSides_ = haveSides_;
     other.resize(index_.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < index_.size(); ++i) {

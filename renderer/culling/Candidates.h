@@ -27,7 +27,7 @@ private:
     std::vector<std::uint32_t> index_;
     std::vector<float> x_, y_, z_, squaredRadius_; ///< of spheres, culling space, metres
     std::vector<std::uint32_t> mark_; ///< 0 or 1; as wide as the spheres, so that loops over both vectorise
-    bool haveCones_ = false;
+    bool haveSides_ = false;
 };
 
 } // namespace tessera::culling

@@ -47,6 +47,14 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
         cull.apex = glm::vec4(glm::vec3(apex), float(sinOuter));
         cull.axis = glm::vec4(glm::vec3(axis), float(cosOuter));
     }
+    if (scenes::infoOf(typeOf(light)).isFlat && shape.attenuation.w == 0.0f) {
+        const glm::dvec3 travel = glm::cross(glm::dvec3(shape.axis), glm::dvec3(shape.attenuation));
+        if (const double length = glm::length(travel); length > 0.0) {
+            const glm::dvec3 front = cameraFromLS * (travel / length);
+            cull.apex = glm::vec4(glm::vec3(position - margin * front), cull.apex.w);
+            cull.axis = glm::vec4(glm::vec3(front), -3.0f);
+        }
+    }
     cull.sphere = glm::vec4(glm::vec3(sphere.center), float(sphere.radius + margin));
     return cull;
 }

@@ -31,8 +31,10 @@ SHARED_FUNCTION float roundingMargin(float farthestMetres, vec4 depthKey) {
 // culling space.
 struct CullLight {
     vec4 sphere; // xyz centre, w radius: encloses all of it; w < 0: reaches everywhere
-    vec4 apex;   // cone: xyz position, w sine of the outer angle; else w how far from its middle its surface reaches
-    vec4 axis;   // cone: xyz unit direction of travel, w cosine of the outer angle; else w is -2
+    vec4 apex;   // cone: xyz position, w sine of the outer angle; else w how far from its middle its surface reaches;
+                 // front: xyz a point of the plane behind which there is no light
+    vec4 axis;   // cone: xyz unit direction of travel, w cosine of the outer angle; front: the same, w is -3; else w is
+                 // -2
 };
 
 struct CellBox {
@@ -118,9 +120,23 @@ SHARED_FUNCTION bool hasCone(CullLight light) {
     return light.axis.w >= -1.5f;
 }
 
+SHARED_FUNCTION bool hasFront(CullLight light) {
+    return light.axis.w < -2.5f;
+}
+
+// Whether any point of the box lies before the light's plane.
+SHARED_FUNCTION bool frontTouchesBox(CullLight light, CellBox box) {
+    SHARED_PRECISE vec3 halfSize = 0.5f * (vec3(box.high) - vec3(box.low));
+    SHARED_PRECISE vec3 v = 0.5f * (vec3(box.low) + vec3(box.high)) - vec3(light.apex);
+    SHARED_PRECISE float reach = dot(halfSize, abs(vec3(light.axis)));
+    SHARED_PRECISE float rounding = 1e-5f * (sqrt(dot(v, v)) + reach);
+    return dot(v, vec3(light.axis)) + reach + rounding >= 0.0f;
+}
+
 SHARED_FUNCTION bool lightTouchesBox(CullLight light, CellBox box) {
     SHARED_PRECISE float radius2 = light.sphere.w * light.sphere.w;
     if (squaredDistance(light.sphere.x, light.sphere.y, light.sphere.z, box) > radius2) return false;
+    if (hasFront(light)) return frontTouchesBox(light, box);
     return !hasCone(light) || coneTouchesBox(light, box);
 }
 

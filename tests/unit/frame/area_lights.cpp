@@ -234,10 +234,13 @@ public:
         return indices;
     }
 
-    /// Whether any place of the light's ball is in front of any pixel's surface that the light reaches.
+    /// Whether any place of the light's ball is in front of any pixel's surface that the light reaches, and shines
+    /// there.
     bool mayLight(const scenes::Light& light) const {
+        const bool hasFront = scenes::infoOf(light.type).isFlat && !light.isTwoSided;
         for (std::size_t i = 0; i < positions_.size(); ++i) {
             const glm::dvec3 toLight = light.positionWS - positions_[i];
+            if (hasFront && glm::dot(toLight, light.directionWS) >= 0.0) continue;
             if (glm::length(toLight) < double(light.rangeMetres) &&
                 glm::dot(toLight, glm::dvec3(normals_[i])) + scenes::surfaceReachMetres(light) > 0.0)
                 return true;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/culling/TileGrid.h"
+#include "tests/support/Random.h"
 
 namespace tessera {
 namespace {
@@ -94,6 +95,32 @@ TEST(LightTouch, aLightTouchesABoxExactlyWithinItsRadiusAndItsCone) {
     EXPECT_TRUE(touches(3.0f, left));
     EXPECT_FALSE(touches(2.875f, left));
     EXPECT_FALSE(touches(3.0f, right));
+    const glm::vec4 frontLeft(-1, 0, 0, -3), frontRight(1, 0, 0, -3);
+    EXPECT_TRUE(touches(3.0f, frontLeft));
+    EXPECT_FALSE(touches(2.875f, frontLeft));
+    EXPECT_FALSE(touches(3.0f, frontRight));
+}
+
+TEST(LightTouch, theFrontOfALightTouchesBoxesOfWhichAnyCornerLiesBeforeItsPlane) {
+    test::Random random(11);
+    int touched = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 normal(random.direction()), point(3.0 * random.direction());
+        const glm::vec3 low(2.0 * random.direction());
+        const glm::vec3 high =
+            low + glm::vec3(random.between(0.1, 3.0), random.between(0.1, 3.0), random.between(0.1, 3.0));
+        double farthest = -1e9;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 at(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
+            farthest = std::max(farthest, glm::dot(glm::dvec3(normal), at - glm::dvec3(point)));
+        }
+        if (std::abs(farthest) < 1e-3) continue;
+        const shared::CullLight light{glm::vec4(point, 100.0f), glm::vec4(point, 1.0f), glm::vec4(normal, -3.0f)};
+        EXPECT_EQ(shared::frontTouchesBox(light, {glm::vec4(low, 0.0f), glm::vec4(high, 0.0f)}), farthest > 0.0);
+        touched += farthest > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(touched, 300);
+    EXPECT_LT(touched, 900);
 }
 
 TEST(LightTouch, theMarginForRoundingIsThatOfPositionsAndThatOfEvenDepthsTogether) {
