@@ -9,6 +9,7 @@
 #include "scenes/builtin/Pictures.h"
 #include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
 /// Light from everywhere: what its tests have in common.

@@ -26,8 +26,8 @@ TEST_F(Environment, everyTechniqueGivesTheSamePictureToTheLastBit) {
         std::vector<Technique> techniques; ///< besides forward; none: all
     };
     // Compiling takes nearly all of the time: where each technique has been seen, two suffice for all features.
-    for (Case& one : std::vector<Case>{{evenScene(), EnvironmentLight::SplitSum, 1, {}},
-                                       {evenScene(), EnvironmentLight::Sampled, 1, {}},
+    for (Case& one : std::vector<Case>{{evenScene(), EnvironmentLight::SplitSum, 1, techniquesInTurn(0)},
+                                       {evenScene(), EnvironmentLight::Sampled, 1, techniquesInTurn(1)},
                                        {everythingScene(),
                                         EnvironmentLight::SplitSum,
                                         1,

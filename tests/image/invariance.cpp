@@ -77,7 +77,9 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
         for (scenes::Node& node : scene.nodes)
             for (scenes::MeshInstance& instance : node.instances) instance.material = int(material);
         for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
-            for (const frame::LayoutInfo& layout : frame::layoutTable()) {
+            // Forward stores nothing, and layouts are taken in turn.
+            const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
+            for (const frame::LayoutInfo& layout : layouts.subspan(material % layouts.size(), 1)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", scene.materials[material].name, int(technique), layout.name));
                 frame::FrameSettings settings = small();
                 settings.sizePixels = {160, 91};

@@ -53,7 +53,7 @@ protected:
         return alphas;
     }
 
-    /// Of random scenes, a quarter unless the sweep is whole.
+    /// Of random scenes, a sixth with every other tile unless the sweep is whole.
     void expectForwardsPictureOfRandomScenes();
     /// Each scene with every technique, or with one in turn.
     void expectPruningInvisible();
@@ -89,8 +89,9 @@ TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
 
 void Multisampling::expectForwardsPictureOfRandomScenes() {
     std::vector<Scene> lit{test::everythingScene(), test::columnsBeforeWall(200)};
-    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 6); ++seed)
+    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 4); ++seed)
         lit.push_back(test::randomLitScene(seed));
+    std::size_t turn = 0;
     for (std::size_t i = 0; i < lit.size(); ++i) {
         engine::Renderer renderer(context(), lit[i]);
         frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
@@ -102,6 +103,7 @@ void Multisampling::expectForwardsPictureOfRandomScenes() {
             for (const culling::Method method : technique.methods) {
                 settings.culling.method = method;
                 for (const int tile : culling::kTileSides) {
+                    if (!test::isWholeSweep() && method != culling::Method::None && turn++ % 2 != 0) continue;
                     SCOPED_TRACE(fmt::format("scene {}, {} {} {}", i, technique.name, int(method), tile));
                     settings.culling.tilePixels = tile;
                     EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);

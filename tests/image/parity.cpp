@@ -27,8 +27,9 @@ protected:
         return validation::compareTechniques(renderer, context().capabilities(), request).record;
     }
 
-    void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings) {
-        const validation::CompareRecord record = compare(renderer, settings);
+    void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                         std::vector<Technique> techniques = {}) {
+        const validation::CompareRecord record = compare(renderer, settings, std::move(techniques));
         EXPECT_TRUE(record.ok()) << validation::compareTable(record);
         for (const validation::ComparePair& pair : record.pairs) {
             EXPECT_EQ(pair.figures.bad.sum() + pair.figures.badOutside.sum(), 0u);
@@ -37,6 +38,10 @@ protected:
     }
 
     void expectPromisesKept();
+    /// Of every built-in scene, with every technique, or with every other one in turn.
+    void expectScenesAgree();
+    /// Of a scene of everything, the same.
+    void expectOptionsAgree();
 };
 using ParitySlow = Parity;
 
@@ -49,7 +54,8 @@ bool usesGBuffer(const std::string& technique) {
 /// The sizes: one that tiles evenly and one that is odd both ways.
 constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 
-TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
+void Parity::expectScenesAgree() {
+    std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
         engine::Renderer renderer(context(), scene);
@@ -58,9 +64,16 @@ TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
             frame::FrameSettings settings;
             settings.sizePixels = size;
             settings.diffusion = test::coarseDiffusion();
-            expectAgreement(renderer, settings);
+            expectAgreement(renderer, settings, test::techniquesInTurn(turn));
         }
+        ++turn;
     }
+}
+TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
+    expectScenesAgree();
+}
+TEST_F(ParitySlow, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
+    expectScenesAgree();
 }
 
 TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
@@ -126,22 +139,29 @@ TEST_F(ParitySlow, everyCoarseLayoutAlwaysKeepsItsPromiseWithEveryTechnique) {
     expectPromisesKept();
 }
 
-TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
+void Parity::expectOptionsAgree() {
     const scenes::Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
     for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
         frame::FrameSettings settings;
+        std::size_t turn = 0;
         settings.sizePixels = size;
-        expectAgreement(renderer, settings);
+        expectAgreement(renderer, settings, test::techniquesInTurn(turn++));
         settings.filter = frame::TextureFilter::Exact;
-        expectAgreement(renderer, settings);
+        expectAgreement(renderer, settings, test::techniquesInTurn(turn++));
         settings.space = frame::LightingSpace::View;
-        expectAgreement(renderer, settings);
+        expectAgreement(renderer, settings, test::techniquesInTurn(turn++));
         settings.specular = false;
-        expectAgreement(renderer, settings);
+        expectAgreement(renderer, settings, test::techniquesInTurn(turn++));
         settings.prune = false;
-        expectAgreement(renderer, settings);
+        expectAgreement(renderer, settings, test::techniquesInTurn(turn++));
     }
+}
+TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
+    expectOptionsAgree();
+}
+TEST_F(ParitySlow, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
+    expectOptionsAgree();
 }
 
 TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {

@@ -12,6 +12,7 @@
 #include "renderer/gpu/Commands.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
 namespace tessera {
@@ -204,12 +205,10 @@ TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLast
     const std::vector<float> truth = normals(scene, Technique::Deferred, 1);
     // Normals along an axis have zeros.
     EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 3));
-    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
-        EXPECT_TRUE(normals(scene, info.technique, 1) == truth) << info.name;
-        if (info.multisamples()) {
-            EXPECT_TRUE(normals(scene, info.technique, 4) == truth) << info.name << ", 4 samples";
-        }
-    }
+    for (const Technique technique : test::techniquesInTurn(1))
+        EXPECT_TRUE(normals(scene, technique, 1) == truth) << engine::infoOf(technique).name;
+    for (const Technique technique : test::techniquesInTurn(0, 4))
+        EXPECT_TRUE(normals(scene, technique, 4) == truth) << engine::infoOf(technique).name << ", 4 samples";
 }
 
 TEST_F(SeveralViews, viewsThatNeedTheSceneInTwoWaysAreRefused) {

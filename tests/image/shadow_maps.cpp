@@ -7,6 +7,7 @@
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 #include "validation/stress/Stress.h"
 
@@ -21,6 +22,7 @@ using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase,
 class ShadowMapsTest : public test::ShadowTest {};
 
 TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
+    std::size_t turn = 0;
     for (const ShadowCase& tried : kShadowCases) {
         scenes::Scene scene = sceneOf(tried);
         for (scenes::Light& light : scene.lights) light.*scenes::sizeParameter(infoOf(light.type))->member = 0.05f;
@@ -31,7 +33,7 @@ TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
         for (const ShadowFilter filter : test::mapFilters()) {
             settings.shadowFilter = filter;
             SCOPED_TRACE(fmt::format("{}, {}", tried.scene, infoOf(filter).name));
-            expectParity(renderer, settings);
+            expectParity(renderer, settings, test::techniquesInTurn(turn++));
         }
     }
 }
@@ -46,7 +48,7 @@ TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurface
         settings.samples = samples;
         settings.shadows = kAllLightsCast;
         settings.shadowFilter = filter;
-        expectParity(renderer, settings);
+        expectParity(renderer, settings, test::techniquesInTurn(std::size_t(samples) / 4, samples));
     }
 }
 

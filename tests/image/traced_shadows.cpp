@@ -10,6 +10,7 @@
 #include "tests/image/ShadowTest.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
 namespace tessera {
@@ -56,7 +57,7 @@ TEST_F(Shadows, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithS
         settings.sizePixels = {160, 90};
         settings.samples = samples;
         settings.shadows = kAllLightsCast;
-        expectParity(renderer, settings);
+        expectParity(renderer, settings, test::techniquesInTurn(std::size_t(samples) / 4, samples));
     }
 }
 
