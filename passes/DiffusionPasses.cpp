@@ -73,8 +73,7 @@ struct Object {
         TextureHandle entering, unblurred;
     };
     /// Lights some tiles anew.
-    Light light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas, Light light,
-                const frame::TileSet& tiles) const;
+    Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles) const;
 
     /// Light that has spread by some of the levels, and the sum of what leaves for it; none before the first.
     struct Spread {
@@ -95,8 +94,7 @@ private:
     TextureHandle fill(const std::string& name, TextureHandle light, const frame::TileSet& tiles) const;
 };
 
-Object::Light Object::light(const DiffusionPasses::Inputs& inputs, const frame::DiffusionAtlas* atlas, Light light,
-                            const frame::TileSet& tiles) const {
+Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles) const {
     struct Data {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
@@ -341,7 +339,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
             memory->hold(cell, key, lit, stored);
         };
     }
-    if (lights) light = object.light(inputs, atlas, light, work.light);
+    if (lights) light = object.light(inputs, light, work.light);
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
