@@ -160,7 +160,8 @@ frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::Dif
     const frame::SurfaceBounds own{.boxWS = object.boxWS, .reachMetres = radius, .nodeWS = center};
 
     frame::PreparedView prepared;
-    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1});
+    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1},
+                                            settings.snapPixels);
     prepared.lights = frame::packLights(scene, prepared.camera, settings);
     const std::size_t count = prepared.lights.texels.size();
     prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
@@ -220,7 +221,8 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
     const glm::vec3 background = frame::showsLitPicture(settings.view) ? scene.background : glm::vec3(0.0f);
-    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds);
+    prepared.camera =
+        frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds, settings.snapPixels);
     prepared.lights = frame::packLights(scene, prepared.camera, settings);
     const std::size_t lightCount = prepared.lights.texels.size();
     prepared.lighting.lights =

@@ -60,7 +60,7 @@ glm::dvec4 unitPlane(const glm::dvec4& plane) {
 } // namespace
 
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
-                          const glm::vec3& background, std::span<const SurfaceBounds> bounds) {
+                          const glm::vec3& background, std::span<const SurfaceBounds> bounds, float snapPixels) {
     const bool orthographic = camera.projection == scenes::Projection::Orthographic;
     const Lens lens = makeLens(camera, double(sizePixels.x) / double(sizePixels.y));
     const glm::dmat3 worldFromView(camera.worldFromCamera);
@@ -102,7 +102,8 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;
-    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span), 0.0f, 0.0f);
+    c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span),
+                           float(snapPixels * std::max(pixelStep.x, pixelStep.y)), snapPixels);
     return view;
 }
 

@@ -29,8 +29,10 @@ struct CameraView {
 };
 
 /// `bounds` are those of the scene; without them depth and lighting space are the camera's own, whatever it sees.
+/// `snapPixels` is gpu::Capabilities::snapPixels.
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
-                          const glm::vec3& background, std::span<const SurfaceBounds> bounds = {});
+                          const glm::vec3& background, std::span<const SurfaceBounds> bounds = {},
+                          float snapPixels = 0.0f);
 
 /// Whether some plane of the view's frustum has all of a box behind it by more than a margin.
 bool isOutside(const scenes::Box3& boxWS, double marginMetres, const CameraView& view);

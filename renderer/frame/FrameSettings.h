@@ -144,8 +144,9 @@ struct FrameSettings {
     EnvironmentSettings environment;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
-    bool softwareBackend = true;          ///< decides the choices left open; the renderer sets it to its own backend
-    bool display = true; ///< false: display code values are not needed, and the display pass is left out
+    float snapPixels = 0.0f;     ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets
+    bool softwareBackend = true; ///< decides the choices left open; the renderer sets it to its own backend
+    bool display = true;         ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;
     ToneMap toneMap = ToneMap::None;
 

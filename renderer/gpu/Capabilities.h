@@ -13,6 +13,9 @@ struct Capabilities {
     std::string glslVersion; ///< GL_SHADING_LANGUAGE_VERSION
     std::string contextWay;  ///< how the context was made, e.g. "EGL surfaceless", "EGL device 0", "GLFW window"
     bool isSoftware = false; ///< a CPU rasteriser (llvmpipe, softpipe, swrast): GPU timer queries mean nothing there
+    /// By how much of a pixel the rasteriser moves vertices before it finds depths; 0: depths are those of the vertices
+    /// as they are, to rounding.
+    float snapPixels = 0.0f;
     std::size_t maxTextureBufferTexels = 0;
     std::size_t maxUniformBlockBytes = 0;
     std::size_t maxStorageBlockBytes = 0;

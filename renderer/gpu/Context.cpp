@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cctype>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -89,6 +90,9 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.glslVersion = text(GL_SHADING_LANGUAGE_VERSION);
     capabilities.contextWay = std::move(contextWay);
     capabilities.isSoftware = isSoftwareRenderer(capabilities.renderer);
+    // Mesa's rasterisers snap vertices to find which pixels are covered, not for their depths.
+    if (!capabilities.isSoftware)
+        capabilities.snapPixels = std::sqrt(0.5f) * std::exp2(-float(integer(GL_SUBPIXEL_BITS)));
     // Seen with Mesa 22.3's zink over lavapipe.
     capabilities.indexesUniformBlocks = !(capabilities.isSoftware && capabilities.renderer.starts_with("zink"));
     capabilities.maxTextureBufferTexels = std::size_t(integer(GL_MAX_TEXTURE_BUFFER_SIZE));

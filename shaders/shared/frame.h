@@ -24,7 +24,8 @@ struct ViewConstants {
     vec4 rayFromPixel;   // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the
                          // eye, or (orthographic) anywhere; window coordinates, lower-left origin
     vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
-                         // distance or nearly so, else 0
+                         // distance or nearly so, else 0; w by how much of a pixel a rasteriser moves vertices before
+                         // it finds depths, z the same in metres: a metre ahead of the eye, or (orthographic) anywhere
     uvec4 sizePixels;    // x width, y height of the picture
 };
 

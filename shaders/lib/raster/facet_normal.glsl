@@ -1,6 +1,6 @@
 // The normal of the triangle that is rasterised, in lighting space and away from the viewer: the mesh's own, carried as
-// normals of vertices are. Differences of gl_FragCoord.z between pixels would do where a driver keeps the digits of
-// depth; NVIDIA's does not.
+// normals of vertices are. Differences of gl_FragCoord.z between pixels would tell it only where a rasteriser finds
+// depths from vertices that are not snapped to parts of a pixel.
 #pragma once
 #include "lib/surface/camera.glsl"
 

@@ -58,7 +58,7 @@ ShadowRay shadowRay(vec3 originLS, vec3 toLightCS, float lightRounding)
     ShadowRay ray;
     ray.originCS = positionCS(originLS);
     ray.toLightCS = toLightCS;
-    ray.originRounding = roundingAt(originLS);
+    ray.originRounding = roundingAt(originLS) + snappingMetres(originLS) * casterTree.rwsOriginCS.w;
     ray.lightRounding = lightRounding;
     vec3 size = abs(toLightCS);
     ray.longestAxis = size.x >= max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;

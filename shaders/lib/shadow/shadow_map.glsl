@@ -72,6 +72,8 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
                                dot(forward.xyz, facetNormalRWS));
     bool isParallel = place.w < 0.0;
+    // The map's triangles may lie aside by part of a texel.
+    roundingMetres += view.depthKey.w * width.x / place.z * (isParallel ? 1.0 : max(position.z, 0.0));
     precise FacePoint point;
     point.isSoft = SHADOW_FILTER == SHADOW_FILTER_PCSS && shadow.x > 0.0;
     point.face = place.xyz;
@@ -265,7 +267,8 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         }
         precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
         precise vec3 facetNormalRWS = rwsFromLS * facetNormalLS;
-        precise float rounding = shadow.w + 1.9e-6 * length(viewpoint.positionLS);
+        precise float rounding =
+            shadow.w + 1.9e-6 * length(viewpoint.positionLS) + snappingMetres(viewpoint.positionLS);
         FacePoint point = facePoint(face, shadow, positionRWS, facetNormalRWS, rounding);
         vec2 fromMiddle = abs(point.texel - point.face.xy);
         precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y);
@@ -328,7 +331,8 @@ float mappedPassage(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNor
         int axis = size.x >= max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
         face += SHADOW_FACE_TEXELS * (2 * axis + (fromLight[axis] < 0.0 ? 1 : 0));
     }
-    precise float rounding = shadow.w + 1.9e-6 * length(viewpoint.positionLS);
+    precise float rounding =
+            shadow.w + 1.9e-6 * length(viewpoint.positionLS) + snappingMetres(viewpoint.positionLS);
     int faces = isFar ? SHADOW_CASCADES : 1;
     int i = 0;
     for (; i < faces; ++i, face += SHADOW_FACE_TEXELS) {

@@ -51,6 +51,15 @@ vec2 raySpread()
     return view.forwardLS.w != 0.0 ? vec2(1.0, 0.0) : vec2(view.eyeLS.w, 1.0);
 }
 
+// By how many metres at most a rasteriser moves a point off its triangle: one that is found from snapped vertices lies aside
+// of where it was.
+float snappingMetres(vec3 positionLS)
+{
+    vec2 spread = raySpread();
+    precise float metres = view.depthKey.z * (spread.x + spread.y * dot(view.forwardLS.xyz, positionLS));
+    return metres;
+}
+
 Viewpoint viewpointFromDepth(vec2 pixel, float depth)
 {
 #if HAS_ORTHOGRAPHIC_CAMERA
