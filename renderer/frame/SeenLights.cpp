@@ -121,7 +121,6 @@ std::optional<scenes::Light> shownLight(const scenes::Scene& scene, std::size_t 
 std::vector<SeenLight> seenLights(const scenes::Scene& scene, const scenes::Camera& camera,
                                   const FrameSettings& settings) {
     std::vector<SeenLight> seen;
-    if (!showsLitPicture(settings.view)) return seen;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const std::optional<scenes::Light> light = shownLight(scene, i, settings);
         if (!light || turnsAway(*light, camera)) continue;

@@ -16,7 +16,7 @@ struct SeenLight {
 
 /// Those of the scene that are on, shine and are to be seen (Light::isSeen), in document order, by the camera alone.
 /// Left out are surfaces beside the picture or beyond the camera's near and far plane, flat ones that turn to the eye a
-/// side that does not shine, and solids that the eye is in. None where the view shows no lit picture.
+/// side that does not shine, and solids that the eye is in. Whatever the view shows, so that all have the same depths.
 std::vector<SeenLight> seenLights(const scenes::Scene& scene, const scenes::Camera& camera,
                                   const FrameSettings& settings);
 
