@@ -23,10 +23,10 @@ class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels),
-          objects_(scene, rays_, settings.subsurface), textures_(scene, settings.filtering),
-          visibility_(objects_, rays_, textures_), lights_(shiningLights(scene, settings, rays_.eyeWS())),
-          seenLights_(lights_, rays_), surroundings_(scene, settings), occlusion_(scene, objects_),
-          diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
+          lights_(shiningLights(scene, settings, rays_.eyeWS())), seenLights_(lights_, rays_),
+          objects_(scene, rays_, settings.subsurface, SeenLights::boxesRWS(lights_)),
+          textures_(scene, settings.filtering), visibility_(objects_, rays_, textures_), surroundings_(scene, settings),
+          occlusion_(scene, objects_), diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -64,7 +64,7 @@ private:
                                                   {kMovedPixels, -kMovedPixels},
                                                   {-kMovedPixels, kMovedPixels},
                                                   {kMovedPixels, kMovedPixels}};
-    /// And ahead, in parts of the depth.
+    /// And ahead, in parts of what depth values stand for.
     static constexpr double kDepthRounding = 4e-6;
 
     /// Triangles in one place: their depths differ by no more than rounding to fp32 may move both.
@@ -204,6 +204,7 @@ private:
             return a.light.has_value() == b.light.has_value() && (!a.light || a.light->light == b.light->light) &&
                    a.transparent.size() == b.transparent.size();
         };
+        const Anchor& anchor = objects_.anchor();
         for (const glm::dvec2& aside : kAsidePixels) {
             const Ray ray = rays_.through(placePixels + aside);
             if (!seenLights_.before(ray, kEndless)) continue;
@@ -211,8 +212,10 @@ private:
             const double depthMetres = opaque ? opaque->depthMetres : kEndless;
             for (const double side : {-1.0, 1.0}) {
                 const auto moved = [&](double metres) {
-                    return std::isinf(metres) ? metres
-                                              : metres + side * (objects_.roundingMetres() + kDepthRounding * metres);
+                    if (std::isinf(metres)) return metres;
+                    const double reach =
+                        anchor.radiusMetres > 0.0 ? anchor.radiusMetres + anchor.otherOriginMetres : metres;
+                    return metres + side * (objects_.roundingMetres() + kDepthRounding * reach);
                 };
                 const std::optional<SeenLights::Met> met = seenLights_.before(ray, moved(depthMetres));
                 const Seen other = behind(surfaces, met, met ? moved(met->depthMetres) : kEndless);
@@ -425,11 +428,11 @@ private:
     const scenes::Scene& scene_;
     const Settings& settings_;
     CameraRays rays_;
+    std::vector<ShiningLight> lights_;
+    SeenLights seenLights_;
     Objects objects_;
     Textures textures_;
     Visibility visibility_;
-    std::vector<ShiningLight> lights_;
-    SeenLights seenLights_;
     Surroundings surroundings_;
     Occlusion occlusion_;
     Diffusion diffusion_;

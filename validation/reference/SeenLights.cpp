@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes/AreaLight.h"
 
@@ -79,6 +80,10 @@ std::optional<double> entryOf(const scenes::Light& light, const glm::dvec3& star
     return entry <= exit ? std::optional(entry) : std::nullopt;
 }
 
+bool isShown(const scenes::Light& light) {
+    return scenes::infoOf(light.type).isArea && light.isSeen && scenes::hasSurface(light);
+}
+
 } // namespace
 
 SeenLights::SeenLights(std::span<const ShiningLight> lights, const CameraRays& rays)
@@ -88,12 +93,23 @@ std::optional<SeenLights::Met> SeenLights::before(const Ray& ray, double depthMe
     std::optional<Met> nearest;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const scenes::Light& light = lights_[i].light;
-        if (!scenes::infoOf(light.type).isArea || !light.isSeen || !scenes::hasSurface(light)) continue;
+        if (!isShown(light)) continue;
         const std::optional<double> entry = entryOf(light, ray.originRWS - lights_[i].positionRWS, ray.direction);
         if (!entry || *entry < nearMetres_ || *entry > std::min(farMetres_, depthMetres)) continue;
         if (!nearest || *entry <= nearest->depthMetres) nearest = {i, *entry};
     }
     return nearest;
+}
+
+std::vector<scenes::Box3> SeenLights::boxesRWS(std::span<const ShiningLight> lights) {
+    std::vector<scenes::Box3> boxes;
+    for (const ShiningLight& shining : lights) {
+        if (!isShown(shining.light)) continue;
+        // The product's boxes are turned with their lights: their corners lie up to sqrt(2) times as far out.
+        const glm::dvec3 half(std::numbers::sqrt2 * scenes::surfaceReachMetres(shining.light));
+        boxes.push_back({shining.positionRWS - half, shining.positionRWS + half});
+    }
+    return boxes;
 }
 
 } // namespace tessera::reference

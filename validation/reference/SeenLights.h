@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "validation/reference/CameraRays.h"
 #include "validation/reference/LightAt.h"
@@ -21,6 +22,9 @@ public:
     /// The nearest surface within the camera's depths and not behind `depthMetres`; of several in one place the last.
     /// Flat lights are met from sides that shine, solids from outside alone.
     std::optional<Met> before(const Ray& ray, double depthMetres) const;
+
+    /// A box around each of them, wherever the camera looks.
+    static std::vector<scenes::Box3> boxesRWS(std::span<const ShiningLight> lights);
 
 private:
     std::span<const ShiningLight> lights_;
