@@ -87,14 +87,16 @@ bool isShown(const scenes::Light& light) {
 } // namespace
 
 SeenLights::SeenLights(std::span<const ShiningLight> lights, const CameraRays& rays)
-    : lights_(lights), nearMetres_(rays.nearMetres()), farMetres_(rays.farMetres()) {}
+    : lights_(lights), nearMetres_(rays.nearMetres()), farMetres_(rays.farMetres()) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (isShown(lights[i].light)) shown_.push_back(i);
+}
 
 std::optional<SeenLights::Met> SeenLights::before(const Ray& ray, double depthMetres) const {
     std::optional<Met> nearest;
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        const scenes::Light& light = lights_[i].light;
-        if (!isShown(light)) continue;
-        const std::optional<double> entry = entryOf(light, ray.originRWS - lights_[i].positionRWS, ray.direction);
+    for (const std::size_t i : shown_) {
+        const std::optional<double> entry =
+            entryOf(lights_[i].light, ray.originRWS - lights_[i].positionRWS, ray.direction);
         if (!entry || *entry < nearMetres_ || *entry > std::min(farMetres_, depthMetres)) continue;
         if (!nearest || *entry <= nearest->depthMetres) nearest = {i, *entry};
     }

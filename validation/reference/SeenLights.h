@@ -28,6 +28,7 @@ public:
 
 private:
     std::span<const ShiningLight> lights_;
+    std::vector<std::size_t> shown_; ///< those of them that have a surface to be seen
     double nearMetres_, farMetres_;
 };
 
