@@ -9,6 +9,7 @@
 
 #include "engine/PrepareView.h"
 #include "renderer/graph/Plan.h"
+#include "scenes/LookAt.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
 
