@@ -221,8 +221,13 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     const scenes::Camera camera = frameCamera(scene, settings);
     // A debug view shows quantities of surfaces; where there is none it shows 0.
     const glm::vec3 background = frame::showsLitPicture(settings.view) ? scene.background : glm::vec3(0.0f);
-    prepared.camera =
-        frame::makeCameraView(camera, settings.sizePixels, settings.space, background, bounds, settings.snapPixels);
+    const std::vector<frame::SeenLight> seenLights = frame::seenLights(scene, camera, settings);
+    std::vector<frame::SurfaceBounds> withLights;
+    if (!seenLights.empty()) withLights.assign(bounds.begin(), bounds.end());
+    for (const frame::SeenLight& seen : seenLights) withLights.push_back(seen.bounds);
+    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background,
+                                            seenLights.empty() ? bounds : withLights, settings.snapPixels);
+    if (frame::showsLitPicture(settings.view)) prepared.seenLights = frame::packSeenLights(seenLights, prepared.camera);
     prepared.lights = frame::packLights(scene, prepared.camera, settings);
     const std::size_t lightCount = prepared.lights.texels.size();
     prepared.lighting.lights =
@@ -233,6 +238,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;
+    spec.seenLights = prepared.seenLights.size();
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffused(scene, bounds, prepared);

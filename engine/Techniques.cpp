@@ -21,6 +21,7 @@
 #include "passes/LightVolumesPass.h"
 #include "passes/OverdrawPass.h"
 #include "passes/ResolvePass.h"
+#include "passes/SeenLightsPass.h"
 #include "passes/ShadowAtlasPass.h"
 #include "passes/ShadowMapsPass.h"
 #include "passes/StoredChannelPass.h"
@@ -67,6 +68,7 @@ struct ViewWiring {
     frame::SurfaceHandles surfaces;                    ///< the scene, as the view draws it
     frame::LightingInputs lighting;                    ///< with the lists, once there are some
     std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
+    std::optional<graph::BufferHandle> seenLights;     ///< where area lights are: shared::SeenLightTexels
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
@@ -84,6 +86,7 @@ struct ViewWiring {
                     {},
                     {},
                     {}};
+        seenLights = lights.seenLights;
         if (lights.environment) addEnvironment(frame.scene.environment, *lights.environment);
         lighting.lobes.lobes = frame.scene.lobes.lobes;
         if (spec.usesLobeTable()) lighting.lobes.table = frame.scene.lobes.table;
@@ -262,9 +265,16 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     // Add passes here that read the opaque picture and draw below transparent surfaces.
     if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = wiring.storeSurfaces(opaque.depth);
     if (after.add) opaque.radiance = after.add(wiring.graph, view, wiring.spec, opaque);
+    TextureHandle seenDepth = opaque.depth;
+    if (wiring.seenLights) {
+        const SeenLightsPass::Inputs inputs{wiring.surfaces.view, *wiring.seenLights, opaque.depth, opaque.radiance};
+        const SeenLightsPass::Outputs seen = SeenLightsPass::add(wiring.graph, wiring.spec, inputs);
+        opaque.radiance = seen.radiance;
+        seenDepth = seen.seenDepth;
+    }
     if (!wiring.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, opaque.depth, opaque.radiance};
+    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance};
     return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};
 }
 

@@ -64,8 +64,8 @@ struct OpaquePicture {
 /// Passes between opaque and transparent surfaces: reflections, say, or what an application adds.
 struct AfterOpaque {
     bool readsSurfaces = false; ///< OpaquePicture::gbuffer is there whatever the technique
-    /// Declares them for a view, counted from 0. Returns the radiance, of FrameSpec::samples, that transparent surfaces
-    /// are drawn over.
+    /// Declares them for a view, counted from 0. Returns the radiance, of FrameSpec::samples, that area lights and
+    /// transparent surfaces are drawn over.
     std::function<graph::TextureHandle(graph::Graph& graph, std::size_t view, const frame::FrameSpec& spec,
                                        const OpaquePicture& opaque)>
         add;

@@ -48,12 +48,16 @@ UploadLightsPass::Outputs UploadLightsPass::add(graph::Graph& graph, const frame
                 out.environment = pass.create("environment", {sizeof(shared::EnvironmentConstants)}, Access::Upload);
             if (spec.tracesShadows())
                 out.casterTree = pass.create("caster_tree", {sizeof(shared::CasterTreeConstants)}, Access::Upload);
+            if (spec.seenLights > 0)
+                out.seenLights = pass.create("seen_lights", {spec.seenLights * sizeof(shared::SeenLightTexels), true},
+                                             Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             const frame::PreparedView& view = drawn->prepared;
             if (out.casterTree)
                 context.buffer(*out.casterTree)
                     .uploadValue(frame::casterTreeConstants(drawn->scene->casters()->space, view.camera));
+            if (out.seenLights) context.buffer(*out.seenLights).upload(view.seenLights);
             if (out.environment) context.buffer(*out.environment).uploadValue(view.environment);
             context.buffer(out.constants).uploadValue(view.lighting);
             std::vector<glm::vec4> texels = frame::texelsOf(view.lights, view.spec.features);

@@ -16,13 +16,14 @@ struct UploadViewPass {
 /// Puts a view's lights on the GPU.
 /// Writes  light texels (shaders/shared/light.h), faces of shadow maps behind them, the constants of lighting and,
 /// where
-///         shadows are traced, shared::CasterTreeConstants
+///         shadows are traced, shared::CasterTreeConstants; where area lights are seen, shared::SeenLightTexels
 /// Space   lighting space
 struct UploadLightsPass {
     struct Outputs {
         graph::BufferHandle constants, lights;
         std::optional<graph::BufferHandle> environment; ///< shared::EnvironmentConstants
         std::optional<graph::BufferHandle> casterTree;
+        std::optional<graph::BufferHandle> seenLights;
     };
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };

@@ -87,6 +87,7 @@ struct Light {
     float lengthMetres = 1.0f;               ///< Tube: along its direction
     glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle: unit, at right angles to directionWS
     bool isTwoSided = false;                 ///< Rectangle and Disk: shine from the back too
+    bool isSeen = true;                      ///< with an area: pictures show the surface
     std::optional<LightAnimation> animation;
     bool operator==(const Light&) const = default;
 };
@@ -118,6 +119,7 @@ inline constexpr std::tuple kLightFields{
     Field{"lengthMetres", &Light::lengthMetres, "the length", 0.0, kMostRadiusMetres, " m"},
     Field{"alongWS", &Light::alongWS},
     Field{"isTwoSided", &Light::isTwoSided},
+    Field{"isSeen", &Light::isSeen},
     Field{"animation", &Light::animation},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
@@ -156,7 +158,7 @@ struct LightTypeInfo {
     LightReach reach;
     bool hasDirection;
     std::span<const LightParameter> parameters{};
-    /// It shines from a surface that is seen: intensity is its radiance, and Light::falloff is InverseSquare.
+    /// It shines from a surface: intensity is its radiance, Light::falloff is InverseSquare, and Light::isSeen.
     bool isArea = false;
     bool isFlat = false; ///< an area with a front, towards its direction, and a back: Light::isTwoSided
 

@@ -9,6 +9,7 @@
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
 #include "renderer/frame/RefineLayout.h"
+#include "renderer/frame/SeenLights.h"
 #include "renderer/frame/ShadowMaps.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
@@ -385,6 +386,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                        vertexCount(scene) * bytesWithout(info.feature, spec.features),
                        {}});
     }
+    if (spec.seenLights == 0) out.push_back({"surfaces of area lights", whyNoSeenLights(scene, spec.settings), 0, {}});
     addLights(out, lights.features, lights.off, "off, or not the solo light");
     addLights(out, lights.features, lights.dark, "no intensity, range, cone or surface");
     addLights(out, lights.features, lights.unseen, "their range ends outside the view");

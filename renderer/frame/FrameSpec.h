@@ -33,6 +33,7 @@ struct FrameSpec {
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
     std::optional<EnvironmentShape> environment;     ///< where it lights surfaces, or is seen
     bool showsEnvironment = false;                   ///< behind the scene
+    std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
 
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
     std::vector<FrameSpec> diffused;

@@ -7,6 +7,7 @@
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/FrameSpec.h"
 #include "renderer/frame/PackedLights.h"
+#include "renderer/frame/SeenLights.h"
 #include "renderer/frame/ShadowMaps.h"
 
 namespace tessera::frame {
@@ -17,6 +18,7 @@ struct PreparedView {
     PackedLights lights;
     shared::LightingConstants lighting{};
     shared::EnvironmentConstants environment{}; ///< where the spec has a map
+    std::vector<shared::SeenLightTexels> seenLights;
     FrameSpec spec;
     ShadowMaps shadowMaps;                             ///< empty where the view has none
     std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of those

@@ -169,6 +169,9 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (info.isFlat) {
         if (const auto twoSided = object.find("twoSided")) light.isTwoSided = twoSided->boolean();
     }
+    if (info.isArea) {
+        if (const auto seen = object.find("seen")) light.isSeen = seen->boolean();
+    }
     if (const auto casts = object.find("castsShadow")) light.castsShadow = casts->boolean();
     if (const LightParameter* size = sizeParameter(info)) {
         if (info.isArea) object.require(size->key);

@@ -75,6 +75,7 @@ Json byKeys(const Light& light) {
     };
     for (const LightParameter& parameter : info.parameters) write(parameter);
     if (info.isFlat && light.isTwoSided) json["twoSided"] = true;
+    if (info.isArea && !light.isSeen) json["seen"] = false;
     if (light.castsShadow) json["castsShadow"] = true;
     if (const LightParameter* size = sizeParameter(info); size != nullptr && (info.isArea || hasSize(light)))
         write(*size);

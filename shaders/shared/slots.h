@@ -68,6 +68,9 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_SAMPLES 11
 #define TEXTURE_UNIT_LIGHT_TILES 12
 
+// What shows area lights, beside the depths.
+#define TEXTURE_UNIT_SEEN_LIGHTS 9
+
 // What builds light lists, beside the depths.
 #define TEXTURE_UNIT_TRANSPARENT_DEPTH 9
 #define TEXTURE_UNIT_CULL_LIGHTS 10

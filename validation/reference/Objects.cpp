@@ -158,14 +158,15 @@ Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays)
 
 } // namespace
 
-Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface)
-    : Objects(scene, rays, subsurface, nullptr) {}
+Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface,
+                 const std::vector<scenes::Box3>& besideRWS)
+    : Objects(scene, rays, subsurface, besideRWS, nullptr) {}
 
 Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, const Ray& only)
-    : Objects(scene, rays, {}, &only) {}
+    : Objects(scene, rays, {}, {}, &only) {}
 
 Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface,
-                 const Ray* only) {
+                 const std::vector<scenes::Box3>& besideRWS, const Ray* only) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     std::uint32_t number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
@@ -181,6 +182,7 @@ Objects::Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::Sub
     std::vector<Bounds> bounds;
     for (const std::vector<Object>* list : {&opaque_, &transparent_})
         for (const Object& object : *list) bounds.push_back(boundsOf(object));
+    for (const scenes::Box3& box : besideRWS) bounds.push_back({box, 0.5 * glm::length(box.max - box.min)});
     anchor_ = rays.isPerspective() ? perspectiveAnchor(bounds, rays) : parallelAnchor(bounds, rays);
     for (std::vector<Object>* list : {&opaque_, &transparent_}) {
         for (Object& object : *list) {

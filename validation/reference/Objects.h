@@ -56,7 +56,9 @@ struct Object {
 /// All that a scene draws, seen from an eye. The scene must outlive the object.
 class Objects {
 public:
-    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface = {});
+    /// `besideRWS`: boxes around what else pixels show, which counts for the anchor.
+    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface = {},
+            const std::vector<scenes::Box3>& besideRWS = {});
     /// Only those whose mesh's box the ray meets: all that it can hit, and no more is prepared.
     Objects(const scenes::Scene& scene, const CameraRays& rays, const Ray& only);
 
@@ -70,7 +72,8 @@ public:
     double roundingBeyondMetres(const glm::dvec3& placeRWS) const;
 
 private:
-    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface, const Ray* only);
+    Objects(const scenes::Scene& scene, const CameraRays& rays, scenes::SubsurfaceRequest subsurface,
+            const std::vector<scenes::Box3>& besideRWS, const Ray* only);
     void add(const scenes::Scene& scene, const scenes::MeshInstance& instance, const glm::dmat4& worldFromNode,
              const CameraRays& rays, scenes::SubsurfaceRequest subsurface, const Ray* only, std::uint32_t number);
     void setBodyRadii();

@@ -12,6 +12,7 @@
 #include "validation/reference/LightAt.h"
 #include "validation/reference/Occlusion.h"
 #include "validation/reference/Reflectance.h"
+#include "validation/reference/SeenLights.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/Visibility.h"
 
@@ -22,10 +23,10 @@ class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
         : scene_(scene), settings_(settings), rays_(settings.camera, settings.sizePixels),
-          objects_(scene, rays_, settings.subsurface), textures_(scene, settings.filtering),
-          visibility_(objects_, rays_, textures_), lights_(shiningLights(scene, settings, rays_.eyeWS())),
-          surroundings_(scene, settings), occlusion_(scene, objects_),
-          diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
+          lights_(shiningLights(scene, settings, rays_.eyeWS())), seenLights_(lights_, rays_),
+          objects_(scene, rays_, settings.subsurface, SeenLights::boxesRWS(lights_)),
+          textures_(scene, settings.filtering), visibility_(objects_, rays_, textures_), surroundings_(scene, settings),
+          occlusion_(scene, objects_), diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
 
     void row(int row, Rendered& rendered) const {
         for (int column = 0; column < rendered.width; ++column) {
@@ -53,6 +54,19 @@ public:
     }
 
 private:
+    static constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+    /// A pixel's centre and how far from it rounding to fp32 may move what is seen of a light, with room: most of it is
+    /// 1e-7 of the picture's width.
+    static constexpr double kMovedPixels = 1.0 / 64.0;
+    static constexpr glm::dvec2 kAsidePixels[] = {{0.0, 0.0},
+                                                  {-kMovedPixels, -kMovedPixels},
+                                                  {kMovedPixels, -kMovedPixels},
+                                                  {-kMovedPixels, kMovedPixels},
+                                                  {kMovedPixels, kMovedPixels}};
+    /// And ahead, in parts of what depth values stand for.
+    static constexpr double kDepthRounding = 4e-6;
+
     /// Triangles in one place: their depths differ by no more than rounding to fp32 may move both.
     static bool areCoincident(const Hit& a, const Hit& b) {
         return std::abs(a.depthMetres - b.depthMetres) <= a.roundingMetres + b.roundingMetres;
@@ -102,7 +116,7 @@ private:
     void pixel(const Ray& ray, std::size_t at, Rendered& rendered) const {
         Seen seen;
         seen.opaque = visibility_.nearestOpaque(ray);
-        double depthMetres = std::numeric_limits<double>::infinity();
+        double depthMetres = kEndless;
         if (seen.opaque) {
             depthMetres = seen.opaque->depthMetres;
             rendered.ids[at].object = 1 + seen.opaque->object->number;
@@ -115,6 +129,11 @@ private:
             rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
             if (surfaceAt(hit, textures_).opacity > 0.0) rendered.covered[at] = 1;
         }
+        const Seen surfaces = seen;
+        if (const std::optional<SeenLights::Met> met = seenLights_.before(ray, depthMetres)) {
+            seen = behind(surfaces, met, met->depthMetres);
+            rendered.covered[at] = 1;
+        }
         const Lit lit = litBy(ray, seen, Nudge());
         const glm::dvec3 radiance = lit.radiance;
         rendered.radiance[at] = radiance;
@@ -125,10 +144,18 @@ private:
         std::vector<Span>& alternatives = rendered.alternatives[at];
         rendered.undecidedShadows[at] = seen.hasUndecidedShadows() ? 1 : 0;
         addLeeway(ray, seen, radiance, alternatives);
+        const glm::dvec2 placePixels(double(at % std::size_t(rendered.width)) + 0.5,
+                                     double(at / std::size_t(rendered.width)) + 0.5);
+        for (const Seen& other : otherLights(placePixels, surfaces, seen)) {
+            const glm::dvec3 otherRadiance = radianceOf(ray, other, Nudge());
+            alternatives.push_back({otherRadiance, otherRadiance});
+            addLeeway(ray, other, otherRadiance, alternatives);
+            addShadowLeeway(ray, other, otherRadiance, alternatives);
+        }
         const bool isNoiseAlone = alternatives.empty() && rendered.undecidedShadows[at] == 0;
         addShadowLeeway(ray, seen, radiance, alternatives);
         for (const Hit& hit : coincidentWith(ray, seen)) {
-            const Seen other{hit, seen.transparent, {}};
+            const Seen other{hit, {}, seen.transparent, {}};
             const glm::dvec3 otherRadiance = radianceOf(ray, other, Nudge());
             alternatives.push_back({otherRadiance, otherRadiance});
             addLeeway(ray, other, otherRadiance, alternatives);
@@ -137,10 +164,11 @@ private:
         if (isNoiseAlone && alternatives.size() == 1) rendered.shadowNoise[at] = lit.noise;
     }
 
-    /// The surfaces that a pixel shows.
+    /// What a pixel shows.
     struct Seen {
-        std::optional<Hit> opaque;
-        std::vector<Hit> transparent; ///< in the order in which they are blended
+        std::optional<Hit> opaque;            ///< nothing where a light hides it
+        std::optional<SeenLights::Met> light; ///< before everything opaque
+        std::vector<Hit> transparent;         ///< in the order in which they are blended
         /// By surface, the opaque one first, and by light: what Occlusion said, once it was asked.
         mutable std::vector<std::vector<std::optional<Occlusion::Answer>>> shadows{};
         mutable std::vector<std::vector<std::optional<Occlusion::Passage>>> passages{}; ///< the same
@@ -159,6 +187,44 @@ private:
             return false;
         }
     };
+
+    /// Surfaces with a light before the opaque one; of the transparent ones stay those not behind `depthMetres`.
+    static Seen behind(const Seen& surfaces, const std::optional<SeenLights::Met>& light, double depthMetres) {
+        Seen seen = surfaces;
+        seen.light = light;
+        if (light) seen.opaque.reset();
+        std::erase_if(seen.transparent, [&](const Hit& hit) { return hit.depthMetres > depthMetres; });
+        return seen;
+    }
+
+    /// What else may be seen of lights at a pixel, where rounding decides: near an outline, or near another surface.
+    std::vector<Seen> otherLights(const glm::dvec2& placePixels, const Seen& surfaces, const Seen& own) const {
+        std::vector<Seen> others;
+        const auto isKnown = [](const Seen& a, const Seen& b) {
+            return a.light.has_value() == b.light.has_value() && (!a.light || a.light->light == b.light->light) &&
+                   a.transparent.size() == b.transparent.size();
+        };
+        const Anchor& anchor = objects_.anchor();
+        for (const glm::dvec2& aside : kAsidePixels) {
+            const Ray ray = rays_.through(placePixels + aside);
+            if (!seenLights_.before(ray, kEndless)) continue;
+            const std::optional<Hit> opaque = surfaces.opaque ? visibility_.nearestOpaque(ray) : std::nullopt;
+            const double depthMetres = opaque ? opaque->depthMetres : kEndless;
+            for (const double side : {-1.0, 1.0}) {
+                const auto moved = [&](double metres) {
+                    if (std::isinf(metres)) return metres;
+                    const double reach =
+                        anchor.radiusMetres > 0.0 ? anchor.radiusMetres + anchor.otherOriginMetres : metres;
+                    return metres + side * (objects_.roundingMetres() + kDepthRounding * reach);
+                };
+                const std::optional<SeenLights::Met> met = seenLights_.before(ray, moved(depthMetres));
+                const Seen other = behind(surfaces, met, met ? moved(met->depthMetres) : kEndless);
+                const auto isSame = [&](const Seen& known) { return isKnown(known, other); };
+                if (!isSame(own) && std::ranges::none_of(others, isSame)) others.push_back(other);
+            }
+        }
+        return others;
+    }
 
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const {
         std::vector<Hit> others;
@@ -232,6 +298,7 @@ private:
     Lit litBy(const Ray& ray, const Seen& seen, const Nudge& nudge, Shadows shadows = Shadows::Exact) const {
         Lit all{surroundings_.isSeen() ? surroundings_.radianceOf(glm::normalize(ray.direction))
                                        : glm::dvec3(scene_.background)};
+        if (seen.light) all.radiance = lights_[seen.light->light].color;
         if (seen.opaque) all = litSurface(seen, 0, nudge, ray, shadows);
         for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
             const Lit own = litSurface(seen, 1 + i, nudge, ray, shadows);
@@ -361,10 +428,11 @@ private:
     const scenes::Scene& scene_;
     const Settings& settings_;
     CameraRays rays_;
+    std::vector<ShiningLight> lights_;
+    SeenLights seenLights_;
     Objects objects_;
     Textures textures_;
     Visibility visibility_;
-    std::vector<ShiningLight> lights_;
     Surroundings surroundings_;
     Occlusion occlusion_;
     Diffusion diffusion_;

@@ -135,6 +135,10 @@ bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
         row("Shines");
         changed |= ImGui::Checkbox("from both sides##light", &light.isTwoSided);
     }
+    if (info.isArea) {
+        row("Surface");
+        changed |= ImGui::Checkbox("seen in the picture##light", &light.isSeen);
+    }
     if (!changed) return false;
     for (const scenes::LightParameter& parameter : parameters)
         if (parameter.within != nullptr)

@@ -137,6 +137,7 @@ const std::vector<Change>& changes() {
         {"light.length", [](Scene& s) { s.lights[0].lengthMetres = 2.0f; }},
         {"light.along", [](Scene& s) { s.lights[0].alongWS.z = 1.0; }},
         {"light.twoSided", [](Scene& s) { s.lights[0].isTwoSided = true; }},
+        {"light.seen", [](Scene& s) { s.lights[0].isSeen = false; }},
         {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},
         {"animation.kind", [](Scene& s) { s.lights[0].animation->kind = LightAnimationKind::Path; }},
         {"animation.period", [](Scene& s) { s.lights[0].animation->periodSeconds = 2.0; }},

@@ -24,6 +24,7 @@ std::string keysOf(const LightTypeInfo& type, float share) {
         keys += fmt::format(R"(, "{}": {})", size->key, glm::mix(size->least, size->most, share));
     if (type.hasSides()) keys += R"(, "along": [0, 0, -2])";
     if (type.isFlat) keys += R"(, "twoSided": true)";
+    if (type.isArea) keys += R"(, "seen": false)";
     return keys;
 }
 
@@ -36,7 +37,7 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
         std::set<std::string_view> keys{"type",    "name",      "enabled",   "fields", "color", "intensity", "position",
-                                        "falloff", "animation", "direction", "target", "along", "twoSided"};
+                                        "falloff", "animation", "direction", "target", "along", "twoSided",  "seen"};
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
@@ -65,6 +66,7 @@ TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
                 EXPECT_FLOAT_EQ(light.*parameter.member, isAngle ? glm::radians(value) : value) << parameter.key;
             }
             EXPECT_EQ(light.isTwoSided, type.isFlat);
+            EXPECT_EQ(light.isSeen, !type.isArea);
             EXPECT_EQ(light.alongWS, type.hasSides() ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0));
         }
     }
@@ -85,6 +87,7 @@ TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
                 isRefused(keysOf(bare, 0.0f) + fmt::format(R"(, "{}": {})", parameter.key, beyond));
         if (!type.hasSides()) isRefused(keys + R"(, "along": [1, 0, 0])");
         if (!type.isFlat) isRefused(keys + R"(, "twoSided": false)");
+        if (!type.isArea) isRefused(keys + R"(, "seen": true)");
         if (sizeParameter(type) == nullptr) isRefused(keys + R"(, "radius": 1)");
         for (const LightTypeInfo& other : lightTypes())
             if (other.type != type.type)
@@ -108,6 +111,7 @@ TEST(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
             light.*size->member = 0.625f;
         if (type.hasSides()) light.alongWS = {0.6, 0.0, -0.8};
         light.isTwoSided = type.isFlat;
+        light.isSeen = !type.isArea;
         const nlohmann::json written(write::lightJson(light));
         EXPECT_FALSE(written.contains("fields")) << written.dump();
         EXPECT_TRUE(scenejson::readLight(JsonValue(written, {}), 0) == light) << written.dump();

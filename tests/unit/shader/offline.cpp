@@ -113,6 +113,27 @@ void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const sce
             programs.emplace(desc.key(), desc);
 }
 
+/// Those of a light whose surface is seen, which no built-in scene has.
+void addSeenLightPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
+    scenes::Scene scene = test::evenScene();
+    const glm::dmat4& eye = scene.cameras[0].worldFromCamera;
+    scenes::Light& light = scene.lights.emplace_back();
+    light.type = scenes::LightType::Sphere;
+    light.radiusMetres = 0.1f;
+    light.positionWS = glm::dvec3(eye[3] - 2.0 * eye[2]);
+    bool isThere = false;
+    for (const int samples : {1, 4}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {64, 36};
+        settings.samples = samples;
+        for (const shader::ProgramDesc& desc : engine::framePrograms(scene, engine::Technique::Forward, settings)) {
+            programs.emplace(desc.key(), desc);
+            isThere = isThere || desc.name == "seen_lights";
+        }
+    }
+    EXPECT_TRUE(isThere);
+}
+
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {
     std::map<std::string, shader::ProgramDesc> programs;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
@@ -121,6 +142,7 @@ std::map<std::string, shader::ProgramDesc> requestedPrograms() {
         addPrograms(programs, scenes::loadScene(std::string(builtin.name), options));
     }
     addPrograms(programs, test::evenScene()); // materials by number beside maps and layers
+    addSeenLightPrograms(programs);
     return programs;
 }
 

@@ -34,6 +34,7 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
             }
         }
         EXPECT_EQ(isIn(text, "Shines"), type.isFlat) << text;
+        EXPECT_EQ(isIn(text, "Surface"), type.isArea) << text;
         EXPECT_EQ(isIn(text, "Width along"), type.hasSides()) << text;
         EXPECT_EQ(isIn(text, "Range"), type.hasPosition()) << text;
         EXPECT_NE(text.find(fmt::format(" {} }}\n", type.unit)), std::string::npos) << type.unit << " in" << text;

@@ -21,18 +21,20 @@ Light areaLight(const SceneFolder& folder, const std::string& light) {
 TEST(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
     const SceneFolder folder;
     const Light panel = areaLight(folder, R"("type": "rectangle", "direction": [0, -2, 0], "width": 3, "height": 0.5,
-        "along": [0, 7, -2], "twoSided": true, "intensity": 40, "falloff": {"type": "inverse_square", "range": 9})");
+        "along": [0, 7, -2], "twoSided": true, "seen": false, "intensity": 40, "falloff": {"type": "inverse_square", "range": 9})");
     EXPECT_EQ(panel.type, LightType::Rectangle);
     EXPECT_EQ(panel.widthMetres, 3.0f);
     EXPECT_EQ(panel.heightMetres, 0.5f);
     EXPECT_EQ(panel.directionWS, glm::dvec3(0, -1, 0));
     EXPECT_EQ(panel.alongWS, glm::dvec3(0, 0, -1)) << "what is along the direction does not count";
     EXPECT_TRUE(panel.isTwoSided);
+    EXPECT_FALSE(panel.isSeen);
     EXPECT_EQ(panel.rangeMetres, 9.0f);
     const Light disk = areaLight(folder, R"("type": "disk", "target": [1, 2, 4], "radius": 0.25)");
     EXPECT_EQ(disk.radiusMetres, 0.25f);
     EXPECT_EQ(disk.directionWS, glm::dvec3(0, 0, 1));
     EXPECT_FALSE(disk.isTwoSided);
+    EXPECT_TRUE(disk.isSeen);
     EXPECT_EQ(disk.rangeMetres, kInfinity);
     EXPECT_EQ(areaLight(folder, R"("type": "sphere", "radius": 2)").radiusMetres, 2.0f);
     const Light tube = areaLight(folder, R"("type": "tube", "direction": [1, 0, 0], "length": 1.5, "radius": 0.02)");
@@ -73,8 +75,10 @@ TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
     EXPECT_EQ(error(panel + R"(, "height": 1000001)"), "/lights/0/height: is 1000001; at most 1000000 is allowed");
     EXPECT_EQ(error(panel + R"(, "radius": 1)"),
               "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, "
-              "position, falloff, animation, direction, target, along, width, height, twoSided, castsShadow, fields");
+              "position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
+              "castsShadow, fields");
     EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
+    EXPECT_EQ(error(panel + R"(, "seen": 1)"), "/lights/0/seen: is a number; true or false is needed");
     EXPECT_EQ(error(R"("type": "sphere")"), "/lights/0: lacks the key 'radius'; add it");
     EXPECT_EQ(error(R"("type": "sphere", "radius": 1, "twoSided": true)").substr(0, 45),
               "/lights/0: a sphere light has no key 'twoSide");

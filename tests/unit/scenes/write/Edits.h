@@ -50,6 +50,7 @@ public:
         light.radiusMetres = share();
         light.alongWS = glm::normalize(glm::cross(light.directionWS, direction()));
         light.isTwoSided = share() < 0.5f;
+        light.isSeen = share() < 0.5f;
         return light;
     }
 

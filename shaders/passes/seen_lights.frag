@@ -1,0 +1,100 @@
+// The surface of an area light where the ray of the pixel, or of the sample, meets it: its radiance, and its depth.
+#include "shared/slots.h"
+#include "shared/seen_lights.h"
+#include "lib/surface/camera.glsl"
+
+layout(binding = TEXTURE_UNIT_SEEN_LIGHTS) uniform samplerBuffer seenLightTexels;
+layout(location = 0) flat in int light;
+layout(location = 0) out vec4 radiance;
+
+// A ray from the middle of the light: its point so many metres ahead of the origin of lighting space is
+// start + ahead * direction.
+struct Ray {
+    vec3 start;
+    vec3 direction;
+};
+
+// A rectangle or a disk, from a side that shines.
+bool meetsFlat(Ray ray, vec4 along, vec4 across, bool isRound, bool isTwoSided, out float ahead)
+{
+    precise vec3 front = cross(along.xyz, across.xyz);
+    precise float facing = -dot(ray.direction, front);
+    if (isTwoSided ? facing == 0.0 : !(facing > 0.0)) return false;
+    precise float met = dot(ray.start, front) / facing;
+    ahead = met;
+    precise vec3 place = ray.start + met * ray.direction;
+    precise vec2 within = vec2(dot(place, along.xyz), dot(place, across.xyz));
+    return isRound ? dot(within, within) <= along.w * along.w
+                   : abs(within.x) <= along.w && abs(within.y) <= across.w;
+}
+
+// Where the ray enters a ball, or of components across an axis an endless cylinder. Measured from the point that is
+// nearest to the middle, no digits cancel for a small light far away.
+// Source: Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection".
+bool meetsRound(Ray ray, float radius, out float ahead)
+{
+    precise float square = dot(ray.direction, ray.direction);
+    precise float halfway = -dot(ray.start, ray.direction) / square;
+    precise vec3 nearest = ray.start + halfway * ray.direction;
+    precise float room = radius * radius - dot(nearest, nearest);
+    precise float met = halfway - sqrt(max(room, 0.0) / square);
+    ahead = met;
+    return room > 0.0; // false where the ray runs along the axis
+}
+
+// A closed cylinder: the end that faces the ray, or else the mantle between the ends.
+bool meetsTube(Ray ray, vec4 axis, float radius, out float ahead)
+{
+    precise float direction = dot(ray.direction, axis.xyz), start = dot(ray.start, axis.xyz);
+    Ray across;
+    precise vec3 directionAcross = ray.direction - direction * axis.xyz;
+    precise vec3 startAcross = ray.start - start * axis.xyz;
+    across.direction = directionAcross;
+    across.start = startAcross;
+    if (direction != 0.0) {
+        precise float met = (-sign(direction) * axis.w - start) / direction;
+        precise vec3 place = startAcross + met * directionAcross;
+        ahead = met;
+        if (dot(place, place) <= radius * radius) return true;
+    }
+    // Rounding leaves no gap between an end and the mantle.
+    const float kLonger = 1.00001;
+    bool meets = meetsRound(across, radius, ahead);
+    precise float height = start + ahead * direction;
+    return meets && abs(height) <= kLonger * axis.w;
+}
+
+void main()
+{
+#if SAMPLES > 1
+    precise vec2 pixel = floor(gl_FragCoord.xy) + gl_SamplePosition;
+#else
+    precise vec2 pixel = gl_FragCoord.xy;
+#endif
+    int texel = light * SEEN_LIGHT_TEXELS;
+    vec4 shown = texelFetch(seenLightTexels, texel + 1), middle = texelFetch(seenLightTexels, texel + 2);
+    vec4 along = texelFetch(seenLightTexels, texel + 3), across = texelFetch(seenLightTexels, texel + 4);
+
+    vec2 spread = raySpread();
+    precise vec3 acrossView = acrossOfPixel(pixel);
+    precise vec3 start = spread.x * acrossView - middle.xyz;
+    precise vec3 direction = spread.y * acrossView + view.forwardLS.xyz;
+    Ray ray = Ray(start, direction);
+
+    int type = int(middle.w);
+    float ahead;
+    bool meets;
+    if (type == LIGHT_SPHERE)
+        meets = meetsRound(ray, across.w, ahead);
+    else if (type == LIGHT_TUBE)
+        meets = meetsTube(ray, along, across.w, ahead);
+    else
+        meets = meetsFlat(ray, along, across, type == LIGHT_DISK, shown.w != 0.0, ahead);
+    if (!meets) discard;
+    // Nothing is drawn before the near plane and behind the far one. A surface that is entered behind the eye is seen
+    // from inside, where it does not shine.
+    float depth = depthFromAhead(ahead);
+    if (!(depth >= 0.0 && depth <= 1.0)) discard;
+    gl_FragDepth = depth;
+    radiance = vec4(shown.rgb, 1.0);
+}

@@ -1,0 +1,117 @@
+#include "validation/reference/SeenLights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scenes/AreaLight.h"
+
+namespace tessera::reference {
+
+namespace {
+
+using scenes::LightType;
+
+/// Depths along a ray.
+struct DepthSpan {
+    double entry = -std::numeric_limits<double>::infinity();
+    double exit = std::numeric_limits<double>::infinity();
+};
+
+/// Where |start + t direction| is at most the radius: between the roots of a t^2 + 2 b t + c. The one in which nothing
+/// cancels is q / a with q = -b - sign(b) sqrt(b^2 - a c), the other c / q.
+std::optional<DepthSpan> withinRound(const glm::dvec3& start, const glm::dvec3& direction, double radius) {
+    const double a = glm::dot(direction, direction), b = glm::dot(start, direction),
+                 c = glm::dot(start, start) - radius * radius;
+    if (a == 0.0) return c <= 0.0 ? std::optional(DepthSpan()) : std::nullopt;
+    const double inRoot = b * b - a * c;
+    if (inRoot < 0.0) return {};
+    const double q = -b - std::copysign(std::sqrt(inRoot), b);
+    if (q == 0.0) return DepthSpan{0.0, 0.0};
+    return DepthSpan{std::min(q / a, c / q), std::max(q / a, c / q)};
+}
+
+/// Where a coordinate that begins at `start` and grows by `step` is at most `most` to either side.
+std::optional<DepthSpan> withinSlab(double start, double step, double most) {
+    if (step == 0.0) return std::abs(start) <= most ? std::optional(DepthSpan()) : std::nullopt;
+    const double one = (-most - start) / step, other = (most - start) / step;
+    return DepthSpan{std::min(one, other), std::max(one, other)};
+}
+
+/// As the two coordinates and the depth that solve middle + x along + y across = origin + t direction.
+std::optional<double> entryOfFlat(const scenes::Light& light, const glm::dvec3& start, const glm::dvec3& direction) {
+    const bool isRectangle = light.type == LightType::Rectangle;
+    glm::dvec3 along = light.alongWS;
+    if (!isRectangle) {
+        // A disk may be turned in its plane.
+        const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}};
+        along = glm::normalize(glm::cross(light.directionWS, axes[std::abs(light.directionWS.x) > 0.5 ? 1 : 0]));
+    }
+    const glm::dvec3 across = glm::cross(light.directionWS, along);
+    const double determinant = glm::determinant(glm::dmat3(along, across, -direction));
+    // The determinant is minus the direction's component along the light's: above 0 the ray comes from the front.
+    if (determinant == 0.0 || (determinant < 0.0 && !light.isTwoSided)) return {};
+    const double x = glm::determinant(glm::dmat3(start, across, -direction)) / determinant;
+    const double y = glm::determinant(glm::dmat3(along, start, -direction)) / determinant;
+    const double depth = glm::determinant(glm::dmat3(along, across, start)) / determinant;
+    const double radius = double(light.radiusMetres);
+    const bool isWithin =
+        isRectangle ? std::abs(x) <= 0.5 * double(light.widthMetres) && std::abs(y) <= 0.5 * double(light.heightMetres)
+                    : x * x + y * y <= radius * radius;
+    return isWithin ? std::optional(depth) : std::nullopt;
+}
+
+/// The depth at which a ray enters the surface; `start` is its origin from the light's middle.
+std::optional<double> entryOf(const scenes::Light& light, const glm::dvec3& start, const glm::dvec3& direction) {
+    if (scenes::infoOf(light.type).isFlat) return entryOfFlat(light, start, direction);
+    const double radius = double(light.radiusMetres);
+    if (light.type == LightType::Sphere) {
+        const std::optional<DepthSpan> ball = withinRound(start, direction, radius);
+        return ball ? std::optional(ball->entry) : std::nullopt;
+    }
+    const glm::dvec3& axis = light.directionWS;
+    const double startAlong = glm::dot(start, axis), directionAlong = glm::dot(direction, axis);
+    const std::optional<DepthSpan> mantle =
+        withinRound(start - startAlong * axis, direction - directionAlong * axis, radius);
+    const std::optional<DepthSpan> slab = withinSlab(startAlong, directionAlong, 0.5 * double(light.lengthMetres));
+    if (!mantle || !slab) return {};
+    const double entry = std::max(mantle->entry, slab->entry), exit = std::min(mantle->exit, slab->exit);
+    return entry <= exit ? std::optional(entry) : std::nullopt;
+}
+
+bool isShown(const scenes::Light& light) {
+    return scenes::infoOf(light.type).isArea && light.isSeen && scenes::hasSurface(light);
+}
+
+} // namespace
+
+SeenLights::SeenLights(std::span<const ShiningLight> lights, const CameraRays& rays)
+    : lights_(lights), nearMetres_(rays.nearMetres()), farMetres_(rays.farMetres()) {
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (isShown(lights[i].light)) shown_.push_back(i);
+}
+
+std::optional<SeenLights::Met> SeenLights::before(const Ray& ray, double depthMetres) const {
+    std::optional<Met> nearest;
+    for (const std::size_t i : shown_) {
+        const std::optional<double> entry =
+            entryOf(lights_[i].light, ray.originRWS - lights_[i].positionRWS, ray.direction);
+        if (!entry || *entry < nearMetres_ || *entry > std::min(farMetres_, depthMetres)) continue;
+        if (!nearest || *entry <= nearest->depthMetres) nearest = {i, *entry};
+    }
+    return nearest;
+}
+
+std::vector<scenes::Box3> SeenLights::boxesRWS(std::span<const ShiningLight> lights) {
+    std::vector<scenes::Box3> boxes;
+    for (const ShiningLight& shining : lights) {
+        if (!isShown(shining.light)) continue;
+        // The product's boxes are turned with their lights: their corners lie up to sqrt(2) times as far out.
+        const glm::dvec3 half(std::numbers::sqrt2 * scenes::surfaceReachMetres(shining.light));
+        boxes.push_back({shining.positionRWS - half, shining.positionRWS + half});
+    }
+    return boxes;
+}
+
+} // namespace tessera::reference
