@@ -108,7 +108,7 @@ Scene makeLamps(const LoadOptions& options, LoadLedger&) {
     lamps::addLamps(scene, places, options.lights.value_or(lamps::kLampPlaces));
     addCamera(scene, "nave", {0.5, 2.6, 23.3}, {-0.3, 2.15, 0.0}, 56.0);
     addCamera(scene, "between cases", {3.3, 1.65, 12.4}, {8.4, 1.35, 8.6}, 58.0);
-    addCamera(scene, "gallery", {5.2, 5.25, -21.5}, {-2.6, 2.6, 2.0}, 62.0);
+    addCamera(scene, "gallery", {5.9, 5.45, -21.5}, {-2.6, 2.3, 0.0}, 62.0);
     return scene;
 }
 

@@ -11,8 +11,8 @@ namespace tessera::scenes::builtin::lamps {
 const std::array<LampKind, static_cast<std::size_t>(Lamp::Count)> kLampKinds{{
     {Lamp::Shelf, "shelf", {1.0f, 0.70f, 0.40f}, 40.0f, 2.4f, 0.03f, 2.0f, false},
     {Lamp::CaseEnd, "case end", {1.0f, 0.80f, 0.55f}, 14.0f, 1.6f, 0.05f, 4.0f, false},
-    {Lamp::Luminaire, "luminaire", {0.74f, 0.87f, 1.0f}, 5.0f, 1.2f, 0.5f, 7.5f, true},
-    {Lamp::Gallery, "gallery", {1.0f, 0.92f, 0.80f}, 3.5f, 0.6f, 0.6f, 4.5f, false},
+    {Lamp::Luminaire, "luminaire", {0.74f, 0.87f, 1.0f}, 8.0f, 1.2f, 0.5f, 7.5f, true},
+    {Lamp::Gallery, "gallery", {1.0f, 0.92f, 0.80f}, 6.0f, 0.6f, 0.6f, 4.5f, false},
     {Lamp::Desk, "desk", {1.0f, 0.77f, 0.46f}, 36.0f, 0.28f, 0.1f, 2.2f, false},
     {Lamp::Washer, "washer", {0.86f, 0.93f, 1.0f}, 22.0f, 2.0f, 0.08f, 4.5f, false},
 }};
