@@ -31,15 +31,15 @@ void addProducts(Scene& scene) {
     addProduct(scene, studio::drapedCloth(), studioPlace(-0.92, -0.42), cloth);
 
     addProduct(scene, studio::vase(), studioPlace(0.62, -0.55),
-               metallicRoughness("porcelain", {0.83f, 0.83f, 0.79f}, 0.0f, 0.10f));
+               metallicRoughness("porcelain", {0.83f, 0.83f, 0.79f}, 0.0f, 0.14f));
     scene.materials.back().doubleSided = true; // it is open above
 
     addProduct(scene, studio::ball(0.30), studioPlace(-0.12, -0.25),
-               metallicRoughness("polished steel", {0.78f, 0.79f, 0.80f}, 1.0f, 0.06f));
+               metallicRoughness("polished steel", {0.78f, 0.79f, 0.80f}, 1.0f, 0.15f));
 
     Material paint = metallicRoughness("car paint", {0.34f, 0.010f, 0.014f}, 0.75f, 0.42f);
     paint.clearcoat = 1.0f;
-    paint.clearcoatPerceptualRoughness = 0.05f;
+    paint.clearcoatPerceptualRoughness = 0.12f;
     TextureUse& flakes = paint.texture(TextureSlot::Normal);
     flakes.image = addImage(scene, models::flakeNormals());
     flakes.transform.scale = {4.0f, 2.0f};
