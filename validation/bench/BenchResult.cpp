@@ -13,6 +13,7 @@ std::string pointName(const PointKey& key) {
     if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
     if (key.shadow) name += ", " + shadowText(*key.shadow);
     if (key.subsurface) name += ", " + subsurfaceText(*key.subsurface);
+    if (key.environment) name += ", " + environmentText(*key.environment);
     return name;
 }
 

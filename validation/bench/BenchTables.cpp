@@ -105,9 +105,13 @@ std::string pointsHtml(const BenchGroup& group) {
                                         [](const BenchResult& result) { return result.key.shadow.has_value(); });
     const bool hasSubsurface = std::any_of(group.results.begin(), group.results.end(),
                                            [](const BenchResult& result) { return result.key.subsurface.has_value(); });
+    const bool hasEnvironment = std::any_of(group.results.begin(), group.results.end(), [](const BenchResult& result) {
+        return result.key.environment.has_value();
+    });
     if (hasRange) html += "<th scope=\"col\">Range</th>";
     if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
     if (hasSubsurface) html += "<th scope=\"col\">Subsurface</th>";
+    if (hasEnvironment) html += "<th scope=\"col\">Environment</th>";
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -137,6 +141,9 @@ std::string pointsHtml(const BenchGroup& group) {
         if (hasSubsurface)
             html += fmt::format("<td data-label=\"Subsurface\">{}</td>\n",
                                 key.subsurface ? escapedHtml(subsurfaceText(*key.subsurface)) : "&ndash;");
+        if (hasEnvironment)
+            html += fmt::format("<td data-label=\"Environment\">{}</td>\n",
+                                key.environment ? escapedHtml(environmentText(*key.environment)) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +
