@@ -85,6 +85,7 @@ std::vector<Column> makeColumns() {
         {"tile", [](const G&, const R& r, P) { return orEmpty(r.key.tilePixels); }},
         {"cullOn", [](const G&, const R& r, P) { return r.builder.value_or(""); }},
         {"cullNormals", [](const G&, const R& r, P) { return r.normalTest.value_or(""); }},
+        {"lightOn", [](const G&, const R& r, P) { return r.key.lightOn.value_or(""); }},
         {"layout", [](const G&, const R& r, P) { return r.key.layout; }},
         {"range", [](const G&, const R& r, P) { return fmt::format("{}", r.key.rangeTolerance); }},
         {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},

@@ -122,6 +122,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     const BenchResult& best = *choice->best;
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
+    if (best.key.isLitByCompute()) how += ", compute";
     if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
     if (best.key.subsurface) how += ", " + subsurfaceText(*best.key.subsurface);
     if (best.key.environment) how += ", " + environmentText(*best.key.environment);

@@ -167,6 +167,7 @@ BenchResult resultFrom(const Json& json) {
     read(json, "culling", result.key.culling);
     read(json, "tile", result.key.tilePixels);
     read(json, "layout", result.key.layout);
+    read(json, "lightOn", result.key.lightOn);
     read(json, "range", result.key.rangeTolerance);
     result.key.shadow = shadowFrom(json);
     result.key.subsurface = subsurfaceFrom(json);
@@ -239,6 +240,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
         passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
+    if (!result.key.lightOn) why["lightOn"] = "the technique lights in fragment shaders only";
     explainShadows(result.key, why);
     explainSubsurface(result.key, why);
     explainEnvironment(result.key, why);
@@ -250,6 +252,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
                  {"tile", orNull(result.key.tilePixels)},
                  {"cullOn", orNull(result.builder)},
                  {"cullNormals", orNull(result.normalTest)},
+                 {"lightOn", orNull(result.key.lightOn)},
                  {"layout", result.key.layout},
                  {"range", result.key.rangeTolerance}};
     json.update(choicesJson(result.key));

@@ -137,6 +137,10 @@ std::vector<Key> makeKeys() {
          }},
         {"layout", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.layouts.push_back(rowNamed(frame::layoutTable(), v, s, "layout")); }},
+        {"lightOn",
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+             m.stages.push_back(rowNamed(frame::lightingStageTable(), v, s, "lightOn").stage);
+         }},
         {"lights", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.lights.push_back(numberIn(v, 0, scenes::kMostLights, s, "lights")); }},
         {"range",

@@ -23,6 +23,7 @@ struct BenchMatrix {
     bool preferredMethodsOnly = false;         ///< without methods: the one alone that the technique prefers
     std::vector<int> tilesPixels;
     std::vector<frame::LayoutInfo> layouts;
+    std::vector<frame::LightingStage> stages;
     std::vector<int> lights;
     std::vector<glm::ivec2> sizesPixels;
     std::vector<double> rangeTolerances;

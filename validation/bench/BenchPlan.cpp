@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
 #include "engine/PrepareView.h"
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
@@ -158,12 +159,13 @@ public:
 
     void add() {
         const std::vector<std::optional<frame::LayoutInfo>> layouts = layoutsTaken();
+        const std::vector<std::optional<frame::LightingStage>> stages = stagesTaken();
         for (const Method method : methods()) {
             const bool hasTiles = method != Method::None;
             for (const std::optional<int>& tile : hasTiles ? orDefault(matrix_.tilesPixels) : orDefault<int>({})) {
-                for (const std::optional<frame::LayoutInfo>& layout : layouts) {
-                    for (const Variant& variant : variants_) add(method, tile, layout, variant);
-                }
+                for (const std::optional<frame::LayoutInfo>& layout : layouts)
+                    for (const std::optional<frame::LightingStage>& stage : stages)
+                        for (const Variant& variant : variants_) add(method, tile, layout, stage, variant);
             }
         }
     }
@@ -197,8 +199,19 @@ private:
         return {frame::exactLayout()};
     }
 
+    /// As layoutsTaken().
+    std::vector<std::optional<frame::LightingStage>> stagesTaken() {
+        if (info_.choosesStage) return orDefault(matrix_.stages);
+        for (const frame::LightingStage stage : matrix_.stages) {
+            if (stage != frame::LightingStage::Fragment)
+                skip(plan_, fmt::format("{}, {}", info_.name, infoOf(stage).name),
+                     "the technique lights in fragment shaders only");
+        }
+        return {std::nullopt};
+    }
+
     void add(Method method, const std::optional<int>& tile, const std::optional<frame::LayoutInfo>& layout,
-             const Variant& variant) {
+             const std::optional<frame::LightingStage>& stage, const Variant& variant) {
         BenchPoint point;
         point.technique = technique_;
         point.settings = variant.settings;
@@ -208,6 +221,8 @@ private:
         if (!engine::listsFromGBuffer(technique_)) point.settings.culling.normals.reset();
         if (tile) point.settings.culling.tilePixels = *tile;
         if (layout) point.settings.layout = layout->layout;
+        if (stage) point.settings.lightOn = *stage;
+        if (!info_.choosesStage) point.settings.lightOn.reset();
         const culling::Choice choice =
             engine::prepareView(scene_, technique_, point.settings).spec.culling; // the culling that this scene needs
         point.key = {std::string(info_.name),
@@ -217,7 +232,9 @@ private:
                      point.settings.rangeTolerance,
                      variant.shadow,
                      variant.subsurface,
-                     variant.environment};
+                     variant.environment,
+                     {}};
+        if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
         const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
                                          [&](const BenchPoint& other) { return other.key == point.key; });

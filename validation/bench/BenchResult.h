@@ -25,11 +25,17 @@ struct PointKey {
     std::optional<SubsurfaceKey> subsurface{}; ///< none where no material has a subsurface
     /// None where the settings of the command line leave the scene no light of an environment.
     std::optional<EnvironmentKey> environment{};
+    /// What lights the G-buffer, a name of frame::lightingStageTable(); none of techniques without the choice.
+    std::optional<std::string> lightOn{};
+
+    /// Whether compute shaders light the G-buffer: fragment shaders are usual.
+    bool isLitByCompute() const { return lightOn == infoOf(frame::LightingStage::Compute).name; }
     bool operator==(const PointKey&) const = default;
 };
 
-/// "tiled_deferred, tile_2.5d 16, packed", with ", range 0.01" behind it where lights are ended, shadowText() where
-/// there are shadows, subsurfaceText() where there are subsurfaces, and environmentText() where an environment shines.
+/// "tiled_deferred, tile_2.5d 16, packed", with ", compute" behind it where that lights the G-buffer, ", range 0.01"
+/// behind it where lights are ended, shadowText() where there are shadows, subsurfaceText() where there are
+/// subsurfaces, and environmentText() where an environment shines.
 std::string pointName(const PointKey& key);
 
 /// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.
