@@ -60,7 +60,7 @@ struct AreaLitBars {
     std::optional<int> lights; ///< fewer than the scene's own, for speed: each is an integral
     double relMse, bias;
 };
-constexpr AreaLitBars kAreaLitBars[] = {{"lamps", 100, 2e-2, 0.02}, {"studio", {}, 3e-2, 0.03}};
+constexpr AreaLitBars kAreaLitBars[] = {{"lamps", 250, 2e-2, 0.02}, {"studio", {}, 3e-2, 0.03}};
 
 class Reference : public test::GlTest {
 protected:

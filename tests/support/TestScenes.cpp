@@ -211,8 +211,8 @@ frame::DiffusionSettings coarseDiffusion() {
 }
 
 Scene builtinForSweep(const BuiltinScene& builtin, LoadOptions options) {
-    constexpr std::size_t kManyAreaLights = 200;
-    constexpr int kFewerLights = 100;
+    constexpr std::size_t kManyAreaLights = 500;
+    constexpr int kFewerLights = 250; // as bright as with all (scenes/builtin/Places.h)
     Scene scene = loadScene(std::string(builtin.name), options);
     const auto areaLights =
         std::ranges::count_if(scene.lights, [](const Light& light) { return infoOf(light.type).isArea; });
