@@ -22,6 +22,10 @@ Scene makeShadowTruth(const LoadOptions& options, LoadLedger& ledger);
 Scene makeHeadSkin(const LoadOptions& options, LoadLedger& ledger);
 Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger);
 Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger& ledger);
+/// A reading hall at night; `lights` rectangles (1000 by default, weaker where there are more).
+Scene makeLamps(const LoadOptions& options, LoadLedger& ledger);
+/// Seven materials before a paper sweep, lit by lights of every shape.
+Scene makeProductStudio(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger);
 

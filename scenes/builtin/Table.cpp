@@ -26,6 +26,10 @@ std::span<const BuiltinScene> builtinScenes() {
                      160 * kMiB},
         BuiltinScene{"diffusion_truth", "spread light known in closed form: for correctness",
                      builtin::makeDiffusionTruth, kMiB},
+        BuiltinScene{"lamps", "reading hall at night, 1000 lights with an area: for benchmarks", builtin::makeLamps,
+                     4 * kMiB},
+        BuiltinScene{"studio", "products of seven materials, lit by lights of every shape", builtin::makeProductStudio,
+                     4 * kMiB},
     };
     return kScenes;
 }

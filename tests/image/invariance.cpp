@@ -38,7 +38,7 @@ using InvarianceSlow = Invariance;
 void Invariance::expectPruningInvisible() {
     std::size_t turn = 0, techniqueTurn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        const scenes::Scene scene = test::builtinForSweep(builtin);
         engine::Renderer renderer(context(), scene);
         const auto drawn = [&](const engine::TechniqueInfo& technique, const frame::FrameSettings& settings) {
             return engine::toPicture(renderer.render(technique.technique, settings));
@@ -95,7 +95,7 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
 void Invariance::expectUnusedInvisible() {
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        const scenes::Scene scene = test::builtinForSweep(builtin);
         scenes::Scene more = test::withUnusedOfEverything(scene);
         checkScene(more);
         engine::Renderer renderer(context(), scene), rendererOfMore(context(), more);
@@ -207,7 +207,7 @@ TEST_F(Invariance, worldAndViewSpaceLightingAgree) {
     scenes::LoadOptions options;
     options.useAssets = false;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
-        all.push_back(scenes::loadScene(std::string(builtin.name), options));
+        all.push_back(test::builtinForSweep(builtin, options));
     for (const scenes::Scene& scene : all) {
         engine::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,

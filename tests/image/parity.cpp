@@ -57,7 +57,7 @@ constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 void Parity::expectScenesAgree() {
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        const scenes::Scene scene = test::builtinForSweep(builtin);
         engine::Renderer renderer(context(), scene);
         for (const glm::ivec2 size : kSizes) {
             SCOPED_TRACE(fmt::format("{} {}x{}", builtin.name, size.x, size.y));
@@ -102,7 +102,7 @@ TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
 void Parity::expectPromisesKept() {
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
+        const scenes::Scene scene = test::builtinForSweep(builtin);
         engine::Renderer renderer(context(), scene);
         const std::span<const frame::LayoutInfo> layouts = frame::layoutTable().subspan(1);
         for (const frame::LayoutInfo& layout :

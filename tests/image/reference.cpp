@@ -1,6 +1,8 @@
 // The GPU's picture against the reference renderer's, pixel by pixel, with the same filtering on both sides.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -50,6 +52,15 @@ constexpr SceneBars kDefaultBars[] = {
     {"head", 1280, 720, 1.5e-4, 4e-11, 1e-6, 0.0005},      {"head_skin", 1280, 720, 2.5e-4, 1e-9, 1e-6, 0.001},
     {"head_marble", 1280, 720, 2.5e-4, 4e-9, 1e-6, 0.001}, {"diffusion_truth", 1280, 720, 1e-6, 1e-13, 1e-7, 0.001},
 };
+
+/// Of scenes with area lights. The shapes of lobes are approximations, and light from them is right to that
+/// (docs/area-lights.md), not to rounding. Without shadows, whose noise SoftShadows judges.
+struct AreaLitBars {
+    const char* scene;
+    std::optional<int> lights; ///< fewer than the scene's own, for speed: each is an integral
+    double relMse, bias;
+};
+constexpr AreaLitBars kAreaLitBars[] = {{"lamps", 250, 2e-2, 0.02}, {"studio", {}, 3e-2, 0.03}};
 
 class Reference : public test::GlTest {
 protected:
@@ -114,13 +125,33 @@ protected:
     }
 
     void expectEverySceneAsGoodAsMeasured(std::span<const SceneBars> bars) {
-        EXPECT_EQ(bars.size(), scenes::builtinScenes().size()) << "a scene has no bars";
+        EXPECT_EQ(bars.size() + std::size(kAreaLitBars), scenes::builtinScenes().size()) << "a scene has no bars";
         for (const SceneBars& row : bars) expectAsGoodAsMeasured(row);
     }
 };
 
 TEST_F(Reference, everyBuiltinSceneAgreesWithIt) {
     expectEverySceneAsGoodAsMeasured(kSmallBars);
+}
+
+TEST_F(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
+    for (const AreaLitBars& bars : kAreaLitBars) {
+        SCOPED_TRACE(bars.scene);
+        scenes::LoadOptions options;
+        options.lights = bars.lights;
+        frame::FrameSettings settings = ofSize(160, 90);
+        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        const validation::ComparePair pair = compared(scenes::loadScene(bars.scene, options), settings, false).front();
+        const validation::ErrorFigures& figures = pair.figures;
+        fmt::print("{:<24} relMse {:.1e}  bias {:+.1e}  excluded {:.3f} %\n", bars.scene, figures.relMse, figures.bias,
+                   100.0 * figures.excluded);
+        EXPECT_FALSE(pair.tolerance.relMse) << "held to nothing but these bars";
+        EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);
+        EXPECT_LE(figures.relMse, bars.relMse);
+        EXPECT_LE(std::abs(figures.bias), bars.bias);
+        EXPECT_LE(figures.excluded, 0.03); // thin bars and rods, far away
+        EXPECT_GT(figures.relMse, 1e-7) << "an approximation: the test compares a picture with itself";
+    }
 }
 
 using ReferenceSlow = Reference;

@@ -1,10 +1,13 @@
 #include "tests/support/TestScenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/Sweep.h"
 
 namespace tessera::test {
 
@@ -205,6 +208,17 @@ frame::DiffusionSettings coarseDiffusion() {
     frame::DiffusionSettings settings;
     settings.sideTexels = 64;
     return settings;
+}
+
+Scene builtinForSweep(const BuiltinScene& builtin, LoadOptions options) {
+    constexpr std::size_t kManyAreaLights = 500;
+    constexpr int kFewerLights = 250; // as bright as with all (scenes/builtin/Places.h)
+    Scene scene = loadScene(std::string(builtin.name), options);
+    const auto areaLights =
+        std::ranges::count_if(scene.lights, [](const Light& light) { return infoOf(light.type).isArea; });
+    if (isWholeSweep() || std::size_t(areaLights) < kManyAreaLights) return scene;
+    options.lights = kFewerLights;
+    return loadScene(std::string(builtin.name), options);
 }
 
 Mesh quad() {

@@ -85,6 +85,20 @@ void addSubsurfaces(const GroupTruth& truth, const std::string& truthName, std::
     }
 }
 
+/// As addSubsurfaces(), of the environment's light: against the reference, which integrates it.
+void addEnvironments(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
+                     std::vector<AttributionLine>& lines) {
+    std::set<std::string> done;
+    for (const BenchPoint& point : points) {
+        if (!point.key.environment || !done.insert(environmentText(*point.key.environment)).second) continue;
+        frame::FrameSettings settings = truth.settings();
+        settings.environment = point.settings.environment;
+        const Picture shown = truth.pictureOf(Technique::Forward, settings);
+        lines.push_back(lineOf("environment", environmentText(*point.key.environment), truthName,
+                               radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
+    }
+}
+
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
     std::set<double> tolerances;
     for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
@@ -132,6 +146,7 @@ std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const 
     addFilter(truth, truthName, exact, points.front(), lines);
     addShadows(truth, exact, points, lines);
     addSubsurfaces(truth, truthName, points, lines);
+    addEnvironments(truth, truthName, points, lines);
     addRanges(truth, points, lines);
     addLayouts(gl, truth, points, lines);
     return lines;

@@ -66,6 +66,14 @@ Column subsurfaceColumn(const SubsurfaceSetting& row) {
             }};
 }
 
+Column environmentColumn(const EnvironmentSetting& row) {
+    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::string* const text =
+                    result.key.environment ? result.key.environment->text(row.key) : nullptr;
+                return text ? *text : "";
+            }};
+}
+
 std::vector<Column> makeColumns() {
     using G = BenchGroup;
     using R = BenchResult;
@@ -77,10 +85,12 @@ std::vector<Column> makeColumns() {
         {"tile", [](const G&, const R& r, P) { return orEmpty(r.key.tilePixels); }},
         {"cullOn", [](const G&, const R& r, P) { return r.builder.value_or(""); }},
         {"cullNormals", [](const G&, const R& r, P) { return r.normalTest.value_or(""); }},
+        {"lightOn", [](const G&, const R& r, P) { return r.key.lightOn.value_or(""); }},
         {"layout", [](const G&, const R& r, P) { return r.key.layout; }},
         {"range", [](const G&, const R& r, P) { return fmt::format("{}", r.key.rangeTolerance); }},
         {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},
         {kSubsurfaceKey, [](const G&, const R& r, P) { return r.key.subsurface ? r.key.subsurface->method : ""; }},
+        {kEnvironmentKey, [](const G&, const R& r, P) { return r.key.environment ? r.key.environment->light : ""; }},
         {"lights", [](const G& g, const R&, P) { return fmt::format("{}", g.lights); }},
         {"width", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.x); }},
         {"height", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.y); }},
@@ -114,7 +124,9 @@ std::vector<Column> makeColumns() {
     for (const ShadowSetting& row : shadowSettingTable())
         table.insert(std::ranges::find(table, kSubsurfaceKey, &Column::name), shadowColumn(row));
     for (const SubsurfaceSetting& row : subsurfaceSettingTable())
-        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), subsurfaceColumn(row));
+        table.insert(std::ranges::find(table, kEnvironmentKey, &Column::name), subsurfaceColumn(row));
+    for (const EnvironmentSetting& row : environmentSettingTable())
+        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), environmentColumn(row));
     return table;
 }
 

@@ -18,8 +18,8 @@ namespace tessera::validation {
 
 namespace {
 
-/// What shapes of marks tell in plots: the method of subsurface scattering or the filter of shadows where several were
-/// measured, else the G-buffer layout.
+/// What shapes of marks tell in plots: the method of subsurface scattering, how the environment's light is found, or
+/// the filter of shadows where several were measured, else the G-buffer layout.
 struct MarkKind {
     const char* name;
     const char* words; ///< what shapes tell
@@ -30,6 +30,9 @@ constexpr MarkKind kByLayout{"layout", "Circles store every G-buffer channel in 
 constexpr MarkKind kBySubsurface{"subsurface", "Shapes tell what happens below surfaces.", [](const PointKey& key) {
                                      return key.subsurface ? key.subsurface->method : std::string("none");
                                  }};
+constexpr MarkKind kByEnvironment{
+    "environment light", "Shapes tell how the environment's light is found.",
+    [](const PointKey& key) { return key.environment ? key.environment->light : std::string("none"); }};
 constexpr MarkKind kByShadow{"shadow filter", "Shapes tell how shadows are found.", [](const PointKey& key) {
                                  return key.shadow ? key.shadow->filter : std::string(kNoShadows);
                              }};
@@ -42,7 +45,7 @@ std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
 }
 
 const MarkKind& markKindOf(const BenchRecord& record) {
-    for (const MarkKind* const kind : {&kBySubsurface, &kByShadow})
+    for (const MarkKind* const kind : {&kBySubsurface, &kByEnvironment, &kByShadow})
         if (marksOf(record, *kind).size() > 1) return *kind;
     return kByLayout;
 }
@@ -119,8 +122,10 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     const BenchResult& best = *choice->best;
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
+    if (best.key.isLitByCompute()) how += ", compute";
     if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
     if (best.key.subsurface) how += ", " + subsurfaceText(*best.key.subsurface);
+    if (best.key.environment) how += ", " + environmentText(*best.key.environment);
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
     std::string html =
         unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));

@@ -92,15 +92,34 @@ std::optional<BenchError> errorFrom(const Json& json) {
     return error;
 }
 
+/// The values of a table's settings that a point has.
+template <typename Key, typename Setting>
+std::vector<typename Key::Value> valuesFrom(const Json& json, std::span<const Setting> table) {
+    std::vector<typename Key::Value> values;
+    for (const Setting& row : table) {
+        const Json& value = json.at(std::string(row.key));
+        if (value.is_boolean())
+            values.push_back({row.key, value.get<bool>() ? "on" : "off"});
+        else if (!value.is_null())
+            values.push_back({row.key, fmt::format("{}", value.get<double>())});
+    }
+    return values;
+}
+
+/// And as they are written: numbers, or true and false.
+template <typename Key, typename Setting>
+void addValues(Json& json, const std::optional<Key>& key, std::span<const Setting> table) {
+    for (const Setting& row : table) {
+        const std::string* const text = key ? key->text(row.key) : nullptr;
+        const bool isSwitch = text && (*text == "on" || *text == "off");
+        json[std::string(row.key)] = !text ? Json(nullptr) : isSwitch ? Json(*text == "on") : Json::parse(*text);
+    }
+}
+
 std::optional<ShadowKey> shadowFrom(const Json& json) {
     const Json& filter = json.at(std::string(kShadowFilterKey));
     if (filter.is_null()) return {};
-    ShadowKey key{filter.get<std::string>(), {}};
-    for (const ShadowSetting& row : shadowSettingTable()) {
-        const Json& value = json.at(std::string(row.key));
-        if (!value.is_null()) key.values.push_back({row.key, fmt::format("{}", value.get<double>())});
-    }
-    return key;
+    return ShadowKey{filter.get<std::string>(), valuesFrom<ShadowKey>(json, shadowSettingTable())};
 }
 
 /// Why fields of shadows are null.
@@ -117,15 +136,7 @@ void explainShadows(const PointKey& key, std::map<std::string, std::string>& why
 std::optional<SubsurfaceKey> subsurfaceFrom(const Json& json) {
     const Json& method = json.at(std::string(kSubsurfaceKey));
     if (method.is_null()) return {};
-    SubsurfaceKey key{method.get<std::string>(), {}};
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
-        const Json& value = json.at(std::string(row.key));
-        if (value.is_boolean())
-            key.values.push_back({row.key, value.get<bool>() ? "on" : "off"});
-        else if (!value.is_null())
-            key.values.push_back({row.key, fmt::format("{}", value.get<double>())});
-    }
-    return key;
+    return SubsurfaceKey{method.get<std::string>(), valuesFrom<SubsurfaceKey>(json, subsurfaceSettingTable())};
 }
 
 /// Why fields of subsurfaces are null.
@@ -135,15 +146,32 @@ void explainSubsurface(const PointKey& key, std::map<std::string, std::string>& 
         if (!key.subsurface || !key.subsurface->text(row.key)) why[std::string(row.key)] = "no light spreads";
 }
 
+std::optional<EnvironmentKey> environmentFrom(const Json& json) {
+    const Json& light = json.at(std::string(kEnvironmentKey));
+    if (light.is_null()) return {};
+    return EnvironmentKey{light.get<std::string>(), valuesFrom<EnvironmentKey>(json, environmentSettingTable())};
+}
+
+/// Why fields of the environment's light are null.
+void explainEnvironment(const PointKey& key, std::map<std::string, std::string>& why) {
+    constexpr const char* kNone = "no environment shines";
+    if (!key.environment) why[std::string(kEnvironmentKey)] = kNone;
+    for (const EnvironmentSetting& row : environmentSettingTable())
+        if (!key.environment || !key.environment->text(row.key))
+            why[std::string(row.key)] = key.environment ? std::string(row.absent) : kNone;
+}
+
 BenchResult resultFrom(const Json& json) {
     BenchResult result;
     read(json, "technique", result.key.technique);
     read(json, "culling", result.key.culling);
     read(json, "tile", result.key.tilePixels);
     read(json, "layout", result.key.layout);
+    read(json, "lightOn", result.key.lightOn);
     read(json, "range", result.key.rangeTolerance);
     result.key.shadow = shadowFrom(json);
     result.key.subsurface = subsurfaceFrom(json);
+    result.key.environment = environmentFrom(json);
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -198,16 +226,11 @@ Json picturesJson(const BenchGroup& group) {
 
 Json choicesJson(const PointKey& key) {
     Json json = {{kShadowFilterKey, key.shadow ? Json(key.shadow->filter) : Json(nullptr)}};
-    for (const ShadowSetting& row : shadowSettingTable()) {
-        const std::string* const text = key.shadow ? key.shadow->text(row.key) : nullptr;
-        json[std::string(row.key)] = text ? Json::parse(*text) : Json(nullptr);
-    }
+    addValues(json, key.shadow, shadowSettingTable());
     json[std::string(kSubsurfaceKey)] = key.subsurface ? Json(key.subsurface->method) : Json(nullptr);
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
-        const std::string* const text = key.subsurface ? key.subsurface->text(row.key) : nullptr;
-        const bool isSwitch = text && (*text == "on" || *text == "off");
-        json[std::string(row.key)] = !text ? Json(nullptr) : isSwitch ? Json(*text == "on") : Json::parse(*text);
-    }
+    addValues(json, key.subsurface, subsurfaceSettingTable());
+    json[std::string(kEnvironmentKey)] = key.environment ? Json(key.environment->light) : Json(nullptr);
+    addValues(json, key.environment, environmentSettingTable());
     return json;
 }
 
@@ -217,8 +240,10 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
         passes.push_back({{"name", pass.name}, {"gpuMs", orNull(pass.gpuMs)}});
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
+    if (!result.key.lightOn) why["lightOn"] = "the technique lights in fragment shaders only";
     explainShadows(result.key, why);
     explainSubsurface(result.key, why);
+    explainEnvironment(result.key, why);
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     Json json = {{"scene", group.scene},
@@ -227,6 +252,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
                  {"tile", orNull(result.key.tilePixels)},
                  {"cullOn", orNull(result.builder)},
                  {"cullNormals", orNull(result.normalTest)},
+                 {"lightOn", orNull(result.key.lightOn)},
                  {"layout", result.key.layout},
                  {"range", result.key.rangeTolerance}};
     json.update(choicesJson(result.key));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <span>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +16,7 @@
 #include "engine/SettingValues.h"
 #include "scenes/Limits.h"
 #include "scenes/import/JsonText.h"
+#include "validation/bench/EnvironmentKey.h"
 #include "validation/bench/ShadowKey.h"
 #include "validation/bench/SubsurfaceKey.h"
 
@@ -103,6 +105,17 @@ struct Key {
     std::function<void(BenchMatrix&, const ParsedJson&, const std::string& source)> add;
 };
 
+/// Of a setting whose values are numbers, or on and off.
+Key settingKey(std::string_view key) {
+    return {key, [key](BenchMatrix& matrix, const ParsedJson& value, const std::string& source) {
+                const engine::Setting& setting = engine::settingOf(key);
+                const bool isSwitch = std::holds_alternative<engine::SwitchKind>(setting.value.kind);
+                addSettingValue(matrix, key,
+                                isSwitch ? switchTextIn(value, source, std::string(key))
+                                         : numberTextIn(setting, value, source));
+            }};
+}
+
 std::vector<Key> makeKeys() {
     std::vector<Key> table{
         {"technique",
@@ -124,6 +137,10 @@ std::vector<Key> makeKeys() {
          }},
         {"layout", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.layouts.push_back(rowNamed(frame::layoutTable(), v, s, "layout")); }},
+        {"lightOn",
+         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+             m.stages.push_back(rowNamed(frame::lightingStageTable(), v, s, "lightOn").stage);
+         }},
         {"lights", [](BenchMatrix& m, const ParsedJson& v,
                       const std::string& s) { m.lights.push_back(numberIn(v, 0, scenes::kMostLights, s, "lights")); }},
         {"range",
@@ -141,22 +158,17 @@ std::vector<Key> makeKeys() {
              addSettingValue(m, kShadowFilterKey, std::string(rowNamed(shadowNames(), v, s, key).name));
          }},
     };
-    for (const ShadowSetting& row : shadowSettingTable())
-        table.push_back({row.key, [&row](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                             addSettingValue(m, row.key, numberTextIn(engine::settingOf(row.key), v, s));
-                         }});
+    for (const ShadowSetting& row : shadowSettingTable()) table.push_back(settingKey(row.key));
     table.push_back({kSubsurfaceKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
                          const auto& row = rowNamed(scenes::subsurfaceMethods(), v, s, std::string(kSubsurfaceKey));
                          addSettingValue(m, kSubsurfaceKey, std::string(row.name));
                      }});
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
-        table.push_back({row.key, [&row](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                             const engine::Setting& setting = engine::settingOf(row.key);
-                             const bool isSwitch = setting.type == "on|off";
-                             addSettingValue(m, row.key,
-                                             isSwitch ? switchTextIn(v, s, std::string(row.key))
-                                                      : numberTextIn(setting, v, s));
-                         }});
+    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) table.push_back(settingKey(row.key));
+    table.push_back({kEnvironmentKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                         const auto& row = rowNamed(frame::environmentLightTable(), v, s, std::string(kEnvironmentKey));
+                         addSettingValue(m, kEnvironmentKey, std::string(row.name));
+                     }});
+    for (const EnvironmentSetting& row : environmentSettingTable()) table.push_back(settingKey(row.key));
     return table;
 }
 

@@ -12,8 +12,8 @@ namespace tessera::validation {
 /// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
 /// the settings of the command line say.
 struct BenchMatrix {
-    /// A setting of shadows or of subsurface scattering: its key and the texts of its values (ShadowKey.h,
-    /// SubsurfaceKey.h).
+    /// A setting of shadows, of subsurface scattering or of the environment's light: its key and the texts of its
+    /// values (ShadowKey.h, SubsurfaceKey.h, EnvironmentKey.h).
     struct SettingValues {
         std::string_view key;
         std::vector<std::string> texts;
@@ -23,6 +23,7 @@ struct BenchMatrix {
     bool preferredMethodsOnly = false;         ///< without methods: the one alone that the technique prefers
     std::vector<int> tilesPixels;
     std::vector<frame::LayoutInfo> layouts;
+    std::vector<frame::LightingStage> stages;
     std::vector<int> lights;
     std::vector<glm::ivec2> sizesPixels;
     std::vector<double> rangeTolerances;

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include "engine/ChooseCulling.h"
+#include "engine/ChooseLighting.h"
 #include "engine/PrepareView.h"
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRange.h"
 #include "scenes/Fingerprint.h"
@@ -45,19 +47,20 @@ void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
     if (!isKnown) plan.skipped.push_back({what, why});
 }
 
-/// What the points of a group have in common with every technique: a range tolerance, how shadows are found and what
-/// happens below surfaces.
+/// What the points of a group have in common with every technique: a range tolerance, how shadows are found, what
+/// happens below surfaces and how the environment's light is found.
 struct Variant {
     std::optional<double> range; ///< as the matrix has it
     frame::FrameSettings settings;
     std::optional<ShadowKey> shadow;
     std::vector<frame::ShadowFace> faces; ///< of its maps
     std::optional<SubsurfaceKey> subsurface;
+    std::optional<EnvironmentKey> environment;
 };
 
 /// Other settings of maps are no other frame where the faces are the same.
 bool isSameFrame(const Variant& a, const Variant& b) {
-    if (a.subsurface != b.subsurface) return false;
+    if (a.subsurface != b.subsurface || a.environment != b.environment) return false;
     if (!a.shadow || !b.shadow) return a.shadow == b.shadow;
     const auto isSame = [&](const ShadowSetting& row) {
         const std::string *const textA = a.shadow->text(row.key), *const textB = b.shadow->text(row.key);
@@ -96,10 +99,13 @@ std::vector<Choice> choicesOf(const BenchMatrix& matrix, const frame::FrameSetti
 }
 
 std::string whySame(const Variant& same) {
-    if (!same.shadow && !same.subsurface) return "there are no shadows, and no material has a subsurface";
-    std::string text = same.shadow ? shadowText(*same.shadow) : "";
-    if (same.subsurface) text += (text.empty() ? "" : ", ") + subsurfaceText(*same.subsurface);
-    return "it is the same frame as " + text;
+    std::string text;
+    const auto add = [&text](const std::string& choice) { text += (text.empty() ? "" : ", ") + choice; };
+    if (same.shadow) add(shadowText(*same.shadow));
+    if (same.subsurface) add(subsurfaceText(*same.subsurface));
+    if (same.environment) add(environmentText(*same.environment));
+    return text.empty() ? "there are no shadows, no material has a subsurface, and no environment shines"
+                        : "it is the same frame as " + text;
 }
 
 /// The lights and maps of a frame, which are the same for all techniques.
@@ -120,12 +126,16 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
         frame::FrameSettings settings = group.settings;
         if (range) settings.rangeTolerance = *range;
         if (!rangesMatter(scene)) settings.rangeTolerance = 0.0;
+        // Where the truth has none of its light, the matrix adds none.
+        const bool hasEnvironment = frame::isLitByEnvironment(scene, settings);
         const bool hasShadows = preparedFor(scene, settings).lights.shadowed > 0;
         std::vector<Variant> ofRange;
         for (Choice& choice : choicesOf(matrix, settings)) {
+            if (!hasEnvironment) choice.settings.environment = settings.environment;
             const frame::PreparedView prepared = preparedFor(scene, choice.settings);
             Variant variant{
-                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings)};
+                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings), {}};
+            if (hasEnvironment) variant.environment = environmentKeyOf(choice.settings);
             if (hasShadows) variant.shadow = shadowKeyOf(prepared.lights, variant.settings);
             const auto same =
                 std::ranges::find_if(ofRange, [&](const Variant& other) { return isSameFrame(other, variant); });
@@ -149,12 +159,13 @@ public:
 
     void add() {
         const std::vector<std::optional<frame::LayoutInfo>> layouts = layoutsTaken();
+        const std::vector<std::optional<frame::LightingStage>> stages = stagesTaken();
         for (const Method method : methods()) {
             const bool hasTiles = method != Method::None;
             for (const std::optional<int>& tile : hasTiles ? orDefault(matrix_.tilesPixels) : orDefault<int>({})) {
-                for (const std::optional<frame::LayoutInfo>& layout : layouts) {
-                    for (const Variant& variant : variants_) add(method, tile, layout, variant);
-                }
+                for (const std::optional<frame::LayoutInfo>& layout : layouts)
+                    for (const std::optional<frame::LightingStage>& stage : stages)
+                        for (const Variant& variant : variants_) add(method, tile, layout, stage, variant);
             }
         }
     }
@@ -188,8 +199,19 @@ private:
         return {frame::exactLayout()};
     }
 
+    /// As layoutsTaken().
+    std::vector<std::optional<frame::LightingStage>> stagesTaken() {
+        if (info_.choosesStage) return orDefault(matrix_.stages);
+        for (const frame::LightingStage stage : matrix_.stages) {
+            if (stage != frame::LightingStage::Fragment)
+                skip(plan_, fmt::format("{}, {}", info_.name, infoOf(stage).name),
+                     "the technique lights in fragment shaders only");
+        }
+        return {std::nullopt};
+    }
+
     void add(Method method, const std::optional<int>& tile, const std::optional<frame::LayoutInfo>& layout,
-             const Variant& variant) {
+             const std::optional<frame::LightingStage>& stage, const Variant& variant) {
         BenchPoint point;
         point.technique = technique_;
         point.settings = variant.settings;
@@ -199,6 +221,8 @@ private:
         if (!engine::listsFromGBuffer(technique_)) point.settings.culling.normals.reset();
         if (tile) point.settings.culling.tilePixels = *tile;
         if (layout) point.settings.layout = layout->layout;
+        if (stage) point.settings.lightOn = *stage;
+        if (!info_.choosesStage) point.settings.lightOn.reset();
         const culling::Choice choice =
             engine::prepareView(scene_, technique_, point.settings).spec.culling; // the culling that this scene needs
         point.key = {std::string(info_.name),
@@ -207,7 +231,10 @@ private:
                      layoutName(point.settings.layout),
                      point.settings.rangeTolerance,
                      variant.shadow,
-                     variant.subsurface};
+                     variant.subsurface,
+                     variant.environment,
+                     {}};
+        if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
         const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
                                          [&](const BenchPoint& other) { return other.key == point.key; });

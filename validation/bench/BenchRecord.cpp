@@ -23,11 +23,8 @@ std::string figure(const std::optional<double>& value, const char* format) {
 }
 
 Json keyJson(const PointKey& key) {
-    Json json = {{"technique", key.technique},
-                 {"culling", key.culling},
-                 {"tile", orNull(key.tilePixels)},
-                 {"layout", key.layout},
-                 {"range", key.rangeTolerance}};
+    Json json = {{"technique", key.technique},     {"culling", key.culling}, {"tile", orNull(key.tilePixels)},
+                 {"lightOn", orNull(key.lightOn)}, {"layout", key.layout},   {"range", key.rangeTolerance}};
     json.update(choicesJson(key));
     return json;
 }
@@ -81,16 +78,20 @@ std::string groupTable(const BenchGroup& group) {
         return std::ranges::any_of(group.results, [&](const BenchResult& result) { return holds(result.key); });
     };
     const bool hasRange = any([](const PointKey& key) { return key.rangeTolerance > 0.0; });
+    const bool hasCompute = any([](const PointKey& key) { return key.isLitByCompute(); });
     const bool hasShadows = any([](const PointKey& key) { return key.shadow.has_value(); });
     const bool hasSubsurface = any([](const PointKey& key) { return key.subsurface.has_value(); });
-    const bool hasLongColumn = hasShadows || hasSubsurface;
+    const bool hasEnvironment = any([](const PointKey& key) { return key.environment.has_value(); });
+    const bool hasLongColumn = hasShadows || hasSubsurface || hasEnvironment;
     // Their columns need room: names of techniques stay whole, and a long title breaks.
     table.addColumn("technique", Table::Align::Left, hasLongColumn ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
     table.addColumn("layout");
+    if (hasCompute) table.addColumn("lit on");
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
     if (hasShadows) table.addColumn("shadows");
     if (hasSubsurface) table.addColumn("subsurface");
+    if (hasEnvironment) table.addColumn("environment");
     for (const char* title : {"ms", "p95"}) table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("to lower bound", Table::Align::Right, hasLongColumn ? Table::Cells::Break : Table::Cells::Whole);
     for (const char* title : {"to lit", "visited", "relMSE", "bias"})
@@ -103,9 +104,11 @@ std::string groupTable(const BenchGroup& group) {
         const BenchError error = result.error.value_or(BenchError{});
         std::vector<std::string> row{
             key.technique, key.tilePixels ? fmt::format("{}, {}", key.culling, *key.tilePixels) : "none", key.layout};
+        if (hasCompute) row.push_back(key.lightOn.value_or("-"));
         if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
         if (hasShadows) row.push_back(key.shadow ? shadowText(*key.shadow) : "-");
         if (hasSubsurface) row.push_back(key.subsurface ? subsurfaceText(*key.subsurface) : "-");
+        if (hasEnvironment) row.push_back(key.environment ? environmentText(*key.environment) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
               figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),

@@ -10,9 +10,11 @@ std::string pointName(const PointKey& key) {
     std::string name = key.technique;
     if (key.tilePixels) name += fmt::format(", {} {}", key.culling, *key.tilePixels);
     name += ", " + key.layout;
+    if (key.isLitByCompute()) name += ", compute";
     if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
     if (key.shadow) name += ", " + shadowText(*key.shadow);
     if (key.subsurface) name += ", " + subsurfaceText(*key.subsurface);
+    if (key.environment) name += ", " + environmentText(*key.environment);
     return name;
 }
 

@@ -105,9 +105,16 @@ std::string pointsHtml(const BenchGroup& group) {
                                         [](const BenchResult& result) { return result.key.shadow.has_value(); });
     const bool hasSubsurface = std::any_of(group.results.begin(), group.results.end(),
                                            [](const BenchResult& result) { return result.key.subsurface.has_value(); });
+    const bool hasCompute = std::any_of(group.results.begin(), group.results.end(),
+                                        [](const BenchResult& result) { return result.key.isLitByCompute(); });
+    const bool hasEnvironment = std::any_of(group.results.begin(), group.results.end(), [](const BenchResult& result) {
+        return result.key.environment.has_value();
+    });
+    if (hasCompute) html += "<th scope=\"col\">Lit on</th>";
     if (hasRange) html += "<th scope=\"col\">Range</th>";
     if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
     if (hasSubsurface) html += "<th scope=\"col\">Subsurface</th>";
+    if (hasEnvironment) html += "<th scope=\"col\">Environment</th>";
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -129,6 +136,7 @@ std::string pointsHtml(const BenchGroup& group) {
                             isOnFront ? " class=\"front\"" : "", escapedHtml(key.technique),
                             key.tilePixels ? fmt::format("{} {}", key.culling, *key.tilePixels) : "&ndash;",
                             escapedHtml(key.layout));
+        if (hasCompute) html += fmt::format("<td data-label=\"Lit on\">{}</td>\n", key.lightOn.value_or("&ndash;"));
         if (hasRange)
             html += cellHtml("Range", key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "&ndash;");
         if (hasShadows)
@@ -137,6 +145,9 @@ std::string pointsHtml(const BenchGroup& group) {
         if (hasSubsurface)
             html += fmt::format("<td data-label=\"Subsurface\">{}</td>\n",
                                 key.subsurface ? escapedHtml(subsurfaceText(*key.subsurface)) : "&ndash;");
+        if (hasEnvironment)
+            html += fmt::format("<td data-label=\"Environment\">{}</td>\n",
+                                key.environment ? escapedHtml(environmentText(*key.environment)) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +

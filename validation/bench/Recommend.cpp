@@ -117,13 +117,16 @@ bool isDisturbed(const BenchResult& result) {
     return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
-/// Says also how forward found its shadows and scattered light below surfaces, where the result did otherwise.
+/// Says also how forward found its shadows, scattered light below surfaces and found the environment's light, where the
+/// result did otherwise.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
     std::string how;
     const auto add = [&how](const std::string& text) { how += (how.empty() ? " (" : ", ") + text; };
     if (baseline.key.shadow && baseline.key.shadow != result.key.shadow) add(shadowText(*baseline.key.shadow));
     if (baseline.key.subsurface && baseline.key.subsurface != result.key.subsurface)
         add(subsurfaceText(*baseline.key.subsurface));
+    if (baseline.key.environment && baseline.key.environment != result.key.environment)
+        add(environmentText(*baseline.key.environment));
     if (!how.empty()) how += ")";
     if (isAsFast(result.times.cpuMs, baseline.times.cpuMs))
         return fmt::format("as fast as forward{} within the spread of the times", how);

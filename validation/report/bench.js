@@ -210,7 +210,7 @@
         if (shown.length > 1) {
             for (const kind of shown) {
                 datasets.push({
-                    label: data.markKind === "layout" ? kind + " layout" : "shadows " + kind,
+                    label: data.markKind === "layout" ? kind + " layout" : data.markKind + " " + kind,
                     isKey: true,
                     data: [],
                     backgroundColor: "transparent",

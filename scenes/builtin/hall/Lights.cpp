@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "scenes/builtin/Author.h"
-#include "scenes/builtin/Random.h"
+#include "scenes/builtin/Places.h"
 #include "scenes/builtin/hall/Plan.h"
 
 namespace tessera::scenes::builtin::hall {
@@ -113,28 +113,7 @@ void addPointLights(Scene& scene, int count) {
     addPortal(places);
     addWisps(places);
     assert(places.size() == kPlaces);
-
-    // Few lights would have to be glaring to light the whole hall: they are allowed four times the intensity.
-    constexpr double kBrightest = 4.0;
-    const double share = count == 0 ? 0.0 : std::min(kBrightest, static_cast<double>(kPlaces) / count);
-    Random random(2027);
-    for (int i = 0; i < count; ++i) {
-        // 157 has no factor in common with 256: any first N places are spread over the whole hall.
-        Light light = places[static_cast<std::size_t>(i * 157 % kPlaces)];
-        light.intensity = static_cast<float>(light.intensity * share);
-        if (i >= kPlaces) {
-            // A point of the unit ball around the place; draws come in this order.
-            glm::dvec3 offset;
-            do {
-                offset.x = random.between(-1.0, 1.0);
-                offset.y = random.between(-1.0, 1.0);
-                offset.z = random.between(-1.0, 1.0);
-            } while (glm::dot(offset, offset) > 1.0);
-            light.positionWS += 0.9 * offset;
-            light.name.append(".").append(std::to_string(i / kPlaces));
-        }
-        scene.lights.push_back(std::move(light));
-    }
+    addLightsAtPlaces(scene, places, count, 157, 0.9);
 }
 
 void addOutdoorLights(Scene& scene) {

@@ -140,6 +140,28 @@ TEST_F(Bench, methodsOfSubsurfaceScatteringAreMeasuredAgainstTheSurfaceIntegral)
     EXPECT_NEAR(causes["no subsurface"] / relMse(0), 1.0, 1e-3);
 }
 
+TEST_F(Bench, waysToFindTheEnvironmentsLightAreMeasuredAgainstTheIntegral) {
+    folder_.write("m.json", R"({"technique": ["forward"], "environmentSamples": [4, 256],
+                                "environmentLight": ["off", "split_sum", "sampled"]})");
+    runGood({"bench", "spheres", "--environment", "studio", "--size", "64x36", "--frames", "1", "--matrix", "m.json",
+             "--against", "reference", "-o", "out"});
+    const Json record = json("out/bench.json");
+    ASSERT_EQ(record["points"].size(), 4u);
+    std::map<std::string, double> relMse;
+    for (const Json& point : record["points"]) {
+        const std::string samples = point["environmentSamples"].is_null() ? "" : point["environmentSamples"].dump();
+        relMse[point["environmentLight"].get<std::string>() + samples] = point["error"]["relMse"];
+    }
+    // Four samples have noise; 64 times as many a 64th of its square, beside that of the reference.
+    EXPECT_GT(relMse["sampled4"], 10.0 * relMse["sampled256"]);
+    EXPECT_GT(relMse["off"], 2.0 * relMse["split_sum"]);
+    std::map<std::string, double> causes;
+    for (const Json& line : record["attribution"])
+        if (line["cause"] == "environment") causes[line["what"]] = line["relMse"];
+    EXPECT_EQ(causes.size(), 4u);
+    EXPECT_NEAR(causes["no environment light"] / relMse["off"], 1.0, 1e-2);
+}
+
 TEST_F(Bench, theNoiseOfSoftShadowsIsAnError) {
     folder_.write("m.json", R"({"technique": ["forward"], "shadowSamples": [1, 64]})");
     runGood({"bench", "shadow_truth", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "-o", "out"});
@@ -202,6 +224,7 @@ TEST_F(Bench, aBadMatrixIsRefusedInOneLineThatNamesIt) {
     EXPECT_THAT(refused(R"({"subsurface": ["depth_maps"]})"), HasSubstr("did you mean 'depth_map'"));
     EXPECT_THAT(refused(R"({"diffusionTexels": [100]})"), HasSubstr("64, 128"));
     EXPECT_THAT(refused(R"({"diffusionHalf": [2]})"), HasSubstr("neither true nor false"));
+    EXPECT_THAT(refused(R"({"environmentLight": ["splitsum"]})"), HasSubstr("did you mean 'split_sum'"));
 }
 
 TEST_F(Bench, aViewIsNotTakenForTheLitPicture) {

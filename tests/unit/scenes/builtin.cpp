@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 #include <set>
@@ -8,10 +9,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/builtin/Builtin.h"
 #include "scenes/builtin/hall/Lights.h"
+#include "scenes/builtin/lamps/Lights.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/MeshRules.h"
 #include "tests/unit/scenes/TempFolder.h"
@@ -76,6 +79,8 @@ std::uint64_t digest(const Scene& scene) {
         digest.add(light.directionWS);
         digest.add(glm::vec4(light.color, light.intensity));
         digest.add(light.rangeMetres);
+        digest.add(light.alongWS);
+        digest.add(glm::vec4(light.widthMetres, light.heightMetres, light.lengthMetres, light.radiusMetres));
     }
     for (const Camera& camera : scene.cameras) digest.add(camera.worldFromCamera);
     return digest.value();
@@ -214,6 +219,83 @@ TEST(Hall, askedForNumberOfLightsIsExactlyMade) {
         EXPECT_NO_THROW(checkScene(scene));
     }
     EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 5u) << "and the sky and the sun";
+}
+
+TEST(Lamps, areAThousandRectanglesThatEndWithinTheHall) {
+    const Scene scene = underLedger(builtin::makeLamps, withoutAssets());
+    EXPECT_LE(triangleCount(scene), 60000u);
+    EXPECT_GE(scene.cameras.size(), 3u);
+    ASSERT_EQ(scene.lights.size(), 1000u);
+    const Box3 boundsWS = worldBounds(scene);
+    std::set<float> ranges;
+    for (const Light& light : scene.lights) {
+        EXPECT_EQ(light.type, LightType::Rectangle);
+        EXPECT_TRUE(hasSurface(light)) << light.name;
+        EXPECT_GT(light.rangeMetres, surfaceReachMetres(light)) << light.name << " ends before its own corners";
+        EXPECT_LT(light.rangeMetres, 8.0f) << light.name;
+        EXPECT_TRUE(glm::all(glm::greaterThan(light.positionWS, boundsWS.min))) << light.name;
+        EXPECT_TRUE(glm::all(glm::lessThan(light.positionWS, boundsWS.max))) << light.name;
+        ranges.insert(light.rangeMetres);
+    }
+    EXPECT_GE(ranges.size(), 5u);
+    EXPECT_EQ(std::ranges::count(scene.lights, true, &Light::isTwoSided), 96) << "the sheets over the nave alone";
+}
+
+TEST(Lamps, askedForNumberOfLightsIsExactlyMadeAndTheFirstAreSpreadOut) {
+    for (const int count : {0, 1, 999, 1001, 4097}) {
+        Scene scene;
+        builtin::lamps::addLamps(scene, builtin::lamps::lampPlaces(), count);
+        EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
+        EXPECT_NO_THROW(checkScene(scene));
+    }
+    const Scene few = underLedger(builtin::makeLamps, withLights(40));
+    ASSERT_EQ(few.lights.size(), 40u);
+    for (const double side : {-1.0, 1.0})
+        for (const double end : {-1.0, 1.0})
+            EXPECT_GE(std::ranges::count_if(few.lights,
+                                            [&](const Light& light) {
+                                                return side * light.positionWS.x > 0.0 &&
+                                                       end * light.positionWS.z > 0.0;
+                                            }),
+                      4)
+                << side << ' ' << end;
+}
+
+TEST(Lamps, whatIsSeenToShineNeverGetsItsOwnLight) {
+    const std::vector<builtin::lamps::LampPlace> places = builtin::lamps::lampPlaces();
+    for (const builtin::lamps::LampPlace& place : places) {
+        const Mesh glow = builtin::lamps::glowingSurfaces({place}, place.lamp);
+        ASSERT_EQ(glow.positionsOS.size(), place.light.isTwoSided ? 8u : 4u) << place.light.name;
+        for (std::size_t i = 0; i < glow.positionsOS.size(); ++i) {
+            const glm::dvec3 fromLight = glm::dvec3(glow.positionsOS[i]) - place.light.positionWS;
+            const glm::dvec3 normal(glow.normalsOS[i]);
+            // Before a side and facing away, or behind a light that has no back. Half of the 5 mm between them: the
+            // rounding of a position 24 m away is 2e-6 m.
+            const bool facesAway = glm::dot(normal, fromLight) > 0.0025;
+            const bool isBehind = !place.light.isTwoSided && glm::dot(place.light.directionWS, fromLight) < -0.0025;
+            EXPECT_TRUE(facesAway || isBehind) << place.light.name;
+            // And it is as large as the light.
+            EXPECT_NEAR(glm::length(fromLight), std::hypot(surfaceReachMetres(place.light), 0.005), 1e-5);
+        }
+    }
+}
+
+TEST(Studio, showsEveryLayerUnderLightsOfEveryShape) {
+    const Scene scene = underLedger(builtin::makeProductStudio, withoutAssets());
+    for (const LightTypeInfo& type : lightTypes())
+        EXPECT_EQ(type.isArea, std::ranges::count(scene.lights, type.type, &Light::type) > 0) << type.name;
+    const auto key = std::ranges::find(scene.lights, "key", &Light::name);
+    ASSERT_NE(key, scene.lights.end());
+    EXPECT_TRUE(key->castsShadow);
+    const auto some = [&](auto holds) { return std::ranges::any_of(scene.materials, holds); };
+    EXPECT_TRUE(some([](const Material& m) { return m.clearcoat > 0.0f; }));
+    EXPECT_TRUE(some([](const Material& m) { return m.sheenColor != glm::vec3(0.0f); }));
+    EXPECT_TRUE(some([](const Material& m) { return m.anisotropyStrength > 0.0f; }));
+    EXPECT_TRUE(some([](const Material& m) { return m.metallic == 1.0f && m.perceptualRoughness < 0.2f; }));
+    EXPECT_TRUE(some([](const Material& m) { return m.metallic == 1.0f && m.perceptualRoughness > 0.4f; }));
+    for (const Material& material : scene.materials)
+        EXPECT_EQ(material.castsShadow, material.emissive == glm::vec3(0.0f)) << material.name;
+    EXPECT_EQ(underLedger(builtin::makeProductStudio, withLights(2)).lights.size(), 2u);
 }
 
 TEST(Spheres, spanRoughnessAndMetalness) {

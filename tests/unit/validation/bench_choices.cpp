@@ -33,12 +33,13 @@ std::string refusal(const std::string& json) {
 }
 
 /// The plan of one technique over a scene, in a picture of 64x36 pixels.
-BenchPlan planOf(const std::string& scene, const std::string& json, frame::FrameSettings settings = {}) {
+BenchPlan planOf(const std::string& scene, const std::string& json, frame::FrameSettings settings = {},
+                 const scenes::LoadOptions& options = {}) {
     settings.sizePixels = {64, 36};
     BenchMatrix matrix = matrixOf(json);
     matrix.techniques = {engine::Technique::Forward};
     BenchPlan plan;
-    addToPlan(plan, matrix, scene, {}, settings, [&](std::optional<int>) { return scenes::loadScene(scene); });
+    addToPlan(plan, matrix, scene, {}, settings, [&](std::optional<int>) { return scenes::loadScene(scene, options); });
     return plan;
 }
 
@@ -163,9 +164,10 @@ TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
     record.groups = {shadowedGroup()};
     const std::string csv = benchCsv(record);
     EXPECT_THAT(csv, HasSubstr(",range,shadow,shadowSamples,shadowWidth,shadowResolution,shadowBudget,shadowCascades,"
-                               "subsurface,diffusionTexels,diffusionGaussians,diffusionHalf,lights,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,,,,,4,64,32,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,,,,,4,64,32,"));
+                               "subsurface,diffusionTexels,diffusionGaussians,diffusionHalf,"
+                               "environmentLight,environmentSamples,environmentCompensation,lights,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,,,,,,,,4,64,32,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,,,,,,,,4,64,32,"));
 }
 
 TEST(ShadowPoints, tablesAndThePageNameThem) {
@@ -232,11 +234,131 @@ TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
     for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
     BenchRecord record;
     record.groups = {group};
-    EXPECT_THAT(benchCsv(record), HasSubstr(",texture_space_diffusion,256,8,on,4,64,32,"));
+    EXPECT_THAT(benchCsv(record), HasSubstr(",texture_space_diffusion,256,8,on,,,,4,64,32,"));
     const std::string page = benchHtml(record, record.groups[0], {}).sections;
     EXPECT_THAT(page,
                 HasSubstr("<td data-label=\"Subsurface\">texture_space_diffusion, 256 texels, half resolution on"));
     EXPECT_THAT(page, HasSubstr(R"("markKind":"subsurface")"));
+}
+
+scenes::LoadOptions underTheSky() {
+    scenes::LoadOptions options;
+    options.environment = "sky";
+    return options;
+}
+
+TEST(EnvironmentMatrix, valuesHaveTheBoundsOfTheSettings) {
+    EXPECT_EQ(refusal(R"({"environmentLight": ["sample"]})"),
+              "m.json: \"environmentLight\": unknown 'sample': did you mean 'sampled'?");
+    EXPECT_EQ(refusal(R"({"environmentSamples": [100]})"),
+              "m.json: \"environmentSamples\": environment samples 100: give one of 1, 4, 16, 64, 256, 1024, 4096");
+    EXPECT_EQ(refusal(R"({"environmentCompensation": [1]})"),
+              "m.json: \"environmentCompensation\": 1 is neither true nor false");
+    EXPECT_EQ(refusal(R"({"environmentLight": ["off", "sampled"], "environmentCompensation": [true]})"),
+              "nothing was refused");
+}
+
+TEST(EnvironmentMatrix, everySettingIsVariedWhereItIsHeeded) {
+    const BenchPlan plan =
+        planOf("room", R"({"environmentLight": ["split_sum", "sampled", "off"], "environmentSamples": [4, 64],
+                           "environmentCompensation": [false, true]})",
+               {}, underTheSky());
+    EXPECT_THAT(namesOf(plan),
+                ElementsAre("forward, exact, environment split_sum", "forward, exact, environment sampled, samples 4",
+                            "forward, exact, environment sampled", "forward, exact, no environment light",
+                            "forward, exact, environment split_sum, compensation on",
+                            "forward, exact, environment sampled, samples 4, compensation on",
+                            "forward, exact, environment sampled, compensation on"));
+    EXPECT_THAT(reasonsOf(plan), testing::Contains(HasSubstr("it is the same frame as no environment light")));
+    EXPECT_EQ(plan.skipped.size(), 5u);
+    // By itself the frame is what the command line says.
+    EXPECT_THAT(namesOf(planOf("room", "{}", {}, underTheSky())), ElementsAre("forward, exact, environment split_sum"));
+}
+
+TEST(EnvironmentMatrix, whereTheTruthHasNoneOfItsLightNoPointHas) {
+    const std::string matrix = R"({"environmentLight": ["split_sum", "sampled"]})";
+    EXPECT_THAT(namesOf(planOf("room", matrix)), ElementsAre("forward, exact")) << "no environment";
+    frame::FrameSettings off;
+    off.environment.light = frame::EnvironmentLight::Off;
+    const BenchPlan plan = planOf("room", matrix, off, underTheSky());
+    EXPECT_THAT(namesOf(plan), ElementsAre("forward, exact"));
+    EXPECT_EQ(plan.groups.front().points.front().settings.environment.light, frame::EnvironmentLight::Off);
+    EXPECT_THAT(reasonsOf(plan), testing::Each(HasSubstr("no environment shines")));
+    const PlannedGroup lit = planOf("room", R"({"environmentLight": ["off"]})", {}, underTheSky()).groups.front();
+    EXPECT_EQ(lit.points.front().settings.environment.light, frame::EnvironmentLight::Off);
+    EXPECT_EQ(lit.settings.environment.light, frame::EnvironmentLight::SplitSum) << "which is what the truth shows";
+}
+
+TEST(LightOnMatrix, isVariedForTheTechniquesThatHaveTheChoice) {
+    EXPECT_EQ(refusal(R"({"lightOn": ["computer"]})"),
+              "m.json: \"lightOn\": unknown 'computer': did you mean 'compute'?");
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    settings.lightOn = frame::LightingStage::Compute;
+    const auto plan = [&](const std::string& json) {
+        BenchPlan made;
+        addToPlan(made, matrixOf(json), "room", {}, settings,
+                  [](std::optional<int>) { return scenes::loadScene("room"); });
+        return made;
+    };
+    const BenchPlan both = plan(R"({"technique": ["forward", "deferred"], "lightOn": ["fragment", "compute"]})");
+    EXPECT_THAT(namesOf(both), ElementsAre("forward, exact", "deferred, exact", "deferred, exact, compute"));
+    EXPECT_THAT(reasonsOf(both), ElementsAre("forward, compute: the technique lights in fragment shaders only"));
+    const std::vector<BenchPoint>& points = both.groups.front().points;
+    EXPECT_EQ(points[0].key.lightOn, std::nullopt);
+    EXPECT_EQ(points[0].settings.lightOn, std::nullopt);
+    EXPECT_EQ(points[1].settings.lightOn, frame::LightingStage::Fragment);
+    EXPECT_EQ(points[2].settings.lightOn, frame::LightingStage::Compute);
+    EXPECT_THAT(namesOf(plan(R"({"technique": ["forward", "deferred"]})")),
+                ElementsAre("forward, exact", "deferred, exact, compute"))
+        << "what the command line says";
+}
+
+TEST(LightOnPoints, theRecordHasItAndReadsItAgain) {
+    BenchGroup group = shadowedGroup();
+    group.results[2].key.lightOn = "compute";
+    group.results[3].key.lightOn = "fragment";
+    const nlohmann::ordered_json points = groupJson(group)["points"];
+    EXPECT_TRUE(points[0]["lightOn"].is_null());
+    EXPECT_EQ(points[0]["why"]["lightOn"], "the technique lights in fragment shaders only");
+    EXPECT_EQ(points[2]["lightOn"], "compute");
+    const BenchGroup again = groupFromJson(groupJson(group));
+    for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
+    BenchRecord record;
+    record.groups = {group};
+    EXPECT_THAT(benchCsv(record), HasSubstr(",compute,exact,"));
+    EXPECT_THAT(benchTable(record), HasSubstr("lit on"));
+    EXPECT_THAT(benchHtml(record, record.groups[0], {}).sections, HasSubstr("<td data-label=\"Lit on\">compute</td>"));
+    record.groups[0].results[2].key.lightOn = "fragment";
+    EXPECT_THAT(benchTable(record), Not(HasSubstr("lit on"))) << "nothing but what is usual";
+}
+
+TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
+    BenchGroup group = shadowedGroup();
+    group.results[0].key.environment = {"sampled", {{"environmentSamples", "16"}, {"environmentCompensation", "on"}}};
+    group.results[1].key.environment = {"split_sum", {{"environmentCompensation", "off"}}};
+    group.results[2].key.environment = {"off", {}};
+    const nlohmann::ordered_json points = groupJson(group)["points"];
+    EXPECT_EQ(points[0]["environmentLight"], "sampled");
+    EXPECT_EQ(points[0]["environmentSamples"], 16);
+    EXPECT_EQ(points[0]["environmentCompensation"], true);
+    EXPECT_EQ(points[1]["why"]["environmentSamples"], "the environment's light is not sampled");
+    EXPECT_EQ(points[1]["environmentCompensation"], false);
+    EXPECT_EQ(points[2]["environmentLight"], "off");
+    EXPECT_EQ(points[2]["why"]["environmentCompensation"], "there is no light of the environment");
+    EXPECT_EQ(points[3]["why"]["environmentLight"], "no environment shines");
+    const BenchGroup again = groupFromJson(groupJson(group));
+    for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
+    BenchRecord record;
+    record.groups = {group};
+    EXPECT_THAT(benchCsv(record), HasSubstr(",sampled,16,on,4,64,32,"));
+    EXPECT_THAT(benchTable(record), HasSubstr("environ")); // its title may break
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page,
+                HasSubstr("<td data-label=\"Environment\">environment sampled, samples 16, compensation on</td>"));
+    EXPECT_THAT(page, HasSubstr(R"("markKind":"environment light")"));
+    EXPECT_THAT(page, HasSubstr(R"("mark":"split_sum")"));
+    EXPECT_THAT(recommendationText(group), HasSubstr("forward (traced, environment sampled, samples 16"));
 }
 
 } // namespace
