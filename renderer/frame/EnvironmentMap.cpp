@@ -35,7 +35,7 @@ double sobol(std::uint32_t index) {
 } // namespace
 
 bool isLitByEnvironment(const scenes::Scene& scene, const FrameSettings& settings) {
-    return scene.environment && settings.environment.light != EnvironmentLight::Off &&
+    return scene.environment && settings.environment.light != EnvironmentLight::Off && !settings.soloLight &&
            scene.environment->intensity * settings.environment.intensity > 0.0f;
 }
 

@@ -75,6 +75,7 @@ std::string whyNotSoft(const FrameSpec& spec) {
 /// Why the scene's environment lights nothing.
 std::string whyNoEnvironmentLight(const scenes::Scene& scene, const FrameSpec& spec) {
     if (spec.settings.environment.light == EnvironmentLight::Off) return "it is switched off";
+    if (spec.settings.soloLight) return "one light is shown alone";
     if (!isLitByEnvironment(scene, spec.settings)) return "its intensity is 0";
     return spec.features.litModels() ? "the view shows no lit surfaces" : "every surface is unlit";
 }

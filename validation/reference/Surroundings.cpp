@@ -25,7 +25,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     turnRadians_ = glm::radians(double(scene.environment->rotationDegrees) + settings.environmentRotationDegrees);
     isSeen_ = settings.environmentIsSeen;
     compensates_ = settings.environmentCompensates;
-    lights_ = settings.environmentLights && intensity_ > 0.0;
+    lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
     for (const scenes::Material& material : scene.materials)
