@@ -1,6 +1,7 @@
 // What lobes reflect of even light, by the table renderer/frame/LobeTable.h.
 #pragma once
 #include "shared/lobe_table.h"
+#include "lib/reflectance/mirrors.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
 layout(binding = TEXTURE_UNIT_LOBES) uniform sampler2DArray lobeTable;
@@ -41,6 +42,9 @@ vec3 lostToBounces(SeenSurface seen)
     if (SPECULAR_OFF != 0 || !HAS_METALLIC(seen.surface.model) || !(seen.nv > 0.0)) return vec3(0.0);
 #if HAS_TANGENT_FRAME
     if (isAnisotropic(seen.surface)) return vec3(0.0); // the table knows one alpha
+#endif
+#if HAS_MIRRORS
+    if (isMirror(seen)) return vec3(0.0);
 #endif
     vec4 lobe = lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX);
     precise vec3 once = seen.f0 * lobe.r + seen.fresnelRise * lobe.g;
