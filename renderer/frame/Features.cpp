@@ -110,7 +110,7 @@ bool mayMirror(const scenes::Material& material) {
     if (model.hasLayers && material.clearcoat > 0.0f &&
         (squared(material.clearcoatPerceptualRoughness) < kSharpAlpha || isTextured(TextureSlot::ClearcoatRoughness)))
         return true;
-    if (!model.roughness) return false;
+    if (model.highlight == scenes::Highlight::None || !model.roughness) return false;
     if (isTextured(TextureSlot::MetallicRoughness)) return true;
     if (model.anisotropy == scenes::Anisotropy::Alphas &&
         (double(material.alphaY) < kSharpAlpha || isTextured(TextureSlot::Anisotropy)))
