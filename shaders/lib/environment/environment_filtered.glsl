@@ -20,9 +20,8 @@ vec3 irradianceOn(vec3 normalLS)
 // sharper the more of the map itself, in the direction that mirrors the viewer.
 vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
 {
-    precise float level =
-        1.0 + log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
-    int fine = clamp(int(level), 1, int(environment.light.y) - 1);
+    precise float level = log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
+    int fine = min(int(level), int(environment.light.y) - 1);
     precise float share = min(level - float(fine), 1.0);
     vec2 code = encodeOctahedral(mapDirection(axisLS));
     vec3 fineLight = filteredLevel(code, fine), coarseLight = filteredLevel(code, fine + 1);

@@ -9,6 +9,7 @@
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LobeTable.h"
 #include "scenes/builtin/Pictures.h"
+#include "shaders/shared/environment.h"
 #include "shaders/shared/lobe_table.h"
 #include "tests/support/TempFolder.h"
 
@@ -145,13 +146,39 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
         const Octahedron& level = filtered.levels[std::size_t(i)];
         // A lobe moves light but keeps its sum, as far as texels of cubes can tell.
         EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
-        if (i == 0) continue;
         // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
         // sharp lobes and 1/4 where they are as broad as can be.
         const double alpha = alphaOfLevel(i, levels);
         const double most = 1.5 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& texel : level.texels) ASSERT_LE(double(texel.x), most) << i;
     }
+}
+
+TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
+    const scenes::Image map = mapOf(64, 32, [](int x, int y) { return x + 100.0 * y; });
+    const FilteredEnvironment filtered = filterEnvironment(map);
+    const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
+    ASSERT_EQ(filtered.levels.size(), std::size_t(levels));
+    EXPECT_NEAR(alphaOfLevel(0, levels), ENVIRONMENT_LEAST_ALPHA, 1e-12);
+    EXPECT_EQ(alphaOfLevel(levels - 1, levels), 1.0);
+    const std::vector<glm::vec4> atlas = atlasOf(filtered);
+    const glm::ivec2 size = atlasTexels(side);
+    ASSERT_EQ(atlas.size(), std::size_t(size.x) * std::size_t(size.y));
+    std::size_t texels = 0;
+    const auto expectAt = [&](const Octahedron& level, int number, int sideTexels) {
+        ASSERT_EQ(level.side, sideTexels);
+        for (int y = 0; y < level.side; ++y)
+            for (int x = 0; x < level.side; ++x) {
+                const auto row = std::size_t(shared::filteredTop(side, number) + 1 + y);
+                ASSERT_EQ(glm::vec3(atlas[row * std::size_t(size.x) + std::size_t(1 + x)]), level.at(x, y)) << number;
+                ++texels;
+            }
+    };
+    for (int level = 0; level < levels; ++level)
+        expectAt(filtered.levels[std::size_t(level)], level, shared::filteredSide(side, level));
+    EXPECT_EQ(filtered.levels.back().side, kLeastFilteredSide);
+    expectAt(filtered.irradiance, levels, ENVIRONMENT_IRRADIANCE_SIDE);
+    EXPECT_EQ(texels, 2u * (64 * 64 + 32 * 32) + 64 * 64);
 }
 
 /// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md
