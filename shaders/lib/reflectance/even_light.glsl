@@ -33,23 +33,20 @@ vec3 towardsMirror(SeenSurface seen, vec3 reflected)
 #endif
 
 #if HAS_GGX_MODELS
-// What a dielectric's lobe reflects of even light. By parabolas above index 1, where reflectances go by the square of
-// the contrast; by lines below it, where total reflection begins at an edge.
+// What a dielectric's lobe reflects of even light, by parabolas through three indices of refraction on one side of 1.
 float reflectedByDielectric(SeenSurface seen)
 {
-    float place = iorPlace(seen.surface.iorOrF90);
-    bool isDenser = place >= float(LOBE_TABLE_IOR_ONE);
-    int first = isDenser ? min(int(place), LOBE_TABLE_IORS - 3) : max(int(place), 0);
-    precise float t = place - float(first);
-    precise vec3 shares = isDenser ? vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0))
-                                   : vec3(1.0 - t, t, 0.0);
-    float alpha = lobeAlpha(seen.surface);
+    float ior = seen.surface.iorOrF90;
+    float number = iorPlace(ior);
+    bool isDenser = number >= float(LOBE_TABLE_IOR_ONE);
+    int first = min(max(int(number), 0), (isDenser ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE) - 2);
+    precise float t = number - float(first);
+    precise vec3 shares = vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0));
+    vec2 place = vec2(lobeColumn(ior, clamp(seen.nv, 0.0, 1.0)), sqrt(clamp(lobeAlpha(seen.surface), 0.0, 1.0)));
     precise float reflected = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        int number = first + i;
-        reflected += shares[i] * lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + number / 4)[number % 4];
-    }
-    return max(reflected, 0.0);
+    for (int i = 0; i < 3; ++i)
+        reflected += shares[i] * lobeTexelAt(place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4];
+    return clamp(reflected, 0.0, 1.0);
 }
 
 void addMetallicRoughness(SeenSurface seen, const bool fromAllAround, inout EvenShares shares)

@@ -6,11 +6,17 @@
 
 layout(binding = TEXTURE_UNIT_LOBES) uniform sampler2DArray lobeTable;
 
+// `place` from 0 to 1 along both sides.
+vec4 lobeTexelAt(vec2 place, int layer)
+{
+    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
+    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
+}
+
 vec4 lobeTexel(float cosine, float alpha, int layer)
 {
     precise vec2 place = sqrt(clamp(vec2(cosine, alpha), 0.0, 1.0));
-    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
-    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
+    return lobeTexelAt(place, layer);
 }
 
 // Of a lobe that is as wide as the surface's; one alpha in place of two, where the table has no more.
