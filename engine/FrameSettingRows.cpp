@@ -238,7 +238,7 @@ std::vector<Setting> frameSettings() {
          .flag = "--solo",
          .key = "solo",
          .type = "N",
-         .help = "Of the lights only this one shines, counted from 0",
+         .help = "Only this light shines, counted from 0; the environment is seen, but lights nothing",
          .panel = SettingPanel::None,
          .isOfScene = true,
          .isWishable = false, // lights may be deleted

@@ -107,12 +107,11 @@ struct ViewWiring {
         }
         if (!spec.features[frame::Feature::Environment]) return;
         lighting.environment = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}};
-        if (spec.usesEnvironmentSamples()) {
-            lighting.environment->map = all.map;
+        if (spec.lightsByEnvironmentMap()) lighting.environment->map = all.map;
+        if (spec.usesEnvironmentSamples())
             lighting.environment->samples = all.samples;
-        } else {
+        else
             lighting.environment->filtered = all.filtered;
-        }
     }
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known

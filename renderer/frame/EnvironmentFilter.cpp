@@ -16,7 +16,7 @@ namespace tessera::frame {
 
 namespace {
 
-using shared::filteredOrigin, shared::filteredSide;
+using shared::filteredSide, shared::filteredTop;
 using std::numbers::pi;
 
 template <typename Value>
@@ -258,13 +258,11 @@ int filteredSideOf(const scenes::Image& map) {
 }
 
 int filteredLevelsOf(int side) {
-    return 2 * (std::countr_zero(unsigned(side)) - std::countr_zero(unsigned(kLeastFilteredSide))) + 1;
+    return 2 * (std::countr_zero(unsigned(side)) - std::countr_zero(unsigned(kLeastFilteredSide)));
 }
 
 double alphaOfLevel(int level, int levels) {
-    if (level == 0) return 0.0;
-    if (levels <= 2) return 1.0;
-    return std::pow(double(ENVIRONMENT_LEAST_ALPHA), double(levels - 1 - level) / double(levels - 2));
+    return std::pow(double(ENVIRONMENT_LEAST_ALPHA), double(levels - 1 - level) / double(levels - 1));
 }
 
 Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
@@ -291,17 +289,17 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     FilteredEnvironment result;
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
-    result.levels.push_back(makeOctahedron(side, [&](int x, int y) {
+    const Octahedron resampled = makeOctahedron(side, [&](int x, int y) {
         constexpr int kPlaces = 4;
         glm::dvec3 sum(0.0);
         for (int i = 0; i < kPlaces * kPlaces; ++i)
             sum += source.radiance(directionOf(
                 Octahedron::codeOfTexel(kPlaces * x + i % kPlaces, kPlaces * y + i / kPlaces, kPlaces * side)));
         return sum / double(kPlaces * kPlaces);
-    }));
+    });
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
-    for (Octahedron level = result.levels[0]; level.side > 1; level = smaller(level)) sources.emplace_back(level);
+    for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);
     // The smaller a level, the rougher its lobe: about as much work for each.
     constexpr int kLeastSamples = 32, kMostSamples = 1024, kFullSide = kMostFilteredSide / 2;
     double work = 0.0, done = 0.0;
@@ -313,8 +311,8 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     const auto workOf = [&](int level) {
         return double(samplesOf(level)) * filteredSide(side, level) * filteredSide(side, level);
     };
-    for (int level = 1; level < levels; ++level) work += workOf(level);
-    for (int level = 1; level < levels; ++level) {
+    for (int level = 0; level < levels; ++level) work += workOf(level);
+    for (int level = 0; level < levels; ++level) {
         std::atomic<int> rows = 0;
         const int levelSide = filteredSide(side, level);
         result.levels.push_back(
@@ -326,20 +324,19 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
 }
 
 glm::ivec2 atlasTexels(int side) {
-    const int levels = filteredLevelsOf(side);
-    const glm::ivec2 irradiance(filteredOrigin(side, levels));
-    return {irradiance.x + std::max(side / 2, ENVIRONMENT_IRRADIANCE_SIDE) + 2,
-            std::max(side, irradiance.y + ENVIRONMENT_IRRADIANCE_SIDE) + 2};
+    return {std::max(side / 2, ENVIRONMENT_IRRADIANCE_SIDE) + 2,
+            filteredTop(side, filteredLevelsOf(side)) + ENVIRONMENT_IRRADIANCE_SIDE + 2};
 }
 
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered) {
-    const glm::ivec2 size = atlasTexels(filtered.levels[0].side);
+    const int side = 2 * filtered.levels[0].side;
+    const glm::ivec2 size = atlasTexels(side);
     std::vector<glm::vec4> atlas(std::size_t(size.x) * std::size_t(size.y), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
     const auto put = [&](const Octahedron& level, int number) {
-        const glm::ivec2 origin(filteredOrigin(filtered.levels[0].side, number));
+        const int top = filteredTop(side, number);
         for (int y = -1; y <= level.side; ++y)
             for (int x = -1; x <= level.side; ++x)
-                atlas[std::size_t(origin.y + 1 + y) * std::size_t(size.x) + std::size_t(origin.x + 1 + x)] =
+                atlas[std::size_t(top + 1 + y) * std::size_t(size.x) + std::size_t(1 + x)] =
                     glm::vec4(level.at(x, y), 1.0f);
     };
     for (std::size_t i = 0; i < filtered.levels.size(); ++i) put(filtered.levels[i], int(i));

@@ -27,19 +27,19 @@ struct Octahedron {
 };
 
 struct FilteredEnvironment {
-    /// Level 0 is the map itself; the light of level i is averaged by a GGX lobe of alphaOfLevel(i) around its
-    /// direction, seen from there, weighted by the cosine.
+    /// The light of a level is averaged by a GGX lobe of alphaOfLevel() around its direction, seen from there, weighted
+    /// by the cosine.
     std::vector<Octahedron> levels;
     Octahedron irradiance; ///< on a surface that faces that way, ENVIRONMENT_IRRADIANCE_SIDE
 };
 
-inline constexpr int kMostFilteredSide = 1024, kLeastFilteredSide = 32; ///< of level 0 and of the last one
+inline constexpr int kMostFilteredSide = 1024, kLeastFilteredSide = 32; ///< of filteredSideOf(), and of the last level
 inline constexpr int kIrradianceOrder = 32;
 
-/// Side of level 0 for a map, which then has about as many texels, and the number of levels.
+/// Side of the square that a map is filtered from, with about as many texels, and the number of levels.
 int filteredSideOf(const scenes::Image& map);
 int filteredLevelsOf(int side);
-/// ENVIRONMENT_LEAST_ALPHA (level 1) to 1 (the last), each the same times the one before; 0 of level 0.
+/// ENVIRONMENT_LEAST_ALPHA to 1, each the same times the one before.
 double alphaOfLevel(int level, int levels);
 
 /// Filters a map on all cores: some seconds for 2048 x 1024 texels. `progress` is called with the share that is done,

@@ -35,7 +35,7 @@ double sobol(std::uint32_t index) {
 } // namespace
 
 bool isLitByEnvironment(const scenes::Scene& scene, const FrameSettings& settings) {
-    return scene.environment && settings.environment.light != EnvironmentLight::Off &&
+    return scene.environment && settings.environment.light != EnvironmentLight::Off && !settings.soloLight &&
            scene.environment->intensity * settings.environment.intensity > 0.0f;
 }
 
@@ -56,7 +56,7 @@ shared::EnvironmentConstants packEnvironment(const scenes::Environment& environm
     const double intensity = std::min(double(environment.intensity) * double(settings.environment.intensity),
                                       double(std::numeric_limits<float>::max()));
     constants.light = glm::vec4(float(intensity), float(levels - 1),
-                                float(-(levels - 2) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
+                                float(-(levels - 1) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
     return constants;
 }
 

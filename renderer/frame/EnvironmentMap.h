@@ -19,7 +19,7 @@
 /// Light from everywhere, as the GPU has it (docs/environment.md).
 namespace tessera::frame {
 
-/// Whether a frame's surfaces are lit by the scene's environment.
+/// Whether a frame's surfaces are lit by the scene's environment. A light that is shown alone is alone.
 bool isLitByEnvironment(const scenes::Scene& scene, const FrameSettings& settings);
 /// Whether it is seen where nothing is drawn.
 bool showsEnvironment(const scenes::Scene& scene, const FrameSettings& settings);

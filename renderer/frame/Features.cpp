@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "renderer/gpu/Sampler.h"
 #include "scenes/InUse.h"
+#include "shaders/shared/environment.h"
 #include "shaders/shared/material.h"
 
 namespace tessera::frame {
@@ -55,6 +57,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Anisotropy, "ANISOTROPY", "anisotropy by strength", "no material has any"},
             {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
+            {Feature::Mirrors, "MIRRORS", "mirrors of the environment", "every highlight is broader than those"},
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
             {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
             {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
@@ -94,6 +97,38 @@ bool varies(const scenes::Material& material) {
     return scenes::isAnisotropic(material);
 }
 
+/// Below it the light of an environment is not its filtered map's alone (shaders/lib/reflectance/mirrors.glsl). A tenth
+/// more, since the layout `slim` keeps alphas there in steps of 8 %.
+constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
+
+/// Whether a highlight of the material may be sharper. Textures may have any texel.
+bool mayMirror(const scenes::Material& material) {
+    using scenes::Microsurface, scenes::TextureSlot;
+    const auto isTextured = [&](TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
+    const auto squared = [](float roughness) { return double(roughness) * double(roughness); };
+    const scenes::MaterialModelInfo& model = scenes::infoOf(material.model);
+    if (model.hasLayers && material.clearcoat > 0.0f &&
+        (squared(material.clearcoatPerceptualRoughness) < kSharpAlpha || isTextured(TextureSlot::ClearcoatRoughness)))
+        return true;
+    if (model.highlight == scenes::Highlight::None || !model.roughness) return false;
+    if (isTextured(TextureSlot::MetallicRoughness)) return true;
+    if (model.anisotropy == scenes::Anisotropy::Alphas &&
+        (double(material.alphaY) < kSharpAlpha || isTextured(TextureSlot::Anisotropy)))
+        return true;
+    const float roughness = material.*model.roughness;
+    switch (model.microsurface) {
+    case Microsurface::None:
+        break;
+    case Microsurface::Parameter: // lobeAlpha() of shaders/lib/reflectance/lobes.glsl
+        return std::sqrt(2.0 / (double(roughness) + 2.0)) < kSharpAlpha;
+    case Microsurface::Dielectric:
+        return double(roughness) < kSharpAlpha;
+    case Microsurface::MetallicRoughness:
+        return squared(roughness) < kSharpAlpha;
+    }
+    return false;
+}
+
 /// The material in a scene, which may have no environment: then nothing reads occlusion.
 scenes::Material readMaterial(const scenes::Scene& scene, scenes::Material material) {
     if (!scene.environment) material.texture(scenes::TextureSlot::Occlusion) = {};
@@ -108,6 +143,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
             model.anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f);
     set.add(Feature::Clearcoat, model.hasLayers && material.clearcoat > 0.0f);
     set.add(Feature::Sheen, model.hasLayers && material.sheenColor != glm::vec3(0.0f));
+    set.add(Feature::Mirrors, mayMirror(material));
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];
         if (use.image == scenes::kNone) continue;

@@ -32,6 +32,7 @@ enum class Feature : std::uint8_t {
     Anisotropy,
     Clearcoat,
     Sheen,
+    Mirrors, // lobes that may be narrower than those an environment is filtered by; only where one lights surfaces
     AlphaMask,
     Blend,
     DoubleSided,

@@ -134,7 +134,7 @@ struct FrameSettings {
     bool prune = true;
     bool specular = true;
     double rangeTolerance = 0.0;   ///< A B C and area lights end where they fall to it (LightRange.h); 0: nowhere
-    std::optional<int> soloLight;  ///< index into Scene::lights: only this one shines
+    std::optional<int> soloLight;  ///< index into Scene::lights: only this one shines, not the environment
     scenes::ShadowRequest shadows; ///< which lights cast shadows
     ShadowFilter shadowFilter = ShadowFilter::Traced;
     int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples

@@ -76,6 +76,7 @@ std::string whyNotSoft(const FrameSpec& spec) {
 /// Why the scene's environment lights nothing.
 std::string whyNoEnvironmentLight(const scenes::Scene& scene, const FrameSpec& spec) {
     if (spec.settings.environment.light == EnvironmentLight::Off) return "it is switched off";
+    if (spec.settings.soloLight) return "one light is shown alone";
     if (!isLitByEnvironment(scene, spec.settings)) return "its intensity is 0";
     return spec.features.litModels() ? "the view shows no lit surfaces" : "every surface is unlit";
 }
@@ -86,6 +87,8 @@ std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const
     if (info.feature == Feature::Shadows) return whyNoShadows(scene, lights, spec.settings.shadows);
     if (info.feature == Feature::SoftShadows) return whyNotSoft(spec);
     if (info.feature == Feature::Environment && scene.environment) return whyNoEnvironmentLight(scene, spec);
+    if (info.feature == Feature::Mirrors && !spec.features[Feature::Environment])
+        return "no environment lights surfaces";
     if (info.feature == Feature::SubsurfaceDepthMap && materialFeatures(scene, spec.settings.subsurface)[info.feature])
         return "no light casts shadows, by which the way inside is found";
     return info.absent;
@@ -134,9 +137,11 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.features.add(Feature::Environment);
     else
         spec.features.has.reset(std::size_t(Feature::Environment));
-    // It dims that light alone, and needs a texture unit more than every driver has.
-    if (!spec.features[Feature::Environment])
+    // Occlusion dims that light alone, and mirrors show its map: each needs a texture unit more than every driver has.
+    if (!spec.features[Feature::Environment]) {
         spec.features.has.reset(std::size_t(featureOf(scenes::TextureSlot::Occlusion)));
+        spec.features.has.reset(std::size_t(Feature::Mirrors));
+    }
     spec.showsEnvironment = showsEnvironment(scene, settings);
     if (spec.features[Feature::Environment] || spec.showsEnvironment)
         spec.environment = environmentShape(scene.environment->map);
@@ -272,8 +277,12 @@ bool FrameSpec::usesEnvironmentSamples() const {
     return features[Feature::Environment] && settings.environment.light == EnvironmentLight::Sampled;
 }
 
+bool FrameSpec::lightsByEnvironmentMap() const {
+    return usesEnvironmentSamples() || features[Feature::Mirrors];
+}
+
 bool FrameSpec::usesEnvironmentMap() const {
-    return usesEnvironmentSamples() || (showsEnvironment && settings.environment.backdrop == Backdrop::Sharp);
+    return lightsByEnvironmentMap() || (showsEnvironment && settings.environment.backdrop == Backdrop::Sharp);
 }
 
 bool FrameSpec::usesLobeTable() const {

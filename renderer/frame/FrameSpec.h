@@ -45,7 +45,8 @@ struct FrameSpec {
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
     DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }
 
-    bool usesEnvironmentMap() const; ///< at full resolution
+    bool usesEnvironmentMap() const;     ///< at full resolution
+    bool lightsByEnvironmentMap() const; ///< surfaces, with samples or mirrors
     bool usesEnvironmentSamples() const;
     bool usesFilteredEnvironment() const;
     bool usesLobeTable() const;

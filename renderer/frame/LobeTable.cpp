@@ -1,6 +1,7 @@
 #include "renderer/frame/LobeTable.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,35 +16,49 @@ namespace {
 using std::numbers::pi;
 constexpr double kSmallestAlpha = 1e-3, kSmallestCosine = 1e-4;
 constexpr int kNodes = 64, kTurns = 16; ///< of the integrals, away from an axis and around it
+constexpr double kGolden = 0.618033988749895;
 
 struct Sample {
     double cosLight = 0.0, cosIncidence = 0.0;
     double weight = 0.0; ///< D G / (4 n.v) dl without masking of the light: 1 over all of them
 };
 
-/// Places (i + 1/2) / n of a unit square, mapped to the normals of facets that the viewer sees, and so to lights.
-/// Source: Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
+struct DiskPoint {
+    double x = 0.0, y = 0.0, rim = 0.0; ///< rim: the largest y there
+    double weight = 0.0;                ///< 1 over all of them
+};
+
+/// On a spiral, a golden angle apart: no two lie at one distance or angle, so that edges of what is integrated average
+/// out. Closer at the rim, where the facets are that lie far from the normal.
+std::array<DiskPoint, kNodes * kTurns> diskPoints() {
+    std::array<DiskPoint, kNodes * kTurns> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double place = double(i) + 0.5, left = 1.0 - place / double(points.size());
+        const double radius = std::sqrt(1.0 - std::pow(left, 4.0)), angle = 2.0 * pi * std::fmod(kGolden * place, 1.0);
+        const double x = radius * std::cos(angle);
+        points[i] = {x, radius * std::sin(angle), std::sqrt(1.0 - x * x),
+                     4.0 * left * left * left / double(points.size())};
+    }
+    return points;
+}
+
+/// Maps points of a disk to the normals of facets that the viewer sees, and so to lights. Source: Heitz 2018, "Sampling
+/// the GGX Distribution of Visible Normals".
 template <typename Visitor>
 void visitVisible(double alpha, double cosView, const Visitor& visit) {
+    static const auto points = diskPoints();
     const double sine = std::sqrt(1.0 - cosView * cosView);
     const glm::dvec3 viewer(sine, 0.0, cosView);
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * viewer.x, 0.0, viewer.z));
     const glm::dvec3 second(-stretched.z, 0.0, stretched.x); // the first is y
-    for (int i = 0; i < kNodes; ++i) {
-        // Finer at the rim, where the facets are that lie far from the normal.
-        const double left = 1.0 - (i + 0.5) / kNodes, within = 1.0 - std::pow(left, 4.0);
-        const double weight = 4.0 * left * left * left / (kNodes * kTurns);
-        for (int j = 0; j < kTurns; ++j) {
-            const double radius = std::sqrt(within), angle = 2.0 * pi * (j + 0.5) / kTurns;
-            const double x = radius * std::cos(angle), share = 0.5 * (1.0 + stretched.z);
-            const double y = (1.0 - share) * std::sqrt(1.0 - x * x) + share * radius * std::sin(angle);
-            const double z = std::sqrt(std::max(0.0, 1.0 - x * x - y * y));
-            const glm::dvec3 facet = x * glm::dvec3(0.0, 1.0, 0.0) + y * second + z * stretched;
-            const glm::dvec3 half =
-                glm::normalize(glm::dvec3(alpha * facet.x, alpha * facet.y, std::max(facet.z, 1e-9)));
-            const double incidence = glm::dot(viewer, half);
-            visit(Sample{2.0 * incidence * half.z - cosView, incidence, weight});
-        }
+    const double share = 0.5 * (1.0 + stretched.z);
+    for (const DiskPoint& point : points) {
+        const double y = (1.0 - share) * point.rim + share * point.y;
+        const double z = std::sqrt(std::max(0.0, 1.0 - point.x * point.x - y * y));
+        const glm::dvec3 facet = point.x * glm::dvec3(0.0, 1.0, 0.0) + y * second + z * stretched;
+        const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * facet.x, alpha * facet.y, std::max(facet.z, 1e-9)));
+        const double incidence = glm::dot(viewer, half);
+        visit(Sample{2.0 * incidence * half.z - cosView, incidence, point.weight});
     }
 }
 
@@ -90,7 +105,7 @@ double blinn(double exponent, double cosView) {
         for (int j = 0; j < kTurns; ++j) {
             const double cosHalf = std::pow((i + 0.5) / kNodes, 1.0 / (exponent + 1.0));
             // Each circle is turned a golden angle on, so that the edges where light ends average out.
-            const double angle = 2.0 * pi * (j + std::fmod(0.618033988749895 * (i + 0.5), 1.0)) / kTurns;
+            const double angle = 2.0 * pi * (j + std::fmod(kGolden * (i + 0.5), 1.0)) / kTurns;
             const double incidence = cosHalf * cosView + std::sqrt(1.0 - cosHalf * cosHalf) * sine * std::cos(angle);
             if (incidence > 0.0 && 2.0 * incidence * cosHalf - cosView > 0.0) sum += 4.0 * incidence;
         }
@@ -143,9 +158,36 @@ double sheenAlbedo(double alpha, double cosine) {
 double iorAt(int place) {
     constexpr int kAbove = LOBE_TABLE_IORS - 1 - LOBE_TABLE_IOR_ONE;
     const double from = place - LOBE_TABLE_IOR_ONE;
-    const double contrast =
-        std::clamp(from > 0.0 ? std::pow(from / kAbove, 1.5) : from / LOBE_TABLE_IOR_ONE, -0.999, 0.999);
-    return (1.0 + contrast) / (1.0 - contrast);
+    const double contrast = std::clamp(
+        std::pow(std::abs(from) / (from > 0.0 ? kAbove : LOBE_TABLE_IOR_ONE), from > 0.0 ? 1.5 : 3.0), 0.0, 0.999);
+    return from > 0.0 ? (1.0 + contrast) / (1.0 - contrast) : (1.0 - contrast) / (1.0 + contrast);
+}
+
+/// The viewer's cosine at a column of shared::lobeColumn().
+double cosineAt(double ior, double column) {
+    if (ior >= 1.0) return column * column;
+    constexpr double kEdge = LOBE_TABLE_CRITICAL / (LOBE_TABLE_SIDE - 1.0);
+    const double critical = std::sqrt(1.0 - ior * ior);
+    if (column >= kEdge) {
+        const double beyond = (column - kEdge) / (1.0 - kEdge);
+        return critical + (1.0 - critical) * beyond * beyond;
+    }
+    const double share = column / kEdge, left = 1.0 - share;
+    return critical * (share < 0.5 ? 2.0 * share * share : 1.0 - 2.0 * left * left);
+}
+
+/// G2 / G1 of the viewer, of separable masking.
+double separable(double alpha, double cosLight) {
+    return 2.0 * cosLight / (cosLight + smithLength(alpha, cosLight));
+}
+
+double reflectedByDielectric(double ior, double alpha, double cosView) {
+    double reflected = 0.0;
+    visitVisible(alpha, cosView, [&](const Sample& sample) {
+        if (sample.cosLight > 0.0)
+            reflected += sample.weight * separable(alpha, sample.cosLight) * dielectric(ior, sample.cosIncidence);
+    });
+    return reflected;
 }
 
 } // namespace
@@ -153,24 +195,28 @@ double iorAt(int place) {
 std::vector<glm::vec4> makeLobeTable() {
     constexpr std::size_t kSide = LOBE_TABLE_SIDE, kLayer = kSide * kSide;
     std::vector<glm::vec4> table(kLayer * LOBE_TABLE_LAYERS, glm::vec4(0.0f));
+    std::array<double, LOBE_TABLE_IORS> iors{};
+    for (std::size_t i = 0; i < iors.size(); ++i) iors[i] = iorAt(int(i));
     tbb::parallel_for(std::size_t{0}, kLayer, [&](std::size_t at) {
         const double right = double(at % kSide) / (kSide - 1.0), up = double(at / kSide) / (kSide - 1.0);
         const double cosView = std::max(right * right, kSmallestCosine), alpha = std::max(up * up, kSmallestAlpha);
         const double viewLength = smithLength(alpha, cosView);
         glm::dvec4 ggx(0.0);
-        double ofIors[LOBE_TABLE_IORS] = {};
+        std::array<double, LOBE_TABLE_IORS> ofIors{};
         visitVisible(alpha, cosView, [&](const Sample& sample) {
             if (!(sample.cosLight > 0.0)) return;
             const double lightLength = smithLength(alpha, sample.cosLight);
-            // G2 / G1 of the viewer.
             const double correlated =
                 sample.cosLight * (cosView + viewLength) / (sample.cosLight * viewLength + cosView * lightLength);
-            const double separable = 2.0 * sample.cosLight / (sample.cosLight + lightLength);
             ggx.x += sample.weight * correlated;
             ggx.y += sample.weight * correlated * fifth(1.0 - sample.cosIncidence);
-            for (int i = 0; i < LOBE_TABLE_IORS; ++i)
-                ofIors[i] += sample.weight * separable * dielectric(iorAt(i), sample.cosIncidence);
+            const double weight = sample.weight * separable(alpha, sample.cosLight);
+            for (std::size_t i = LOBE_TABLE_IOR_ONE; i < iors.size(); ++i)
+                ofIors[i] += weight * dielectric(iors[i], sample.cosIncidence);
         });
+        for (std::size_t i = 0; i < LOBE_TABLE_IOR_ONE; ++i)
+            ofIors[i] =
+                reflectedByDielectric(iors[i], alpha, std::clamp(cosineAt(iors[i], right), kSmallestCosine, 1.0));
         ggx.z = blinn(std::max(2.0 / (alpha * alpha) - 2.0, 0.0), cosView);
         ggx.w = diffuseMean(cosView, [](double, double incidence) { return fifth(1.0 - incidence); });
         table[at] = glm::vec4(ggx);

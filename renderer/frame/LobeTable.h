@@ -8,12 +8,12 @@
 namespace tessera::frame {
 
 /// RGBA32F, LOBE_TABLE_LAYERS pictures of LOBE_TABLE_SIDE texels a side, by the viewer's cosine (to the right) and by
-/// alpha (upwards), each at the square of its place: shaders/lib/environment/lobe_table.glsl. By layer:
+/// alpha (upwards), each at the square of its place: shaders/lib/reflectance/lobes.glsl. By layer:
 /// 0: R of a GGX lobe with height-correlated masking and F = 1, G the same with F = (1 - l.h)^5; B of Blinn's highlight
 ///    with the exponent p = 2 / alpha^2 - 2, times p + 2; A the mean of (1 - l.h)^5 over a diffuse reflection.
 /// 1: R of a white sheen; G the mean over a diffuse reflection of the larger of its albedos by light and viewer.
-/// 2 to 7: of a GGX lobe with separable masking and the reflectance of a dielectric, for LOBE_TABLE_IORS indices of
-///    refraction, four a layer.
+/// 2 to 11: of a GGX lobe with separable masking and the reflectance of a dielectric, for LOBE_TABLE_IORS indices of
+///    refraction, four a layer; by the cosine as shared::lobeColumn() says.
 std::vector<glm::vec4> makeLobeTable();
 
 } // namespace tessera::frame

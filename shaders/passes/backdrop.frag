@@ -15,7 +15,7 @@ void main()
     if (view.forwardLS.w == 0.0) ray += acrossOfPixel(gl_FragCoord.xy);
     vec3 direction = mapDirection(normalize(ray));
 #if BACKDROP_BLURRED
-    float level = 1.0 + log2(ENVIRONMENT_BACKDROP_ALPHA / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
+    float level = log2(ENVIRONMENT_BACKDROP_ALPHA / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
     vec3 seen = filteredLevel(encodeOctahedral(direction), min(int(level + 0.5), int(environment.light.y)));
 #else
     vec3 seen = mapRadiance(direction).rgb;

@@ -7,7 +7,7 @@
 #define ENVIRONMENT_SPLIT_SUM 1
 #define ENVIRONMENT_SAMPLED 2
 
-// Alpha of level 1 of the filtered map; level 0 is the map itself, the last level has alpha 1.
+// Alpha of level 0 of the filtered map; the last has alpha 1. Below it lobes see the map itself.
 #define ENVIRONMENT_LEAST_ALPHA 0.01
 #define ENVIRONMENT_IRRADIANCE_SIDE 64  // texels
 #define ENVIRONMENT_BACKDROP_ALPHA 0.12 // of what a blurred backdrop shows
@@ -23,21 +23,18 @@ SHARED_BEGIN
 struct EnvironmentConstants {
     mat4 mapFromLS; // rotation
     vec4 light;     // x multiplies the map's radiance; of the filtered map y the last level, z levels a doubling of
-                    // alpha, w side of level 0
+                    // alpha, w texels along the square that they were filtered from
 };
 
 // Texels along a level of the filtered map; two levels each have the same.
 SHARED_FUNCTION int filteredSide(int side, int level) {
-    return side >> ((level + 1) / 2);
+    return side >> (level / 2 + 1);
 }
 
-// Where a level begins in the atlas, with its border; the irradiance follows the last one. Level 0 lies on the left,
-// the others below one another on its right.
-SHARED_FUNCTION uvec2 filteredOrigin(int side, int level) {
-    if (level == 0) return uvec2(0u, 0u);
-    int pairs = (level - 1) / 2; // of levels before it
-    int above = 2 * (side - (side >> pairs)) + ((level - 1) % 2) * (side >> (pairs + 1)) + 2 * (level - 1);
-    return uvec2(uint(side + 2), uint(above));
+// Rows of the atlas above a level, with its border: they lie below one another, and the irradiance below the last one.
+SHARED_FUNCTION int filteredTop(int side, int level) {
+    int pairs = level / 2; // of levels above it
+    return 2 * (side - (side >> pairs)) + (level % 2) * (side >> (pairs + 1)) + 2 * level;
 }
 
 SHARED_END

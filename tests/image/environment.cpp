@@ -173,6 +173,47 @@ TEST_F(Environment, occlusionDimsItsLightAlone) {
     }
 }
 
+TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
+    scenes::Scene scene = ballUnderSky(scenes::Material{});
+    scene.environment = evenEnvironment(0.8);
+    scene.lights = {pointLight({0.0, 0.0, 2.0}, 3.0f), pointLight({1.0, 2.0, 2.0}, 3.0f)};
+    scenes::Scene dark = scene;
+    dark.environment.reset();
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 16};
+    settings.soloLight = 1;
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> wanted = engine::Renderer(context(), dark).render(Technique::Deferred, settings).radiance;
+    for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+        settings.environment.light = how;
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        int lit = 0, background = 0;
+        for (std::size_t i = 0; i < seen.size(); i += 4)
+            for (std::size_t c = i; c < i + 3; ++c) {
+                const bool isCovered = seen[i + 3] > 0.0f;
+                ASSERT_EQ(seen[c], isCovered ? wanted[c] : 0.8f) << infoOf(how).name << ", pixel " << i / 4;
+                ++(isCovered ? lit : background);
+            }
+        EXPECT_GT(lit, 300);
+        EXPECT_GT(background, 30);
+    }
+    const auto truth = [&](const scenes::Scene& of) {
+        frame::FrameSettings plain = settings;
+        plain.environment.backdrop = frame::Backdrop::Off;
+        return validation::referencePicture(
+                   of, plain, [] {}, validation::Leeway::None)
+            .picture.rgba;
+    };
+    EXPECT_EQ(truth(scene), truth(dark));
+    // Nothing is held to be filtered light's error.
+    EXPECT_EQ(validation::referenceTolerance(scene, settings).reason,
+              validation::referenceTolerance(dark, settings).reason);
+    const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, settings);
+    const auto left = std::ranges::find(plan.leftOut, "light of the environment", &graph::Plan::LeftOut::what);
+    ASSERT_NE(left, plan.leftOut.end());
+    EXPECT_EQ(left->why, "one light is shown alone");
+}
+
 TEST_F(Environment, aMirrorBallShowsEachDirectionWhereItLies) {
     // Squares of 8 x 8 texels: away from their edges a mirror shows black or white.
     scenes::Material mirror;

@@ -19,9 +19,9 @@ using namespace test;
 
 class EnvironmentTruth : public EnvironmentTest {};
 
-// Of light that is the same everywhere, in parts of what is reflected of it; measured as 0.006, 0.2 and 0.1.
+// Of light that is the same everywhere, in parts of what is reflected of it; measured as 0.006, 0.005 and 0.1.
 constexpr double kEvenError = 0.01;            ///< noise of samples and of the reference, tables between their places
-constexpr double kInnerReflectionError = 0.25; ///< total reflection that begins between two indices of the table
+constexpr double kInnerReflectionError = 0.02; ///< tables where total reflection begins
 constexpr double kTwoAlphasError = 0.12;       ///< the table of one alpha, the mean of two
 constexpr double kLeastError = 1e-5;           ///< absolute, where next to nothing is reflected
 
@@ -157,7 +157,11 @@ std::vector<EvenCase> evenCases() {
     for (const float exponent : {1.0f, 10.0f, 100.0f, 1e4f})
         add(fmt::format("blinn_phong, p {}", exponent), MaterialModel::BlinnPhong, 0.0f).material.exponent = exponent;
     for (const auto& [alpha, ior] : {std::pair(0.05f, 1.5f),
+                                     {0.05f, 0.75f},
+                                     {0.3f, 0.4f},
                                      {0.3f, 0.7f},
+                                     {0.3f, 0.9f},
+                                     {1.0f, 0.7f},
                                      {0.3f, 1.0f},
                                      {0.3f, 1.33f},
                                      {0.3f, 1.5f},

@@ -17,6 +17,7 @@ struct SurfacePoint {
     double metallic = 0.0;                             ///< 0..1
     double alpha = 1.0;                                ///< of GGX; along the tangent where the lobe has a direction
     double alphaAcross = 1.0;                          ///< along the bitangent
+    bool reflectsLobe = true;                          ///< false leaves it out, as withoutMirrors() does
     scenes::Masking masking = scenes::Masking::Walter; ///< of the microfacet models
     double roughness = 0.0;        ///< as the model has it: perceptual, alpha, exponent of blinn_phong
     double ior = 1.5;              ///< n2/n1
@@ -28,8 +29,9 @@ struct SurfacePoint {
     glm::dvec3 tangent{0.0};       ///< unit, at right angles to it, where the lobe has a direction
     double coat = 0.0;             ///< 0..1, KHR_materials_clearcoat
     double coatAlpha = 1.0;
-    glm::dvec3 coatNormal{0.0}; ///< unit, where there is a coat
-    glm::dvec3 sheenColor{0.0}; ///< 0..1, KHR_materials_sheen
+    bool reflectsCoatLobe = true; ///< likewise; what lies below keeps its share
+    glm::dvec3 coatNormal{0.0};   ///< unit, where there is a coat
+    glm::dvec3 sheenColor{0.0};   ///< 0..1, KHR_materials_sheen
     double sheenAlpha = 1.0;
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that it goes round

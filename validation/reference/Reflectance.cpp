@@ -58,7 +58,7 @@ double microfacetLobe(const SurfacePoint& point, const Directions& directions, c
 /// (k_d + k_s F D G / (4 n.l n.v)) n.l. Source: Cook and Torrance 1982 with the D, G and F of Walter et al. 2007.
 glm::dvec3 microfacet(const SurfacePoint& point, const Directions& directions, bool specular) {
     glm::dvec3 brdf = point.color;
-    if (specular && directions.hasLobe()) {
+    if (specular && point.reflectsLobe && directions.hasLobe()) {
         const double f = fresnelDielectric(point.ior, directions.cosIncidence);
         brdf += point.specularColor * (f * microfacetLobe(point, directions, glm::dvec2(point.alpha)));
     }
@@ -68,7 +68,7 @@ glm::dvec3 microfacet(const SurfacePoint& point, const Directions& directions, b
 /// The same with a lobe of two alphas.
 glm::dvec3 microfacetAnisotropic(const SurfacePoint& point, const Directions& directions, bool specular) {
     glm::dvec3 brdf = point.color;
-    if (specular && directions.hasLobe()) {
+    if (specular && point.reflectsLobe && directions.hasLobe()) {
         const double f = fresnelDielectric(point.ior, directions.cosIncidence);
         brdf += point.specularColor * (f * microfacetLobe(point, directions, {point.alpha, point.alphaAcross}));
     }
@@ -111,7 +111,7 @@ glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const g
     const Directions directions(point.coatNormal, toLight, toViewer);
     const double weight = coatWeight(point, toViewer);
     double lobe = 0.0;
-    if (specular && directions.hasLobe()) {
+    if (specular && point.reflectsCoatLobe && directions.hasLobe()) {
         lobe = distributionGgx(point.coatAlpha, directions.cosHalf) *
                maskingCorrelated(point.coatAlpha, directions.cosLight, directions.cosView) /
                (4.0 * directions.cosView); // n.l cancels
@@ -119,20 +119,27 @@ glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const g
     return below * (1.0 - weight) + glm::dvec3(weight * lobe);
 }
 
-/// glTF 2.0 appendix B, with the reflectances of KHR_materials_ior and KHR_materials_specular. The Fresnel factor needs
-/// no lobe: where there is none, what it does not reflect still reaches the diffuse layer.
-glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& directions, bool specular) {
+/// Of metallic_roughness, with the reflectances of KHR_materials_ior and KHR_materials_specular.
+glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence) {
     const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
     const double grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
-    const double lobe = specular && directions.hasLobe() ? glossyLobe(point, directions) : 0.0;
-    glm::dvec3 brdf(0.0);
+    glm::dvec3 f;
     for (int c = 0; c < 3; ++c) {
         const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
         const double normalIncidence = dielectric + (point.color[c] - dielectric) * point.metallic;
-        const double f = fresnelSchlick(normalIncidence, grazing, directions.cosIncidence);
-        brdf[c] = (1.0 - f) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi + f * lobe;
+        f[c] = fresnelSchlick(normalIncidence, grazing, cosIncidence);
     }
-    return underSheen(point, directions, brdf, specular) * directions.cosLight;
+    return f;
+}
+
+/// glTF 2.0 appendix B. The Fresnel factor needs no lobe: where there is none, what it does not reflect still reaches
+/// the diffuse layer.
+glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& directions, bool specular) {
+    const bool hasLobe = specular && point.reflectsLobe && directions.hasLobe();
+    const double lobe = hasLobe ? glossyLobe(point, directions) : 0.0;
+    const glm::dvec3 f = fresnelOf(point, directions.cosIncidence);
+    const glm::dvec3 diffuse = (1.0 - f) * ((1.0 - point.metallic) / std::numbers::pi) * point.color;
+    return underSheen(point, directions, diffuse + f * lobe, specular) * directions.cosLight;
 }
 
 /// Of models whose diffuse reflection is the same in all directions.
@@ -144,15 +151,8 @@ glm::dvec3 colorOf(const SurfacePoint& point, const Directions&) {
 glm::dvec3 belowGloss(const SurfacePoint& point, const Directions& directions) {
     Directions lit = directions;
     lit.cosLight = std::max(directions.cosLight, 0.0);
-    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
-    const double grazing = std::lerp(point.specularFactor, 1.0, point.metallic);
-    glm::dvec3 brdf(0.0);
-    for (int c = 0; c < 3; ++c) {
-        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
-        const double reflected =
-            fresnelSchlick(std::lerp(dielectric, point.color[c], point.metallic), grazing, lit.cosIncidence);
-        brdf[c] = (1.0 - reflected) * (1.0 - point.metallic) * point.color[c] / std::numbers::pi;
-    }
+    const glm::dvec3 entering = 1.0 - fresnelOf(point, lit.cosIncidence);
+    const glm::dvec3 brdf = entering * ((1.0 - point.metallic) / std::numbers::pi) * point.color;
     return underSheen(point, lit, brdf, false);
 }
 
@@ -165,13 +165,32 @@ glm::dvec3 wrapped(const SurfacePoint& point, const Directions& directions, cons
     return modelOf(point.model).entering(point, directions) * cosine + highlight;
 }
 
+/// A mirror masks nothing, whatever the option.
+glm::dvec3 mirroredByMicrofacet(const SurfacePoint& point, double cosView) {
+    return point.specularColor * fresnelDielectric(point.ior, cosView);
+}
+
+glm::dvec3 mirroredByMetallicRoughness(const SurfacePoint& point, double cosView) {
+    const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
+    const double covered = strongest > 0.0 ? strongest * sheenAlbedo(point.sheenAlpha, cosView) : 0.0;
+    return fresnelOf(point, cosView) * std::max(1.0 - covered, 0.0);
+}
+
+bool isMirror(const SurfacePoint& point) {
+    return modelOf(point.model).mirrored && point.alpha <= kSmallestAlpha && point.alphaAcross <= kSmallestAlpha;
+}
+
+bool hasMirrorCoat(const SurfacePoint& point) {
+    return point.coat > 0.0 && point.coatAlpha <= kSmallestAlpha;
+}
+
 constexpr Model kModels[] = {
     {MaterialModel::SingleColor, unlit, colorOf},
     {MaterialModel::Lambert, lambert, colorOf},
     {MaterialModel::BlinnPhong, blinnPhong, colorOf},
-    {MaterialModel::Microfacet, microfacet, colorOf},
-    {MaterialModel::MicrofacetAnisotropic, microfacetAnisotropic, colorOf},
-    {MaterialModel::MetallicRoughness, metallicRoughness, belowGloss},
+    {MaterialModel::Microfacet, microfacet, colorOf, mirroredByMicrofacet},
+    {MaterialModel::MicrofacetAnisotropic, microfacetAnisotropic, colorOf, mirroredByMicrofacet},
+    {MaterialModel::MetallicRoughness, metallicRoughness, belowGloss, mirroredByMetallicRoughness},
 };
 static_assert(std::size(kModels) == scenes::kMaterialModelCount);
 
@@ -207,6 +226,26 @@ glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const
         brdfCosine = wrapped(point, directions, highlight);
     }
     return point.coat > 0.0 ? underCoat(point, brdfCosine, toLight, toViewer, specular) : brdfCosine;
+}
+
+std::vector<Mirror> mirrorsOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    std::vector<Mirror> mirrors;
+    const auto add = [&](const glm::dvec3& normal, const glm::dvec3& share) {
+        mirrors.push_back({2.0 * glm::dot(normal, toViewer) * normal - toViewer, share});
+    };
+    const double cosView = glm::dot(point.normal, toViewer),
+                 coat = point.coat > 0.0 ? coatWeight(point, toViewer) : 0.0;
+    if (isMirror(point) && cosView > 0.0)
+        add(point.normal, (1.0 - coat) * modelOf(point.model).mirrored(point, cosView));
+    if (hasMirrorCoat(point) && glm::dot(point.coatNormal, toViewer) > 0.0) add(point.coatNormal, glm::dvec3(coat));
+    return mirrors;
+}
+
+SurfacePoint withoutMirrors(const SurfacePoint& point) {
+    SurfacePoint rest = point;
+    rest.reflectsLobe = rest.reflectsLobe && !isMirror(point);
+    rest.reflectsCoatLobe = rest.reflectsCoatLobe && !hasMirrorCoat(point);
+    return rest;
 }
 
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer) {

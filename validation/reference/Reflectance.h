@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "validation/reference/MaterialAt.h"
 
@@ -23,6 +24,8 @@ struct Model {
     glm::dvec3 (*reflected)(const SurfacePoint& point, const Directions& directions, bool specular);
     /// BRDF of the light that enters the surface, for a light anywhere.
     glm::dvec3 (*entering)(const SurfacePoint& point, const Directions& directions);
+    /// What the lobe reflects of the radiance from one direction where it is a mirror; null: it never is.
+    glm::dvec3 (*mirrored)(const SurfacePoint& point, double cosView) = nullptr;
 };
 std::span<const Model> modelTable();
 
@@ -33,8 +36,17 @@ const Model& modelOf(scenes::MaterialModel model);
 /// horizon of each layer.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
 
-/// The same of light from below the horizon that passes through the surface and leaves it at the angle to the normal at
-/// which it meets it from below.
+/// In light from all around lobes of the least alpha are mirrors, by the product's definition.
+struct Mirror {
+    glm::dvec3 direction; ///< unit, of what it shows
+    glm::dvec3 share;     ///< of the radiance from there
+};
+std::vector<Mirror> mirrorsOf(const SurfacePoint& point, const glm::dvec3& toViewer);
+/// The rest of the surface.
+SurfacePoint withoutMirrors(const SurfacePoint& point);
+
+/// As reflected(), of light from below the horizon that passes through the surface and leaves it at the angle to the
+/// normal at which it meets it from below.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
 /// What leaves towards the viewer of light that has spread below the surface.

@@ -70,10 +70,10 @@ std::vector<std::unique_ptr<Strategy>> strategiesOf(const SurfacePoint& point, c
     const scenes::MaterialModelInfo& model = scenes::infoOf(point.model);
     if (model.microsurface == scenes::Microsurface::Parameter)
         strategies.push_back(std::make_unique<ByPower>(point.roughness, point.normal, toViewer));
-    else if (model.highlight != scenes::Highlight::None)
+    else if (model.highlight != scenes::Highlight::None && point.reflectsLobe)
         strategies.push_back(std::make_unique<ByMicrofacets>(glm::dvec2(point.alpha, point.alphaAcross), point.normal,
                                                              point.tangent, toViewer));
-    if (point.coat > 0.0)
+    if (point.coat > 0.0 && point.reflectsCoatLobe)
         strategies.push_back(
             std::make_unique<ByMicrofacets>(glm::dvec2(point.coatAlpha), point.coatNormal, glm::dvec3(0.0), toViewer));
     return strategies;

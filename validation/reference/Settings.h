@@ -35,7 +35,7 @@ struct Settings {
     glm::ivec2 sizePixels{1280, 720};
     scenes::Camera camera;
     double timeSeconds = 0.0;     ///< of animated lights
-    std::optional<int> soloLight; ///< index into Scene::lights: only this one shines
+    std::optional<int> soloLight; ///< index into Scene::lights: only this one shines, not the environment
     scenes::ShadowRequest shadows;
     scenes::SubsurfaceRequest subsurface;
     int diffusionPoints = 256;           ///< of the surface around a point that light spreads to

@@ -25,7 +25,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     turnRadians_ = glm::radians(double(scene.environment->rotationDegrees) + settings.environmentRotationDegrees);
     isSeen_ = settings.environmentIsSeen;
     compensates_ = settings.environmentCompensates;
-    lights_ = settings.environmentLights && intensity_ > 0.0;
+    lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
     for (const scenes::Material& material : scene.materials)
@@ -127,7 +127,7 @@ namespace {
 /// What comes out again, in all directions alike, of light that meets a rough lobe more than once: a BRDF. Integrates
 /// the lobe itself, once as it is and once of a metal that absorbs nothing.
 glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
-    if (scenes::infoOf(point.model).microsurface != scenes::Microsurface::MetallicRoughness ||
+    if (scenes::infoOf(point.model).microsurface != scenes::Microsurface::MetallicRoughness || !point.reflectsLobe ||
         !(glm::dot(point.normal, toViewer) > 0.0))
         return glm::dvec3(0.0);
     if (point.tangent != glm::dvec3(0.0) && point.alpha != point.alphaAcross) return glm::dvec3(0.0); // by definition
@@ -182,16 +182,20 @@ private:
 Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                           std::uint32_t seed) const {
     const ByMap map(*this);
-    const std::vector<std::unique_ptr<Strategy>> ofSurface = strategiesOf(point, toViewer, specular);
+    const SurfacePoint rest = withoutMirrors(point);
+    const std::vector<std::unique_ptr<Strategy>> ofSurface = strategiesOf(rest, toViewer, specular);
     std::vector<const Strategy*> strategies{&map};
     for (const auto& strategy : ofSurface) strategies.push_back(strategy.get());
-    const glm::dvec3 bounces = compensates_ && specular ? bouncesOf(point, toViewer) : glm::dvec3(0.0);
-    const Estimate all = sampled(strategies, paths_, seed, [&](const glm::dvec3& direction) {
-        glm::dvec3 share = reflected(point, direction, toViewer, specular);
-        if (onlyLobes) share -= reflected(point, direction, toViewer, false);
+    const glm::dvec3 bounces = compensates_ && specular ? bouncesOf(rest, toViewer) : glm::dvec3(0.0);
+    Estimate all = sampled(strategies, paths_, seed, [&](const glm::dvec3& direction) {
+        glm::dvec3 share = reflected(rest, direction, toViewer, specular);
+        if (onlyLobes) share -= reflected(rest, direction, toViewer, false);
         share += bounces * std::max(glm::dot(point.normal, direction), 0.0);
         return share == glm::dvec3(0.0) ? share : share * radianceOf(direction);
     });
+    if (specular)
+        for (const Mirror& mirror : mirrorsOf(point, toViewer))
+            all.light += mirror.share * radianceOf(mirror.direction);
     return all.times(point.openness);
 }
 

@@ -2,8 +2,12 @@
 // lobe sees on average, times what the lobe reflects of even light. Source: Karis 2013, "Real Shading in Unreal
 // Engine 4". Exact for light that is the same everywhere; elsewhere its error is stated in docs/environment.md.
 #pragma once
+#if HAS_MIRRORS
+#include "lib/environment/environment_map.glsl"
+#endif
 #include "lib/environment/filtered_map.glsl"
 #include "lib/reflectance/even_light.glsl"
+#include "lib/reflectance/mirrors.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
 vec3 irradianceOn(vec3 normalLS)
@@ -12,24 +16,31 @@ vec3 irradianceOn(vec3 normalLS)
     return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, level);
 }
 
-vec3 filteredLight(vec3 directionLS, float alpha)
+// What a lobe sees: around its axis, by the two levels whose alphas lie around its own; below the first of them the
+// sharper the more of the map itself, in the direction that mirrors the viewer.
+vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
 {
-    precise float level = alpha < ENVIRONMENT_LEAST_ALPHA
-                              ? alpha / ENVIRONMENT_LEAST_ALPHA
-                              : 1.0 + log2(alpha / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
-    int fine = clamp(int(level), 0, int(environment.light.y) - 1);
+    precise float level = log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
+    int fine = min(int(level), int(environment.light.y) - 1);
     precise float share = min(level - float(fine), 1.0);
-    vec2 code = encodeOctahedral(mapDirection(directionLS));
+    vec2 code = encodeOctahedral(mapDirection(axisLS));
     vec3 fineLight = filteredLevel(code, fine), coarseLight = filteredLevel(code, fine + 1);
     precise vec3 light = fineLight + share * (coarseLight - fineLight);
+#if HAS_MIRRORS
+    float sharp = mirrorShare(alpha);
+    if (sharp > 0.0) {
+        vec3 mirrored = mapRadiance(mapDirection(mirroredLS)).rgb;
+        precise vec3 blended = light * (1.0 - sharp) + mirrored * sharp;
+        return blended;
+    }
+#endif
     return light;
 }
 
 // Where most of a lobe's light comes from: the rougher, the nearer to the normal. Source: Lagarde and de Rousiers 2014,
 // "Moving Frostbite to Physically Based Rendering", section 4.9.3.
-vec3 lobeAxis(vec3 normal, vec3 toViewer, float alpha)
+vec3 lobeAxis(vec3 normal, vec3 mirrored, float alpha)
 {
-    precise vec3 mirrored = 2.0 * dot(normal, toViewer) * normal - toViewer;
     precise float smoothness = clamp(1.0 - alpha, 0.0, 1.0);
     precise float share = smoothness * (sqrt(smoothness) + alpha);
     precise vec3 axis = normal + share * (mirrored - normal);
@@ -50,8 +61,7 @@ vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
     precise float share = (2.0 * float(tap) + 1.0) / float(kStretchedTaps) - 1.0;
     precise float slope = wide * share / sqrt(1.0 - share * share);
     precise vec3 leaning = surface.normalLS + slope * axis;
-    vec3 facet = safeNormalize(leaning, surface.normalLS);
-    precise vec3 mirrored = 2.0 * dot(facet, seen.toViewer) * facet - seen.toViewer;
+    vec3 mirrored = mirrorDirection(safeNormalize(leaning, surface.normalLS), seen.toViewer);
     precise float weight = max(dot(mirrored, surface.normalLS), 0.0);
     alpha = max(narrow, wide / float(kStretchedTaps));
     return vec4(mirrored, weight);
@@ -69,6 +79,9 @@ LobeLight lightOfLobes(SeenSurface seen)
     int baseTaps = hasLobe(seen) ? 1 : 0, coatTaps = 0;
 #if HAS_TANGENT_FRAME
     if (baseTaps > 0 && isAnisotropic(seen.surface)) baseTaps = kStretchedTaps;
+#if HAS_MIRRORS
+    if (isMirror(seen)) baseTaps = 1;
+#endif
 #endif
 #if HAS_CLEARCOAT && !SPECULAR_OFF
     if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0) coatTaps = 1;
@@ -85,12 +98,16 @@ LobeLight lightOfLobes(SeenSurface seen)
             alpha = seen.surface.coatAlpha;
         }
 #endif
-        vec4 along = vec4(lobeAxis(normal, seen.toViewer, alpha), 1.0);
+        vec3 mirrored = mirrorDirection(normal, seen.toViewer);
+        vec4 along = vec4(lobeAxis(normal, mirrored, alpha), 1.0);
 #if HAS_TANGENT_FRAME
-        if (baseTaps > 1 && tap < baseTaps) along = stretchedTap(seen, tap, alpha);
+        if (baseTaps > 1 && tap < baseTaps) {
+            along = stretchedTap(seen, tap, alpha);
+            mirrored = along.xyz;
+        }
 #endif
         if (!(along.w > 0.0)) continue;
-        vec3 light = filteredLight(along.xyz, alpha);
+        vec3 light = filteredLight(along.xyz, mirrored, alpha);
         if (tap < baseTaps) {
             sum += along.w * light;
             weights += along.w;

@@ -7,6 +7,7 @@
 #if ENVIRONMENT_COMPENSATION
 #include "lib/reflectance/lobes.glsl"
 #endif
+#include "lib/reflectance/mirrors.glsl"
 #include "lib/maths/random.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
@@ -150,7 +151,7 @@ vec3 bouncesBelowLayers(SeenSurface seen)
 #if ENVIRONMENT_COMPENSATION && HAS_GGX_MODELS
     precise vec3 bounces = lostToBounces(seen) * kInversePi;
 #if HAS_SHEEN
-    bounces *= max(1.0 - strongestSheen(seen.surface) * sheenAlbedo(seen.surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
+    bounces *= viewerShareUnderSheen(seen);
 #endif
 #if HAS_CLEARCOAT
     bounces *= 1.0 - seen.coatWeight;
@@ -181,9 +182,44 @@ vec3 sampledDirection(SeenSurface seen, vec3 bounces, vec3 toLight)
     return sampledLight(seen, bounces, toLight, found.rgb, found.a);
 }
 
+#if HAS_MIRRORS
+// Radiance towards the viewer of lobes that are mirrors, before the map's intensity. No sample would find their direction,
+// so they are taken from what is sampled.
+vec3 takeMirrors(inout SeenSurface seen)
+{
+    precise vec3 light = vec3(0.0);
+#if HAS_GGX_MODELS
+    if (isMirror(seen)) {
+        precise vec3 reflected = mirrorReflectance(seen);
+#if HAS_SHEEN
+        if (HAS_METALLIC(seen.surface.model)) reflected *= viewerShareUnderSheen(seen);
+#endif
+#if HAS_CLEARCOAT
+        reflected *= 1.0 - seen.coatWeight;
+#endif
+        light = reflected * mapRadiance(mapDirection(mirrorDirection(seen.surface.normalLS, seen.toViewer))).rgb;
+        seen.scale = 0.0; // of the distribution of normals
+        if (IS_MICROFACET(seen.surface.model)) seen.surface.model = MODEL_LAMBERT; // as they are below their lobe
+    }
+#endif
+#if HAS_CLEARCOAT && !SPECULAR_OFF
+    if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0 && seen.surface.coatAlpha <= ALPHA_MIN) {
+        light += seen.coatWeight * mapRadiance(mapDirection(mirrorDirection(seen.coatNormalLS, seen.toViewer))).rgb;
+        seen.coatNv = 0.0; // seen edge-on it has no lobe
+    }
+#endif
+    return light;
+}
+#endif
+
 // Radiance towards the viewer of the map's light, before its intensity.
 vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 {
+    bool hasLobe = hasSampledLobe(seen);
+#if HAS_MIRRORS
+    hasLobe = hasLobe && !isMirror(seen);
+    vec3 mirrored = takeMirrors(seen);
+#endif
     uvec3 random = hashOf(uvec3(uvec2(pixel), 0x9e3779b9u));
     const int kRuns = (1 << ENVIRONMENT_SAMPLES_LOG2) / ENVIRONMENT_SAMPLES;
     int first = int(random.z % uint(kRuns)) * ENVIRONMENT_SAMPLES;
@@ -193,7 +229,6 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 #else
     vec3 tangent = anyPerpendicular(normal);
 #endif
-    bool hasLobe = hasSampledLobe(seen);
     vec3 bounces = bouncesBelowLayers(seen);
     precise vec3 sum = vec3(0.0);
     for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
@@ -209,6 +244,10 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
                                                             seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
 #endif
     }
-    precise vec3 mean = sum * (environment.light.x * openShare(seen.surface) / float(ENVIRONMENT_SAMPLES));
+    precise float scale = environment.light.x * openShare(seen.surface);
+    precise vec3 mean = sum * (scale / float(ENVIRONMENT_SAMPLES));
+#if HAS_MIRRORS
+    mean += mirrored * scale;
+#endif
     return mean;
 }

@@ -9,7 +9,7 @@ layout(binding = TEXTURE_UNIT_ENVIRONMENT_FILTERED) uniform sampler2D filteredEn
 
 vec3 filteredTexel(vec2 code, int side, int level)
 {
-    vec2 origin = vec2(filteredOrigin(int(environment.light.w), level));
+    vec2 origin = vec2(0.0, float(filteredTop(int(environment.light.w), level)));
     precise vec2 place = (0.5 * code + 0.5) * float(side) + (origin + 1.0);
     precise vec2 uv = place / vec2(textureSize(filteredEnvironment, 0));
     return textureLod(filteredEnvironment, uv, 0.0).rgb;

@@ -2,6 +2,7 @@
 // these shares times what enters, what falls on the surface, and what each lobe sees.
 #pragma once
 #include "lib/reflectance/lobes.glsl"
+#include "lib/reflectance/mirrors.glsl"
 
 struct EvenShares {
     vec3 ofEntering;   // of the irradiance that enters the surface, around the horizon too where it wraps
@@ -21,41 +22,51 @@ bool hasLobe(SeenSurface seen)
 #endif
 }
 
+#if HAS_MIRRORS && HAS_GGX_MODELS
+// Fresnel's factor itself as far as the lobe is a mirror, in place of what the table has between its places.
+vec3 towardsMirror(SeenSurface seen, vec3 reflected)
+{
+    float share = mirrorShare(lobeAlpha(seen.surface));
+    precise vec3 blended = reflected * (1.0 - share) + mirrorReflectance(seen) * share;
+    return blended;
+}
+#endif
+
 #if HAS_GGX_MODELS
-// What a dielectric's lobe reflects of even light. By parabolas above index 1, where reflectances go by the square of
-// the contrast; by lines below it, where total reflection begins at an edge.
+// What a dielectric's lobe reflects of even light, by parabolas through three indices of refraction on one side of 1.
 float reflectedByDielectric(SeenSurface seen)
 {
-    float place = iorPlace(seen.surface.iorOrF90);
-    bool isDenser = place >= float(LOBE_TABLE_IOR_ONE);
-    int first = isDenser ? min(int(place), LOBE_TABLE_IORS - 3) : max(int(place), 0);
-    precise float t = place - float(first);
-    precise vec3 shares = isDenser ? vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0))
-                                   : vec3(1.0 - t, t, 0.0);
-    float alpha = lobeAlpha(seen.surface);
+    float ior = seen.surface.iorOrF90;
+    float number = iorPlace(ior);
+    bool isDenser = number >= float(LOBE_TABLE_IOR_ONE);
+    int first = min(max(int(number), 0), (isDenser ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE) - 2);
+    precise float t = number - float(first);
+    precise vec3 shares = vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0));
+    vec2 place = vec2(lobeColumn(ior, clamp(seen.nv, 0.0, 1.0)), sqrt(clamp(lobeAlpha(seen.surface), 0.0, 1.0)));
     precise float reflected = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        int number = first + i;
-        reflected += shares[i] * lobeTexel(seen.nv, alpha, LOBE_LAYER_DIELECTRIC + number / 4)[number % 4];
-    }
-    return max(reflected, 0.0);
+    for (int i = 0; i < 3; ++i)
+        reflected += shares[i] * lobeTexelAt(place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4];
+    return clamp(reflected, 0.0, 1.0);
 }
 
-void addMetallicRoughness(SeenSurface seen, const bool compensated, inout EvenShares shares)
+void addMetallicRoughness(SeenSurface seen, const bool fromAllAround, inout EvenShares shares)
 {
     Surface surface = seen.surface;
     vec4 lobe = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX);
     precise vec3 entering = seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a);
     precise vec3 highlight = hasLobe(seen) ? seen.f0 * lobe.r + seen.fresnelRise * lobe.g : vec3(0.0);
+#if HAS_MIRRORS
+    if (fromAllAround && hasLobe(seen)) highlight = towardsMirror(seen, highlight);
+#endif
     precise vec3 besides = vec3(0.0);
 #if ENVIRONMENT_COMPENSATION
-    if (compensated) besides = lostToBounces(seen) * kInversePi;
+    if (fromAllAround) besides = lostToBounces(seen) * kInversePi;
 #endif
 #if HAS_SHEEN
     if (strongestSheen(surface) > 0.0) {
         vec2 sheen = lobeTexel(max(seen.nv, 0.0), surface.sheenAlpha, LOBE_LAYER_SHEEN).rg;
         entering *= max(1.0 - strongestSheen(surface) * sheen.g, 0.0);
-        precise float below = max(1.0 - strongestSheen(surface) * sheenAlbedo(surface.sheenAlpha, max(seen.nv, 0.0)), 0.0);
+        float below = viewerShareUnderSheen(seen);
         highlight *= below;
         besides *= below;
         // A sheen is as broad as a diffuse reflection.
@@ -68,7 +79,7 @@ void addMetallicRoughness(SeenSurface seen, const bool compensated, inout EvenSh
 }
 #endif
 
-void addTeachingModels(SeenSurface seen, inout EvenShares shares)
+void addTeachingModels(SeenSurface seen, const bool fromAllAround, inout EvenShares shares)
 {
     shares.ofEntering = seen.surface.albedo;
     if (!hasLobe(seen)) return;
@@ -84,22 +95,26 @@ void addTeachingModels(SeenSurface seen, inout EvenShares shares)
 #if HAS_GGX_MODELS
     if (IS_MICROFACET(seen.surface.model)) {
         precise vec3 highlight = seen.surface.specular * reflectedByDielectric(seen);
+#if HAS_MIRRORS
+        if (fromAllAround) highlight = towardsMirror(seen, highlight);
+#endif
         shares.ofLobe = highlight;
     }
 #endif
 }
 
-// `compensated`: with what the lobe loses between microfacets, where that is asked for.
-EvenShares evenShares(SeenSurface seen, const bool compensated)
+// `fromAllAround`: of an environment, not of a light's surface: lobes may be mirrors, and what they lose between
+// microfacets comes back where that is asked for.
+EvenShares evenShares(SeenSurface seen, const bool fromAllAround)
 {
     EvenShares shares;
     shares.ofEntering = shares.ofIrradiance = shares.ofLobe = vec3(0.0);
     bool isMetallic = false;
 #if HAS_GGX_MODELS
     isMetallic = HAS_METALLIC(seen.surface.model);
-    if (isMetallic) addMetallicRoughness(seen, compensated, shares);
+    if (isMetallic) addMetallicRoughness(seen, fromAllAround, shares);
 #endif
-    if (!isMetallic) addTeachingModels(seen, shares);
+    if (!isMetallic) addTeachingModels(seen, fromAllAround, shares);
 #if HAS_CLEARCOAT
     shares.ofCoat = vec3(0.0);
     if (seen.surface.coatFactor > 0.0) {
@@ -109,8 +124,14 @@ EvenShares evenShares(SeenSurface seen, const bool compensated)
         shares.ofLobe *= below;
 #if !SPECULAR_OFF
         if (seen.coatNv > 0.0) {
-            precise vec3 coat =
-                vec3(seen.coatWeight * lobeTexel(seen.coatNv, seen.surface.coatAlpha, LOBE_LAYER_GGX).r);
+            precise float whole = lobeTexel(seen.coatNv, seen.surface.coatAlpha, LOBE_LAYER_GGX).r;
+#if HAS_MIRRORS
+            if (fromAllAround) {
+                float share = mirrorShare(seen.surface.coatAlpha);
+                whole = whole * (1.0 - share) + share;
+            }
+#endif
+            precise vec3 coat = vec3(seen.coatWeight * whole);
             shares.ofCoat = coat;
         }
 #endif

@@ -1,15 +1,22 @@
 // What lobes reflect of even light, by the table renderer/frame/LobeTable.h.
 #pragma once
 #include "shared/lobe_table.h"
+#include "lib/reflectance/mirrors.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
 layout(binding = TEXTURE_UNIT_LOBES) uniform sampler2DArray lobeTable;
 
+// `place` from 0 to 1 along both sides.
+vec4 lobeTexelAt(vec2 place, int layer)
+{
+    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
+    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
+}
+
 vec4 lobeTexel(float cosine, float alpha, int layer)
 {
     precise vec2 place = sqrt(clamp(vec2(cosine, alpha), 0.0, 1.0));
-    precise vec2 texel = (place * float(LOBE_TABLE_SIDE - 1) + 0.5) / float(LOBE_TABLE_SIDE);
-    return textureLod(lobeTable, vec3(texel, float(layer)), 0.0);
+    return lobeTexelAt(place, layer);
 }
 
 // Of a lobe that is as wide as the surface's; one alpha in place of two, where the table has no more.
@@ -41,6 +48,9 @@ vec3 lostToBounces(SeenSurface seen)
     if (SPECULAR_OFF != 0 || !HAS_METALLIC(seen.surface.model) || !(seen.nv > 0.0)) return vec3(0.0);
 #if HAS_TANGENT_FRAME
     if (isAnisotropic(seen.surface)) return vec3(0.0); // the table knows one alpha
+#endif
+#if HAS_MIRRORS
+    if (isMirror(seen)) return vec3(0.0);
 #endif
     vec4 lobe = lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX);
     precise vec3 once = seen.f0 * lobe.r + seen.fresnelRise * lobe.g;

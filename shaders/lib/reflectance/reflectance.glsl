@@ -172,6 +172,14 @@ float shareUnderSheen(Surface surface, Directions directions)
     return share;
 }
 
+// The same of light that arrives as steeply as it leaves, or whose direction is no matter.
+float viewerShareUnderSheen(SeenSurface seen)
+{
+    precise float albedo = sheenAlbedo(seen.surface.sheenAlpha, max(seen.nv, 0.0));
+    precise float share = max(1.0 - strongestSheen(seen.surface) * albedo, 0.0);
+    return share;
+}
+
 vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 {
     if (!(strongestSheen(surface) > 0.0)) return brdf;

@@ -9,6 +9,7 @@
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LobeTable.h"
 #include "scenes/builtin/Pictures.h"
+#include "shaders/shared/environment.h"
 #include "shaders/shared/lobe_table.h"
 #include "tests/support/TempFolder.h"
 
@@ -145,13 +146,39 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
         const Octahedron& level = filtered.levels[std::size_t(i)];
         // A lobe moves light but keeps its sum, as far as texels of cubes can tell.
         EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
-        if (i == 0) continue;
         // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
         // sharp lobes and 1/4 where they are as broad as can be.
         const double alpha = alphaOfLevel(i, levels);
         const double most = 1.5 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& texel : level.texels) ASSERT_LE(double(texel.x), most) << i;
     }
+}
+
+TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
+    const scenes::Image map = mapOf(64, 32, [](int x, int y) { return x + 100.0 * y; });
+    const FilteredEnvironment filtered = filterEnvironment(map);
+    const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
+    ASSERT_EQ(filtered.levels.size(), std::size_t(levels));
+    EXPECT_NEAR(alphaOfLevel(0, levels), ENVIRONMENT_LEAST_ALPHA, 1e-12);
+    EXPECT_EQ(alphaOfLevel(levels - 1, levels), 1.0);
+    const std::vector<glm::vec4> atlas = atlasOf(filtered);
+    const glm::ivec2 size = atlasTexels(side);
+    ASSERT_EQ(atlas.size(), std::size_t(size.x) * std::size_t(size.y));
+    std::size_t texels = 0;
+    const auto expectAt = [&](const Octahedron& level, int number, int sideTexels) {
+        ASSERT_EQ(level.side, sideTexels);
+        for (int y = 0; y < level.side; ++y)
+            for (int x = 0; x < level.side; ++x) {
+                const auto row = std::size_t(shared::filteredTop(side, number) + 1 + y);
+                ASSERT_EQ(glm::vec3(atlas[row * std::size_t(size.x) + std::size_t(1 + x)]), level.at(x, y)) << number;
+                ++texels;
+            }
+    };
+    for (int level = 0; level < levels; ++level)
+        expectAt(filtered.levels[std::size_t(level)], level, shared::filteredSide(side, level));
+    EXPECT_EQ(filtered.levels.back().side, kLeastFilteredSide);
+    expectAt(filtered.irradiance, levels, ENVIRONMENT_IRRADIANCE_SIDE);
+    EXPECT_EQ(texels, 2u * (64 * 64 + 32 * 32) + 64 * 64);
 }
 
 /// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md
@@ -241,13 +268,81 @@ TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
         ASSERT_LT(table[(LOBE_LAYER_DIELECTRIC + number / 4) * kLayer + i][int(number % 4)], 1e-6f) << i;
 }
 
-/// Of the first layer, as shaders do it.
-glm::vec4 lookedUp(const std::vector<glm::vec4>& table, double cosine, double alpha) {
-    const glm::dvec2 place = glm::sqrt(glm::dvec2(cosine, alpha)) * (LOBE_TABLE_SIDE - 1.0);
+/// A place from 0 to 1 along both sides of a layer, as shaders look it up.
+glm::vec4 interpolatedAt(const std::vector<glm::vec4>& table, const glm::dvec2& along, int layer) {
+    const glm::dvec2 place = along * (LOBE_TABLE_SIDE - 1.0);
     const glm::ivec2 low = glm::min(glm::ivec2(place), glm::ivec2(LOBE_TABLE_SIDE - 2));
     const glm::vec2 share(place - glm::dvec2(low));
-    const auto texel = [&](int i, int j) { return table[std::size_t((low.y + j) * LOBE_TABLE_SIDE + low.x + i)]; };
+    const auto texel = [&](int i, int j) {
+        return table[std::size_t((layer * LOBE_TABLE_SIDE + low.y + j) * LOBE_TABLE_SIDE + low.x + i)];
+    };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x), glm::mix(texel(0, 1), texel(1, 1), share.x), share.y);
+}
+
+glm::vec4 lookedUp(const std::vector<glm::vec4>& table, double cosine, double alpha) {
+    return interpolatedAt(table, glm::sqrt(glm::dvec2(cosine, alpha)), LOBE_LAYER_GGX);
+}
+
+/// reflectedByDielectric() of shaders/lib/reflectance/even_light.glsl.
+double dielectricLookedUp(const std::vector<glm::vec4>& table, double ior, double cosine, double alpha) {
+    const double number = double(shared::iorPlace(float(ior)));
+    const int last = number >= LOBE_TABLE_IOR_ONE ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE;
+    const int first = std::min(int(number), last - 2);
+    const double t = number - first;
+    const double shares[] = {0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0)};
+    const glm::dvec2 place(double(shared::lobeColumn(float(ior), float(cosine))), std::sqrt(alpha));
+    double reflected = 0.0;
+    for (int i = 0; i < 3; ++i)
+        reflected +=
+            shares[i] * double(interpolatedAt(table, place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4]);
+    return std::clamp(reflected, 0.0, 1.0);
+}
+
+/// F by Snell's law.
+double fresnelBySnell(double ior, double cosine) {
+    const double sine = std::sqrt(1.0 - cosine * cosine) / ior;
+    if (!(sine < 1.0)) return 1.0;
+    const double inside = std::sqrt(1.0 - sine * sine);
+    const double across = (cosine - ior * inside) / (cosine + ior * inside);
+    const double along = (ior * cosine - inside) / (ior * cosine + inside);
+    return 0.5 * (across * across + along * along);
+}
+
+/// By half vectors h with the density D n.h, dl = 4 v.h dh: the mean of F G v.h / (n.v n.h).
+double reflectedByHalfVectors(double ior, double cosView, double alpha) {
+    constexpr int kRings = 512, kTurns = 256;
+    const double sine = std::sqrt(1.0 - cosView * cosView);
+    const auto masked = [&](double cosine) {
+        return 2.0 * cosine / (cosine + std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine));
+    };
+    double sum = 0.0;
+    for (int i = 0; i < kRings; ++i) {
+        const double left = (i + 0.5) / kRings, weight = 4.0 * left * left * left; // finer far from the normal
+        const double u = 1.0 - left * left * left * left, slope = alpha * std::sqrt(u / (1.0 - u));
+        const double cosHalf = 1.0 / std::sqrt(1.0 + slope * slope), sineHalf = slope * cosHalf;
+        for (int j = 0; j < kTurns; ++j) {
+            const double turn = 2.0 * pi * (j + std::fmod(0.618 * i, 1.0)) / kTurns;
+            const double incidence = cosHalf * cosView + sineHalf * sine * std::cos(turn);
+            const double cosLight = 2.0 * incidence * cosHalf - cosView;
+            if (!(incidence > 0.0 && cosLight > 0.0)) continue;
+            sum += weight * fresnelBySnell(ior, std::min(incidence, 1.0)) * masked(cosLight) * masked(cosView) *
+                   incidence / (cosView * cosHalf);
+        }
+    }
+    return sum / (double(kRings) * kTurns);
+}
+
+/// Where total reflection begins as elsewhere, and on both sides of index 1.
+TEST(LobeTable, aDielectricsLobeIsInterpolatedWithinTwoPercent) {
+    const std::vector<glm::vec4>& table = lobeTable();
+    for (const double ior : {0.15, 0.4, 0.6, 0.7, 0.75, 0.83, 0.93, 0.98, 1.2, 1.33, 1.5, 2.5})
+        for (const double alpha : {0.005, 0.03, 0.1, 0.3, 0.6, 1.0})
+            for (int i = 0; i < 12; ++i) {
+                const double cosine = 0.08 + 0.083 * i;
+                const double truth = reflectedByHalfVectors(ior, cosine, alpha);
+                EXPECT_NEAR(dielectricLookedUp(table, ior, cosine, alpha), truth, 0.02 * truth + 5e-4)
+                    << ior << ", alpha " << alpha << ", cosine " << cosine;
+            }
 }
 
 /// Blinn's highlight (n.h)^p over all lights dl = 4 v.h dh, by circles of half vectors.

@@ -104,6 +104,10 @@ std::vector<Change> changes() {
              m.model = MaterialModel::MetallicRoughness;
              m.sheenColor.z = 0.1f;
          })},
+        {Feature::Mirrors, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.perceptualRoughness = 0.1f;
+         })},
         {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
         {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
@@ -138,6 +142,69 @@ TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);
     EXPECT_EQ(tested.size(), kFeatureCount);
+}
+
+TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFilteredLight) {
+    struct Case {
+        bool mayMirror;
+        std::function<void(Material&)> set;
+    };
+    const auto metal = [](float roughness) {
+        return [roughness](Material& m) {
+            m.model = MaterialModel::MetallicRoughness;
+            m.perceptualRoughness = roughness;
+        };
+    };
+    const auto dielectric = [](MaterialModel model, float alpha, float alphaY) {
+        return [=](Material& m) {
+            m.model = model;
+            m.alpha = alpha;
+            m.alphaY = alphaY;
+        };
+    };
+    const auto blinn = [](float exponent) {
+        return [exponent](Material& m) {
+            m.model = MaterialModel::BlinnPhong;
+            m.exponent = exponent;
+        };
+    };
+    const auto also = [](auto first, const std::function<void(Material&)>& second) {
+        return [=](Material& m) {
+            first(m);
+            second(m);
+        };
+    };
+    const auto coat = [](float roughness) {
+        return [roughness](Material& m) {
+            m.clearcoat = 0.5f;
+            m.clearcoatPerceptualRoughness = roughness;
+        };
+    };
+    const auto textured = [](TextureSlot slot) { return [slot](Material& m) { addTexture(m, slot); }; };
+    const std::vector<Case> cases = {
+        {true, metal(0.0f)},
+        {true, metal(0.1f)}, // alpha 0.01
+        {false, metal(0.11f)},
+        {true, also(metal(1.0f), textured(TextureSlot::MetallicRoughness))},
+        {true, also(metal(1.0f), coat(0.0f))},
+        {false, also(metal(1.0f), coat(0.5f))},
+        {true, also(also(metal(1.0f), coat(0.5f)), textured(TextureSlot::ClearcoatRoughness))},
+        {false, also(metal(1.0f), textured(TextureSlot::ClearcoatRoughness))}, // without a coat
+        {false, also(metal(1.0f), textured(TextureSlot::BaseColor))},
+        {true, dielectric(MaterialModel::Microfacet, 0.01f, 1.0f)},
+        {false, dielectric(MaterialModel::Microfacet, 0.02f, 0.0f)},
+        {true, dielectric(MaterialModel::MicrofacetAnisotropic, 0.02f, 0.0f)},
+        {false, dielectric(MaterialModel::MicrofacetAnisotropic, 0.02f, 0.02f)},
+        {true, also(dielectric(MaterialModel::MicrofacetAnisotropic, 0.5f, 0.5f), textured(TextureSlot::Anisotropy))},
+        {true, blinn(2e4f)}, // as wide as alpha 0.01
+        {false, blinn(1e4f)},
+        {true, also(blinn(1e4f), textured(TextureSlot::MetallicRoughness))},
+        {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has none
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        scenes::Scene scene = plainScene();
+        cases[i].set(scene.materials[0]);
+        EXPECT_EQ(materialFeatures(scene)[Feature::Mirrors], cases[i].mayMirror) << "case " << i;
+    }
 }
 
 TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {

@@ -6,6 +6,7 @@
 
 #include "tests/image/Textbook.h"
 #include "tests/support/Random.h"
+#include "validation/reference/Sampling.h"
 
 namespace tessera::reference {
 namespace {
@@ -181,6 +182,66 @@ TEST(ReferenceReflectance, specularAloneIsReciprocal) {
             const glm::dvec3 there = lobe(l, v) / nl, back = lobe(v, l) / nv;
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(there[c], back[c], 1e-9 * std::max(there[c], 1e-3));
         }
+    }
+}
+
+TEST(ReferenceReflectance, aMirrorReflectsAllThatItsLobeWouldAndWhatLiesAboveTakesItsShare) {
+    test::Random random(24);
+    const glm::dvec3 n(0.0, 0.0, 1.0);
+    for (const MaterialModel model :
+         {MaterialModel::Microfacet, MaterialModel::MicrofacetAnisotropic, MaterialModel::MetallicRoughness})
+        for (int i = 0; i < 20; ++i) {
+            Material material = randomMaterial(model, random);
+            material.perceptualRoughness = material.alpha = material.alphaY = 0.0f;
+            material.ior = 1.1f + float(random.unit()); // no edge of total reflection
+            SurfacePoint point = pointOf(material, n);
+            if (model == MaterialModel::MetallicRoughness) {
+                point.coat = random.unit();
+                point.coatAlpha = 0.5;
+                point.coatNormal = glm::normalize(glm::dvec3(0.2, 0.1, 1.0));
+                point.sheenColor = glm::dvec3(random.unit());
+                point.sheenAlpha = 0.3;
+            }
+            const double cosView = 0.3 + 0.7 * random.unit(), sine = std::sqrt(1.0 - cosView * cosView);
+            const glm::dvec3 toViewer(0.6 * sine, -0.8 * sine, cosView);
+            const std::vector<Mirror> mirrors = mirrorsOf(point, toViewer);
+            ASSERT_EQ(mirrors.size(), 1u);
+            EXPECT_LT(glm::distance(mirrors[0].direction, glm::dvec3(-toViewer.x, -toViewer.y, cosView)), 1e-12);
+            const SurfacePoint rest = withoutMirrors(point);
+            const ByMicrofacets lobe(glm::dvec2(point.alpha), n, point.tangent, toViewer);
+            constexpr int kSide = 32;
+            glm::dvec3 sum(0.0);
+            for (int cell = 0; cell < kSide * kSide; ++cell) {
+                const glm::dvec3 l = lobe.direction({(cell % kSide + 0.5) / kSide, (cell / kSide + 0.5) / kSide});
+                sum += (reflected(point, l, toViewer, true) - reflected(rest, l, toViewer, true)) /
+                       (lobe.density(l) * kSide * kSide);
+            }
+            // A lobe of alpha 0.001 sees other angles by as much.
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(sum[c], mirrors[0].share[c], 5e-3 * mirrors[0].share[c] + 1e-9) << int(model) << ' ' << i;
+        }
+}
+
+TEST(ReferenceReflectance, onlyGgxLobesOfTheLeastAlphaAreMirrors) {
+    test::Random random(25);
+    const glm::dvec3 n(0.0, 0.0, 1.0), toViewer(0.6, 0.0, 0.8);
+    for (const MaterialModel model : kLit) {
+        Material material = randomMaterial(model, random);
+        material.alpha = material.alphaY = 1.1e-3f;
+        material.perceptualRoughness = 0.04f;
+        SurfacePoint point = pointOf(material, n);
+        EXPECT_TRUE(mirrorsOf(point, toViewer).empty()) << int(model);
+        EXPECT_EQ(reflected(withoutMirrors(point), toViewer, toViewer, true),
+                  reflected(point, toViewer, toViewer, true))
+            << int(model);
+        // A coat is one of its own.
+        point.coat = 0.5;
+        point.coatAlpha = kSmallestAlpha;
+        point.coatNormal = n;
+        const std::vector<Mirror> mirrors = mirrorsOf(point, toViewer);
+        ASSERT_EQ(mirrors.size(), 1u);
+        EXPECT_NEAR(mirrors[0].share.g, 0.5 * (0.04 + 0.96 * std::pow(0.2, 5)), 1e-12);
+        EXPECT_TRUE(mirrorsOf(point, -toViewer).empty());
     }
 }
 

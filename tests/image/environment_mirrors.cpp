@@ -1,0 +1,328 @@
+// Mirrors of an environment against its map, looked up in double precision.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "shaders/shared/environment.h"
+#include "shaders/shared/models.h"
+#include "tests/image/EnvironmentTest.h"
+#include "validation/reference/Microfacet.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::EnvironmentLight;
+using namespace test;
+
+class EnvironmentMirrors : public EnvironmentTest {};
+
+constexpr int kMapWidth = 256, kMapHeight = 128, kMirrorPixels = 64;
+constexpr double kPlaneTiltRadians = 0.35; ///< of the mirror, about x
+constexpr double kSunRadiance = 1e5;
+
+/// The texels around a place of a map, and what is interpolated between them.
+struct InMap {
+    double radiance, least, most;
+};
+
+using MapRadiance = std::function<double(int, int)>;
+
+InMap seenIn(const MapRadiance& map, const glm::dvec3& direction) {
+    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kMapWidth, kMapHeight) - 0.5;
+    const glm::dvec2 corner = glm::floor(place), share = place - corner;
+    const auto at = [&](int i, int j) {
+        return map((int(corner.x) + i + kMapWidth) % kMapWidth, std::clamp(int(corner.y) + j, 0, kMapHeight - 1));
+    };
+    InMap seen{};
+    seen.radiance = std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
+    // A texel more on each side, as rounding may move the place across an edge.
+    seen.least = seen.most = seen.radiance;
+    for (int j = -1; j <= 2; ++j)
+        for (int i = -1; i <= 2; ++i) {
+            seen.least = std::min(seen.least, at(i, j));
+            seen.most = std::max(seen.most, at(i, j));
+        }
+    return seen;
+}
+
+/// A plane through the origin, tilted, seen from z = 3 through a wide lens.
+scenes::Scene planeBelowTheSky(const scenes::Material& material) {
+    scenes::Scene scene = quadScene(material);
+    const double cosine = std::cos(kPlaneTiltRadians), sine = std::sin(kPlaneTiltRadians);
+    glm::dmat4& placed = scene.nodes[0].parentFromNode;
+    placed = glm::dmat4(1.0);
+    placed[0] = {50.0, 0.0, 0.0, 0.0};
+    placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * 50.0;
+    placed[2] = {0.0, sine, cosine, 0.0};
+    scene.cameras[0].fovYRadians = 1.4;
+    scene.cameras[0].nearMetres = 0.1;
+    scene.cameras[0].farMetres = 1000.0;
+    return scene;
+}
+
+/// Unit, from the plane towards the viewer; row 0 is at the top.
+glm::dvec3 toViewerOfPixel(int x, int y) {
+    const double half = std::tan(0.7) / kMirrorPixels;
+    return -glm::normalize(
+        glm::dvec3((2.0 * x + 1.0 - kMirrorPixels) * half, (kMirrorPixels - 1.0 - 2.0 * y) * half, -1.0));
+}
+
+const glm::dvec3 kPlaneNormal(0.0, std::sin(kPlaneTiltRadians), std::cos(kPlaneTiltRadians));
+
+glm::dvec3 mirroredByPixel(int x, int y) {
+    const glm::dvec3 toViewer = toViewerOfPixel(x, y);
+    return 2.0 * glm::dot(kPlaneNormal, toViewer) * kPlaneNormal - toViewer;
+}
+
+/// Squares of 8 x 8 texels.
+double squaresAt(int x, int y) {
+    return (x / 8 + y / 8) % 2 == 0 ? 1.0 : 0.05;
+}
+
+/// A sun in the texel that the middle of a pixel shows.
+MapRadiance sunShownBy(int pixelX, int pixelY) {
+    const glm::ivec2 sun(scenes::placeInMap(mirroredByPixel(pixelX, pixelY)) * glm::dvec2(kMapWidth, kMapHeight));
+    return [sun](int x, int y) { return x == sun.x && y == sun.y ? kSunRadiance : 0.1; };
+}
+
+scenes::Environment environmentShowing(const MapRadiance& map) {
+    return environmentOf(kMapWidth, kMapHeight, [&](int x, int y) { return glm::dvec3(map(x, y)); });
+}
+
+double schlickFactor(double straight, double cosine) {
+    return straight + (1.0 - straight) * std::pow(1.0 - cosine, 5);
+}
+
+struct MirrorCase {
+    std::string name;
+    scenes::Material material;
+    std::function<double(double cosView)> reflected;
+};
+
+/// Lobes of each kind above black.
+std::vector<MirrorCase> mirrorCases() {
+    using scenes::MaterialModel;
+    scenes::Material black;
+    black.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    black.metallic = 0.0f;
+    scenes::Material metal = black;
+    metal.baseColor = glm::vec4(glm::vec3(0.7f), 1.0f);
+    metal.metallic = 1.0f;
+    metal.perceptualRoughness = 0.0f;
+    scenes::Material coated = black;
+    coated.specularFactor = 0.0f; // the coat alone reflects
+    coated.perceptualRoughness = 0.5f;
+    coated.clearcoat = 0.75f;
+    coated.clearcoatPerceptualRoughness = 0.0f;
+    scenes::Material varnished = metal;
+    varnished.clearcoat = 1.0f;
+    varnished.clearcoatPerceptualRoughness = 0.0f;
+    scenes::Material glass = black;
+    glass.model = MaterialModel::Microfacet;
+    glass.alpha = glass.alphaY = 0.0f;
+    glass.specularColor = glm::vec3(0.9f);
+    glass.ior = 1.5f;
+    scenes::Material brushed = glass;
+    brushed.model = MaterialModel::MicrofacetAnisotropic;
+    scenes::Material water = glass; // seen from below
+    water.ior = 0.75f;
+    const auto ofMetal = [](double cosine) { return schlickFactor(double(0.7f), cosine); };
+    const auto ofGlass = [](double ior) {
+        return [ior](double cosine) { return double(0.9f) * reference::fresnelDielectric(ior, cosine); };
+    };
+    return {{"metal", metal, ofMetal},
+            {"a coat", coated, [](double cosine) { return 0.75 * schlickFactor(0.04, cosine); }},
+            {"a coat over metal", varnished,
+             [=](double cosine) {
+                 const double coat = schlickFactor(0.04, cosine);
+                 return coat + (1.0 - coat) * ofMetal(cosine);
+             }},
+            {"microfacet", glass, ofGlass(1.5)},
+            {"microfacet_anisotropic", brushed, ofGlass(1.5)},
+            {"microfacet, ior 0.75", water, ofGlass(0.75)}};
+}
+
+TEST_F(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
+    const std::pair<const char*, MapRadiance> maps[] = {{"squares", squaresAt}, {"a sun", sunShownBy(40, 20)}};
+    for (const MirrorCase& one : mirrorCases())
+        for (const auto& [name, map] : maps) {
+            scenes::Scene scene = planeBelowTheSky(one.material);
+            scene.environment = environmentShowing(map);
+            engine::Renderer renderer(context(), scene);
+            for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+                frame::FrameSettings settings;
+                settings.sizePixels = {kMirrorPixels, kMirrorPixels};
+                settings.environment.light = how;
+                settings.environment.samples = 1;
+                const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+                int judged = 0;
+                double brightest = 0.0;
+                for (int y = 0; y < kMirrorPixels; ++y)
+                    for (int x = 0; x < kMirrorPixels; ++x) {
+                        const float* const pixel = &seen[std::size_t(4 * (y * kMirrorPixels + x))];
+                        const double cosView = glm::dot(kPlaneNormal, toViewerOfPixel(x, y));
+                        // Away from where total reflection begins, which steepens what rounding does.
+                        if (pixel[3] == 0.0f || cosView < 0.02 || std::abs(cosView * cosView - 0.4375) < 1e-4) continue;
+                        const InMap truth = seenIn(map, mirroredByPixel(x, y));
+                        const double share = one.reflected(cosView);
+                        // Angles in fp32 are good to 1e-5, a thousandth of a texel.
+                        const double error = share * (2e-3 * (truth.most - truth.least) + 1e-4 * truth.radiance);
+                        ASSERT_NEAR(pixel[0], share * truth.radiance, error)
+                            << one.name << ", " << name << ", " << infoOf(how).name << " at " << x << ", " << y;
+                        ++judged;
+                        brightest = std::max(brightest, truth.radiance);
+                    }
+                EXPECT_GT(judged, kMirrorPixels * kMirrorPixels * 9 / 10) << one.name;
+                EXPECT_GT(brightest, map(0, 0) > 0.5 ? 0.99 : 0.1 * kSunRadiance) << "the sun is in view";
+            }
+        }
+}
+
+/// By samples it keeps its lobe; no filtered level is as sharp.
+TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflectsOfEvenLight) {
+    constexpr double kExponent = 1e8;
+    scenes::Material gloss;
+    gloss.model = scenes::MaterialModel::BlinnPhong;
+    gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    gloss.exponent = float(kExponent);
+    gloss.specularColor = glm::vec3(1e6f);
+    scenes::Scene scene = planeBelowTheSky(gloss);
+    scene.environment = environmentShowing(squaresAt);
+    frame::FrameSettings settings;
+    settings.sizePixels = {kMirrorPixels, kMirrorPixels};
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    int judged = 0;
+    for (int y = 0; y < kMirrorPixels; ++y)
+        for (int x = 0; x < kMirrorPixels; ++x) {
+            const double cosView = glm::dot(kPlaneNormal, toViewerOfPixel(x, y));
+            if (seen[std::size_t(4 * (y * kMirrorPixels + x) + 3)] == 0.0f || cosView < 0.1) continue;
+            const InMap truth = seenIn(squaresAt, mirroredByPixel(x, y));
+            const double share = 1e6 * 8.0 * std::numbers::pi * cosView / kExponent; // (n.h)^p over 4 n.v dh
+            // Of the table half a percent.
+            const double error = share * (2e-3 * (truth.most - truth.least) + 5e-3 * truth.radiance);
+            ASSERT_NEAR(seen[std::size_t(4 * (y * kMirrorPixels + x))], share * truth.radiance, error)
+                << x << ", " << y;
+            ++judged;
+        }
+    EXPECT_GT(judged, kMirrorPixels * kMirrorPixels / 2);
+}
+
+/// Normals of a ball are interpolated between vertices that rasterisers round to 1/256 of a pixel.
+TEST_F(EnvironmentMirrors, aBallShowsWhatTheReferenceShowsOfIt) {
+    constexpr int kBallPixels = 40;
+    for (const MirrorCase& one : mirrorCases()) {
+        scenes::Scene scene = ballUnderSky(one.material);
+        scene.environment = environmentShowing(squaresAt);
+        scene.environment->rotationDegrees = 30.0f;
+        frame::FrameSettings settings;
+        settings.sizePixels = {kBallPixels, kBallPixels};
+        settings.filter = frame::TextureFilter::Exact;
+        settings.environment.samples = 1;
+        settings.environment.backdrop = frame::Backdrop::Off;
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        engine::Renderer renderer(context(), scene);
+        for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            settings.environment.light = how;
+            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+            double shown = 0.0, wanted = 0.0;
+            for (int y = 0; y < kBallPixels; ++y)
+                for (int x = 0; x < kBallPixels; ++x) {
+                    const glm::dvec2 at = 1.02 * (glm::dvec2(2.0 * x + 1.0 - kBallPixels, kBallPixels - 1.0 - 2.0 * y) /
+                                                  double(kBallPixels));
+                    if (glm::dot(at, at) > 0.6) continue; // beyond, a pixel sees much of the map
+                    const double cosView = std::sqrt(1.0 - glm::dot(at, at));
+                    if (std::abs(2.0 * cosView * at.y) > 0.9) continue; // about its poles columns are narrow
+                    const auto i = std::size_t(4 * (y * kBallPixels + x));
+                    // A tenth of a texel; total reflection begins at an edge.
+                    const double error = 0.1 * one.reflected(cosView) + (one.material.ior < 1.0f ? 0.1 : 0.0);
+                    ASSERT_NEAR(seen[i], truth.picture.rgba[i], error)
+                        << one.name << ", " << infoOf(how).name << " at " << x << ", " << y;
+                    shown += double(seen[i]);
+                    wanted += double(truth.picture.rgba[i]);
+                }
+            EXPECT_GT(wanted, 0.0);
+            EXPECT_NEAR(shown, wanted, 5e-3 * wanted) << one.name << ", " << infoOf(how).name;
+        }
+    }
+}
+
+TEST_F(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
+    scenes::Scene scene = ballUnderSky({});
+    scenes::Material& material = scene.materials[0];
+    material.metallic = 0.5f;
+    material.clearcoat = 0.5f;
+    scene.environment = environmentShowing(sunShownBy(40, 20));
+    frame::FrameSettings settings;
+    settings.sizePixels = {48, 48};
+    settings.environment.samples = 4;
+    struct Case {
+        float roughness, coatRoughness;
+        EnvironmentLight how;
+    };
+    for (const Case& one : {Case{0.0f, 0.0f, EnvironmentLight::SplitSum},
+                            {0.0f, 0.0f, EnvironmentLight::Sampled},
+                            {0.07f, 0.2f, EnvironmentLight::SplitSum},
+                            {0.11f, 0.11f, EnvironmentLight::SplitSum}}) { // not so smooth as to read the map
+        SCOPED_TRACE(fmt::format("{}, roughness {} and {}", infoOf(one.how).name, one.roughness, one.coatRoughness));
+        material.perceptualRoughness = one.roughness;
+        material.clearcoatPerceptualRoughness = one.coatRoughness;
+        settings.environment.light = one.how;
+        settings.prune = true;
+        engine::Renderer renderer(context(), scene);
+        expectParity(renderer, settings,
+                     one.roughness == 0.0f ? std::vector<Technique>{} : std::vector{Technique::Deferred});
+        const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+        settings.prune = false;
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+    }
+}
+
+/// From the map to its first filtered level, and where programs cease to read the map.
+TEST_F(EnvironmentMirrors, lightOfTheSplitSumIsContinuousInAlpha) {
+    scenes::Material gloss;
+    gloss.model = scenes::MaterialModel::Microfacet;
+    gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    scenes::Scene scene = planeBelowTheSky(gloss);
+    scene.environment = environmentShowing(squaresAt);
+    frame::FrameSettings settings;
+    settings.sizePixels = {kMirrorPixels, kMirrorPixels};
+    const auto radiance = [&](double alpha) {
+        scene.materials[0].alpha = float(alpha);
+        return engine::Renderer(context(), scene).render(Technique::Deferred, settings).radiance;
+    };
+    for (const double alpha : {ALPHA_MIN, 0.003, ENVIRONMENT_LEAST_ALPHA, 1.1 * ENVIRONMENT_LEAST_ALPHA}) {
+        const std::vector<float> below = radiance(0.9999 * alpha), above = radiance(1.0001 * alpha);
+        double most = 0.0;
+        for (std::size_t i = 0; i < below.size(); ++i) most = std::max(most, double(std::abs(below[i] - above[i])));
+        EXPECT_LE(most, 1e-4) << alpha;
+    }
+    EXPECT_NE(radiance(ALPHA_MIN), radiance(ENVIRONMENT_LEAST_ALPHA));
+}
+
+TEST_F(EnvironmentMirrors, onlyWhatMayBeAMirrorReadsTheMapItself) {
+    scenes::Scene scene = planeBelowTheSky({});
+    scene.environment = environmentShowing(squaresAt);
+    frame::FrameSettings settings;
+    settings.environment.backdrop = frame::Backdrop::Off;
+    const auto readsMap = [&](float roughness) {
+        scene.materials[0].perceptualRoughness = roughness;
+        const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, settings);
+        return planText(plan).find("environment_map") != std::string::npos;
+    };
+    EXPECT_TRUE(readsMap(0.0f));
+    EXPECT_TRUE(readsMap(0.1f));
+    EXPECT_FALSE(readsMap(0.2f));
+    settings.environment.light = EnvironmentLight::Off;
+    EXPECT_FALSE(readsMap(0.0f));
+}
+
+} // namespace
+} // namespace tessera
