@@ -104,7 +104,6 @@ scenes::Scene amongSurfaces() {
 frame::FrameSettings settingsOfSize(glm::ivec2 sizePixels) {
     frame::FrameSettings settings;
     settings.sizePixels = sizePixels;
-    settings.display = false;
     return settings;
 }
 

@@ -207,7 +207,7 @@ private:
         const Anchor& anchor = objects_.anchor();
         for (const glm::dvec2& aside : kAsidePixels) {
             const Ray ray = rays_.through(placePixels + aside);
-            if (!seenLights_.before(ray, kEndless)) continue;
+            if (!own.light && !seenLights_.before(ray, kEndless)) continue;
             const std::optional<Hit> opaque = surfaces.opaque ? visibility_.nearestOpaque(ray) : std::nullopt;
             const double depthMetres = opaque ? opaque->depthMetres : kEndless;
             for (const double side : {-1.0, 1.0}) {
