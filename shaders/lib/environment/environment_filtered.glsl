@@ -48,10 +48,11 @@ vec3 lobeAxis(vec3 normal, vec3 mirrored, float alpha)
 }
 
 #if HAS_TANGENT_FRAME
-const int kStretchedTaps = 8;
+const int kStretchedTaps = 16;
 
 // Of a lobe with two alphas: taps along its longer axis at even shares of the facets' slopes, each as wide as the
-// shorter one. A direction, and its weight.
+// shorter one, or as the gap to the next where that is wider: no lamp shows as a row of dots. A direction, and its
+// weight.
 vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
 {
     Surface surface = seen.surface;
@@ -63,7 +64,9 @@ vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
     precise vec3 leaning = surface.normalLS + slope * axis;
     vec3 mirrored = mirrorDirection(safeNormalize(leaning, surface.normalLS), seen.toViewer);
     precise float weight = max(dot(mirrored, surface.normalLS), 0.0);
-    alpha = max(narrow, wide / float(kStretchedTaps));
+    // D falls to a half at a slope of 0.64 alpha.
+    precise float gap = wide * (2.0 / float(kStretchedTaps)) / ((1.0 - share * share) * sqrt(1.0 - share * share));
+    alpha = min(max(narrow, gap / 1.28), 1.0);
     return vec4(mirrored, weight);
 }
 #endif
