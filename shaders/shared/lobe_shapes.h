@@ -38,10 +38,21 @@ SHARED_FUNCTION mat3 inverseOfShape(vec4 numbers, float alpha, float cosView, fl
 SHARED_FUNCTION float shareAbove(mat3 inverse) {
     // The surface's plane cuts the cosine's hemisphere into two lunes; the projected area of one is (1 + n.z) / 2, n
     // the normal of the plane.
-    SHARED_PRECISE float x = inverse[0].x;
-    SHARED_PRECISE float z = inverse[0].z;
-    SHARED_PRECISE float share = 0.5f + 0.5f * x / sqrt(x * x + z * z);
-    return share;
+    SHARED_PRECISE vec3 normal = cross(inverse[0], inverse[1]);
+    SHARED_PRECISE float cosine = normal.z / sqrt(dot(normal, normal));
+    return 0.5f + 0.5f * cosine;
+}
+
+// The inverse of a shape whose facets' slopes have another alpha across the plane of the viewer than along it. `along`
+// is of slopes with the alpha along that plane; slopes across it are as many times narrower as `narrower` says, after
+// `lean` times those along it are taken off.
+SHARED_FUNCTION mat3 stretchedAcross(mat3 along, float narrower, float lean) {
+    mat3 stretched = along;
+    for (int i = 0; i < 3; ++i) {
+        SHARED_PRECISE float across = narrower * (along[i].y - lean * along[i].x);
+        stretched[i].y = across;
+    }
+    return stretched;
 }
 
 SHARED_END

@@ -107,6 +107,27 @@ AreaLobe areaLobe(vec3 normal, vec3 toViewer, float nv, float alpha)
     return AreaLobe(axes, inverse, perAbove);
 }
 
+#if HAS_TANGENT_FRAME
+// The same of a lobe with two alphas. The slopes of its facets lie around an ellipse along the tangent; in the frame of
+// the viewer's plane that is an ellipse along the plane, stretched across it and sheared.
+AreaLobe stretchedLobe(SeenSurface seen)
+{
+    float sineView;
+    mat3 axes = surfaceAxes(seen.surface.normalLS, seen.toViewer, seen.nv, sineView);
+    precise vec2 tangent = (axes * seen.surface.tangentLS).xy;
+    vec2 alpha = max(vec2(seen.surface.alpha, seen.surface.alphaBitangent), LOBE_SHAPES_SMALLEST_ALPHA);
+    precise vec2 share = tangent * tangent / max(dot(tangent, tangent), 1e-18);
+    precise float along2 = alpha.x * alpha.x * share.x + alpha.y * alpha.y * share.y;
+    precise float both = (alpha.x * alpha.x - alpha.y * alpha.y) * tangent.x * tangent.y / max(dot(tangent, tangent), 1e-18);
+    AreaLobe lobe = areaLobe(seen.surface.normalLS, seen.toViewer, seen.nv, sqrt(along2));
+    precise float narrower = along2 / (alpha.x * alpha.y);
+    lobe.cosineFromSurface = stretchedAcross(lobe.cosineFromSurface, narrower, both / along2);
+    precise float perAbove = 1.0 / shareAbove(lobe.cosineFromSurface);
+    lobe.perAbove = perAbove;
+    return lobe;
+}
+#endif
+
 // What a lobe sees of an outline, 1 where it fills the hemisphere.
 float shareSeen(Outline outline, AreaLobe lobe)
 {
@@ -185,6 +206,9 @@ void prepareAreaLobes(SeenSurface seen)
     areaLobes[1] = areaLobes[0];
     if (shares.ofLobe != vec3(0.0))
         areaLobes[1] = areaLobe(seen.surface.normalLS, seen.toViewer, seen.nv, lobeAlpha(seen.surface));
+#if HAS_TANGENT_FRAME
+    if (shares.ofLobe != vec3(0.0) && isAnisotropic(seen.surface)) areaLobes[1] = stretchedLobe(seen);
+#endif
     areaWeights[2] = vec3(0.0);
     areaLobes[2] = areaLobes[0];
 #if HAS_CLEARCOAT
