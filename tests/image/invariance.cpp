@@ -210,13 +210,13 @@ TEST_F(Invariance, worldAndViewSpaceLightingAgree) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
         all.push_back(test::builtinForSweep(builtin, options));
     // Whose pictures are bit-equal, or sum lights in another order: one of them a scene, in turn.
-    constexpr Technique kTechniques[] = {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
-                                         Technique::TiledDeferred, Technique::ClusteredForward};
+    constexpr Technique kJudged[] = {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
+                                     Technique::TiledDeferred, Technique::ClusteredForward};
     std::size_t turn = 0;
     for (const scenes::Scene& scene : all) {
         engine::Renderer renderer(context(), scene);
         const bool isFirst = &scene == &all.front();
-        for (const Technique technique : std::span(kTechniques).subspan(isFirst ? 0 : turn++ % 5, isFirst ? 5 : 1)) {
+        for (const Technique technique : std::span(kJudged).subspan(isFirst ? 0 : turn++ % 5, isFirst ? 5 : 1)) {
             frame::FrameSettings settings = small();
             // A pixel at an outline is lit or not by the last bit of its position;
             // ShadowMapsTest.tracedOnesAreAsRightInViewSpace judges shadows.
