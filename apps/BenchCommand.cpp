@@ -1,5 +1,3 @@
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "apps/BenchRun.h"
@@ -9,6 +7,7 @@
 #include "apps/Numbers.h"
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
+#include "apps/Shard.h"
 #include "apps/Version.h"
 #include "base/Error.h"
 #include "base/Names.h"
@@ -48,21 +47,6 @@ std::optional<validation::BenchTruth> benchTruthNamed(const std::string& name) {
     }
     throw InputError(
         fmt::format("--against '{}' is nothing that bench measures against: {}", name, suggestNames(name, names)));
-}
-
-/// "2/5" as 2 and 5; 1 and 1 where nothing was said.
-std::pair<int, int> shardNamed(const std::string& text) {
-    if (text.empty()) return {1, 1};
-    int index = 0, count = 0;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, index);
-    if (first.ec == std::errc() && first.ptr != end && *first.ptr == '/') {
-        const auto second = std::from_chars(first.ptr + 1, end, count);
-        if (second.ec == std::errc() && second.ptr == end && index >= 1 && index <= count &&
-            count <= validation::kMostShards)
-            return {index, count};
-    }
-    throw InputError(fmt::format("--shard {}: give a shard and how many there are, such as 1/4, counted from 1", text));
 }
 
 validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {

@@ -1,5 +1,6 @@
 #include "apps/FramePattern.h"
 
+#include <algorithm>
 #include <regex>
 
 #include <fmt/format.h>
@@ -14,21 +15,22 @@ bool FramePattern::hasPlace(const std::filesystem::path& file) {
 }
 
 FramePattern::FramePattern(const std::string& pattern) {
-    static const std::regex place("%(0?)([1-9]?)d");
-    const auto first = std::sregex_iterator(pattern.begin(), pattern.end(), place);
-    if (std::distance(first, std::sregex_iterator()) != 1) {
-        throw InputError(
-            fmt::format("{}: a sequence needs exactly one place for the frame number, as in f_%04d.png", pattern));
-    }
-    before_ = first->prefix();
-    after_ = first->suffix();
-    if (first->length(2) > 0) digits_ = std::size_t(std::stoi(first->str(2)));
+    static const std::regex place("%(0([1-9]))?d");
+    const std::string name = std::filesystem::path(pattern).filename().string();
+    std::smatch found;
+    if (std::ranges::count(name, '%') != 1 || !std::regex_search(name, found, place))
+        throw InputError(fmt::format("{}: a sequence needs exactly one place for the frame number in the name of its "
+                                     "files, and no other %: %d, or %04d for four digits, as in f_%04d.png",
+                                     pattern));
+    before_ = pattern.substr(0, pattern.size() - name.size()) + found.prefix().str();
+    after_ = found.suffix();
+    if (found.length(2) > 0) digits_ = std::size_t(std::stoi(found.str(2)));
 }
 
 std::string FramePattern::path(int frame) const {
     const std::string number = std::to_string(frame);
     const std::size_t missing = digits_ > number.size() ? digits_ - number.size() : 0;
-    return before_ + std::string(missing, '0') + number + after_;
+    return pathWith(std::string(missing, '0') + number);
 }
 
 } // namespace tessera::app

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,9 +9,12 @@
 #include "apps/Commands.h"
 #include "apps/FilterEnvironment.h"
 #include "apps/FramePattern.h"
+#include "apps/FrameSequence.h"
 #include "apps/Numbers.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "apps/Shard.h"
+#include "apps/Version.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Extension.h"
@@ -20,6 +23,7 @@
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
+#include "renderer/shader/SourceTree.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/pictures/ShownPicture.h"
 
@@ -27,25 +31,36 @@ namespace tessera::app {
 
 namespace {
 
-constexpr double kFramesPerSecond = 30.0;
-constexpr int kMostFrames = 1'000'000; ///< their names are all known before the first is written
-
 struct RenderOptions {
     FrameOptions frame;
     std::string output;
-    std::optional<int> frames; ///< none: one picture
+    std::optional<FrameRange> frames; ///< none: one picture
     std::optional<double> framesPerSecond;
+    std::optional<std::string> shard;
 };
 
-/// `path` is one of the outputs.
-void writePicture(const std::string& path, const Request& request, const engine::Renderer& renderer,
-                  const engine::RenderedFrame& frame) {
-    if (extensionOf(path) == ".exr") {
-        writeExr(path, engine::toPicture(frame));
-    } else {
-        writePng(path, validation::shownPicture(frame, renderer.shadows(), request.scene.name, request.technique,
-                                                request.settings.view));
+/// What a command makes: one picture, or the frames of a sequence.
+struct RenderJob {
+    Request request;
+    std::string output; ///< of one picture
+    std::optional<FrameSequence> sequence;
+    Outputs outputs;
+
+    /// How many pictures are to be made.
+    std::size_t pictures() const { return sequence ? sequence->unfinished() : 1; }
+    void make(const frame::FrameSettings& settings, const MakePicture& makePicture) {
+        if (sequence) return sequence->draw(outputs, settings, makePicture);
+        writeFileAtomically(outputs.at(output), makePicture(output, settings));
     }
+};
+
+/// The bytes of a file of that name.
+std::vector<std::uint8_t> encodedPicture(const std::string& path, const Request& request,
+                                         const engine::Renderer& renderer, const engine::RenderedFrame& frame) {
+    if (extensionOf(path) == ".exr") return encodeExr(engine::toPicture(frame));
+    return encodePng(validation::shownPicture(frame, renderer.shadows(), request.scene.name, request.technique,
+                                              request.settings.view))
+        .bytes;
 }
 
 void requirePictureExtension(const std::string& path) {
@@ -56,12 +71,18 @@ void requirePictureExtension(const std::string& path) {
     }
 }
 
-std::vector<std::string> outputsOf(const RenderOptions& options) {
-    if (!options.frames) return {options.output};
-    std::vector<std::string> outputs;
-    const FramePattern pattern(options.output);
-    for (int i = 0; i < *options.frames; ++i) outputs.push_back(pattern.path(i));
-    return outputs;
+/// What pictures of one scene and one request depend on besides: the program, its shaders, and who draws.
+std::string makerText(const std::string& renderer) {
+    const shader::SourceTree shaders;
+    std::string text = fmt::format("{} {} {}", kCommit, renderer, shaders.describe());
+    if (const auto change = shaders.newestChange()) text += fmt::format(" {}", change->time_since_epoch().count());
+    // A build of no commit tells itself from others by its file.
+    std::error_code ignored;
+    const std::string_view commit = kCommit;
+    if (commit == "unknown" || commit.ends_with("-dirty"))
+        text +=
+            fmt::format(" {}", std::filesystem::last_write_time("/proc/self/exe", ignored).time_since_epoch().count());
+    return text;
 }
 
 /// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene or is black, and
@@ -91,89 +112,74 @@ void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::D
     spdlog::warn("{}", oneLine(path + ": " + why));
 }
 
-/// Makes one picture at a path.
-using MakePicture = std::function<void(const std::string& path, const frame::FrameSettings& settings)>;
-
-/// One picture, or a sequence in which frame i shows the time start + i / fps.
-void makePictures(const RenderOptions& options, const Outputs& outputs, frame::FrameSettings settings,
-                  const MakePicture& make) {
-    if (!options.frames) return make(outputs.at(options.output), settings);
-    const FramePattern pattern(options.output);
-    const double start = settings.timeSeconds;
-    for (int i = 0; i < *options.frames; ++i) {
-        settings.timeSeconds = start + i / options.framesPerSecond.value_or(kFramesPerSecond);
-        make(outputs.at(pattern.path(i)), settings);
-    }
-}
-
 /// Without a context: the display picture has exposure and sRGB alone.
-void renderReference(const RenderOptions& options, const Outputs& outputs, const Request& request,
-                     const GlobalOptions& global) {
-    frame::FrameSettings settings = request.settings;
+void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
+    frame::FrameSettings& settings = job.request.settings;
     // As compare does; hardware filtering is available on request.
     if (!options.frame.said("filter")) settings.filter = frame::TextureFilter::Exact;
     validation::requireReferenceTakes(settings);
     const bool isLinear = extensionOf(options.output) == ".exr";
     if (!isLinear && settings.toneMap != frame::ToneMap::None)
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
-    Progress progress("rendering", std::size_t(options.frames.value_or(1)) * std::size_t(settings.sizePixels.y),
-                      global.quiet);
+    if (job.sequence)
+        job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
+    Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" &&
             options.frame.said(setting.key))
             spdlog::warn("{} changes nothing. The reference follows rays of its own", setting.flag);
     bool hasWarned = false;
-    makePictures(options, outputs, settings, [&](const std::string& path, const frame::FrameSettings& one) {
+    job.make(settings, [&](const std::string& path, const frame::FrameSettings& one) {
         Picture picture = validation::referencePicture(
-                              request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
+                              job.request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
                               .picture;
-        warnOfPicture(path, request.scene, one.view, picture.rgba, "", hasWarned);
-        if (isLinear) return writeExr(path, picture);
+        warnOfPicture(path, job.request.scene, one.view, picture.rgba, "", hasWarned);
+        if (isLinear) return encodeExr(picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
-        writePng(path, toDisplayImage(picture));
+        return encodePng(toDisplayImage(picture)).bytes;
     });
 }
 
-void check(const RenderOptions& options) {
+/// Checks what is said of the output and of the sequence, which is returned where one is asked for.
+std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
     requirePictureExtension(options.output);
-    if (!options.frames && FramePattern::hasPlace(options.output))
-        throw InputError(fmt::format(
-            "{}: has a place for a frame number; say with --frames how many pictures to render, or give another name",
-            options.output));
-    if (options.framesPerSecond && !options.frames)
-        throw InputError("--fps needs --frames: how many pictures to render");
-    if (options.frames && *options.frames < 1)
-        throw InputError(fmt::format("--frames {} is less than one picture", *options.frames));
-    if (options.frames && *options.frames > kMostFrames)
-        throw InputError(fmt::format("--frames {} is more than {} pictures; render fewer at a time, from --time S on",
-                                     *options.frames, kMostFrames));
-    if (options.framesPerSecond && !(*options.framesPerSecond > 0.0))
-        throw InputError(fmt::format("--fps {} must be more than 0", *options.framesPerSecond));
-    requireWritable(options.frames ? FramePattern(options.output).path(0) : options.output);
+    if (!options.frames) {
+        if (FramePattern::hasPlace(options.output))
+            throw InputError(fmt::format("{}: has a place for a frame number; say with --frames how many pictures to "
+                                         "render, or give another name",
+                                         options.output));
+        if (options.framesPerSecond) throw InputError("--fps needs --frames: how many pictures to render");
+        if (options.shard) throw InputError("--shard needs --frames: how many pictures to render");
+        requireWritable(options.output);
+        return {};
+    }
+    FrameSequenceOptions sequence;
+    sequence.pattern = options.output;
+    sequence.range = *options.frames;
+    if (options.framesPerSecond) sequence.framesPerSecond = *options.framesPerSecond;
+    if (!(sequence.framesPerSecond > 0.0))
+        throw InputError(fmt::format("--fps {} must be more than 0", sequence.framesPerSecond));
+    if (options.shard) sequence.shard = shardNamed(*options.shard);
+    std::optional<FrameSequence> frames(sequence);
+    frames->requireWritable();
+    return frames;
 }
 
-int render(const RenderOptions& options, const GlobalOptions& global) {
-    check(options);
-    FrameOptions frame = options.frame;
-    const bool isReference = frame.said("technique") == kReferenceName;
-    if (isReference) frame.settings.erase("technique");
-    Request request = resolve(frame);
-    Outputs outputs(outputsOf(options));
-    outputs.reads(request.files);
-    if (isReference) {
-        renderReference(options, outputs, request, global);
-        return kGood;
-    }
+void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOptions& global) {
+    Request& request = job.request;
     engine::requireTaken(request);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
+    request.settings.display = extensionOf(job.output) != ".exr";
+    if (job.sequence)
+        job.sequence->leaveOutFinished(request, request.scene, makerText(context->capabilities().renderer));
+    if (job.pictures() == 0) return;
     engine::Renderer renderer(*context, request.scene);
-    request.settings.display = extensionOf(options.output) != ".exr";
     filterEnvironment(request, renderer, global.quiet);
     // One picture is soon made.
-    Progress progress("rendering", std::size_t(options.frames.value_or(1)), global.quiet || !options.frames);
+    Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);
     bool hasWarned = false, hasWarnedOfShadows = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
-    makePictures(options, outputs, request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
+    job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
@@ -183,10 +189,27 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
             unheededShadows(frame, request, engine::prepareView(request.scene, request.technique, one));
         if (!unheeded) unheeded = own;
         std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
-        writePicture(path, request, renderer, picture);
         progress.advance();
+        return encodedPicture(path, request, renderer, picture);
     });
     for (const std::string& text : unheeded.value_or(std::vector<std::string>())) spdlog::warn("{}", text);
+}
+
+int render(const RenderOptions& options, const GlobalOptions& global) {
+    RenderJob job;
+    job.output = options.output;
+    job.sequence = sequenceOf(options);
+    FrameOptions frame = options.frame;
+    const bool isReference = frame.said("technique") == kReferenceName;
+    if (isReference) frame.settings.erase("technique");
+    job.request = resolve(frame);
+    job.outputs = Outputs(job.sequence ? job.sequence->outputs() : std::vector{job.output});
+    job.outputs.reads(job.request.files);
+    if (isReference)
+        renderReference(options, job, global);
+    else
+        renderByContext(frame, job, global);
+    if (job.sequence && !global.quiet) fmt::print("{}\n", job.sequence->summary());
     return kGood;
 }
 
@@ -203,15 +226,23 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->add_option("-o,--output", options->output, "The picture: .exr is linear radiance, .png as a display shows it")
         ->type_name("FILE")
         ->required();
-    addWholeNumber(*command, "--frames", options->frames,
-                   "Renders N pictures; FILE then holds a place such as f_%04d.png", "N");
-    addNumber(*command, "--fps", options->framesPerSecond, "Frames a second of scene time [30]", "R");
+    command
+        ->add_option_function<std::string>(
+            "--frames", [options](const std::string& text) { options->frames = frameRangeNamed(text); },
+            "Renders N pictures, or the frames A to B, or every Sth of these; FILE then holds a place such as "
+            "f_%04d.png. Frames that the same options made before stay")
+        ->type_name("N|A:B[:S]");
+    addNumber(*command, "--fps", options->framesPerSecond,
+              "Frames a second of scene time: frame k shows --time + k/R seconds [30]", "R");
+    command->add_option("--shard", options->shard, "Renders part I of N: every Nth frame, beginning with the Ith")
+        ->type_name("I/N");
     command->footer(R"(Examples
   tessera render hall -o hall.png                       as a display shows it
   tessera render model.glb -o model.exr                 linear radiance, 32 bits a channel
   tessera render hall -o normals.png --view normal      what the lighting works with
   tessera render hall -o true.exr --technique reference by formulas in double precision
-  tessera render scene.json -o f_%04d.png --frames 90   a sequence of 3 seconds)");
+  tessera render scene.json -o f_%04d.png --frames 90   a sequence of 3 seconds
+  tessera render scene.json -o f_%04d.png --frames 45:89 --shard 1/2 half of its second half)");
     command->callback([options, &global, &run] { run = [options, &global] { return render(*options, global); }; });
 }
 

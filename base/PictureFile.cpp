@@ -9,11 +9,15 @@
 
 namespace tessera {
 
-void writeExr(const std::string& path, const Picture& picture) {
+std::vector<std::uint8_t> encodeExr(const Picture& picture) {
     assert(picture.isConsistent());
     std::vector<float> values = picture.rgba;
     for (std::size_t i = 0; i < picture.pixelCount(); ++i) values[4 * i + 3] = picture.covered[i] ? 1.f : 0.f;
-    writeFileAtomically(path, PictureLibrary::get().encodeExr(picture.width, picture.height, values.data()));
+    return PictureLibrary::get().encodeExr(picture.width, picture.height, values.data());
+}
+
+void writeExr(const std::string& path, const Picture& picture) {
+    writeFileAtomically(path, encodeExr(picture));
 }
 
 Png encodePng(const DisplayImage& image) {

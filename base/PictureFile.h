@@ -13,6 +13,8 @@ namespace tessera {
 /// infinities and denormals included. Written whole or not at all; throws std::runtime_error naming the path and the
 /// reason.
 void writeExr(const std::string& path, const Picture& picture);
+/// Encodes what writeExr() writes: the bytes of the file. Throws std::runtime_error when they cannot be made.
+std::vector<std::uint8_t> encodeExr(const Picture& picture);
 
 /// Writes a display image as PNG of 8 bits per channel. Written whole or not at all; throws as writeExr does.
 void writePng(const std::string& path, const DisplayImage& image);

@@ -139,4 +139,10 @@ std::uint64_t fingerprint(const Scene& scene) {
     return hash.value();
 }
 
+std::uint64_t fingerprint(std::span<const std::byte> bytes) {
+    Hash hash;
+    for (const std::byte byte : bytes) hash.add(byte);
+    return hash.value();
+}
+
 } // namespace tessera::scenes

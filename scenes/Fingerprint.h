@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "scenes/Scene.h"
 
@@ -10,5 +12,8 @@ namespace tessera::scenes {
 /// enters, so that the same scene has the same number in every build. Texels count as they are stored.
 /// Source: Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
 std::uint64_t fingerprint(const Scene& scene);
+
+/// The same hash of bytes alone: tells two files or texts apart.
+std::uint64_t fingerprint(std::span<const std::byte> bytes);
 
 } // namespace tessera::scenes

@@ -61,6 +61,22 @@ TEST_F(ShadowCache, mapsAreDrawnAgainWhereLightsOrCastersChangeAndNowhereElse) {
     EXPECT_FALSE(drawsMapsRightly(renderer));
 }
 
+TEST_F(ShadowCache, timesInAnyOrderHaveThePicturesThatTheyHaveAlone) {
+    for (scenes::Light& light : scene.lights) {
+        light.animation.emplace();
+        light.animation->kind = scenes::LightAnimationKind::Wobble;
+        light.animation->periodSeconds = 4.0;
+        light.animation->amplitudeMetres = {0.05, 0.02, 0.0};
+    }
+    engine::Renderer renderer(context(), scene);
+    for (const double timeSeconds : {1.0, 0.25, 0.75, 0.0, 0.25}) {
+        SCOPED_TRACE(timeSeconds);
+        settings.timeSeconds = timeSeconds;
+        EXPECT_TRUE(drawsMapsRightly(renderer)) << "the lights are elsewhere";
+        EXPECT_FALSE(drawsMapsRightly(renderer)) << "the same time again";
+    }
+}
+
 TEST_F(ShadowCache, settingsThatAreDrawnInTurnKeepAnAtlasEachAndGiveItBack) {
     engine::Renderer renderer(context(), scene);
     const auto draw = [&](ShadowFilter filter, int side) {

@@ -114,12 +114,16 @@ TEST_F(BadOptions, sequencesThatCannotBeNumberedAreRefused) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         expectError(kBadInput, arguments, parts);
     };
-    for (const char* pattern : {"a.png", "a_%d_%d.png", "a_%x.png"})
+    for (const char* pattern : {"a.png", "a_%d_%d.png", "a_%x.png", "a_%4d.png"})
         expectSequenceRefused({"--frames", "2", "-o", pattern}, {pattern, "f_%04d.png"});
     expectSequenceRefused({"--frames", "0", "-o", "a_%d.png"}, {"--frames 0"});
     expectSequenceRefused({"--frames", "-2", "-o", "a_%d.png"}, {"--frames -2"});
     expectSequenceRefused({"--frames", "2000000000", "-o", "a_%d.png"},
                           {"--frames 2000000000 is more than 1000000 pictures"});
+    expectSequenceRefused({"--frames", "5:2", "-o", "a_%d.png"}, {"--frames 5:2 ends before it begins"});
+    expectSequenceRefused({"--frames", "0:5:0", "-o", "a_%d.png"}, {"--frames 0:5:0", "step is less than 1"});
+    expectSequenceRefused({"--frames", "2", "--shard", "3/2", "-o", "a_%d.png"}, {"--shard 3/2", "1/4"});
+    expectSequenceRefused({"--shard", "1/2", "-o", "a.png"}, {"--shard needs --frames"});
     for (const char* fps : {"0", "-1"})
         expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps ") + fps});
     for (const char* fps : {"nan", "inf"})

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -193,6 +195,14 @@ TEST(Fingerprint, equalScenesAndTheirWarningsGiveTheSameOne) {
     // Kept in the files of benches, and so the same in every build: FNV-1a of 79 zero bytes, which are eight lengths
     // of 8, three floats of 4 and three absent options of 1.
     EXPECT_EQ(fingerprint(Scene()), 0xa59789b48190cc87ull);
+}
+
+TEST(Fingerprint, bytesAloneHaveThePublishedHash) {
+    // Test vectors of the draft that the header names.
+    const auto of = [](std::string_view text) { return fingerprint(std::as_bytes(std::span(text))); };
+    EXPECT_EQ(of(""), 0xcbf29ce484222325ull);
+    EXPECT_EQ(of("a"), 0xaf63dc4c8601ec8cull);
+    EXPECT_EQ(of("foobar"), 0x85944171f73967e8ull);
 }
 
 } // namespace
