@@ -79,8 +79,11 @@ void FrameJournal::add(const std::string& path, std::uint64_t settings, std::spa
     std::FILE* const file = std::fopen(file_.c_str(), "ab");
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     good = good && std::fflush(file) == 0;
-    const int error = errno;
-    if (file != nullptr && std::fclose(file) != 0) good = false;
+    int error = errno;
+    if (file != nullptr && std::fclose(file) != 0 && good) {
+        good = false;
+        error = errno;
+    }
     if (!good)
         throw std::runtime_error(fmt::format("cannot write {}: {}; free some space or name another place", file_,
                                              std::generic_category().message(error)));

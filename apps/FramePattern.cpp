@@ -10,7 +10,7 @@
 namespace tessera::app {
 
 bool FramePattern::hasPlace(const std::filesystem::path& file) {
-    static const std::regex likely("%0?[1-9]d|%d(?![A-Za-z])"); // not "100%done"
+    static const std::regex likely("%0[1-9]d|%d(?![A-Za-z])"); // not "100%done"
     return std::regex_search(file.filename().string(), likely);
 }
 

@@ -171,7 +171,9 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     request.settings.display = extensionOf(job.output) != ".exr";
     if (job.sequence)
-        job.sequence->leaveOutFinished(request, request.scene, makerText(context->capabilities().renderer));
+        job.sequence->leaveOutFinished(
+            request, request.scene,
+            makerText(fmt::format("{} {}", context->capabilities().renderer, context->capabilities().version)));
     if (job.pictures() == 0) return;
     engine::Renderer renderer(*context, request.scene);
     filterEnvironment(request, renderer, global.quiet);
