@@ -92,9 +92,7 @@ TEST_F(FrameSequences, framesAreThePicturesOfTheirTimesInAnyOrderAndShard) {
 }
 
 TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles) {
-    const auto words = [](const std::string& name) {
-        return command({"--frames", "60", "--size", "160x90", "-o", name + "%04d.exr"});
-    };
+    const auto words = [](const std::string& name) { return command({"--frames", "60", "-o", name + "%04d.exr"}); };
     runGood(words("whole_"));
     int kills = 0;
     bool isDone = false;
