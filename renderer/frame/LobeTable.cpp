@@ -77,6 +77,12 @@ double dielectric(double ior, double cosine) {
     return 0.5 * first * first * (1.0 + second * second);
 }
 
+/// Of the angle with this cosine. Near index 1 the reflectance is 1 plus this, in parts of that at right angles.
+double tangent4(double cosine) {
+    const double cosine2 = std::max(cosine * cosine, 1e-12), tangent2 = (1.0 - cosine2) / cosine2;
+    return tangent2 * tangent2;
+}
+
 double fifth(double x) {
     return x * x * x * x * x;
 }
@@ -158,8 +164,8 @@ double sheenAlbedo(double alpha, double cosine) {
 double iorAt(int place) {
     constexpr int kAbove = LOBE_TABLE_IORS - 1 - LOBE_TABLE_IOR_ONE;
     const double from = place - LOBE_TABLE_IOR_ONE;
-    const double contrast = std::clamp(
-        std::pow(std::abs(from) / (from > 0.0 ? kAbove : LOBE_TABLE_IOR_ONE), from > 0.0 ? 1.5 : 3.0), 0.0, 0.999);
+    const double contrast =
+        std::clamp(std::pow(std::abs(from) / (from > 0.0 ? kAbove : LOBE_TABLE_IOR_ONE), 3.0), 0.0, 0.999);
     return from > 0.0 ? (1.0 + contrast) / (1.0 - contrast) : (1.0 - contrast) / (1.0 + contrast);
 }
 
@@ -203,6 +209,7 @@ std::vector<glm::vec4> makeLobeTable() {
         const double viewLength = smithLength(alpha, cosView);
         glm::dvec4 ggx(0.0);
         std::array<double, LOBE_TABLE_IORS> ofIors{};
+        double whole = 0.0, tangents4 = 0.0; // with separable masking: of F = 1, and of the tangent of incidence^4
         visitVisible(alpha, cosView, [&](const Sample& sample) {
             if (!(sample.cosLight > 0.0)) return;
             const double lightLength = smithLength(alpha, sample.cosLight);
@@ -211,21 +218,26 @@ std::vector<glm::vec4> makeLobeTable() {
             ggx.x += sample.weight * correlated;
             ggx.y += sample.weight * correlated * fifth(1.0 - sample.cosIncidence);
             const double weight = sample.weight * separable(alpha, sample.cosLight);
-            for (std::size_t i = LOBE_TABLE_IOR_ONE; i < iors.size(); ++i)
+            whole += weight;
+            tangents4 += weight * tangent4(sample.cosIncidence);
+            for (std::size_t i = LOBE_TABLE_IOR_ONE + 1; i < iors.size(); ++i)
                 ofIors[i] += weight * dielectric(iors[i], sample.cosIncidence);
         });
+        const double incidence = whole > 0.0 ? 1.0 / std::sqrt(1.0 + std::sqrt(tangents4 / whole)) : cosView;
+        ofIors[LOBE_TABLE_IOR_ONE] = whole;
+        for (std::size_t i = LOBE_TABLE_IOR_ONE + 1; i < iors.size(); ++i) ofIors[i] /= dielectric(iors[i], incidence);
         for (std::size_t i = 0; i < LOBE_TABLE_IOR_ONE; ++i)
             ofIors[i] =
                 reflectedByDielectric(iors[i], alpha, std::clamp(cosineAt(iors[i], right), kSmallestCosine, 1.0));
         ggx.z = blinn(std::max(2.0 / (alpha * alpha) - 2.0, 0.0), cosView);
-        ggx.w = diffuseMean(cosView, [](double, double incidence) { return fifth(1.0 - incidence); });
+        ggx.w = diffuseMean(cosView, [](double, double cosIncidence) { return fifth(1.0 - cosIncidence); });
         table[at] = glm::vec4(ggx);
         const double ofViewer = sheenAlbedo(alpha, cosView);
         table[LOBE_LAYER_SHEEN * kLayer + at] = glm::vec4(
             float(sheen(alpha, cosView)),
             float(diffuseMean(
                 cosView, [&](double cosLight, double) { return std::max(sheenAlbedo(alpha, cosLight), ofViewer); })),
-            0.0f, 0.0f);
+            float(std::sqrt(incidence)), 0.0f);
         for (std::size_t i = 0; i < LOBE_TABLE_IORS; ++i)
             table[(LOBE_LAYER_DIELECTRIC + i / 4) * kLayer + at][int(i % 4)] = float(ofIors[i]);
     });

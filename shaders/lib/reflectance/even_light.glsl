@@ -38,14 +38,21 @@ float reflectedByDielectric(SeenSurface seen)
 {
     float ior = seen.surface.iorOrF90;
     float number = iorPlace(ior);
-    bool isDenser = number >= float(LOBE_TABLE_IOR_ONE);
-    int first = min(max(int(number), 0), (isDenser ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE) - 2);
+    bool isDenser = ior >= 1.0;
+    int first = isDenser ? min(int(number), LOBE_TABLE_IORS - 3) : min(max(int(number), 0), LOBE_TABLE_IOR_ONE - 2);
     precise float t = number - float(first);
     precise vec3 shares = vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0));
     vec2 place = vec2(lobeColumn(ior, clamp(seen.nv, 0.0, 1.0)), sqrt(clamp(lobeAlpha(seen.surface), 0.0, 1.0)));
+    // Below index 1 nothing is reflected at 1; what the table holds there is for those above.
+    int count = !isDenser && first == LOBE_TABLE_IOR_ONE - 2 ? 2 : 3;
     precise float reflected = 0.0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < count; ++i)
         reflected += shares[i] * lobeTexelAt(place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4];
+    if (isDenser) {
+        precise float root = lobeTexelAt(place, LOBE_LAYER_SHEEN).b;
+        precise float incidence = root * root;
+        reflected *= fresnelDielectric(ior, incidence);
+    }
     return clamp(reflected, 0.0, 1.0);
 }
 

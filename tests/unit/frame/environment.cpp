@@ -259,15 +259,6 @@ const std::vector<glm::vec4>& lobeTable() {
     return table;
 }
 
-TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
-    const std::vector<glm::vec4>& table = lobeTable();
-    constexpr std::size_t kLayer = std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE;
-    ASSERT_EQ(shared::iorPlace(1.0f), float(LOBE_TABLE_IOR_ONE)) << "between two places others would be mixed in";
-    constexpr std::size_t number = LOBE_TABLE_IOR_ONE;
-    for (std::size_t i = 0; i < kLayer; ++i)
-        ASSERT_LT(table[(LOBE_LAYER_DIELECTRIC + number / 4) * kLayer + i][int(number % 4)], 1e-6f) << i;
-}
-
 /// A place from 0 to 1 along both sides of a layer, as shaders look it up.
 glm::vec4 interpolatedAt(const std::vector<glm::vec4>& table, const glm::dvec2& along, int layer) {
     const glm::dvec2 place = along * (LOBE_TABLE_SIDE - 1.0);
@@ -283,21 +274,6 @@ glm::vec4 lookedUp(const std::vector<glm::vec4>& table, double cosine, double al
     return interpolatedAt(table, glm::sqrt(glm::dvec2(cosine, alpha)), LOBE_LAYER_GGX);
 }
 
-/// reflectedByDielectric() of shaders/lib/reflectance/even_light.glsl.
-double dielectricLookedUp(const std::vector<glm::vec4>& table, double ior, double cosine, double alpha) {
-    const double number = double(shared::iorPlace(float(ior)));
-    const int last = number >= LOBE_TABLE_IOR_ONE ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE;
-    const int first = std::min(int(number), last - 2);
-    const double t = number - first;
-    const double shares[] = {0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0)};
-    const glm::dvec2 place(double(shared::lobeColumn(float(ior), float(cosine))), std::sqrt(alpha));
-    double reflected = 0.0;
-    for (int i = 0; i < 3; ++i)
-        reflected +=
-            shares[i] * double(interpolatedAt(table, place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4]);
-    return std::clamp(reflected, 0.0, 1.0);
-}
-
 /// F by Snell's law.
 double fresnelBySnell(double ior, double cosine) {
     const double sine = std::sqrt(1.0 - cosine * cosine) / ior;
@@ -306,6 +282,27 @@ double fresnelBySnell(double ior, double cosine) {
     const double across = (cosine - ior * inside) / (cosine + ior * inside);
     const double along = (ior * cosine - inside) / (ior * cosine + inside);
     return 0.5 * (across * across + along * along);
+}
+
+/// reflectedByDielectric() of shaders/lib/reflectance/even_light.glsl.
+double dielectricLookedUp(const std::vector<glm::vec4>& table, double ior, double cosine, double alpha) {
+    const double number = double(shared::iorPlace(float(ior)));
+    const bool isDenser = ior >= 1.0;
+    const int first = std::min(int(number), (isDenser ? LOBE_TABLE_IORS - 1 : LOBE_TABLE_IOR_ONE) - 2);
+    const double t = number - first;
+    const double shares[] = {0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0)};
+    const glm::dvec2 place(double(shared::lobeColumn(float(ior), float(cosine))), std::sqrt(alpha));
+    double reflected = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        if (!isDenser && first + i == LOBE_TABLE_IOR_ONE) continue;
+        reflected +=
+            shares[i] * double(interpolatedAt(table, place, LOBE_LAYER_DIELECTRIC + (first + i) / 4)[(first + i) % 4]);
+    }
+    if (isDenser) {
+        const double root = double(interpolatedAt(table, place, LOBE_LAYER_SHEEN).z);
+        reflected *= fresnelBySnell(ior, root * root);
+    }
+    return std::clamp(reflected, 0.0, 1.0);
 }
 
 /// By half vectors h with the density D n.h, dl = 4 v.h dh: the mean of F G v.h / (n.v n.h).
@@ -343,6 +340,37 @@ TEST(LobeTable, aDielectricsLobeIsInterpolatedWithinTwoPercent) {
                 EXPECT_NEAR(dielectricLookedUp(table, ior, cosine, alpha), truth, 0.02 * truth + 5e-4)
                     << ior << ", alpha " << alpha << ", cosine " << cosine;
             }
+}
+
+/// Half-way between the table's indices from 1 to 3 and at an end of that, where a table of reflectances was off by all
+/// of them. Without an absolute part where the viewer's cosine is 0.08 or more.
+TEST(LobeTable, anyIndexFrom1To3IsInterpolatedWithinTwoPercentOfItsReflectance) {
+    const std::vector<glm::vec4>& table = lobeTable();
+    std::vector<double> iors{1.02, 1.1, 3.0};
+    constexpr double kAbove = LOBE_TABLE_IORS - 1 - LOBE_TABLE_IOR_ONE;
+    for (double place = 0.5; place < 0.75 * kAbove; place += 1.0) {
+        const double contrast = std::pow(place / kAbove, 3.0), ior = (1.0 + contrast) / (1.0 - contrast);
+        EXPECT_NEAR(double(shared::iorPlace(float(ior))), LOBE_TABLE_IOR_ONE + place, 0.02);
+        iors.push_back(ior);
+    }
+    for (const double ior : iors)
+        for (const double alpha : {0.001, 0.03, 0.1, 0.3, 1.0})
+            for (const double cosine : {0.01, 0.03, 0.08, 0.25, 0.6, 0.993}) {
+                const double truth = reflectedByHalfVectors(double(float(ior)), cosine, alpha);
+                EXPECT_NEAR(dielectricLookedUp(table, double(float(ior)), cosine, alpha), truth,
+                            0.02 * truth + (cosine < 0.08 ? 2e-3 : 0.0))
+                    << ior << ", alpha " << alpha << ", cosine " << cosine;
+            }
+}
+
+TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
+    EXPECT_EQ(shared::iorPlace(1.0f), float(LOBE_TABLE_IOR_ONE)) << "between two places others would be mixed in";
+    for (const double alpha : {0.0, 0.3, 1.0})
+        for (const double cosine : {0.01, 0.5, 1.0}) {
+            EXPECT_LT(dielectricLookedUp(lobeTable(), 1.0, cosine, alpha), 1e-12);
+            // From below too, but where reflection is total.
+            EXPECT_LT(dielectricLookedUp(lobeTable(), 0.99999, std::max(cosine, 0.5), alpha), 1e-6);
+        }
 }
 
 /// Blinn's highlight (n.h)^p over all lights dl = 4 v.h dh, by circles of half vectors.
