@@ -2,75 +2,13 @@
 // a lobe (docs/area-lights.md). Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with
 // Linearly Transformed Cosines".
 #pragma once
+#include "lib/light/area_edges.glsl"
 #include "lib/light/area_outline.glsl"
 #include "lib/light/light_store.glsl"
 #include "lib/reflectance/even_light.glsl"
 #include "shared/lobe_shapes.h"
 
 layout(binding = TEXTURE_UNIT_LOBE_SHAPES) uniform sampler2D lobeShapes;
-
-// ---- Edges ----------------------------------------------------------------------------------------------------------
-
-// acos(x) / sqrt(1 - x^2), to 5e-7 for x from 0 to 1 (Chebyshev's interpolation).
-float angleOverSine(float x)
-{
-    precise float inX = 0.13848964 - 0.027354032 * x;
-    inX = inX * x - 0.32747101;
-    inX = inX * x + 0.51150869;
-    inX = inX * x - 0.64950423;
-    inX = inX * x + 0.7834481;
-    inX = inX * x - 0.9999133;
-    inX = inX * x + 1.5707957;
-    return inX;
-}
-
-// The angle between two directions, times the height of the unit normal of their plane: a part of Lambert's formula for
-// the irradiance of a polygon (Lambert 1760, "Photometria").
-float edgePart(vec3 a, vec3 b)
-{
-    precise vec3 across = cross(a, b - a); // of nearly equal vectors the products would cancel
-    precise float lengths = sqrt(dot(a, a) * dot(b, b));
-    if (!(lengths > 0.0)) return 0.0;
-    precise float cosine = clamp(dot(a, b) / lengths, -1.0, 1.0);
-    precise float acute = angleOverSine(abs(cosine)) * (across.z / lengths);
-    if (cosine >= 0.0) return acute;
-    // The height itself, since the sine of nearly opposite directions has no digits left in the cosine.
-    precise float height = across.z / max(length(across), 1e-18);
-    precise float obtuse = kPi * height - acute;
-    return obtuse;
-}
-
-// Cuts an outline where it goes below a plane, and closes it there.
-struct Cut {
-    vec3 left, entered; // where it went below, and where it came up first
-    bool isBelow;       // it went below and has not come up
-    bool hasEntered;    // it came up before it first went below
-};
-const Cut kNoCut = Cut(vec3(0.0), vec3(0.0), false, false);
-
-// The part of an edge above z = 0; false where there is none.
-bool cutEdge(inout vec3 a, inout vec3 b, inout Cut cut, out bool comesUp)
-{
-    bool aIsAbove = a.z > 0.0, bIsAbove = b.z > 0.0;
-    comesUp = false;
-    if (!aIsAbove && !bIsAbove) return false;
-    if (aIsAbove == bIsAbove) return true;
-    precise float share = a.z / (a.z - b.z);
-    precise vec3 crossing = vec3(a.xy + share * (b.xy - a.xy), 0.0);
-    if (aIsAbove) {
-        b = crossing;
-        cut.left = crossing;
-        cut.isBelow = true;
-    } else {
-        a = crossing;
-        comesUp = true;
-        if (!cut.isBelow) {
-            cut.entered = crossing;
-            cut.hasEntered = true;
-        }
-    }
-    return true;
-}
 
 // ---- Lobes ----------------------------------------------------------------------------------------------------------
 
@@ -128,6 +66,70 @@ AreaLobe stretchedLobe(SeenSurface seen)
 }
 #endif
 
+// What is seen of a light that is so small that the lobe is the same all over it, and that parts of its edges would
+// cancel. `facing` is its area times the distance of its plane; metres from the point, as all.
+float shareOfPlace(vec3 place, float facing, AreaLobe lobe)
+{
+    precise vec3 onSurface = lobe.surfaceFromLS * place;
+    precise vec3 seen = lobe.cosineFromSurface * onSurface;
+    if (!(onSurface.z > 0.0 && seen.z > 0.0)) return 0.0;
+    precise float distance2 = dot(seen, seen);
+    precise float share = (seen.z / distance2) * (facing * determinant(lobe.cosineFromSurface) / distance2) * kInversePi;
+    return share;
+}
+
+// And of one that is so narrow: the integral of z / distance^4 along its middle line, from which `facing` makes the light
+// of its area. The two ends span an angle of 2 d; h is the line's distance:
+//     ((d - sin(d) cos(d)) h.z / |h| + sin(2 d) (h . bisector) / |h| bisector.z) / |h|^2
+float shareOfLine(vec3 middle, vec3 halfLine, float facing, AreaLobe lobe)
+{
+    precise vec3 onSurface = lobe.surfaceFromLS * middle, alongSurface = lobe.surfaceFromLS * halfLine;
+    precise vec3 seen = lobe.cosineFromSurface * onSurface, along = lobe.cosineFromSurface * alongSurface;
+    // Above the surface and in the cosine's hemisphere: both heights are linear along the line.
+    vec2 part = vec2(-1.0, 1.0);
+    for (int plane = 0; plane < 2; ++plane) {
+        float height = plane == 0 ? onSurface.z : seen.z, rise = plane == 0 ? alongSurface.z : along.z;
+        precise vec2 heights = vec2(height - rise, height + rise);
+        if (!(max(heights.x, heights.y) > 0.0)) return 0.0;
+        precise float crossing = -height / (rise != 0.0 ? rise : 1.0);
+        if (!(heights.x > 0.0)) part.x = max(part.x, crossing);
+        if (!(heights.y > 0.0)) part.y = min(part.y, crossing);
+    }
+    if (!(part.y > part.x)) return 0.0;
+    precise vec3 first = seen + part.x * along, second = seen + part.y * along;
+    precise float halfMetres2 = dot(along, along), halfMetres = sqrt(halfMetres2);
+    precise float metres = (part.y - part.x) * halfMetres;
+    precise float r0 = length(first), r1 = length(second);
+    precise float inverse = 1.0 / (r0 * r1);
+    precise vec3 moment = cross(seen, along);
+    precise vec3 nearest = cross(along, moment) / halfMetres2; // h
+    precise float h = length(moment) / halfMetres;
+    precise float perHeight = metres * inverse; // sin(2 d) / h
+    precise float sine = min(h * perHeight, 1.0), cosine = clamp(dot(first, second) * inverse, -1.0, 1.0);
+    // 2 + 2 cos(2 d), which cancels where the line reaches far to both sides.
+    precise float bisector2 = cosine > 0.0 ? 2.0 + 2.0 * cosine : max(2.0 * sine * sine / (1.0 - cosine), 1e-18);
+    precise float heights = max(first.z, 0.0) / r0 + max(second.z, 0.0) / r1;
+    precise float sum = perHeight * ((1.0 / r0 + 1.0 / r1) * heights / bisector2);
+    // (d - sin(d) cos(d)) / h^3: half of x - sin(x), which cancels where x is small.
+    precise float ofHeight;
+    if (cosine > 0.0 && sine < 0.2) {
+        precise float sine2 = sine * sine;
+        precise float x = 1.0 + sine2 * (1.0 / 6.0 + sine2 * (3.0 / 40.0)); // over the sine
+        precise float x2 = x * x * sine2;
+        ofHeight = (perHeight * perHeight * perHeight) * (x * x * x) * (1.0 - x2 * (1.0 / 20.0 - x2 / 840.0)) / 12.0;
+    } else {
+        ofHeight = 0.5 * (atan(sine, cosine) - sine) / (h * h * h);
+    }
+    sum += nearest.z * ofHeight;
+    precise float perMetre = 0.5 * kInversePi * facing * determinant(lobe.cosineFromSurface) / halfMetres;
+    precise float share = perMetre * sum;
+    return max(share, 0.0);
+}
+
+// Lights that reach less far across than this from their middle line, in parts of their distance, are lines: there edges
+// are right to 1e-4, and lines to 1e-5.
+const float kNarrow = 2e-3;
+
 // What a lobe sees of an outline, 1 where it fills the hemisphere.
 float shareSeen(Outline outline, AreaLobe lobe)
 {
@@ -135,51 +137,80 @@ float shareSeen(Outline outline, AreaLobe lobe)
     precise vec3 middle = cosineFromLS * outline.middle;
     precise vec3 right = cosineFromLS * outline.right, up = cosineFromLS * outline.up,
                  toEnds = cosineFromLS * outline.toEnds;
-    precise float size2 = max(max(dot(right, right), dot(up, up)), dot(toEnds, toEnds));
+    precise float right2 = dot(right, right), up2 = dot(up, up), ends2 = dot(toEnds, toEnds);
     precise float distance2 = dot(middle, middle);
-    if (size2 < 4e-6 * distance2) {
-        // So small that the lobe is the same all over it, and that parts of its edges would cancel.
-        precise vec3 onSurface = lobe.surfaceFromLS * outline.middle;
-        if (!(onSurface.z > 0.0 && middle.z > 0.0)) return 0.0;
-        precise float facing = abs(dot(outline.middle, outline.faces)) * determinant(lobe.cosineFromSurface);
-        precise float share = (middle.z / distance2) * (facing / distance2) * kInversePi * lobe.perAbove;
-        return share;
+    bool isLong = isTube(outline), isWide = right2 > up2;
+    if (!isLong && max(right2, up2) < 4e-6 * distance2) {
+        precise float facing = abs(dot(outline.middle, outline.faces));
+        return min(shareOfPlace(outline.middle, facing, lobe) * lobe.perAbove, 1.0);
     }
+    if (isLong || !outline.isRound) {
+        vec3 line = isLong ? toEnds : isWide ? right : up;
+        float line2 = isLong ? ends2 : max(right2, up2), across2 = isLong ? max(right2, up2) : min(right2, up2);
+        precise float nearest = clamp(-dot(middle, line) / max(line2, 1e-36), -1.0, 1.0);
+        precise vec3 toNearest = middle + nearest * line;
+        if (across2 < kNarrow * kNarrow * dot(toNearest, toNearest)) {
+            vec3 halfLine = isLong ? outline.toEnds : isWide ? outline.right : outline.up;
+            precise vec3 place = outline.middle + outline.toSide;
+            float facing = isLong ? outline.ofSide : abs(dot(outline.middle, outline.faces));
+            bool isShort = line2 < 4e-6 * distance2;
+            precise float share = isShort ? shareOfPlace(place, facing, lobe) : shareOfLine(place, halfLine, facing, lobe);
+            if (isLong) {
+                share += shareOfPlace(outline.middle + halfLine, outline.ofEnds.x, lobe);
+                share += shareOfPlace(outline.middle - halfLine, outline.ofEnds.y, lobe);
+            }
+            return min(share * lobe.perAbove, 1.0);
+        }
+    }
+    // Seen from the point; then edges along a horizon have their hemisphere on the right.
+    bool isClockwise = isLong || dot(outline.middle, cross(outline.right, outline.up)) > 0.0;
+    float turn = isClockwise ? 1.0 : -1.0;
+    precise vec3 surfaceNormal = cross(lobe.cosineFromSurface[0], lobe.cosineFromSurface[1]);
+    precise float surfaceHeight = turn * surfaceNormal.z / length(surfaceNormal);
     precise float sum = 0.0;
     Cut horizon = kNoCut, base = kNoCut;
-    precise vec3 a = lobe.surfaceFromLS * outlineVertex(outline, 0);
+    precise vec3 corner = outlineCorner(outline, 0);
+    precise vec3 a = lobe.surfaceFromLS * (outline.middle + corner);
     // One more round than edges: what closes the outline along the horizon.
     for (int edge = 0; edge <= outline.edges; ++edge) {
-        vec3 from = a, to = a;
+        vec3 from = a, to = a, along = vec3(0.0);
         bool isThere, comesUp = false;
         if (edge < outline.edges) {
-            precise vec3 b = lobe.surfaceFromLS * outlineVertex(outline, edge + 1);
+            precise vec3 next = outlineCorner(outline, edge + 1);
+            precise vec3 b = lobe.surfaceFromLS * (outline.middle + next);
+            precise vec3 ab = lobe.surfaceFromLS * (next - corner);
             to = b;
+            along = ab;
             a = b;
-            isThere = cutEdge(from, to, horizon, comesUp);
+            corner = next;
+            isThere = cutEdge(from, to, along, horizon, comesUp);
         } else {
             isThere = horizon.isBelow && horizon.hasEntered;
             from = horizon.left;
             to = horizon.entered;
+            along = to - from;
         }
+        bool isClosing = edge == outline.edges;
         // Where the outline comes up again, the line along the horizon comes first.
         bool closes = comesUp && horizon.isBelow;
         for (int part = closes ? 0 : 1; part < 2; ++part) {
             if (!isThere) continue;
             precise vec3 start = lobe.cosineFromSurface * (part == 0 ? horizon.left : from);
             precise vec3 end = lobe.cosineFromSurface * (part == 0 ? from : to);
-            vec3 startAbove = start, endAbove = end;
+            precise vec3 between = lobe.cosineFromSurface * (part == 0 ? from - horizon.left : along);
+            vec3 startAbove = start, endAbove = end, betweenAbove = between;
             bool comesUpAgain;
-            if (!cutEdge(startAbove, endAbove, base, comesUpAgain)) continue;
+            if (!cutEdge(startAbove, endAbove, betweenAbove, base, comesUpAgain)) continue;
             if (comesUpAgain && base.isBelow) {
-                sum += edgePart(base.left, startAbove);
+                sum += closingPart(base.left, startAbove, turn);
                 base.isBelow = false;
             }
-            sum += edgePart(startAbove, endAbove);
+            sum += part == 0 || isClosing ? closingPart(startAbove, endAbove, surfaceHeight)
+                                          : edgePart(startAbove, endAbove, betweenAbove);
         }
         if (closes) horizon.isBelow = false;
     }
-    if (base.isBelow && base.hasEntered) sum += edgePart(base.left, base.entered);
+    if (base.isBelow && base.hasEntered) sum += closingPart(base.left, base.entered, turn);
     precise float share = abs(sum) * (0.5 * kInversePi) * lobe.perAbove;
     return min(share, 1.0);
 }

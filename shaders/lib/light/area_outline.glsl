@@ -1,6 +1,6 @@
 // What a point sees of an area light: a convex outline of straight edges. Round ones have kRoundEdges of them and
-// the area of the circle, so that their light is right to 1e-4 and their edge to 3e-3 of the radius; an end of a tube half
-// as many, and 1.4e-2.
+// the area of the circle, so that their light is right to 1e-4 and their edge to 3e-3 of the radius; of a tube an end that
+// is seen as many, one that is hidden half of them, and 1.4e-2.
 #pragma once
 #include "shared/light.h"
 #include "lib/maths/math.glsl"
@@ -16,16 +16,24 @@ struct Outline {
     vec3 toEnds;    // from the middle to the middle of the first arc, and back to the second
     vec2 turns;     // of a tube the angle between two vertices of the first arc, and of the second
     vec2 firstTurn; // the angle of the first vertex of either
+    // Of a tube, as flat pieces: the strip between the lines, and what of either end lies beyond it. Each has its square
+    // metres times the point's distance from its plane.
+    vec3 toSide; // from the middle to that of the strip
+    float ofSide;
+    vec2 ofEnds;
+    ivec2 arcEdges; // of either arc
     int edges;      // 0 where nothing is seen
     bool isRound;
 };
 
-const Outline kNoOutline = Outline(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0), 0, false);
+const Outline kNoOutline = Outline(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0),
+                                   vec3(0.0), 0.0, vec2(0.0), ivec2(0), 0, false);
 
 Outline roundOutline(vec3 middle, vec3 right, vec3 up, vec3 faces)
 {
     const float kTurn = 2.0 * kPi / float(kRoundEdges);
-    return Outline(middle, faces, right, up, vec3(0.0), vec2(kTurn), vec2(0.0), kRoundEdges, true);
+    return Outline(middle, faces, right, up, vec3(0.0), vec2(kTurn), vec2(0.0), vec3(0.0), 0.0, vec2(0.0),
+                   ivec2(0), kRoundEdges, true);
 }
 
 #if HAS_SPHERE_LIGHTS
@@ -48,7 +56,9 @@ Outline sphereOutline(vec3 middle, float radius)
 #endif
 
 #if HAS_TUBE_LIGHTS
-// A closed cylinder: of each end the half of its edge that lies outwards, and the two lines between them.
+// A closed cylinder: of each end the half of its edge that lies outwards, and the two lines between them. Within the
+// cylinder's continuation the hidden end and the lines shrink to the point where they meet the edge of the other end, so
+// that nothing jumps where the point comes out of it.
 Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
 {
     precise float halfMetres = max(length(halfLength), 1e-18);
@@ -57,27 +67,29 @@ Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
     precise vec3 outwards = -middle - along * axis;
     precise float away2 = dot(outwards, outwards), away = sqrt(away2);
     bool seesFirst = along > halfMetres, seesSecond = along < -halfMetres;
-    vec3 radial = away > radius ? safeNormalize(outwards, anyPerpendicular(axis)) : anyPerpendicular(axis);
+    bool seesSide = away > radius;
+    if (!seesSide && !seesFirst && !seesSecond) return kNoOutline;
+    // Twice across the axis, since of a point on it rounding alone is left.
+    precise vec3 radial = safeNormalize(outwards, anyPerpendicular(axis));
+    precise vec3 across = radial - dot(radial, axis) * axis;
+    radial = dot(across, across) > 0.25 ? normalize(across) : anyPerpendicular(axis);
     precise vec3 right = radius * radial;
     precise vec3 up = radius * cross(axis, radial);
-    if (!(away > radius)) {
-        // Within the cylinder's continuation: one of the ends, or nothing.
-        if (!seesFirst && !seesSecond) return kNoOutline;
-        precise vec3 end = seesFirst ? middle + halfLength : middle - halfLength;
-        precise vec3 faces = (kPi * radius * radius) * axis;
-        return roundOutline(end, right, up, faces);
-    }
-    float seenHalf = acos(clamp(radius / away, 0.0, 1.0)); // the tube's side is seen that far to either side
+    precise float cosHalf = min(radius / max(away, 1e-18), 1.0);
+    precise float sinHalf = sqrt((1.0 - cosHalf) * (1.0 + cosHalf));
+    float seenHalf = atan(sinHalf, cosHalf); // the tube's side is seen that far to either side
+    precise float ofSide = 4.0 * halfMetres * radius * away * (sinHalf * sinHalf * sinHalf);
+    // The segment of an end between the strip and the point; of an end that is seen the rest.
+    precise float segment = seenHalf - sinHalf * cosHalf;
+    precise vec2 shares = vec2(seesFirst ? kPi - segment : segment, seesSecond ? kPi - segment : segment);
+    precise vec2 ofEnds = radius * radius * shares * abs(vec2(along - halfMetres, along + halfMetres));
     // Round the front of an end that is hidden, round the back of one that is seen.
-    const int kEdges = kRoundEdges / 2;
+    ivec2 arcEdges = ivec2(seesFirst ? kRoundEdges : kRoundEdges / 2, seesSecond ? kRoundEdges : kRoundEdges / 2);
     precise vec2 arcs = vec2(seesFirst ? 2.0 * seenHalf - 2.0 * kPi : 2.0 * seenHalf,
                              seesSecond ? 2.0 * kPi - 2.0 * seenHalf : -2.0 * seenHalf);
-    precise vec2 turns = arcs / float(kEdges);
-    precise float distance = sqrt(max(dot(middle, middle), 1e-36));
-    precise float side = 4.0 * radius * halfMetres * away / distance;
-    precise float ends = kPi * radius * radius * abs(along) / distance;
-    precise vec3 faces = middle * ((side + ends) / distance);
-    return Outline(middle, faces, right, up, halfLength, turns, vec2(-seenHalf, seenHalf), 2 * kEdges + 2, true);
+    precise vec2 turns = arcs / vec2(arcEdges);
+    return Outline(middle, vec3(0.0), right, up, halfLength, turns, vec2(-seenHalf, seenHalf), cosHalf * right, ofSide,
+                   ofEnds, arcEdges, arcEdges.x + arcEdges.y + 2, true);
 }
 #endif
 
@@ -96,40 +108,49 @@ Outline areaOutline(int kind, vec3 middle, vec4 first, vec4 second)
 #if HAS_DISK_LIGHTS
     if (type == LIGHT_DISK) return roundOutline(middle, first.xyz, second.xyz, kPi * faces);
 #endif
-    return Outline(middle, 4.0 * faces, first.xyz, second.xyz, vec3(0.0), vec2(0.0), vec2(0.0), 4, false);
+    return Outline(middle, 4.0 * faces, first.xyz, second.xyz, vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0), 0.0, vec2(0.0),
+                   ivec2(0), 4, false);
 }
 
-// From the point to a vertex; vertex `edges` is the first again.
-vec3 outlineVertex(Outline outline, int vertex)
+bool isTube(Outline outline)
+{
+#if HAS_TUBE_LIGHTS
+    return outline.arcEdges.x > 0;
+#else
+    return false;
+#endif
+}
+
+// From the light's middle to a vertex; vertex `edges` is the first again.
+vec3 outlineCorner(Outline outline, int vertex)
 {
     int number = vertex == outline.edges ? 0 : vertex;
     if (!outline.isRound) {
-        precise vec3 corner = outline.middle + (number == 0 || number == 3 ? outline.right : -outline.right)
+        precise vec3 corner = (number == 0 || number == 3 ? outline.right : -outline.right)
                               + (number < 2 ? outline.up : -outline.up);
         return corner;
     }
-    vec3 end = outline.toEnds;
-    bool isFirst = true, isInner = true;
+    bool isFirst = true;
     int onArc = number;
     float growth = kRoundGrowth;
 #if HAS_TUBE_LIGHTS
-    if (outline.edges != kRoundEdges) {
-        const int kEdges = kRoundEdges / 2;
-        isFirst = number <= kEdges;
-        if (!isFirst) onArc -= kEdges + 1;
+    if (isTube(outline)) {
+        isFirst = number <= outline.arcEdges.x;
+        int arcEdges = isFirst ? outline.arcEdges.x : outline.arcEdges.y;
+        if (!isFirst) onArc -= outline.arcEdges.x + 1;
         // The ends of an arc lie on it, so that the lines between arcs are the tube's; those between are moved out until
         // the area is that of the arc.
         float turn = abs(isFirst ? outline.turns.x : outline.turns.y);
         precise float ratio = turn > 1e-3 ? turn / sin(turn) : 1.0;
-        const float kInner = float(kEdges - 2);
-        precise float grown = (sqrt(1.0 + kInner * float(kEdges) * ratio) - 1.0) / kInner;
-        growth = onArc == 0 || onArc == kEdges ? 1.0 : grown;
+        float inner = float(arcEdges - 2);
+        precise float grown = (sqrt(1.0 + inner * float(arcEdges) * ratio) - 1.0) / inner;
+        growth = onArc == 0 || onArc == arcEdges ? 1.0 : grown;
     }
 #endif
     precise float angle = isFirst ? outline.firstTurn.x + float(onArc) * outline.turns.x
                                   : outline.firstTurn.y + float(onArc) * outline.turns.y;
     precise vec2 place = growth * vec2(cos(angle), sin(angle));
-    precise vec3 from = isFirst ? outline.middle + end : outline.middle - end;
+    precise vec3 from = isFirst ? outline.toEnds : -outline.toEnds;
     precise vec3 corner = from + place.x * outline.right + place.y * outline.up;
     return corner;
 }
