@@ -141,14 +141,14 @@ protected:
 };
 using LightVolumesSlow = LightVolumes;
 
-struct Case {
+struct ViewerAndLight {
     const char* name;
     std::vector<scenes::Light> lights;
     std::function<void(scenes::Camera&)> arrange = [](scenes::Camera&) {};
 };
 
 // The camera stands at (0, 1.5, 6) and looks at the origin, over a floor at y = -1; mirrored objects stand on it.
-std::vector<Case> cases() {
+std::vector<ViewerAndLight> cases() {
     const glm::dvec3 eyeWS(0.0, 1.5, 6.0);
     const auto farPlane = [](scenes::Camera& camera) { camera.farMetres = 7.0; };
     const auto nearPlane = [](scenes::Camera& camera) { camera.nearMetres = 4.5; };
@@ -156,7 +156,7 @@ std::vector<Case> cases() {
         camera.projection = scenes::Projection::Orthographic;
         camera.halfHeightMetres = 2.5;
     };
-    std::vector<Case> all{
+    std::vector<ViewerAndLight> all{
         {"the eye inside", {rangedLight(eyeWS + glm::dvec3(0.3, 0.2, 0.1), 6.0f), rangedLight(eyeWS, 5.0f)}},
         {"the eye on the sphere", {rangedLight({0.0, 1.5, 2.0}, 4.0f)}},
         {"behind the eye", {rangedLight({0.5, 2.0, 8.0}, 9.0f), rangedLight({9.0, 0.0, 7.0}, 12.0f)}},
@@ -190,7 +190,7 @@ TEST_F(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
     const scenes::Scene before = test::everythingScene();
     scenes::Scene scene = before;
     engine::Renderer renderer(context(), scene);
-    for (const Case& example : cases()) {
+    for (const ViewerAndLight& example : cases()) {
         scene.cameras = before.cameras;
         example.arrange(scene.cameras[0]);
         for (const scenes::Light& light : example.lights) {
