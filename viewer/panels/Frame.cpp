@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
+#include "viewer/panels/Handles.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
@@ -131,6 +132,7 @@ void notices(State& state, const PictureArea& area, float scale) {
 
 PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
     PictureArea area;
+    area.scale = scale;
     area.corner = {panelWidth(state, scale), 0.0f};
     area.size = glm::max(windowSize - area.corner - glm::vec2(0.0f, kStatusHeight * scale), glm::vec2(0.0f));
     if (area.size.x < 1.0f || area.size.y < 1.0f) area.size = glm::vec2(0.0f);
@@ -148,9 +150,11 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);
         drawMarkers(state, area, scale);
+        drawHandles(state, area);
         drawDivider(state, area, scale);
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
+        drawDragText(state, area);
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

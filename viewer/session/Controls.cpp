@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include "viewer/edit/LightList.h"
 #include "viewer/session/Keys.h"
-#include "viewer/session/Projection.h"
 
 namespace tessera::viewer {
 namespace {
 
 constexpr float kDividerReach = 6.0f;    ///< screen coordinates to either side that grab it
-constexpr float kMarkerReach = 9.0f;     ///< the same around a light's marker
+constexpr float kMarkerReach = 9.0f;     ///< the same around a light's marker, and around its handles
 constexpr float kClickReach = 3.0f;      ///< movement of a hand during a click
 constexpr double kZoomPerStep = 0.88;    ///< of the distance, a step of the wheel
 constexpr double kTurnPerHeight = 180.0; ///< degrees of the environment, a drag as far as the picture is high
@@ -23,25 +23,37 @@ glm::vec2 fromCenter(const glm::vec2& point, const PictureArea& area) {
     return point - area.corner - 0.5f * area.size;
 }
 
+bool isEmpty(const PictureArea& area) {
+    return area.size.x < 1.0f || area.size.y < 1.0f;
+}
+
+bool hasSelectedLight(const State& state) {
+    return state.open && state.selectedLight >= 0 && state.selectedLight < int(state.open->scene().lights.size());
+}
+
+scenes::Light lightShown(const State& state, int index) {
+    return scenes::lightAtTime(state.open->scene().lights[std::size_t(index)], state.looks[0].settings.timeSeconds);
+}
+
 /// The light whose marker is under the pointer: the selected one before others.
 int markedLight(const State& state, const PictureArea& area, const glm::vec2& point) {
-    if (!state.open) return scenes::kNone;
-    const scenes::Scene& scene = state.open->scene();
+    if (!state.open || isEmpty(area)) return scenes::kNone;
+    const PictureView view = viewOf(state, area);
     const auto isUnder = [&](int index) {
-        const scenes::Light light =
-            scenes::lightAtTime(scene.lights[std::size_t(index)], state.looks[0].settings.timeSeconds);
+        const scenes::Light light = lightShown(state, index);
         if (!scenes::infoOf(light.type).hasPosition()) return false;
-        const auto place =
-            projected(scene.cameras[std::size_t(state.open->camera())], state.pictureAspect, light.positionWS);
-        return place && glm::distance(area.corner + glm::vec2(*place) * area.size, point) <= kMarkerReach;
+        const auto place = view.placeOf(light.positionWS);
+        return place && glm::distance(area.corner + glm::vec2(*place), point) <= kMarkerReach * area.scale;
     };
-    const int count = int(scene.lights.size());
-    if (state.selectedLight != scenes::kNone && state.selectedLight < count && isUnder(state.selectedLight))
-        return state.selectedLight;
-    const int marked = state.showsMarkers ? std::min(count, int(kMostMarkers)) : 0;
+    if (hasSelectedLight(state) && isUnder(state.selectedLight)) return state.selectedLight;
+    const int marked = state.showsMarkers ? int(std::min(state.open->scene().lights.size(), kMostMarkers)) : 0;
     for (int i = 0; i < marked; ++i)
         if (isUnder(i)) return i;
     return scenes::kNone;
+}
+
+std::string turnText(float degrees) {
+    return fmt::format("Environment {:.1f}\xc2\xb0", degrees);
 }
 
 bool* flyKey(FlyKeys& keys, int key) {
@@ -76,8 +88,29 @@ bool PictureArea::contains(const glm::vec2& point) const {
 PictureArea partOf(const State& state, const PictureArea& area, int side) {
     if (state.compare != Compare::Split) return area;
     const float left = state.divider * area.size.x;
-    if (side == 0) return {area.corner, {left, area.size.y}};
-    return {area.corner + glm::vec2(left, 0.0f), {area.size.x - left, area.size.y}};
+    if (side == 0) return {area.corner, {left, area.size.y}, area.scale};
+    return {area.corner + glm::vec2(left, 0.0f), {area.size.x - left, area.size.y}, area.scale};
+}
+
+PictureView viewOf(const State& state, const PictureArea& area) {
+    return {state.open->scene().cameras[std::size_t(state.open->camera())], area.size};
+}
+
+std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area) {
+    if (!hasSelectedLight(state) || isEmpty(area)) return std::nullopt;
+    return lightFigure(lightShown(state, state.selectedLight), viewOf(state, area), area.scale);
+}
+
+std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point) {
+    const std::optional<LightFigure> figure = selectedFigure(state, area);
+    if (!figure) return std::nullopt;
+    const glm::dvec2 place = point - area.corner;
+    const auto found = handleAt(figure->handles, place, kMarkerReach * area.scale);
+    if (!found) return std::nullopt;
+    const LightHandle& handle = figure->handles[*found];
+    const auto marker = figure->sun ? std::nullopt : viewOf(state, area).placeOf(figure->middleWS);
+    if (marker && glm::distance(*marker, place) <= glm::distance(handle.place, place)) return std::nullopt;
+    return handle;
 }
 
 void Controls::handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims) {
@@ -101,7 +134,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
         case InputEvent::Kind::Focus:
             if (!event.down) {
                 flying_ = {};
-                drag_ = Drag::None;
+                endDrag(state);
             }
             break;
         case InputEvent::Kind::Character:
@@ -118,16 +151,20 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
         drag_ = Drag::Pan;
     } else if (event.code == GLFW_MOUSE_BUTTON_RIGHT) {
-        if ((event.modifiers & GLFW_MOD_SHIFT) && state.open && state.open->scene().environment)
+        if ((event.modifiers & GLFW_MOD_SHIFT) && state.open && state.open->scene().environment) {
             drag_ = Drag::Environment;
+            state.dragText = turnText(state.active().settings.environment.rotationDegrees);
+        }
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
         const float dividerX = area.corner.x + state.divider * area.size.x;
-        if (state.compare == Compare::Split && std::abs(event.position.x - dividerX) <= kDividerReach) {
+        if (state.compare == Compare::Split && std::abs(event.position.x - dividerX) <= kDividerReach * area.scale) {
             drag_ = Drag::Divider;
         } else if (event.modifiers & GLFW_MOD_ALT) {
             drag_ = Drag::Pan;
         } else if (event.modifiers & GLFW_MOD_CONTROL) {
             drag_ = Drag::Zoom;
+        } else if (const auto handle = handleUnder(state, area, event.position)) {
+            takeHandle(*handle, state, area, event.position);
         } else if (const int light = markedLight(state, area, event.position); light != scenes::kNone) {
             drag_ = Drag::Light;
             state.selectedLight = light;
@@ -139,15 +176,41 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
 
 void Controls::release(const InputEvent& event, State& state, const PictureArea& area) {
     if (event.code != button_) return;
-    const bool isClick = drag_ == Drag::Rotate && glm::distance(event.position, pressedAt_) <= kClickReach;
+    const bool isClick = drag_ == Drag::Rotate && glm::distance(event.position, pressedAt_) <= kClickReach * area.scale;
     if (isClick && area.size.x > 0.0f) state.requests.pick = (event.position - area.corner) / area.size;
+    endDrag(state);
+}
+
+void Controls::endDrag(State& state) {
     drag_ = Drag::None;
+    handle_.reset();
+    state.heldHandle.reset();
+    state.dragText.clear();
+}
+
+void Controls::takeHandle(const LightHandle& handle, State& state, const PictureArea& area, const glm::vec2& point) {
+    drag_ = Drag::Handle;
+    handledLight_ = state.selectedLight;
+    const scenes::Light& light = state.open->scene().lights[std::size_t(handledLight_)];
+    handle_.emplace(light, *selectedFigure(state, area), handle, viewOf(state, area), point - area.corner);
+    state.heldHandle = handle.number;
+    state.dragText = handle_->text(light);
+}
+
+void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2& point) {
+    // Del, or another scene, may have taken the light away.
+    if (state.selectedLight != handledLight_ || !hasSelectedLight(state)) return endDrag(state);
+    scenes::Light& light = state.open->edit().lights[std::size_t(handledLight_)];
+    const bool isOneSided = flying_.fast; // Shift
+    const double timeSeconds = state.active().settings.timeSeconds;
+    if (handle_->drag(light, timeSeconds, viewOf(state, area), point - area.corner, isOneSided)) state.open->touch();
+    state.dragText = handle_->text(light);
 }
 
 void Controls::move(const InputEvent& event, State& state, const PictureArea& area) {
     const glm::dvec2 moved = event.position - pointer_;
     pointer_ = event.position;
-    if (!state.open || moved == glm::dvec2(0.0) || area.size.y < 1.0f) return;
+    if (!state.open || moved == glm::dvec2(0.0) || isEmpty(area)) return;
     CameraRig& rig = state.open->rig();
     switch (drag_) {
     case Drag::None:
@@ -168,9 +231,13 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
                   rig.pose(), rig.start(), moved, area.size.y);
         state.open->touch();
         break;
+    case Drag::Handle:
+        dragHandle(state, area, event.position);
+        break;
     case Drag::Environment: {
         float& degrees = state.active().settings.environment.rotationDegrees;
         degrees = float(std::remainder(double(degrees) + kTurnPerHeight * moved.x / area.size.y, 360.0));
+        state.dragText = turnText(degrees);
         break;
     }
     case Drag::Divider:

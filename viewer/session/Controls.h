@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <span>
 
+#include "viewer/edit/LightDrag.h"
 #include "viewer/session/State.h"
 #include "viewer/window/Input.h"
 
@@ -14,11 +16,21 @@ inline constexpr std::size_t kMostMarkers = 4096;
 struct PictureArea {
     glm::vec2 corner{0.0f};
     glm::vec2 size{0.0f};
+    float scale = 1.0f; ///< of lengths in it, for one on a display of usual density
     bool contains(const glm::vec2& point) const;
 };
 
 /// The part of the picture's place that shows a side: what lies left or right of the divider, or all.
 PictureArea partOf(const State& state, const PictureArea& area, int side);
+
+/// What the picture of an open scene shows where, from its upper left in screen coordinates. The area is not empty.
+PictureView viewOf(const State& state, const PictureArea& area);
+
+/// Outline and handles of the selected light; none where no light is selected, or there is no picture.
+std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area);
+
+/// Its handle that a press at a point of the window takes; its marker is taken before one that is no nearer.
+std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point);
 
 /// Turns the user's input on the picture into movements of the camera and changes of the state.
 class Controls {
@@ -31,16 +43,21 @@ public:
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
 
 private:
-    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light, Environment };
+    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light, Handle, Environment };
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
     void release(const InputEvent& event, State& state, const PictureArea& area);
     void move(const InputEvent& event, State& state, const PictureArea& area);
     void key(const InputEvent& event, State& state, const Claims& claims);
+    void takeHandle(const LightHandle& handle, State& state, const PictureArea& area, const glm::vec2& point);
+    void dragHandle(State& state, const PictureArea& area, const glm::vec2& point);
+    void endDrag(State& state);
 
     Drag drag_ = Drag::None;
     int button_ = 0; ///< that began the drag
     glm::vec2 pointer_{0.0f};
     glm::vec2 pressedAt_{0.0f};
+    std::optional<LightDrag> handle_; ///< of Drag::Handle
+    int handledLight_ = scenes::kNone;
     FlyKeys flying_;
 };
 

@@ -69,9 +69,11 @@ struct State {
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened
 
-    bool showsMarkers = false; ///< where lights are
-    bool wantsPlan = false;    ///< a panel shows the plan of the active side's frame
-    std::string command;       ///< that renders the picture, on request
+    bool showsMarkers = false;     ///< where lights are
+    std::optional<int> heldHandle; ///< of the selected light, which is dragged: LightHandle::number
+    std::string dragText;          ///< what the drag in progress sets, for the user
+    bool wantsPlan = false;        ///< a panel shows the plan of the active side's frame
+    std::string command;           ///< that renders the picture, on request
     Timings timings;
 
     Notice notice;

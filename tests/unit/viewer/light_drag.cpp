@@ -1,0 +1,174 @@
+#include <algorithm>
+
+#include "scenes/AreaLight.h"
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/edit/LightDrag.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr glm::dvec2 kDragPicture{1000.0, test::kHeightPixels};
+
+/// Of a type, away from the origin.
+scenes::Light draggedLight(scenes::LightType type) {
+    scenes::Light light;
+    light.type = type;
+    light.positionWS = {0.4, 1.2, -0.3};
+    light.directionWS = glm::normalize(glm::dvec3(0.3, -0.8, 0.4));
+    light.alongWS = scenes::usualAlong(light.directionWS);
+    light.widthMetres = 0.8f;
+    light.heightMetres = 0.5f;
+    light.lengthMetres = 1.1f;
+    light.radiusMetres = 0.3f;
+    return light;
+}
+
+std::vector<PictureView> dragViews() {
+    const glm::dvec3 eyeWS(1.0, 1.9, 4.0), targetWS(0.3, 1.0, 0.0);
+    return {{test::perspective(eyeWS, targetWS), kDragPicture},
+            {test::orthographic(eyeWS, targetWS, 1.5), kDragPicture}};
+}
+
+/// A light whose handle was dragged with the pointer a little beside it.
+scenes::Light draggedBy(const scenes::Light& light, const PictureView& view, const LightHandle& handle,
+                        const glm::dvec2& way, bool isOneSided = false) {
+    const glm::dvec2 pointer = handle.place + glm::dvec2(3.0, -2.0);
+    scenes::Light changed = light;
+    LightDrag drag(light, lightFigure(light, view, 1.0), handle, view, pointer);
+    drag.drag(changed, 0.0, view, pointer + 0.4 * way, isOneSided);
+    drag.drag(changed, 0.0, view, pointer + way, isOneSided);
+    return changed;
+}
+
+/// Where a handle of that number is after an edit.
+LightHandle sameHandle(const scenes::Light& light, const PictureView& view, int number) {
+    const LightFigure figure = lightFigure(light, view, 1.0);
+    const auto found = std::ranges::find(figure.handles, number, &LightHandle::number);
+    return found == figure.handles.end() ? LightHandle() : *found;
+}
+
+TEST(LightDrag, aLineAndAnAxisAreNearestWhereTheirCommonNormalMeetsTheAxis) {
+    // The axis of height 1 along x, the line of height 3 along z over x = 2.5.
+    const SightLine line{{2.5, 3.0, 7.0}, {0.0, 0.0, -1.0}};
+    const glm::dvec3 middleWS(0.5, 1.0, 0.0), axisWS(1.0, 0.0, 0.0);
+    EXPECT_NEAR(metresAlongAxis(line, middleWS, axisWS).value(), 2.0, 1e-12);
+    EXPECT_NEAR(metresAlongAxis(line, middleWS, -axisWS).value(), -2.0, 1e-12);
+    EXPECT_FALSE(metresAlongAxis({{2.5, 3.0, -7.0}, {0.0, 0.0, -1.0}}, middleWS, axisWS)) << "behind its origin";
+    EXPECT_FALSE(metresAlongAxis(line, middleWS, {0.0, 0.0, 1.0})) << "parallel";
+}
+
+TEST(LightDrag, aLineMeetsASphereTwiceOrComesNearestToItsRim) {
+    const glm::dvec3 middleWS(1.0, 0.0, 0.0);
+    const SightLine line{{1.0, 3.0, 10.0}, {0.0, 0.0, -1.0}};
+    const SpherePoint near = pointOnSphere(line, middleWS, 5.0, false), far = pointOnSphere(line, middleWS, 5.0, true);
+    EXPECT_LT(glm::distance(near.directionWS, glm::dvec3(0.0, 0.6, 0.8)), 1e-12);
+    EXPECT_LT(glm::distance(far.directionWS, glm::dvec3(0.0, 0.6, -0.8)), 1e-12);
+    EXPECT_FALSE(near.isBeside);
+    const SpherePoint beside = pointOnSphere(line, middleWS, 2.0, false);
+    EXPECT_TRUE(beside.isBeside);
+    EXPECT_LT(glm::distance(beside.directionWS, glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
+    // From inside there is one side only.
+    const SpherePoint inside = pointOnSphere({{1.0, 3.0, 0.0}, {0.0, 0.0, -1.0}}, middleWS, 5.0, false);
+    EXPECT_LT(glm::distance(inside.directionWS, glm::dvec3(0.0, 0.6, -0.8)), 1e-12);
+}
+
+TEST(LightDrag, everyHandleOfAShapeGoesWithThePointerAndBack) {
+    for (const PictureView& view : dragViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            const scenes::Light light = draggedLight(type.type);
+            for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
+                if (handle.parameter == nullptr) continue;
+                SCOPED_TRACE(std::string(type.name) + " " + handle.parameter->label);
+                const glm::dvec2 way = 25.0 * handle.way;
+                const scenes::Light larger = draggedBy(light, view, handle, way);
+                EXPECT_GT(larger.*handle.parameter->member, light.*handle.parameter->member);
+                EXPECT_EQ(larger.positionWS, light.positionWS);
+                // A rim's handle is where lines of sight touch, which turns a little as the radius grows.
+                const double pixels = handle.isRound ? 3.0 : 0.01;
+                EXPECT_LT(glm::distance(sameHandle(larger, view, handle.number).truePlace, handle.truePlace + way),
+                          pixels);
+                const scenes::Light back = draggedBy(light, view, handle, {0.0, 0.0});
+                EXPECT_NEAR(back.*handle.parameter->member, light.*handle.parameter->member, 1e-6);
+                // Far over the middle nothing is left.
+                if (!handle.isRound) {
+                    EXPECT_EQ(draggedBy(light, view, handle, -250.0 * handle.way).*handle.parameter->member, 0.0f);
+                }
+            }
+        }
+}
+
+TEST(LightDrag, ofOneSideTheOppositeOneStays) {
+    for (const PictureView& view : dragViews())
+        for (const scenes::LightType type : {scenes::LightType::Rectangle, scenes::LightType::Tube}) {
+            scenes::Light light = draggedLight(type);
+            light.animation.emplace().centerWS = light.positionWS - glm::dvec3(1.0, 0.0, 0.0);
+            light.positionWS = scenes::lightAtTime(light, 0.0).positionWS;
+            for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
+                if (handle.parameter == nullptr || handle.isRound) continue;
+                SCOPED_TRACE(handle.parameter->label);
+                const scenes::Light moved = draggedBy(light, view, handle, 20.0 * handle.way, true);
+                const auto endWS = [&](const scenes::Light& of, double side) {
+                    const double halfMetres = 0.5 * double(of.*handle.parameter->member);
+                    return scenes::lightAtTime(of, 0.0).positionWS + side * halfMetres * handle.axisWS;
+                };
+                EXPECT_GT(moved.*handle.parameter->member, light.*handle.parameter->member);
+                EXPECT_LT(glm::distance(endWS(moved, -1.0), endWS(light, -1.0)), 1e-6);
+                const glm::dvec2 shown = view.placeOf(endWS(moved, 1.0)).value();
+                EXPECT_LT(glm::distance(shown, handle.truePlace + 20.0 * handle.way), 0.01);
+                EXPECT_LT(
+                    glm::distance(
+                        scenes::lightAtTime(light, 0.0).positionWS,
+                        scenes::lightAtTime(draggedBy(light, view, handle, glm::dvec2(0.0), true), 0.0).positionWS),
+                    1e-6);
+            }
+        }
+}
+
+TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
+    for (const PictureView& view : dragViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            if (!type.hasDirection) continue;
+            SCOPED_TRACE(type.name);
+            const scenes::Light light = draggedLight(type.type);
+            const LightFigure figure = lightFigure(light, view, 1.0);
+            const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+            ASSERT_NE(handle, figure.handles.end());
+            const glm::dvec3 armWS = handle->positionWS - figure.middleWS;
+            scenes::Light turned = light;
+            LightDrag drag(light, figure, *handle, view, handle->place);
+            const glm::dvec2 there = handle->place + glm::dvec2(-5.0, -8.0);
+            EXPECT_TRUE(drag.drag(turned, 0.0, view, there, false));
+            EXPECT_NEAR(glm::length(turned.directionWS), 1.0, 1e-12);
+            EXPECT_NEAR(glm::dot(turned.directionWS, turned.alongWS), 0.0, type.hasSides() ? 1e-12 : 1.0);
+            const glm::dvec3 tipWS = figure.middleWS + glm::length(armWS) * turned.directionWS;
+            EXPECT_LT(glm::distance(view.placeOf(tipWS).value(), there), 1e-6);
+            drag.drag(turned, 0.0, view, handle->place, false);
+            EXPECT_LT(glm::distance(turned.directionWS, light.directionWS), 1e-9);
+            // Far away it lies on the rim, and back at its place on the other side.
+            const glm::dvec2 middle = view.placeOf(figure.middleWS).value();
+            drag.drag(turned, 0.0, view, middle + 50.0 * (handle->place - middle), false);
+            const auto isFar = [&](const glm::dvec3& directionWS) {
+                return glm::dot(directionWS, view.sightLineAt(handle->place).directionWS) > 0.0;
+            };
+            drag.drag(turned, 0.0, view, handle->place, false);
+            EXPECT_NE(isFar(turned.directionWS), isFar(light.directionWS));
+            const glm::dvec3 otherTipWS = figure.middleWS + glm::length(armWS) * turned.directionWS;
+            EXPECT_LT(glm::distance(view.placeOf(otherTipWS).value(), handle->place), 1e-6);
+        }
+}
+
+TEST(LightDrag, itsWordsNameTheMeasureAndItsUnit) {
+    const PictureView view = dragViews()[0];
+    scenes::Light light = draggedLight(scenes::LightType::Rectangle);
+    light.directionWS = {0.0, -1.0, 0.0};
+    light.alongWS = {1.0, 0.0, 0.0};
+    const LightFigure figure = lightFigure(light, view, 1.0);
+    std::vector<std::string> texts;
+    for (const LightHandle& handle : figure.handles)
+        texts.push_back(LightDrag(light, figure, handle, view, handle.place).text(light));
+    EXPECT_EQ(texts, (std::vector<std::string>{"Width 0.8 m", "Width 0.8 m", "Height 0.5 m", "Height 0.5 m",
+                                               "Direction 0.00, -1.00, 0.00"}));
+}
+
+} // namespace
+} // namespace tessera::viewer

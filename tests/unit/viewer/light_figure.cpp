@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <map>
+
+#include "scenes/AreaLight.h"
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/edit/LightFigure.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr glm::dvec2 kFigurePicture{1000.0, test::kHeightPixels};
+
+/// A light at the origin that shines askew.
+scenes::Light askewLight(scenes::LightType type) {
+    scenes::Light light;
+    light.type = type;
+    light.directionWS = glm::normalize(glm::dvec3(0.3, -0.8, 0.4));
+    light.alongWS = scenes::usualAlong(light.directionWS);
+    light.widthMetres = 0.8f;
+    light.heightMetres = 0.5f;
+    light.lengthMetres = 1.1f;
+    light.radiusMetres = 0.3f;
+    return light;
+}
+
+std::vector<PictureView> twoViews() {
+    const glm::dvec3 eyeWS(1.0, 0.7, 4.0), targetWS(0.1, 0.2, 0.0);
+    return {{test::perspective(eyeWS, targetWS), kFigurePicture},
+            {test::orthographic(eyeWS, targetWS, 1.5), kFigurePicture}};
+}
+
+TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
+    using Type = scenes::LightType;
+    const std::map<Type, std::size_t> ofShape{
+        {Type::Rectangle, 4}, {Type::Disk, 4}, {Type::Sphere, 4}, {Type::Tube, 4}};
+    for (const PictureView& view : twoViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            SCOPED_TRACE(type.name);
+            const LightFigure figure = lightFigure(askewLight(type.type), view, 1.0);
+            const auto turning = std::ranges::count(figure.handles, nullptr, &LightHandle::parameter);
+            EXPECT_EQ(turning, type.hasDirection ? 1 : 0);
+            const std::size_t shaping = figure.handles.size() - std::size_t(turning);
+            EXPECT_EQ(shaping, ofShape.contains(type.type) ? ofShape.at(type.type) : 0u);
+            EXPECT_EQ(figure.sun.has_value(), !type.hasPosition());
+            EXPECT_EQ(figure.outlinesWS.empty(), type.type == Type::Point);
+            // A light that shines from an area shows all its measures.
+            for (const scenes::LightParameter& parameter : type.parameters)
+                if (type.isArea) {
+                    EXPECT_EQ(std::ranges::count(figure.handles, &parameter, &LightHandle::parameter), 2)
+                        << parameter.label;
+                }
+        }
+}
+
+TEST(LightFigure, handlesLieInTheMiddlesOfARectanglesSides) {
+    const PictureView view = twoViews()[0];
+    const scenes::Light light = askewLight(scenes::LightType::Rectangle);
+    const LightFigure figure = lightFigure(light, view, 1.0);
+    ASSERT_EQ(figure.outlinesWS.at(0).size(), 5u);
+    for (const LightHandle& handle : figure.handles) {
+        if (handle.parameter == nullptr) continue;
+        const auto isMiddle = [&](std::size_t i) {
+            const glm::dvec3 middleWS = 0.5 * (figure.outlinesWS[0][i] + figure.outlinesWS[0][i + 1]);
+            return glm::distance(middleWS, handle.positionWS) < 1e-12;
+        };
+        EXPECT_EQ(int(isMiddle(0)) + int(isMiddle(1)) + int(isMiddle(2)) + int(isMiddle(3)), 1);
+        EXPECT_LT(glm::distance(handle.place, view.placeOf(handle.positionWS).value()), 1e-9);
+    }
+}
+
+TEST(LightFigure, linesOfSightTouchTheOutlineOfASphereAndTheSidesOfATube) {
+    for (const PictureView& view : twoViews()) {
+        const scenes::Light sphere = askewLight(scenes::LightType::Sphere);
+        for (const glm::dvec3& pointWS : lightFigure(sphere, view, 1.0).outlinesWS.at(0)) {
+            const glm::dvec3 away = view.sightLineAt(view.placeOf(pointWS).value()).directionWS;
+            EXPECT_NEAR(glm::length(pointWS), double(sphere.radiusMetres), 1e-12);
+            EXPECT_NEAR(glm::dot(pointWS, away), 0.0, 1e-12) << "the normal there is across the line of sight";
+        }
+        const scenes::Light tube = askewLight(scenes::LightType::Tube);
+        const LightFigure figure = lightFigure(tube, view, 1.0);
+        int sides = 0;
+        for (const std::vector<glm::dvec3>& outlineWS : figure.outlinesWS) {
+            if (outlineWS.size() != 2 || glm::length(glm::cross(outlineWS[0], tube.directionWS)) < 1e-9) continue;
+            ++sides;
+            for (const glm::dvec3& pointWS : outlineWS) {
+                const glm::dvec3 normal = pointWS - glm::dot(pointWS, tube.directionWS) * tube.directionWS;
+                const glm::dvec3 away = view.sightLineAt(view.placeOf(pointWS).value()).directionWS;
+                EXPECT_NEAR(glm::length(normal), double(tube.radiusMetres), 1e-12);
+                EXPECT_NEAR(glm::dot(normal, away), 0.0, 1e-12);
+            }
+        }
+        EXPECT_EQ(sides, 2);
+    }
+}
+
+TEST(LightFigure, handlesOfASmallLightLieAroundItsMarker) {
+    for (const double scale : {1.0, 2.0}) {
+        scenes::Light light = askewLight(scenes::LightType::Rectangle);
+        light.widthMetres = light.heightMetres = 0.0f;
+        const PictureView view = twoViews()[0];
+        const LightFigure figure = lightFigure(light, view, scale);
+        const glm::dvec2 marker = view.placeOf(light.positionWS).value();
+        for (const LightHandle& handle : figure.handles)
+            EXPECT_GE(glm::distance(handle.place, marker), 20.0 * scale - 1e-6) << "a marker is taken within 9";
+    }
+}
+
+TEST(LightFigure, axesThatPointAtTheViewerHaveNoHandleAndThoseBehindTheViewerHaveNeither) {
+    scenes::Light light = askewLight(scenes::LightType::Rectangle);
+    light.directionWS = {0.0, -1.0, 0.0};
+    light.alongWS = {1.0, 0.0, 0.0};
+    // Along its width.
+    const PictureView along({test::perspective({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}, kFigurePicture);
+    for (const LightHandle& handle : lightFigure(light, along, 1.0).handles)
+        EXPECT_TRUE(handle.parameter == nullptr || handle.parameter->member == &scenes::Light::heightMetres);
+    const PictureView away({test::perspective({5.0, 0.0, 0.0}, {9.0, 0.0, 0.0})}, kFigurePicture);
+    EXPECT_TRUE(lightFigure(light, away, 1.0).handles.empty());
+    // From inside nothing is seen of a sphere's outline.
+    scenes::Light around = askewLight(scenes::LightType::Sphere);
+    around.radiusMetres = 6.0f;
+    const LightFigure inside = lightFigure(around, along, 1.0);
+    EXPECT_TRUE(inside.handles.empty());
+    EXPECT_TRUE(inside.outlinesWS.empty());
+}
+
+TEST(LightFigure, theNearestHandleWithinReachIsTaken) {
+    std::vector<LightHandle> handles(3);
+    handles[0].place = {10.0, 10.0};
+    handles[1].place = {16.0, 10.0};
+    handles[2].place = {40.0, 10.0};
+    EXPECT_EQ(handleAt(handles, {12.0, 10.0}, 9.0), 0u);
+    EXPECT_EQ(handleAt(handles, {14.0, 10.0}, 9.0), 1u);
+    EXPECT_FALSE(handleAt(handles, {28.0, 10.0}, 9.0));
+}
+
+TEST(LightFigure, thePointersShapeIsTheWayOfTheHandle) {
+    LightHandle handle;
+    handle.parameter = scenes::sizeParameter(scenes::infoOf(scenes::LightType::Disk));
+    const auto shapeOf = [&](double x, double y) {
+        handle.way = glm::normalize(glm::dvec2(x, y));
+        return pointerShapeOf(handle);
+    };
+    for (const double sign : {1.0, -1.0}) {
+        EXPECT_EQ(shapeOf(sign, 0.3 * sign), PointerShape::LeftRight);
+        EXPECT_EQ(shapeOf(0.3 * sign, -sign), PointerShape::UpDown);
+        EXPECT_EQ(shapeOf(sign, sign), PointerShape::Falling);
+        EXPECT_EQ(shapeOf(sign, -sign), PointerShape::Rising);
+    }
+    handle.parameter = nullptr;
+    EXPECT_EQ(pointerShapeOf(handle), PointerShape::AnyWay);
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,107 @@
+#include "viewer/edit/LightDrag.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/edit/LightList.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr double kLeastSineSquare = 1e-4; ///< of an axis and a line: 0.6 degrees
+
+/// The part of a vector across a unit direction.
+glm::dvec3 partAcross(const glm::dvec3& vectorWS, const glm::dvec3& directionWS) {
+    return vectorWS - glm::dot(vectorWS, directionWS) * directionWS;
+}
+
+} // namespace
+
+std::optional<double> metresAlongAxis(const SightLine& line, const glm::dvec3& middleWS, const glm::dvec3& axisWS) {
+    const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
+    const double cosine = glm::dot(line.directionWS, axisWS), sineSquare = 1.0 - cosine * cosine;
+    if (sineSquare < kLeastSineSquare) return std::nullopt;
+    const double along = glm::dot(fromMiddleWS, axisWS), ahead = glm::dot(fromMiddleWS, line.directionWS);
+    const double metres = (along - cosine * ahead) / sineSquare;
+    const double distanceMetres = metres * cosine - ahead; // from the line's origin
+    if (distanceMetres <= 0.0) return std::nullopt;
+    return metres;
+}
+
+SpherePoint pointOnSphere(const SightLine& line, const glm::dvec3& middleWS, double radiusMetres, bool isFar) {
+    const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
+    const glm::dvec3 nearestWS = partAcross(fromMiddleWS, line.directionWS); // of the line, from the middle
+    const double halfSquare = radiusMetres * radiusMetres - glm::dot(nearestWS, nearestWS);
+    if (halfSquare < 0.0) return {glm::normalize(nearestWS), true};
+    const double halfMetres = std::sqrt(halfSquare), middleMetres = -glm::dot(fromMiddleWS, line.directionWS);
+    const bool takesFar = isFar || middleMetres - halfMetres <= 0.0;
+    return {glm::normalize(nearestWS + (takesFar ? halfMetres : -halfMetres) * line.directionWS), false};
+}
+
+LightDrag::LightDrag(const scenes::Light& light, const LightFigure& figure, const LightHandle& handle,
+                     const PictureView& view, const glm::dvec2& pointer)
+    : handle_(handle), before_(light), middleWS_(figure.middleWS),
+      armMetres_(glm::distance(handle.positionWS, figure.middleWS)), grip_(pointer - handle.truePlace),
+      isFar_(glm::dot(handle.axisWS, view.sightLineAt(handle.truePlace).directionWS) > 0.0) {}
+
+bool LightDrag::drag(scenes::Light& light, double timeSeconds, const PictureView& view, const glm::dvec2& pointer,
+                     bool isOneSided) {
+    const scenes::Light was = light;
+    const SightLine line = view.sightLineAt(pointer - grip_);
+    const bool hasPosition = scenes::infoOf(before_.type).hasPosition();
+    const glm::dvec3 middleWS = hasPosition ? scenes::lightAtTime(before_, timeSeconds).positionWS : middleWS_;
+    if (handle_.parameter == nullptr)
+        turn(light, middleWS, line);
+    else
+        resize(light, timeSeconds, middleWS, line, isOneSided);
+    return light != was;
+}
+
+void LightDrag::turn(scenes::Light& light, const glm::dvec3& middleWS, const SightLine& line) {
+    SpherePoint point = pointOnSphere(line, middleWS, armMetres_, isFar_);
+    if (isBeside_ && !point.isBeside) {
+        isFar_ = !isFar_;
+        point = pointOnSphere(line, middleWS, armMetres_, isFar_);
+    }
+    isBeside_ = point.isBeside;
+    light.alongWS = before_.alongWS;
+    turnLight(light, point.directionWS);
+}
+
+std::optional<double> LightDrag::draggedMetres(const glm::dvec3& middleWS, const SightLine& line) const {
+    if (!handle_.isRound) return metresAlongAxis(line, middleWS, handle_.axisWS);
+    const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
+    if (before_.type != scenes::LightType::Tube) return glm::length(partAcross(fromMiddleWS, line.directionWS));
+    // From the tube's axis to the line.
+    const glm::dvec3 normalWS = glm::cross(line.directionWS, before_.directionWS);
+    const double sineSquare = glm::dot(normalWS, normalWS);
+    if (sineSquare < kLeastSineSquare) return std::nullopt;
+    return std::abs(glm::dot(fromMiddleWS, normalWS)) / std::sqrt(sineSquare);
+}
+
+void LightDrag::resize(scenes::Light& light, double timeSeconds, const glm::dvec3& middleWS, const SightLine& line,
+                       bool isOneSided) const {
+    const std::optional<double> metres = draggedMetres(middleWS, line);
+    if (!metres) return;
+    const scenes::LightParameter& parameter = *handle_.parameter;
+    const double before = before_.*parameter.member;
+    const bool movesMiddle = isOneSided && handle_.share < 1.0; // radii have no opposite side
+    const double wanted = movesMiddle ? *metres + handle_.share * before : *metres / handle_.share;
+    const double value = std::clamp(wanted, double(parameter.least), double(parameter.most));
+    light.*parameter.member = float(value);
+    light.positionWS = before_.positionWS;
+    light.animation = before_.animation;
+    if (movesMiddle) placeLight(light, timeSeconds, middleWS + handle_.share * (value - before) * handle_.axisWS);
+}
+
+std::string LightDrag::text(const scenes::Light& light) const {
+    if (handle_.parameter != nullptr)
+        return fmt::format("{} {:.3g} m", handle_.parameter->label, light.*handle_.parameter->member);
+    const auto shown = [](double value) { return std::abs(value) < 0.005 ? 0.0 : value; }; // no minus before a zero
+    const glm::dvec3& direction = light.directionWS;
+    return fmt::format("Direction {:.2f}, {:.2f}, {:.2f}", shown(direction.x), shown(direction.y), shown(direction.z));
+}
+
+} // namespace tessera::viewer

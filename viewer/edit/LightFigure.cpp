@@ -1,0 +1,266 @@
+#include "viewer/edit/LightFigure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scenes/AreaLight.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr double kArm = 70.0;       ///< from a light's middle or end to the handle of its direction
+constexpr double kLeastAway = 20.0; ///< of handles from the light's middle, where its marker is
+constexpr double kLeastSeen = 0.02; ///< sine to the line of sight of axes that can be dragged along: 1 degree
+constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
+constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
+constexpr int kCircleSteps = 48;
+
+using Outline = std::vector<glm::dvec3>;
+
+/// A closed line; the half axes are at right angles.
+Outline ellipseWS(const glm::dvec3& centreWS, const glm::dvec3& halfWS, const glm::dvec3& otherHalfWS) {
+    Outline ellipse;
+    for (int step = 0; step <= kCircleSteps; ++step) {
+        const double angle = 2.0 * std::numbers::pi * (step % kCircleSteps) / kCircleSteps;
+        ellipse.push_back(centreWS + std::cos(angle) * halfWS + std::sin(angle) * otherHalfWS);
+    }
+    return ellipse;
+}
+
+/// Where lines of sight touch a circle, in its plane: metres from its centre towards the eye, and aside.
+struct Rim {
+    double towards = 0.0, aside = 0.0;
+};
+/// None where the eye, so far from the centre (infinite: orthographic), is inside.
+std::optional<Rim> rimOf(double radiusMetres, double eyeMetres) {
+    if (!(eyeMetres > radiusMetres)) return std::nullopt;
+    const double cosine = radiusMetres / eyeMetres;
+    return Rim{radiusMetres * cosine, radiusMetres * std::sqrt(1.0 - cosine * cosine)};
+}
+
+/// Adds what a light's type has to a figure.
+class FigureMaker {
+public:
+    FigureMaker(const scenes::Light& light, const PictureView& view, double scale, LightFigure& figure)
+        : light_(light), view_(view), scale_(scale), figure_(figure) {}
+
+    void make() {
+        const scenes::LightTypeInfo& info = scenes::infoOf(light_.type);
+        if (info.hasPosition())
+            figure_.middleWS = light_.positionWS;
+        else if (!placeSun())
+            return;
+        double reachMetres = 0.0; // of the outline along the direction
+        switch (light_.type) {
+        case scenes::LightType::Spot:
+            addCone();
+            break;
+        case scenes::LightType::Rectangle:
+            addRectangle();
+            break;
+        case scenes::LightType::Disk:
+            addDisk();
+            break;
+        case scenes::LightType::Sphere:
+            addSphere();
+            break;
+        case scenes::LightType::Tube:
+            addTube();
+            reachMetres = 0.5 * double(light_.lengthMetres);
+            break;
+        default:
+            break;
+        }
+        if (info.hasDirection) addDirection(reachMetres);
+    }
+
+private:
+    bool placeSun() {
+        const double inset = kSunInset * scale_;
+        if (std::min(view_.size().x, view_.size().y) < kSunRoom * inset) return false;
+        figure_.sun = glm::dvec2(view_.size().x - inset, inset);
+        const SightLine line = view_.sightLineAt(*figure_.sun);
+        // Any depth will do from which the arm does not reach back to the near plane.
+        const double nearMetres = std::max(view_.nearMetres(), 1e-3);
+        figure_.middleWS = line.originWS + 10.0 * nearMetres * line.directionWS;
+        if (!view_.isPerspective()) figure_.middleWS += 2.0 * armMetres().value_or(0.0) * line.directionWS;
+        return true;
+    }
+
+    /// None where the middle lies behind the camera.
+    std::optional<double> armMetres() const {
+        const std::optional<double> metresPerUnit = view_.metresPerUnit(figure_.middleWS);
+        if (!metresPerUnit) return std::nullopt;
+        return kArm * scale_ * *metresPerUnit;
+    }
+
+    const scenes::LightParameter* parameterOf(float scenes::Light::*member) const {
+        const scenes::LightTypeInfo& info = scenes::infoOf(light_.type);
+        const auto found = std::ranges::find(info.parameters, member, &scenes::LightParameter::member);
+        return found != info.parameters.end() ? &*found : scenes::sizeParameter(info);
+    }
+
+    /// If the picture shows it, and a drag along its axis would change something.
+    void add(LightHandle handle) {
+        handle.number = count_++;
+        const std::optional<glm::dvec2> shown = view_.placeOf(handle.positionWS);
+        if (!shown) return;
+        handle.truePlace = handle.place = *shown;
+        if (handle.parameter != nullptr) {
+            const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.positionWS);
+            if (glm::length(glm::cross(handle.axisWS, towardsWS)) < kLeastSeen) return;
+            const auto beyond =
+                view_.placeOf(handle.positionWS + *view_.metresPerUnit(handle.positionWS) * handle.axisWS);
+            if (!beyond || *beyond == *shown) return;
+            handle.way = glm::normalize(*beyond - *shown);
+            const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
+            const double least = kLeastAway * scale_;
+            if (middle && glm::distance(*shown, *middle) < least) handle.place = *middle + least * handle.way;
+        }
+        figure_.handles.push_back(handle);
+    }
+
+    /// Handles on both sides of the middle that change a length along an axis.
+    void addPair(float scenes::Light::*member, const glm::dvec3& axisWS, double share) {
+        for (const double side : {1.0, -1.0}) {
+            LightHandle handle;
+            handle.parameter = parameterOf(member);
+            handle.axisWS = side * axisWS;
+            handle.share = share;
+            handle.positionWS = figure_.middleWS + share * double(light_.*member) * handle.axisWS;
+            add(handle);
+        }
+    }
+
+    /// As far as the handle of its direction.
+    void addCone() {
+        constexpr double kWidestRadians = 1.4; // wider ones would fill the picture
+        const std::optional<double> arm = armMetres();
+        if (!arm || double(light_.outerConeRadians) > kWidestRadians) return;
+        const double radiusMetres = *arm * std::tan(double(light_.outerConeRadians));
+        const glm::dvec3 alongWS = radiusMetres * scenes::usualAlong(light_.directionWS);
+        const glm::dvec3 acrossWS = glm::cross(light_.directionWS, alongWS);
+        const glm::dvec3 endWS = figure_.middleWS + *arm * light_.directionWS;
+        figure_.outlinesWS.push_back(ellipseWS(endWS, alongWS, acrossWS));
+        figure_.outlinesWS.push_back({endWS + alongWS, figure_.middleWS, endWS - alongWS});
+        figure_.outlinesWS.push_back({endWS + acrossWS, figure_.middleWS, endWS - acrossWS});
+    }
+
+    void addRectangle() {
+        const glm::dvec3 acrossWS = glm::cross(light_.directionWS, light_.alongWS);
+        const glm::dvec3 halfWS = 0.5 * double(light_.widthMetres) * light_.alongWS;
+        const glm::dvec3 otherHalfWS = 0.5 * double(light_.heightMetres) * acrossWS;
+        const glm::dvec3 firstWS = figure_.middleWS + halfWS + otherHalfWS;
+        figure_.outlinesWS.push_back({firstWS, firstWS - 2.0 * halfWS, figure_.middleWS - halfWS - otherHalfWS,
+                                      firstWS - 2.0 * otherHalfWS, firstWS});
+        addPair(&scenes::Light::widthMetres, light_.alongWS, 0.5);
+        addPair(&scenes::Light::heightMetres, acrossWS, 0.5);
+    }
+
+    void addDisk() {
+        const double radiusMetres = light_.radiusMetres;
+        const glm::dvec3 alongWS = scenes::usualAlong(light_.directionWS);
+        const glm::dvec3 acrossWS = glm::cross(light_.directionWS, alongWS);
+        figure_.outlinesWS.push_back(ellipseWS(figure_.middleWS, radiusMetres * alongWS, radiusMetres * acrossWS));
+        addPair(&scenes::Light::radiusMetres, alongWS, 1.0);
+        addPair(&scenes::Light::radiusMetres, acrossWS, 1.0);
+    }
+
+    double eyeMetres(const glm::dvec3& eyeFromMiddleWS) const {
+        return view_.isPerspective() ? glm::length(eyeFromMiddleWS) : std::numeric_limits<double>::infinity();
+    }
+
+    void addAtRim(const glm::dvec3& positionWS, const glm::dvec3& outwardsWS) {
+        LightHandle handle;
+        handle.parameter = parameterOf(&scenes::Light::radiusMetres);
+        handle.axisWS = outwardsWS;
+        handle.isRound = true;
+        handle.positionWS = positionWS;
+        add(handle);
+    }
+
+    void addSphere() {
+        const std::optional<Rim> rim = rimOf(light_.radiusMetres, eyeMetres(view_.eyeWS() - figure_.middleWS));
+        if (!rim) return;
+        const glm::dvec3 towardsWS = view_.towardsViewerWS(figure_.middleWS);
+        const std::optional<glm::dvec3> rightWS = scenes::acrossFrom(towardsWS, view_.rightWS());
+        if (!rightWS) return;
+        const glm::dvec3 upWS = glm::cross(towardsWS, *rightWS);
+        const glm::dvec3 centreWS = figure_.middleWS + rim->towards * towardsWS;
+        figure_.outlinesWS.push_back(ellipseWS(centreWS, rim->aside * *rightWS, rim->aside * upWS));
+        for (const glm::dvec3& outWS : {*rightWS, upWS, -*rightWS, -upWS})
+            addAtRim(centreWS + rim->aside * outWS, outWS);
+    }
+
+    void addTube() {
+        const double radiusMetres = light_.radiusMetres;
+        const glm::dvec3& axisWS = light_.directionWS;
+        const glm::dvec3 halfWS = 0.5 * double(light_.lengthMetres) * axisWS;
+        const glm::dvec3 alongWS = scenes::usualAlong(axisWS), acrossWS = glm::cross(axisWS, alongWS);
+        for (const double side : {1.0, -1.0})
+            figure_.outlinesWS.push_back(
+                ellipseWS(figure_.middleWS + side * halfWS, radiusMetres * alongWS, radiusMetres * acrossWS));
+        addPair(&scenes::Light::lengthMetres, axisWS, 0.5);
+        // Its sides are seen where lines of sight touch its cross-section.
+        const glm::dvec3 eyeFromMiddleWS = view_.eyeWS() - figure_.middleWS;
+        const glm::dvec3 eyeAcrossWS = eyeFromMiddleWS - glm::dot(eyeFromMiddleWS, axisWS) * axisWS;
+        const std::optional<Rim> rim = rimOf(radiusMetres, eyeMetres(eyeAcrossWS));
+        if (!rim) return;
+        const auto towardsWS = scenes::acrossFrom(axisWS, view_.towardsViewerWS(figure_.middleWS));
+        if (!towardsWS) return;
+        const glm::dvec3 besideWS = glm::cross(axisWS, *towardsWS);
+        for (const double side : {1.0, -1.0}) {
+            const glm::dvec3 touchedWS = figure_.middleWS + rim->towards * *towardsWS + side * rim->aside * besideWS;
+            figure_.outlinesWS.push_back({touchedWS - halfWS, touchedWS + halfWS});
+            addAtRim(touchedWS, side * besideWS);
+        }
+    }
+
+    void addDirection(double reachMetres) {
+        const std::optional<double> arm = armMetres();
+        if (!arm) return;
+        LightHandle handle;
+        handle.axisWS = light_.directionWS;
+        handle.positionWS = figure_.middleWS + (reachMetres + *arm) * light_.directionWS;
+        figure_.outlinesWS.push_back({figure_.middleWS + reachMetres * light_.directionWS, handle.positionWS});
+        add(handle);
+    }
+
+    const scenes::Light& light_;
+    const PictureView& view_;
+    double scale_;
+    LightFigure& figure_;
+    int count_ = 0; ///< of handles
+};
+
+} // namespace
+
+LightFigure lightFigure(const scenes::Light& light, const PictureView& view, double scale) {
+    LightFigure figure;
+    FigureMaker(light, view, scale, figure).make();
+    return figure;
+}
+
+std::optional<std::size_t> handleAt(std::span<const LightHandle> handles, const glm::dvec2& place, double reach) {
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        const double distance = glm::distance(handles[i].place, place);
+        if (distance > reach) continue;
+        reach = distance;
+        nearest = i;
+    }
+    return nearest;
+}
+
+PointerShape pointerShapeOf(const LightHandle& handle) {
+    if (handle.parameter == nullptr) return PointerShape::AnyWay;
+    constexpr double kSteep = 2.414213562373095; // tan of 67.5 degrees, halfway to the next shape
+    const glm::dvec2& way = handle.way;
+    if (std::abs(way.x) > kSteep * std::abs(way.y)) return PointerShape::LeftRight;
+    if (std::abs(way.y) > kSteep * std::abs(way.x)) return PointerShape::UpDown;
+    return way.x * way.y > 0.0 ? PointerShape::Falling : PointerShape::Rising; // y counts downwards
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "viewer/camera/PictureView.h"
+
+/// What the picture shows of a selected light beside its marker: its outline, and handles that change it. Lengths in
+/// the picture are in the unit of the view's size.
+namespace tessera::viewer {
+
+/// A point of a light's outline that is dragged.
+struct LightHandle {
+    int number = 0; ///< among those of its light, whether or not all of them can be taken
+    const scenes::LightParameter* parameter = nullptr; ///< that it changes; null: the light's direction
+    glm::dvec3 axisWS{0.0};                            ///< unit, from the light's middle: the way it is dragged
+    bool isRound = false; ///< it is where lines of sight touch the surface, and keeps to them
+    double share = 1.0;   ///< of the parameter that lies between middle and handle: all of a radius, half of a side
+    glm::dvec3 positionWS{0.0};
+    glm::dvec2 truePlace{0.0}; ///< of positionWS
+    glm::dvec2 place{0.0};     ///< where it is drawn and taken: not too near to the light's marker
+    glm::dvec2 way{0.0};       ///< unit: the way it is dragged in the picture
+};
+
+struct LightFigure {
+    glm::dvec3 middleWS{0.0};                        ///< of the handles
+    std::vector<std::vector<glm::dvec3>> outlinesWS; ///< lines through these points
+    std::vector<LightHandle> handles;                ///< those that can be taken now
+    std::optional<glm::dvec2> sun;                   ///< place of a directional light, which has none in the scene
+};
+
+/// Of a light as lightAtTime() shows it. `scale` is that of lengths, for one on a display of usual density.
+LightFigure lightFigure(const scenes::Light& light, const PictureView& view, double scale);
+
+/// The handle nearest to a place, within `reach` of it.
+std::optional<std::size_t> handleAt(std::span<const LightHandle> handles, const glm::dvec2& place, double reach);
+
+/// How a pointer says which way a handle goes.
+enum class PointerShape { LeftRight, UpDown, Falling, Rising, AnyWay };
+PointerShape pointerShapeOf(const LightHandle& handle);
+
+} // namespace tessera::viewer

@@ -1,0 +1,125 @@
+#include "viewer/panels/Handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <imgui.h>
+
+namespace tessera::viewer {
+namespace {
+
+constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160); ///< so that lines are seen on white too
+constexpr float kHandleRadius = 4.5f, kLineWidth = 1.5f, kUnderWidth = 3.5f;
+
+ImGuiMouseCursor cursorOf(PointerShape shape) {
+    switch (shape) {
+    case PointerShape::LeftRight:
+        return ImGuiMouseCursor_ResizeEW;
+    case PointerShape::UpDown:
+        return ImGuiMouseCursor_ResizeNS;
+    case PointerShape::Falling:
+        return ImGuiMouseCursor_ResizeNWSE;
+    case PointerShape::Rising:
+        return ImGuiMouseCursor_ResizeNESW;
+    case PointerShape::AnyWay:
+        break;
+    }
+    return ImGuiMouseCursor_ResizeAll;
+}
+
+/// Draws at places of a picture, and nothing beside it.
+class PictureInk {
+public:
+    explicit PictureInk(const PictureArea& area) : area_(area), list_(*ImGui::GetBackgroundDrawList()) {
+        const glm::vec2 end = area.corner + area.size;
+        list_.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
+    }
+    ~PictureInk() { list_.PopClipRect(); }
+    PictureInk(const PictureInk&) = delete;
+    PictureInk& operator=(const PictureInk&) = delete;
+
+    void line(const glm::dvec2& from, const glm::dvec2& to) {
+        list_.AddLine(at(from), at(to), kUnderInk, kUnderWidth * area_.scale);
+        list_.AddLine(at(from), at(to), kFigureInk, kLineWidth * area_.scale);
+    }
+    /// Square, or round where it turns the light.
+    void handle(const LightHandle& handle, bool isPointed) {
+        const ImVec2 place = at(handle.place);
+        const auto fill = [&](float radius, ImU32 ink) {
+            if (handle.parameter == nullptr)
+                list_.AddCircleFilled(place, radius, ink);
+            else
+                list_.AddRectFilled({place.x - radius, place.y - radius}, {place.x + radius, place.y + radius}, ink);
+        };
+        fill((kHandleRadius + 1.0f) * area_.scale, kUnderInk);
+        fill(kHandleRadius * area_.scale, isPointed ? kHeldInk : kFigureInk);
+    }
+    void sun(const glm::dvec2& place) {
+        constexpr int kRays = 8;
+        constexpr double kRadius = 8.0, kRaysBegin = 11.0, kRaysEnd = 15.0;
+        const double scale = area_.scale;
+        list_.AddCircle(at(place), float(kRadius * scale), kFigureInk, 0, kLineWidth * area_.scale);
+        for (int ray = 0; ray < kRays; ++ray) {
+            const double angle = 2.0 * std::numbers::pi * ray / kRays;
+            const glm::dvec2 way(std::cos(angle), std::sin(angle));
+            line(place + kRaysBegin * scale * way, place + kRaysEnd * scale * way);
+        }
+    }
+
+private:
+    ImVec2 at(const glm::dvec2& place) const {
+        return {area_.corner.x + float(place.x), area_.corner.y + float(place.y)};
+    }
+
+    const PictureArea& area_;
+    ImDrawList& list_;
+};
+
+/// The handle that is held, else the one that a press would take.
+std::optional<LightHandle> pointedHandle(const State& state, const PictureArea& area, const LightFigure& figure) {
+    if (state.heldHandle) {
+        const auto held = std::ranges::find(figure.handles, *state.heldHandle, &LightHandle::number);
+        return held == figure.handles.end() ? std::nullopt : std::optional(*held);
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 pointer(io.MousePos.x, io.MousePos.y);
+    if (io.WantCaptureMouse || ImGui::IsAnyMouseDown() || !area.contains(pointer)) return std::nullopt;
+    return handleUnder(state, area, pointer);
+}
+
+} // namespace
+
+void drawHandles(const State& state, const PictureArea& area) {
+    const std::optional<LightFigure> figure = selectedFigure(state, area);
+    if (!figure) return;
+    const PictureView view = viewOf(state, area);
+    PictureInk ink(area);
+    for (const std::vector<glm::dvec3>& outlineWS : figure->outlinesWS)
+        for (std::size_t i = 1; i < outlineWS.size(); ++i)
+            if (const auto line = view.lineBetween(outlineWS[i - 1], outlineWS[i])) ink.line(line->first, line->second);
+    if (figure->sun) ink.sun(*figure->sun);
+    const std::optional<LightHandle> pointed = pointedHandle(state, area, *figure);
+    for (const LightHandle& handle : figure->handles) ink.handle(handle, pointed && pointed->number == handle.number);
+    if (pointed) ImGui::SetMouseCursor(cursorOf(pointerShapeOf(*pointed)));
+}
+
+void drawDragText(const State& state, const PictureArea& area) {
+    if (state.dragText.empty()) return;
+    if (!state.heldHandle) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW); // the environment turns
+    const char* text = state.dragText.c_str();
+    const float pad = 5.0f * area.scale, beside = 16.0f * area.scale;
+    const ImVec2 size = ImGui::CalcTextSize(text), pointer = ImGui::GetIO().MousePos;
+    const glm::vec2 end = area.corner + area.size;
+    // Inside the picture, also where the pointer has left it.
+    const float x = std::max(std::min(pointer.x + beside, end.x - size.x - 2.0f * pad), area.corner.x + pad);
+    const float y = std::max(std::min(pointer.y + beside, end.y - size.y - 2.0f * pad), area.corner.y + pad);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
+    list.AddText({x, y}, IM_COL32(220, 222, 228, 255), text);
+    list.PopClipRect();
+}
+
+} // namespace tessera::viewer
