@@ -140,17 +140,17 @@ void DrivenViewer::click(glm::ivec2 pixel) const {
                       "mouseup", "1", "sleep", "0.1"});
 }
 
-void DrivenViewer::drag(glm::ivec2 from, glm::ivec2 to, const std::string& held) const {
+void DrivenViewer::drag(glm::ivec2 from, glm::ivec2 to, const std::string& held, int button) const {
     std::vector<std::string> words{"mousemove", number(from.x), number(from.y), "sleep", "0.1"};
     const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
     if (!held.empty()) add({"keydown", held});
-    add({"mousedown", "1", "sleep", "0.05"});
+    add({"mousedown", number(button), "sleep", "0.05"});
     constexpr int kSteps = 10;
     for (int i = 1; i <= kSteps; ++i) {
         const glm::ivec2 at = from + (to - from) * i / kSteps;
         add({"mousemove", number(at.x), number(at.y), "sleep", "0.03"});
     }
-    add({"mouseup", "1"});
+    add({"mouseup", number(button)});
     if (!held.empty()) add({"keyup", held});
     desktop_.xdotool(words);
 }

@@ -119,7 +119,9 @@ private:
             const double least = kLeastAway * scale_;
             if (middle && glm::distance(*shown, *middle) < least) handle.place = *middle + least * handle.way;
         }
-        figure_.handles.push_back(handle);
+        const bool isInside = glm::all(glm::greaterThanEqual(handle.place, glm::dvec2(0.0))) &&
+                              glm::all(glm::lessThanEqual(handle.place, view_.size()));
+        if (isInside) figure_.handles.push_back(handle);
     }
 
     /// Handles on both sides of the middle that change a length along an axis.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "viewer/session/LightEdits.h"
+
 namespace tessera::viewer {
 namespace {
 
@@ -47,6 +49,7 @@ TEST(Controls, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
 
 TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNone) {
     State state = withLightInTheMiddle(0, 1);
+    std::string said;
     const auto dragged = [&](int modifiers) {
         InputEvent press, move, release;
         press.kind = release.kind = InputEvent::Kind::Button;
@@ -56,16 +59,110 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
         press.position = {200.0, 200.0};
         move.kind = InputEvent::Kind::Move;
         move.position = release.position = {300.0, 200.0};
-        const std::array events{press, move, release};
+        const std::array began{press, move};
         Controls controls;
-        controls.handle(events, state, kArea, {});
+        controls.handle(began, state, kArea, {});
+        said = state.dragText;
+        controls.handle(std::span(&release, 1), state, kArea, {});
+        EXPECT_EQ(state.dragText, "");
         return state.looks[0].settings.environment.rotationDegrees;
     };
     constexpr int kShift = 1; // GLFW's
     EXPECT_EQ(dragged(kShift), 0.0f);
     state.open->edit().environment.emplace();
     EXPECT_EQ(dragged(0), 0.0f);
+    EXPECT_EQ(said, "");
     EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the picture's height
+    EXPECT_EQ(said, "Environment 45.0\xc2\xb0");
+}
+
+/// The window with a rectangle in the picture's middle that is selected: 200 wide in the picture, seen from its edge.
+State withRectangleSelected() {
+    State state = withLightInTheMiddle(0, 1);
+    state.selectedLight = 0;
+    scenes::Scene& scene = state.open->edit();
+    const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
+    scenes::Light& light = scene.lights[0];
+    light.type = scenes::LightType::Rectangle;
+    light.directionWS = -glm::dvec3(worldFromCamera[1]);
+    light.alongWS = glm::dvec3(worldFromCamera[0]);
+    light.widthMetres = float(200.0 * viewOf(state, kArea).metresPerUnit(light.positionWS).value());
+    return state;
+}
+constexpr glm::vec2 kRightSide{300.0f, 200.0f};
+
+InputEvent pointerEvent(InputEvent::Kind kind, glm::vec2 position, bool down = false) {
+    InputEvent event;
+    event.kind = kind;
+    event.position = position;
+    event.down = down;
+    return event;
+}
+
+/// The left button.
+void press(Controls& controls, State& state, glm::vec2 position, bool down) {
+    const InputEvent event = pointerEvent(InputEvent::Kind::Button, position, down);
+    controls.handle(std::span(&event, 1), state, kArea, {});
+}
+void moveTo(Controls& controls, State& state, glm::vec2 position) {
+    const InputEvent event = pointerEvent(InputEvent::Kind::Move, position);
+    controls.handle(std::span(&event, 1), state, kArea, {});
+}
+
+TEST(Controls, aSideOfTheSelectedLightGoesWithThePointerAndWithShiftAlone) {
+    State state = withRectangleSelected();
+    const scenes::Light before = state.open->scene().lights[0];
+    const scenes::Light& light = state.open->scene().lights[0];
+    Controls controls;
+    press(controls, state, kRightSide, true);
+    EXPECT_TRUE(state.heldHandle);
+    EXPECT_TRUE(state.dragText.starts_with("Width ")) << state.dragText;
+    EXPECT_FALSE(state.open->isEdited()) << "nothing was dragged yet";
+    moveTo(controls, state, kRightSide + glm::vec2(50.0f, 0.0f));
+    EXPECT_NEAR(light.widthMetres, 1.5 * double(before.widthMetres), 1e-3 * double(before.widthMetres));
+    EXPECT_EQ(light.positionWS, before.positionWS);
+    EXPECT_TRUE(state.open->isEdited());
+    // Shift: the left side stays where it is.
+    InputEvent shift;
+    shift.kind = InputEvent::Kind::Key;
+    shift.code = 340; // GLFW's left one
+    shift.down = true;
+    controls.handle(std::span(&shift, 1), state, kArea, {});
+    moveTo(controls, state, kRightSide + glm::vec2(40.0f, 0.0f));
+    EXPECT_NEAR(light.widthMetres, 1.2 * double(before.widthMetres), 1e-3 * double(before.widthMetres));
+    const glm::dvec2 middle = viewOf(state, kArea).placeOf(light.positionWS).value();
+    EXPECT_NEAR(middle.x, 220.0, 0.1);
+    EXPECT_NEAR(middle.y, 200.0, 0.1);
+    press(controls, state, kRightSide + glm::vec2(40.0f, 0.0f), false);
+    EXPECT_FALSE(state.heldHandle);
+    EXPECT_EQ(state.dragText, "");
+    EXPECT_FALSE(state.requests.pick) << "it was no click";
+}
+
+TEST(Controls, aHandleEndsWithItsLight) {
+    State state = withRectangleSelected();
+    Controls controls;
+    press(controls, state, kRightSide, true);
+    deleteSelectedLight(state);
+    const std::uint64_t edits = state.open->edits();
+    moveTo(controls, state, kRightSide + glm::vec2(50.0f, 0.0f));
+    EXPECT_FALSE(state.heldHandle);
+    EXPECT_EQ(state.dragText, "");
+    EXPECT_EQ(state.open->edits(), edits);
+}
+
+TEST(Controls, handlesAreTakenAsFarBesideThemAsTheDisplayIsDense) {
+    const State state = withRectangleSelected();
+    PictureArea dense = kArea;
+    dense.scale = 2.0f;
+    const glm::vec2 beside = kRightSide + glm::vec2(0.0f, 14.0f);
+    EXPECT_TRUE(handleUnder(state, kArea, kRightSide));
+    EXPECT_FALSE(handleUnder(state, kArea, beside));
+    EXPECT_TRUE(handleUnder(state, dense, beside));
+    EXPECT_FALSE(handleUnder(state, kArea, {200.0f, 200.0f})) << "there is the marker";
+    PictureArea none = kArea;
+    none.size = {0.0f, 0.0f};
+    EXPECT_FALSE(handleUnder(state, none, kRightSide)) << "there is no picture";
 }
 
 } // namespace

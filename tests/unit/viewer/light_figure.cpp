@@ -71,7 +71,8 @@ TEST(LightFigure, handlesLieInTheMiddlesOfARectanglesSides) {
 TEST(LightFigure, linesOfSightTouchTheOutlineOfASphereAndTheSidesOfATube) {
     for (const PictureView& view : twoViews()) {
         const scenes::Light sphere = askewLight(scenes::LightType::Sphere);
-        for (const glm::dvec3& pointWS : lightFigure(sphere, view, 1.0).outlinesWS.at(0)) {
+        const LightFigure ofSphere = lightFigure(sphere, view, 1.0);
+        for (const glm::dvec3& pointWS : ofSphere.outlinesWS.at(0)) {
             const glm::dvec3 away = view.sightLineAt(view.placeOf(pointWS).value()).directionWS;
             EXPECT_NEAR(glm::length(pointWS), double(sphere.radiusMetres), 1e-12);
             EXPECT_NEAR(glm::dot(pointWS, away), 0.0, 1e-12) << "the normal there is across the line of sight";
@@ -105,7 +106,7 @@ TEST(LightFigure, handlesOfASmallLightLieAroundItsMarker) {
     }
 }
 
-TEST(LightFigure, axesThatPointAtTheViewerHaveNoHandleAndThoseBehindTheViewerHaveNeither) {
+TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     scenes::Light light = askewLight(scenes::LightType::Rectangle);
     light.directionWS = {0.0, -1.0, 0.0};
     light.alongWS = {1.0, 0.0, 0.0};
@@ -113,6 +114,13 @@ TEST(LightFigure, axesThatPointAtTheViewerHaveNoHandleAndThoseBehindTheViewerHav
     const PictureView along({test::perspective({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}, kFigurePicture);
     for (const LightHandle& handle : lightFigure(light, along, 1.0).handles)
         EXPECT_TRUE(handle.parameter == nullptr || handle.parameter->member == &scenes::Light::heightMetres);
+    // Out of the picture nothing can be taken.
+    scenes::Light wide = light;
+    wide.directionWS = twoViews()[0].towardsViewerWS(wide.positionWS);
+    wide.alongWS = twoViews()[0].rightWS();
+    wide.widthMetres = wide.heightMetres = 100.0f;
+    for (const LightHandle& handle : lightFigure(wide, twoViews()[0], 1.0).handles)
+        EXPECT_EQ(handle.parameter, nullptr);
     const PictureView away({test::perspective({5.0, 0.0, 0.0}, {9.0, 0.0, 0.0})}, kFigurePicture);
     EXPECT_TRUE(lightFigure(light, away, 1.0).handles.empty());
     // From inside nothing is seen of a sphere's outline.

@@ -1,0 +1,96 @@
+// A light's outline and handles, drawn without a window.
+#include <memory>
+
+#include "tests/unit/viewer/PanelTest.h"
+#include "viewer/panels/Handles.h"
+
+namespace tessera::viewer {
+namespace {
+
+class Handles : public test::PanelTest {
+protected:
+    /// A rectangle ahead of the camera that faces down in the picture.
+    Handles() {
+        scenes::Scene scene = scenes::loadScene("room", {});
+        scene.lights.assign(1, {});
+        scenes::Light& light = scene.lights[0];
+        const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
+        light.type = scenes::LightType::Rectangle;
+        light.positionWS = worldFromCamera * glm::dvec4(0.0, 0.0, -3.0, 1.0);
+        light.directionWS = -glm::dvec3(worldFromCamera[1]);
+        light.alongWS = glm::dvec3(worldFromCamera[0]);
+        state_.open =
+            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        state_.selectedLight = 0;
+    }
+    scenes::Light& light() { return state_.open->edit().lights[0]; }
+    auto span() {
+        return overlaySpan([&] { drawHandles(state_, area(state_)); });
+    }
+    /// The pointer's shape at a place of the picture.
+    ImGuiMouseCursor cursorAt(const glm::dvec2& place) {
+        const PictureArea at = area(state_);
+        ImGui::GetIO().MousePos = {at.corner.x + float(place.x), at.corner.y + float(place.y)};
+        ImGuiMouseCursor cursor = ImGuiMouseCursor_None;
+        for (int i = 0; i < 2; ++i)
+            frame([&] {
+                drawHandles(state_, area(state_));
+                cursor = ImGui::GetMouseCursor();
+            });
+        return cursor;
+    }
+
+    State state_;
+};
+
+TEST_F(Handles, areDrawnOfTheSelectedLightAlone) {
+    EXPECT_TRUE(span());
+    state_.selectedLight = scenes::kNone;
+    EXPECT_FALSE(span());
+    state_.selectedLight = 1; // was deleted
+    EXPECT_FALSE(span());
+}
+
+TEST_F(Handles, stayInThePictureHoweverLargeTheLightIs) {
+    const PictureArea at = area(state_);
+    constexpr float kHalfLine = 4.0f; // of the line's width, with its smooth rim
+    for (const float metres : {10.0f, 1e6f}) {
+        light().widthMetres = light().heightMetres = metres; // it reaches behind the camera
+        const auto drawn = span();
+        ASSERT_TRUE(drawn);
+        EXPECT_GE(drawn->first, at.corner.x - kHalfLine);
+        EXPECT_LE(drawn->second, at.corner.x + at.size.x + kHalfLine);
+    }
+    light().positionWS = glm::dvec3(state_.open->scene().cameras[0].worldFromCamera * glm::dvec4(0.0, 0.0, 3.0, 1.0));
+    light().widthMetres = light().heightMetres = 0.5f;
+    EXPECT_FALSE(span()) << "all of it lies behind the camera";
+}
+
+TEST_F(Handles, thePointerSaysWhatAPressDoes) {
+    const LightFigure figure = *selectedFigure(state_, area(state_));
+    ASSERT_EQ(figure.handles.size(), 3u) << "its height points at the viewer";
+    for (const LightHandle& handle : figure.handles) {
+        const bool turns = handle.parameter == nullptr;
+        EXPECT_EQ(cursorAt(handle.place), turns ? ImGuiMouseCursor_ResizeAll : ImGuiMouseCursor_ResizeEW);
+    }
+    EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_Arrow);
+    state_.heldHandle = figure.handles[0].number;
+    EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
+}
+
+TEST_F(Handles, theValueOfADragStandsBesideThePointerAndInThePicture) {
+    const PictureArea at = area(state_);
+    const auto text = [&] { return overlaySpan([&] { drawDragText(state_, at); }); };
+    EXPECT_FALSE(text());
+    state_.dragText = "Width 1.25 m";
+    for (const float x : {at.corner.x + 100.0f, at.corner.x + at.size.x - 1.0f, -50.0f}) {
+        ImGui::GetIO().MousePos = {x, 100.0f};
+        const auto drawn = text();
+        ASSERT_TRUE(drawn);
+        EXPECT_GE(drawn->first, at.corner.x - 1.0f);
+        EXPECT_LE(drawn->second, at.corner.x + at.size.x + 1.0f);
+    }
+}
+
+} // namespace
+} // namespace tessera::viewer
