@@ -275,7 +275,7 @@ void lightsPanel(State& state) {
     scatterRows(state);
     row("Markers");
     ImGui::Checkbox("show (M)", &state.showsMarkers);
-    tip("Drag a marker to move its light");
+    tip("Drag a marker to move its light; the selected one has handles too");
     row("Animation");
     ImGui::Checkbox("plays (Space)", &state.isPlaying);
     timeRow(timeSeconds);

@@ -101,12 +101,13 @@ constexpr KeyBinding kBindings[] = {
 
 constexpr GestureHelp kGestures[] = {
     {"Left drag", "turn about the pivot, or look around when flying; also with Shift"},
-    {"Shift + right drag", "turns the environment"},
+    {"Shift + right drag", "turns the environment; the angle stands beside the pointer"},
     {"Alt + left drag", "move across the picture; also the middle button"},
     {"Ctrl + left drag, wheel", "nearer and farther"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
     {"Click", "picks the material of the surface"},
     {"Drag a light's marker", "moves the light across the picture"},
+    {"Drag a light's handle", "square: a side, radius or length, with Shift one side alone; round: its direction"},
     {"Drag the divider", "split view"},
     {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json; or takes an environment: .hdr, .exr"},
 };

@@ -1,7 +1,12 @@
 #include <algorithm>
+#include <cctype>
 #include <map>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "scenes/AreaLight.h"
+#include "tests/unit/docs/Tables.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/edit/LightFigure.h"
 
@@ -50,6 +55,27 @@ TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
                         << parameter.label;
                 }
         }
+}
+
+TEST(LightFigure, theHandlesOfEveryTypeAreThoseOfTheDocument) {
+    tessera::test::Rows rows;
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        std::vector<std::string> square;
+        std::string round;
+        for (const LightHandle& handle : lightFigure(askewLight(type.type), twoViews()[0], 1.0).handles) {
+            if (handle.parameter == nullptr) {
+                round = "direction";
+                continue;
+            }
+            std::string label = handle.parameter->label;
+            label[0] = char(std::tolower(static_cast<unsigned char>(label[0])));
+            if (std::ranges::find(square, label) == square.end()) square.push_back(label);
+        }
+        rows.push_back({fmt::format("`{}`", type.name), fmt::format("{}", fmt::join(square, ", ")), round});
+    }
+    const std::string table = tessera::test::markdownTable({"light", "square handles", "round handle"}, rows);
+    EXPECT_TRUE(tessera::test::holdsTable(tessera::test::textOf(tessera::test::kRepository / "docs/viewer.md"), table))
+        << table;
 }
 
 TEST(LightFigure, handlesLieInTheMiddlesOfARectanglesSides) {
