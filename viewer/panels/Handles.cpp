@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 namespace tessera::viewer {
@@ -13,6 +14,9 @@ constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(2
 constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160); ///< so that lines are seen on white too
 constexpr float kHandleRadius = 4.5f, kLineWidth = 1.5f, kUnderWidth = 3.5f;
 
+/// Before, Dear ImGui shows slanting arrows as the plain one, which says nothing.
+constexpr bool kHasSlantingArrows = GLFW_VERSION_MAJOR > 3 || (GLFW_VERSION_MAJOR == 3 && GLFW_VERSION_MINOR >= 4);
+
 ImGuiMouseCursor cursorOf(PointerShape shape) {
     switch (shape) {
     case PointerShape::LeftRight:
@@ -20,13 +24,13 @@ ImGuiMouseCursor cursorOf(PointerShape shape) {
     case PointerShape::UpDown:
         return ImGuiMouseCursor_ResizeNS;
     case PointerShape::Falling:
-        return ImGuiMouseCursor_ResizeNWSE;
+        return kHasSlantingArrows ? ImGuiMouseCursor_ResizeNWSE : ImGuiMouseCursor_Hand;
     case PointerShape::Rising:
-        return ImGuiMouseCursor_ResizeNESW;
+        return kHasSlantingArrows ? ImGuiMouseCursor_ResizeNESW : ImGuiMouseCursor_Hand;
     case PointerShape::AnyWay:
         break;
     }
-    return ImGuiMouseCursor_ResizeAll;
+    return ImGuiMouseCursor_Hand;
 }
 
 /// Draws at places of a picture, and nothing beside it.

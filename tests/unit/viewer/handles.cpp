@@ -1,4 +1,6 @@
 // A light's outline and handles, drawn without a window.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "tests/unit/viewer/PanelTest.h"
@@ -71,11 +73,33 @@ TEST_F(Handles, thePointerSaysWhatAPressDoes) {
     ASSERT_EQ(figure.handles.size(), 3u) << "its height points at the viewer";
     for (const LightHandle& handle : figure.handles) {
         const bool turns = handle.parameter == nullptr;
-        EXPECT_EQ(cursorAt(handle.place), turns ? ImGuiMouseCursor_ResizeAll : ImGuiMouseCursor_ResizeEW);
+        EXPECT_EQ(cursorAt(handle.place), turns ? ImGuiMouseCursor_Hand : ImGuiMouseCursor_ResizeEW);
     }
     EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_Arrow);
     state_.heldHandle = figure.handles[0].number;
     EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
+}
+
+TEST_F(Handles, noPointerIsThePlainOneWhateverTheWay) {
+    // Turned about the line of sight, the width goes through all ways. GLFW 3.3 has no slanting arrows.
+    const glm::dmat4& worldFromCamera = state_.open->scene().cameras[0].worldFromCamera;
+    const glm::dvec3 rightWS(worldFromCamera[0]), upWS(worldFromCamera[1]);
+    constexpr ImGuiMouseCursor kWithoutSlants[] = {ImGuiMouseCursor_ResizeEW, ImGuiMouseCursor_Hand,
+                                                   ImGuiMouseCursor_ResizeNS, ImGuiMouseCursor_Hand};
+    constexpr ImGuiMouseCursor kWithSlants[] = {ImGuiMouseCursor_ResizeEW, ImGuiMouseCursor_ResizeNESW,
+                                                ImGuiMouseCursor_ResizeNS, ImGuiMouseCursor_ResizeNWSE};
+    for (int eighth = 0; eighth < 4; ++eighth) {
+        const double angle = glm::radians(45.0 * eighth);
+        light().alongWS = std::cos(angle) * rightWS + std::sin(angle) * upWS;
+        light().directionWS = std::sin(angle) * rightWS - std::cos(angle) * upWS;
+        const LightFigure figure = *selectedFigure(state_, area(state_));
+        const auto width = std::ranges::find_if(figure.handles, [](const LightHandle& handle) {
+            return handle.parameter != nullptr && handle.parameter->member == &scenes::Light::widthMetres;
+        });
+        ASSERT_NE(width, figure.handles.end());
+        const ImGuiMouseCursor cursor = cursorAt(width->place);
+        EXPECT_TRUE(cursor == kWithoutSlants[eighth] || cursor == kWithSlants[eighth]) << eighth << ": " << cursor;
+    }
 }
 
 TEST_F(Handles, theValueOfADragStandsBesideThePointerAndInThePicture) {
