@@ -11,7 +11,10 @@ namespace tessera::viewer {
 namespace {
 
 constexpr double kArm = 70.0;       ///< from a light's middle or end to the handle of its direction
+constexpr double kMostArm = 0.2;    ///< the same, share of the picture's shorter side: it must not reach the viewer
 constexpr double kLeastAway = 20.0; ///< of handles from the light's middle, where its marker is
+constexpr double kLeastTurn = 40.0; ///< the same of its direction's, which stands clear of the others
+constexpr double kLeastWay = 1.0;   ///< from the middle, below which a direction's handle has no way of its own
 constexpr double kLeastSeen = 0.02; ///< sine to the line of sight of axes that can be dragged along: 1 degree
 constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
 constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
@@ -93,7 +96,8 @@ private:
     std::optional<double> armMetres() const {
         const std::optional<double> metresPerUnit = view_.metresPerUnit(figure_.middleWS);
         if (!metresPerUnit) return std::nullopt;
-        return kArm * scale_ * *metresPerUnit;
+        const double shorterSide = std::min(view_.size().x, view_.size().y);
+        return std::min(kArm * scale_, kMostArm * shorterSide) * *metresPerUnit;
     }
 
     const scenes::LightParameter* parameterOf(float scenes::Light::*member) const {
@@ -102,22 +106,35 @@ private:
         return found != info.parameters.end() ? &*found : scenes::sizeParameter(info);
     }
 
+    /// Keeps a handle so far from the light's marker, which would be taken in its place. A sun is none.
+    void standOff(LightHandle& handle, double least) const {
+        if (figure_.sun) return;
+        const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
+        if (!middle) return;
+        const glm::dvec2 away = handle.truePlace - *middle;
+        if (glm::length(away) >= least * scale_) return;
+        glm::dvec2 way = handle.way;
+        if (handle.parameter == nullptr) // towards the viewer or away: between sides that are level and upright
+            way = glm::normalize(glm::length(away) < kLeastWay * scale_ ? glm::dvec2(1.0, -1.0) : away);
+        handle.place = *middle + least * scale_ * way;
+    }
+
     /// If the picture shows it, and a drag along its axis would change something.
     void add(LightHandle handle) {
         handle.number = count_++;
         const std::optional<glm::dvec2> shown = view_.placeOf(handle.positionWS);
         if (!shown) return;
         handle.truePlace = handle.place = *shown;
-        if (handle.parameter != nullptr) {
+        if (handle.parameter == nullptr) {
+            standOff(handle, kLeastTurn);
+        } else {
             const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.positionWS);
             if (glm::length(glm::cross(handle.axisWS, towardsWS)) < kLeastSeen) return;
             const auto beyond =
                 view_.placeOf(handle.positionWS + *view_.metresPerUnit(handle.positionWS) * handle.axisWS);
             if (!beyond || *beyond == *shown) return;
             handle.way = glm::normalize(*beyond - *shown);
-            const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
-            const double least = kLeastAway * scale_;
-            if (middle && glm::distance(*shown, *middle) < least) handle.place = *middle + least * handle.way;
+            standOff(handle, kLeastAway);
         }
         const bool isInside = glm::all(glm::greaterThanEqual(handle.place, glm::dvec2(0.0))) &&
                               glm::all(glm::lessThanEqual(handle.place, view_.size()));

@@ -20,7 +20,7 @@ struct LightHandle {
     glm::dvec3 positionWS{0.0};
     glm::dvec2 truePlace{0.0}; ///< of positionWS
     glm::dvec2 place{0.0};     ///< where it is drawn and taken: not too near to the light's marker
-    glm::dvec2 way{0.0};       ///< unit: the way it is dragged in the picture
+    glm::dvec2 way{0.0};       ///< unit: the way it is dragged in the picture; none of a direction
 };
 
 struct LightFigure {

@@ -157,6 +157,28 @@ TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
         }
 }
 
+TEST(LightDrag, aDirectionAtTheViewerIsTurnedTheWayThePointerGoes) {
+    for (const PictureView& view : dragViews())
+        for (const double side : {1.0, -1.0}) {
+            scenes::Light light = draggedLight(scenes::LightType::Rectangle);
+            light.directionWS = side * view.towardsViewerWS(light.positionWS);
+            light.alongWS = scenes::usualAlong(light.directionWS);
+            const LightFigure figure = lightFigure(light, view, 1.0);
+            const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+            ASSERT_NE(handle, figure.handles.end());
+            scenes::Light turned = light;
+            LightDrag drag(light, figure, *handle, view, handle->place); // which is beside its true place
+            drag.drag(turned, 0.0, view, handle->place, false);
+            EXPECT_LT(glm::distance(turned.directionWS, light.directionWS), 1e-9) << "the pointer has not moved";
+            const glm::dvec2 way(30.0, -10.0);
+            drag.drag(turned, 0.0, view, handle->place + way, false);
+            const double armMetres = glm::distance(handle->positionWS, figure.middleWS);
+            const glm::dvec2 tip = view.placeOf(light.positionWS + armMetres * turned.directionWS).value();
+            EXPECT_LT(glm::distance(tip, handle->truePlace + way), 1e-6);
+            EXPECT_GT(glm::dot(turned.directionWS, light.directionWS), 0.0) << "it turned to the other side";
+        }
+}
+
 TEST(LightDrag, itsWordsNameTheMeasureAndItsUnit) {
     const PictureView view = dragViews()[0];
     scenes::Light light = draggedLight(scenes::LightType::Rectangle);

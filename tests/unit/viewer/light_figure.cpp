@@ -132,6 +132,46 @@ TEST(LightFigure, handlesOfASmallLightLieAroundItsMarker) {
     }
 }
 
+TEST(LightFigure, aDirectionTowardsTheViewerOrAwayIsTakenBesideTheMarker) {
+    for (const PictureView& view : twoViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            if (!type.hasDirection || !type.hasPosition()) continue;
+            for (const double side : {1.0, -1.0}) {
+                SCOPED_TRACE(type.name);
+                scenes::Light light = askewLight(type.type);
+                light.widthMetres = light.heightMetres = light.lengthMetres = light.radiusMetres = 0.01f;
+                light.directionWS = side * view.towardsViewerWS(light.positionWS);
+                light.alongWS = scenes::usualAlong(light.directionWS);
+                const LightFigure figure = lightFigure(light, view, 1.0);
+                const glm::dvec2 marker = view.placeOf(light.positionWS).value();
+                const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+                ASSERT_NE(handle, figure.handles.end());
+                EXPECT_LT(glm::distance(handle->truePlace, marker), 1e-6);
+                // A press takes what is nearest within 9, of all handles and the marker.
+                EXPECT_GT(glm::distance(handle->place, marker), 18.0);
+                for (const LightHandle& other : figure.handles)
+                    if (other.parameter != nullptr) {
+                        EXPECT_GT(glm::distance(handle->place, other.place), 18.0);
+                    }
+            }
+        }
+}
+
+TEST(LightFigure, theArmOfADirectionDoesNotReachTheViewerInSmallPictures) {
+    for (const double sizeUnits : {60.0, 200.0, 1000.0}) {
+        const PictureView view(test::perspective({0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 120.0),
+                               {sizeUnits, sizeUnits});
+        scenes::Light light = askewLight(scenes::LightType::Spot);
+        light.directionWS = {0.0, 0.0, 1.0}; // at the viewer
+        for (const double scale : {1.0, 2.0}) {
+            const LightFigure figure = lightFigure(light, view, scale);
+            const double armMetres = glm::distance(figure.outlinesWS.back().front(), figure.outlinesWS.back().back());
+            EXPECT_GT(armMetres, 0.0);
+            EXPECT_LT(armMetres, 2.5) << "of 3 m to the viewer: " << sizeUnits << " x" << scale;
+        }
+    }
+}
+
 TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     scenes::Light light = askewLight(scenes::LightType::Rectangle);
     light.directionWS = {0.0, -1.0, 0.0};
