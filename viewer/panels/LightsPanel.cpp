@@ -38,7 +38,8 @@ bool tableRow(State& state, scenes::Scene& scene, int index) {
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
     const std::string name = lightLabel(scene.lights, std::size_t(index));
-    if (ImGui::Selectable(name.c_str(), index == state.selectedLight)) state.selectedLight = index;
+    const bool isSelected = index == state.selectedLight;
+    if (ImGui::Selectable(name.c_str(), isSelected)) state.selectedLight = isSelected ? scenes::kNone : index;
     ImGui::TableNextColumn();
     std::optional<int>& solo = state.active().settings.soloLight;
     bool isSolo = solo == index;
@@ -275,7 +276,7 @@ void lightsPanel(State& state) {
     scatterRows(state);
     row("Markers");
     ImGui::Checkbox("show (M)", &state.showsMarkers);
-    tip("Drag a marker to move its light; the selected one has handles too");
+    tip("Drag a marker to move its light. The selected one has handles too, until its name is clicked again.");
     row("Animation");
     ImGui::Checkbox("plays (Space)", &state.isPlaying);
     timeRow(timeSeconds);

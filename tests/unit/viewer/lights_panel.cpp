@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
@@ -38,6 +39,30 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
         EXPECT_EQ(isIn(text, "Width along"), type.hasSides()) << text;
         EXPECT_EQ(isIn(text, "Range"), type.hasPosition()) << text;
         EXPECT_NE(text.find(fmt::format(" {} }}\n", type.unit)), std::string::npos) << type.unit << " in" << text;
+    }
+}
+
+TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
+    scenes::Scene scene = scenes::loadScene("room", {});
+    scene.lights.assign(1, {});
+    scene.lights[0].name = "lamp";
+    State state;
+    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    const auto draw = [&] { show([&] { lightsPanel(state); }); };
+    draw();
+    const ImGuiWindow* list = nullptr;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+        if (std::string(window->Name).find("/lights_") != std::string::npos) list = window;
+    ASSERT_NE(list, nullptr);
+    const float padding = 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float header = ImGui::GetTextLineHeight() + padding, row = ImGui::GetFrameHeight() + padding;
+    ImGui::GetIO().MousePos = {list->Pos.x + 100.0f, list->Pos.y + header + 0.5f * row};
+    for (const int expected : {0, scenes::kNone, 0}) {
+        for (const bool isDown : {false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = isDown;
+            draw();
+        }
+        EXPECT_EQ(state.selectedLight, expected);
     }
 }
 
