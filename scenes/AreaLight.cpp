@@ -1,8 +1,86 @@
 #include "scenes/AreaLight.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace tessera::scenes {
+
+namespace {
+
+double crossOf(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Of the triangle a b c: 1 counterclockwise, -1 clockwise, 0 where the three lie on a line.
+int turnOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    const double cross = crossOf(b - a, c - a);
+    return int(cross > 0.0) - int(cross < 0.0);
+}
+
+/// Of a place on the line through a and b.
+bool isBetween(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::all(glm::lessThanEqual(glm::min(a, b), place)) && glm::all(glm::lessThanEqual(place, glm::max(a, b)));
+}
+
+/// Whether the edges from a to b and from c to d have a place in common.
+bool doMeet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
+    const int ofC = turnOf(a, b, c), ofD = turnOf(a, b, d), ofA = turnOf(c, d, a), ofB = turnOf(c, d, b);
+    if (ofC * ofD < 0 && ofA * ofB < 0) return true;
+    return (ofC == 0 && isBetween(c, a, b)) || (ofD == 0 && isBetween(d, a, b)) || (ofA == 0 && isBetween(a, c, d)) ||
+           (ofB == 0 && isBetween(b, c, d));
+}
+
+} // namespace
+
+double signedArea(const LightCorners& corners) {
+    const std::span<const glm::vec2> all = corners.all();
+    double area = 0.0;
+    // From the first corner, so that an outline far from its position keeps its digits.
+    for (std::size_t i = 2; i < all.size(); ++i)
+        area += 0.5 * crossOf(glm::dvec2(all[i - 1]) - glm::dvec2(all[0]), glm::dvec2(all[i]) - glm::dvec2(all[0]));
+    return area;
+}
+
+glm::dvec2 middleOf(const LightCorners& corners) {
+    const std::span<const glm::vec2> all = corners.all();
+    const glm::dvec2 first(all[0]);
+    glm::dvec2 sum(0.0);
+    double area = 0.0;
+    for (std::size_t i = 2; i < all.size(); ++i) {
+        const glm::dvec2 a = glm::dvec2(all[i - 1]) - first, b = glm::dvec2(all[i]) - first;
+        sum += crossOf(a, b) * (a + b) / 3.0;
+        area += crossOf(a, b);
+    }
+    return area == 0.0 ? first : first + sum / area;
+}
+
+std::string cornersProblem(const LightCorners& corners) {
+    const std::size_t count = corners.count;
+    if (count < LightCorners::kLeast || count > LightCorners::kMost)
+        return fmt::format("number {}; {} to {} are needed", count, LightCorners::kLeast, LightCorners::kMost);
+    const std::span<const glm::vec2> all = corners.all();
+    for (std::size_t i = 0; i < count; ++i)
+        for (const float metres : {all[i].x, all[i].y})
+            if (!(std::abs(double(metres)) <= kMostRadiusMetres))
+                return fmt::format("have number {} at ({:g}, {:g}); both must lie between {:g} and {:g} m", i, all[i].x,
+                                   all[i].y, -kMostRadiusMetres, kMostRadiusMetres);
+    const auto at = [&](std::size_t i) { return glm::dvec2(all[i % count]); };
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = i + 1; j < count; ++j)
+            if (at(i) == at(j)) return fmt::format("{} and {} lie in one place; keep one", i, j);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec2 before = at(i + 1) - at(i), after = at(i + 2) - at(i + 1);
+        if (turnOf(at(i), at(i + 1), at(i + 2)) == 0 && glm::dot(before, after) < 0.0)
+            return fmt::format("fold back at number {}; no area lies between the two edges", (i + 1) % count);
+        // Edges that follow each other have a corner in common.
+        for (std::size_t j = i + 2; j < count; ++j)
+            if ((j + 1) % count != i && doMeet(at(i), at(i + 1), at(j), at(j + 1)))
+                return fmt::format("cross or touch: the edges behind number {} and behind number {} meet", i, j);
+    }
+    return {};
+}
 
 bool hasSurface(const Light& light) {
     const auto isThere = [](float metres) { return metres >= kLeastAreaMetres; };
@@ -14,6 +92,8 @@ bool hasSurface(const Light& light) {
         return isThere(light.radiusMetres);
     case LightType::Tube:
         return isThere(light.radiusMetres) && isThere(light.lengthMetres);
+    case LightType::Polygon:
+        return std::abs(signedArea(light.corners)) >= double(kLeastAreaMetres) * double(kLeastAreaMetres);
     default:
         return false;
     }
@@ -30,6 +110,8 @@ double largestSeenArea(const Light& light) {
     case LightType::Tube:
         // From its side and from its end; what is seen from between is less than both together.
         return 2.0 * radius * double(light.lengthMetres) + disk;
+    case LightType::Polygon:
+        return std::abs(signedArea(light.corners));
     default:
         return 0.0;
     }
@@ -44,6 +126,11 @@ double surfaceReachMetres(const Light& light) {
         return light.radiusMetres;
     case LightType::Tube:
         return std::hypot(double(light.radiusMetres), 0.5 * double(light.lengthMetres));
+    case LightType::Polygon: {
+        double reach = 0.0;
+        for (const glm::vec2& corner : light.corners.all()) reach = std::max(reach, glm::length(glm::dvec2(corner)));
+        return reach;
+    }
     default:
         return 0.0;
     }

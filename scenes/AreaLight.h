@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 
 #include "scenes/Light.h"
 
@@ -7,8 +8,18 @@
 namespace tessera::scenes {
 
 /// A width, height, length or radius below this counts as none, and the light is dark: products of two of them keep
-/// their digits in single precision.
+/// their digits in single precision. So does an outline's area below its square.
 inline constexpr float kLeastAreaMetres = 1e-6f;
+
+/// The square metres within an outline; above 0 where it runs counterclockwise, from x to y.
+double signedArea(const LightCorners& corners);
+
+/// The middle of the area within an outline, in metres as its corners.
+glm::dvec2 middleOf(const LightCorners& corners);
+
+/// What keeps corners from being the outline of an area: too few or too many, corners too far out or in one place,
+/// edges that cross, touch or fold back; empty where nothing does. It follows "its corners". Corners count from 0.
+std::string cornersProblem(const LightCorners& corners);
 
 /// Whether there is a surface that shines.
 bool hasSurface(const Light& light);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/AreaLight.h"
 #include "scenes/Limits.h"
 #include "scenes/Scene.h"
 
@@ -248,9 +249,11 @@ void checkLight(const Element& element, const Light& light) {
     element.require(isUnit(light.directionWS), "its direction must be of unit length");
     element.require(isUnit(light.alongWS), "the direction of its width must be of unit length");
     const LightTypeInfo& info = infoOf(light.type);
-    if (info.hasSides())
+    if (info.isTurned())
         element.require(std::abs(glm::dot(light.alongWS, light.directionWS)) <= kUnitTolerance,
                         "the direction of its width must be at right angles to its direction");
+    const std::string problem = cornersProblem(light.corners);
+    element.require(problem.empty(), "its corners " + problem);
     if (info.isArea && light.falloff != Falloff::InverseSquare)
         element.require(false, fmt::format("a {} light falls off by its shape; it takes no falloff by A B C, only the "
                                            "range of an inverse-square one",

@@ -95,6 +95,10 @@ public:
         const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS] = animation;
         addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS);
     }
+    void add(const LightCorners& corners) {
+        add(std::uint64_t(corners.count));
+        for (const glm::vec2& corner : corners.all()) add(corner);
+    }
     void add(const Light& light) {
         visitFields(kLightFields, [&](const auto& field) { add(light.*field.member); });
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +37,7 @@ enum class LightType : std::uint8_t {
     Disk,        ///< from a disk around its position that faces its direction
     Sphere,      ///< from a sphere around its position
     Tube,        ///< from a closed cylinder around its position, along its direction
+    Polygon,     ///< from within an outline of straight edges through its position, which faces its direction
     Count
 };
 
@@ -65,6 +67,27 @@ struct LightAnimation {
     bool operator==(const LightAnimation&) const = default;
 };
 
+/// The corners of an outline in the order of its edges, in metres from the light's position: x along Light::alongWS, y
+/// across it, at right angles to both that and the light's direction. They lie within the light, since every light has
+/// them. cornersProblem() (scenes/AreaLight.h) says what makes no outline.
+struct LightCorners {
+    static constexpr std::size_t kLeast = 3, kMost = 8;
+    std::size_t count = 4;
+    std::array<glm::vec2, kMost> metres{glm::vec2(-0.5f, -0.5f), glm::vec2(0.5f, -0.5f), glm::vec2(0.5f, 0.5f),
+                                        glm::vec2(-0.5f, 0.5f)};
+
+    std::span<const glm::vec2> all() const { return std::span(metres).first(std::min(count, kMost)); }
+    /// False, and no change, where there are as many as there can be.
+    bool add(const glm::vec2& cornerMetres) {
+        if (count >= kMost) return false;
+        metres[count++] = cornerMetres;
+        return true;
+    }
+    bool operator==(const LightCorners& other) const {
+        return count == other.count && std::ranges::equal(all(), other.all());
+    }
+};
+
 struct Light {
     std::string name;
     LightType type = LightType::Point;
@@ -85,8 +108,9 @@ struct Light {
     float widthMetres = 1.0f;                ///< Rectangle: along alongWS
     float heightMetres = 1.0f;               ///< Rectangle: across it
     float lengthMetres = 1.0f;               ///< Tube: along its direction
-    glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle: unit, at right angles to directionWS
-    bool isTwoSided = false;                 ///< Rectangle and Disk: shine from the back too
+    LightCorners corners;                    ///< Polygon: of its outline
+    glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle and Polygon: unit, at right angles to directionWS
+    bool isTwoSided = false;                 ///< what is flat: shines from the back too
     bool isSeen = true;                      ///< with an area: pictures show the surface
     std::optional<LightAnimation> animation;
     bool operator==(const Light&) const = default;
@@ -117,6 +141,7 @@ inline constexpr std::tuple kLightFields{
     Field{"widthMetres", &Light::widthMetres, "the width", 0.0, kMostRadiusMetres, " m"},
     Field{"heightMetres", &Light::heightMetres, "the height", 0.0, kMostRadiusMetres, " m"},
     Field{"lengthMetres", &Light::lengthMetres, "the length", 0.0, kMostRadiusMetres, " m"},
+    Field{"corners", &Light::corners},
     Field{"alongWS", &Light::alongWS},
     Field{"isTwoSided", &Light::isTwoSided},
     Field{"isSeen", &Light::isSeen},
@@ -166,6 +191,10 @@ struct LightTypeInfo {
     constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }
     /// Light::widthMetres along Light::alongWS and Light::heightMetres across it, in place of a radius.
     constexpr bool hasSides() const { return type == LightType::Rectangle; }
+    /// Light::corners in place of sides and radius.
+    constexpr bool hasCorners() const { return type == LightType::Polygon; }
+    /// Light::alongWS says how it is turned about its direction.
+    constexpr bool isTurned() const { return hasSides() || hasCorners(); }
     /// Whether shaders read LightShapeTexels for this type (shaders/shared/light.h).
     constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty() || isArea; }
 };
@@ -197,6 +226,7 @@ inline constexpr std::array kLightTypes{
     LightTypeInfo{LightType::Disk, "disk", "cd/m2", LightReach::Sphere, true, {}, true, true},
     LightTypeInfo{LightType::Sphere, "sphere", "cd/m2", LightReach::Sphere, false, {}, true},
     LightTypeInfo{LightType::Tube, "tube", "cd/m2", LightReach::Sphere, true, kLength, true},
+    LightTypeInfo{LightType::Polygon, "polygon", "cd/m2", LightReach::Sphere, true, {}, true, true},
 };
 consteval bool areLightTypesSound() {
     for (std::size_t i = 0; i < kLightTypes.size(); ++i) {
@@ -219,10 +249,10 @@ constexpr const LightTypeInfo& infoOf(LightType type) {
     return detail::kLightTypes[std::size_t(type)];
 }
 
-/// What every type has beside the parameters of its row, but those with sides: what makes its shadows soft, and of an
-/// area light how far its surface reaches.
+/// What every type has beside the parameters of its row, but those with sides or corners: what makes its shadows soft,
+/// and of an area light how far its surface reaches.
 constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
-    if (type.hasSides()) return nullptr;
+    if (type.isTurned()) return nullptr;
     return type.hasPosition() ? &detail::kRadius : &detail::kAngularRadius;
 }
 

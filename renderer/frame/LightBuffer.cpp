@@ -1,5 +1,7 @@
 #include "renderer/frame/LightBuffer.h"
 
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "renderer/gpu/Commands.h"
@@ -7,8 +9,21 @@
 
 namespace tessera::frame {
 
+namespace {
+
+void addShape(std::vector<glm::vec4>& texels, const PackedLights& lights, const FeatureSet& features, std::size_t i) {
+    texels.insert(texels.end(), {lights.shapes[i].axis, lights.shapes[i].attenuation});
+    if (!features[scenes::LightType::Polygon]) return;
+    const shared::LightCornerTexels corners = lights.corners.empty() ? shared::LightCornerTexels{} : lights.corners[i];
+    texels.push_back(corners.outline);
+    texels.insert(texels.end(), std::begin(corners.corners), std::end(corners.corners));
+}
+
+} // namespace
+
 std::size_t lightBytes(const FeatureSet& features, std::size_t count) {
     return count * (sizeof(shared::LightTexels) + (features.lightShapes() ? sizeof(shared::LightShapeTexels) : 0) +
+                    (features[scenes::LightType::Polygon] ? sizeof(shared::LightCornerTexels) : 0) +
                     (features.lightShadowTexels() ? sizeof(shared::LightShadowTexels) : 0));
 }
 
@@ -25,9 +40,15 @@ std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& fe
     texels.reserve(lightBytes(features, lights.texels.size()) / sizeof(glm::vec4));
     for (std::size_t i = 0; i < lights.texels.size(); ++i) {
         texels.insert(texels.end(), {lights.texels[i].position, lights.texels[i].color});
-        if (features.lightShapes()) texels.insert(texels.end(), {lights.shapes[i].axis, lights.shapes[i].attenuation});
+        if (features.lightShapes()) addShape(texels, lights, features, i);
         if (features.lightShadowTexels()) texels.push_back(lights.shadows[i].shadow);
     }
+    return texels;
+}
+
+std::vector<glm::vec4> shapeTexelsOf(const PackedLights& lights, const FeatureSet& features) {
+    std::vector<glm::vec4> texels;
+    for (std::size_t i = 0; i < lights.shapes.size(); ++i) addShape(texels, lights, features, i);
     return texels;
 }
 

@@ -19,7 +19,11 @@ std::string transparentText(std::size_t surfaces);
 /// What the buffer texture of shaders/lib/light/light_store.glsl holds, where shaders have those features.
 std::vector<glm::vec4> texelsOf(const PackedLights& lights, const FeatureSet& features);
 
-/// The same on the GPU, for lighting without a render graph.
+/// Of them only what types with a shape need besides, of every light: LightShapeTexels, and where the features have
+/// polygons LightCornerTexels.
+std::vector<glm::vec4> shapeTexelsOf(const PackedLights& lights, const FeatureSet& features);
+
+/// The same as texelsOf() on the GPU, for lighting without a render graph.
 class LightBuffer {
 public:
     LightBuffer(const PackedLights& lights, const FeatureSet& features);

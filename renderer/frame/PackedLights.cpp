@@ -82,17 +82,39 @@ void packArea(const scenes::Light& light, const glm::dmat3& lsFromWorld, shared:
     if (info.isFlat) {
         // A disk may be turned in its plane.
         const glm::dvec3 alongLS =
-            lsFromWorld * (info.hasSides() ? light.alongWS : scenes::usualAlong(light.directionWS));
+            lsFromWorld * (info.isTurned() ? light.alongWS : scenes::usualAlong(light.directionWS));
         const glm::dvec3 acrossLS = glm::cross(travelLS, alongLS);
-        const float along = info.hasSides() ? 0.5f * light.widthMetres : light.radiusMetres;
-        const float across = info.hasSides() ? 0.5f * light.heightMetres : light.radiusMetres;
-        shape.axis = glm::vec4(metres(alongLS, along), 0.0f);
+        const float radius = info.hasCorners() ? float(scenes::surfaceReachMetres(light)) : light.radiusMetres;
+        const float along = info.hasSides() ? 0.5f * light.widthMetres : radius;
+        const float across = info.hasSides() ? 0.5f * light.heightMetres : radius;
+        const double product = double(along) * double(across);
+        const double areaShare = info.hasCorners() ? std::abs(scenes::signedArea(light.corners)) / product : 0.0;
+        shape.axis = glm::vec4(metres(alongLS, along), float(areaShare));
         shape.attenuation = glm::vec4(metres(acrossLS, across), light.isTwoSided ? 1.0f : 0.0f);
     } else {
         const float along = info.hasDirection ? 0.5f * light.lengthMetres : 0.0f;
         shape.axis = glm::vec4(metres(travelLS, along), light.radiusMetres);
     }
 }
+
+/// The outline of a polygon, of other types nothing (shared/light.h).
+shared::LightCornerTexels packCorners(const scenes::Light& light) {
+    shared::LightCornerTexels packed{};
+    if (!scenes::infoOf(light.type).hasCorners()) return packed;
+    const auto perMetre = 1.0 / double(float(scenes::surfaceReachMetres(light)));
+    const std::span<const glm::vec2> corners = light.corners.all();
+    packed.outline = glm::vec4(glm::vec2(scenes::middleOf(light.corners) * perMetre), float(corners.size()), 0.0f);
+    const bool isClockwise = scenes::signedArea(light.corners) < 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::vec2 corner(glm::dvec2(corners[isClockwise ? corners.size() - 1 - i : i]) * perMetre);
+        glm::vec4& two = packed.corners[i / 2];
+        (i % 2 == 0 ? two.x : two.z) = corner.x;
+        (i % 2 == 0 ? two.y : two.w) = corner.y;
+    }
+    return packed;
+}
+static_assert(sizeof(shared::LightCornerTexels) == LIGHT_CORNER_TEXELS * sizeof(glm::vec4));
+static_assert(scenes::LightCorners::kMost == 2 * std::size(shared::LightCornerTexels{}.corners));
 
 PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
     PackedLight result;
@@ -140,6 +162,7 @@ float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels&
     const scenes::LightTypeInfo& info = scenes::infoOf(type);
     if (!info.isArea) return 0.0f;
     const float along = glm::length(glm::vec3(shape.axis));
+    if (info.hasCorners()) return along;
     if (info.hasSides()) return std::hypot(along, glm::length(glm::vec3(shape.attenuation)));
     return AREA_OUTLINE_REACH * (info.isFlat ? along : std::hypot(along, shape.axis.w));
 }
@@ -192,6 +215,8 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
     for (const PackedLight& packed : all) {
         lights.texels.push_back(packed.texels);
         lights.shapes.push_back(packed.shape);
+        if (lights.features[scenes::LightType::Polygon])
+            lights.corners.push_back(packCorners(scene.lights[std::size_t(packed.sceneIndex)]));
         lights.shadows.push_back(packed.shadow);
         lights.sceneIndex.push_back(packed.sceneIndex);
         // Directional lights and infinite ranges.

@@ -22,6 +22,7 @@ float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels&
 struct PackedLights {
     std::vector<shared::LightTexels> texels;
     std::vector<shared::LightShapeTexels> shapes;   ///< parallel to texels
+    std::vector<shared::LightCornerTexels> corners; ///< where any is a polygon parallel to texels, else empty
     std::vector<shared::LightShadowTexels> shadows; ///< parallel to texels
     std::vector<int> sceneIndex;                    ///< parallel to texels: index into Scene::lights
     FeatureSet features;                            ///< the light types and falloffs among them

@@ -50,9 +50,12 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     const glm::dmat3 linear(worldFromPart);
     light.positionWS = movedPoint(worldFromPart, light.positionWS);
     light.directionWS = movedDirection(linear * light.directionWS, "light", light.name);
-    if (infoOf(light.type).hasSides())
+    if (infoOf(light.type).isTurned())
         light.alongWS = acrossFrom(light.directionWS, movedDirection(linear * light.alongWS, "light", light.name))
                             .value_or(usualAlong(light.directionWS));
+    // Mirrored, what was across is on the other side.
+    if (infoOf(light.type).hasCorners() && glm::determinant(linear) < 0.0)
+        for (std::size_t i = 0; i < light.corners.count; ++i) light.corners.metres[i].y *= -1.0f;
     if (!light.animation) return;
     LightAnimation& animation = *light.animation;
     animation.centerWS = movedPoint(worldFromPart, animation.centerWS);

@@ -56,6 +56,15 @@ void read(const JsonValue& value, std::vector<Element>& list) {
     for (const JsonValue& element : value.elements()) read(element, list.emplace_back());
 }
 
+void read(const JsonValue& value, LightCorners& corners) {
+    corners.count = 0;
+    for (const JsonValue& corner : value.elements(0, LightCorners::kMost)) {
+        glm::vec2 metres;
+        read(corner, metres);
+        corners.add(metres);
+    }
+}
+
 template <typename Value>
 void read(const JsonValue& value, std::optional<Value>& optional) {
     optional.reset();

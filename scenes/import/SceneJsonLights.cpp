@@ -126,6 +126,15 @@ void readAlong(JsonObject& object, Light& light) {
     light.alongWS = *across;
 }
 
+void readCorners(JsonObject& object, Light& light) {
+    const JsonValue corners = object.require("corners");
+    light.corners.count = 0;
+    for (const JsonValue& corner : corners.elements(LightCorners::kLeast, LightCorners::kMost))
+        light.corners.add(corner.vector2());
+    const std::string problem = cornersProblem(light.corners);
+    if (!problem.empty()) corners.fail(problem);
+}
+
 void readParameter(JsonObject& object, const LightParameter& parameter, Light& light) {
     const auto value = object.find(parameter.key);
     if (!value) return;
@@ -164,7 +173,8 @@ Light readLight(const JsonValue& value, std::size_t index) {
         if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation);
     }
     if (info.hasDirection) readDirection(object, light);
-    if (info.hasSides()) readAlong(object, light);
+    if (info.isTurned()) readAlong(object, light);
+    if (info.hasCorners()) readCorners(object, light);
     readParameters(object, light);
     if (info.isFlat) {
         if (const auto twoSided = object.find("twoSided")) light.isTwoSided = twoSided->boolean();

@@ -50,6 +50,12 @@ requires std::is_enum_v<Choice> Json fieldOf(Choice choice) {
     return scenejson::nameOf(choice);
 }
 
+Json fieldOf(const LightCorners& corners) {
+    Json array = Json::array();
+    for (const glm::vec2& corner : corners.all()) array.push_back(numbers(corner));
+    return array;
+}
+
 template <typename Element>
 Json fieldOf(const std::vector<Element>& list) {
     Json array = Json::array();

@@ -29,6 +29,12 @@ Json pointsJson(const std::vector<glm::dvec3>& points) {
     return json;
 }
 
+Json cornersJson(const LightCorners& corners) {
+    Json json = Json::array();
+    for (const glm::vec2& corner : corners.all()) json.push_back(numbers(corner));
+    return json;
+}
+
 Json animationJson(const LightAnimation& animation) {
     Json json;
     json["type"] = scenejson::nameOf(animation.kind);
@@ -68,7 +74,8 @@ Json byKeys(const Light& light) {
         if (light.animation) json["animation"] = animationJson(*light.animation);
     }
     if (info.hasDirection) json["direction"] = numbers(light.directionWS);
-    if (info.hasSides() && light.alongWS != usualAlong(light.directionWS)) json["along"] = numbers(light.alongWS);
+    if (info.isTurned() && light.alongWS != usualAlong(light.directionWS)) json["along"] = numbers(light.alongWS);
+    if (info.hasCorners()) json["corners"] = cornersJson(light.corners);
     const auto write = [&](const LightParameter& parameter) {
         const float value = light.*parameter.member;
         json[parameter.key] = parameter.kind == LightParameter::Kind::Angle ? degreesOf(value) : number(value);

@@ -8,6 +8,12 @@
 #if LIGHT_STORE != LIGHT_STORE_TEXEL
 #define HAS_OTHER_LIGHT_STORE
 
+#if HAS_POLYGON_LIGHTS
+#define SHAPE_TEXELS_A_LIGHT (LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS)
+#else
+#define SHAPE_TEXELS_A_LIGHT LIGHT_SHAPE_TEXELS
+#endif
+
 #if LIGHT_STORE == LIGHT_STORE_UNIFORM
 layout(std140, binding = UNIFORM_LIGHTS) uniform LightBlock
 {
@@ -15,7 +21,7 @@ layout(std140, binding = UNIFORM_LIGHTS) uniform LightBlock
 };
 layout(std140, binding = UNIFORM_LIGHT_SHAPES) uniform LightShapeBlock
 {
-    vec4 lightShapeTexels[LIGHT_UNIFORM_LIGHTS * LIGHT_SHAPE_TEXELS];
+    vec4 lightShapeTexels[LIGHT_UNIFORM_LIGHTS * SHAPE_TEXELS_A_LIGHT];
 };
 #else
 layout(std430, binding = STORAGE_LIGHTS) readonly buffer LightBlock
@@ -34,9 +40,9 @@ vec4 lightTexel(int index, int texel)
     return lightTexels[index * LIGHT_TEXELS + texel];
 }
 
-// The same in the order of LightShapeTexels.
+// The same in the order of LightShapeTexels and, behind them, LightCornerTexels.
 vec4 lightShapeTexel(int index, int texel)
 {
-    return lightShapeTexels[index * LIGHT_SHAPE_TEXELS + texel];
+    return lightShapeTexels[index * SHAPE_TEXELS_A_LIGHT + texel];
 }
 #endif

@@ -14,8 +14,32 @@ struct Ray {
     vec3 direction;
 };
 
-// A rectangle or a disk, from a side that shines.
-bool meetsFlat(Ray ray, vec4 along, vec4 across, bool isRound, bool isTwoSided, out float ahead)
+vec2 cornerOf(int texel, int corner)
+{
+    vec4 two = texelFetch(seenLightTexels, texel + 5 + corner / 2);
+    return (corner & 1) == 0 ? two.xy : two.zw;
+}
+
+// Whether edges to one side of a place cross its height an odd number of times.
+bool isWithinPolygon(vec2 place, int texel, int corners)
+{
+    bool isWithin = false;
+    vec2 from = cornerOf(texel, corners - 1);
+    for (int i = 0; i < corners; ++i) {
+        vec2 to = cornerOf(texel, i);
+        if ((from.y > place.y) != (to.y > place.y)) {
+            // From the lower corner whichever way the edge runs, so that surfaces that share it leave no gap.
+            vec2 low = from.y < to.y ? from : to, high = from.y < to.y ? to : from;
+            precise float side = (high.x - low.x) * (place.y - low.y) - (place.x - low.x) * (high.y - low.y);
+            if (side > 0.0) isWithin = !isWithin;
+        }
+        from = to;
+    }
+    return isWithin;
+}
+
+// A rectangle, a disk or a polygon, from a side that shines.
+bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwoSided, out float ahead)
 {
     precise vec3 front = cross(along.xyz, across.xyz);
     precise float facing = -dot(ray.direction, front);
@@ -24,8 +48,9 @@ bool meetsFlat(Ray ray, vec4 along, vec4 across, bool isRound, bool isTwoSided, 
     ahead = met;
     precise vec3 place = ray.start + met * ray.direction;
     precise vec2 within = vec2(dot(place, along.xyz), dot(place, across.xyz));
-    return isRound ? dot(within, within) <= along.w * along.w
-                   : abs(within.x) <= along.w && abs(within.y) <= across.w;
+    if (type == LIGHT_POLYGON) return isWithinPolygon(within, texel, int(along.w));
+    return type == LIGHT_DISK ? dot(within, within) <= along.w * along.w
+                              : abs(within.x) <= along.w && abs(within.y) <= across.w;
 }
 
 // Where the ray enters a ball, or of components across an axis an endless cylinder. Measured from the point that is
@@ -89,7 +114,7 @@ void main()
     else if (type == LIGHT_TUBE)
         meets = meetsTube(ray, along, across.w, ahead);
     else
-        meets = meetsFlat(ray, along, across, type == LIGHT_DISK, shown.w != 0.0, ahead);
+        meets = meetsFlat(ray, type, texel, along, across, shown.w != 0.0, ahead);
     if (!meets) discard;
     // Nothing is drawn before the near plane and behind the far one. A surface that is entered behind the eye is seen
     // from inside, where it does not shine.

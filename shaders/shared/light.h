@@ -1,9 +1,9 @@
 #pragma once
 // A light as RGBA32F texels of a buffer texture: its LightTexels and behind them, where any light has a shape, its
-// LightShapeTexels, and where shadows are soft or in maps, its LightShadowTexels. Behind all lights lie the faces of
-// shadow maps (shadow_maps.h). A buffer texture, because it is the fastest
-// store measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage buffer) and
-// has no 64 KiB limit.
+// LightShapeTexels, behind those, where any is a polygon, its LightCornerTexels, and where shadows are soft or in maps,
+// its LightShadowTexels. Behind all lights lie the faces of shadow maps (shadow_maps.h). A buffer texture, because it
+// is the fastest store measured on software rasterisers (2 to 3 times faster per pair of light and pixel than a storage
+// buffer) and has no 64 KiB limit.
 #include "interop.h"
 
 // Kinds, stored as plain numbers: small integers stored as float bits would be denormals, which hardware may flush. The
@@ -16,6 +16,7 @@
 
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
+#define LIGHT_CORNER_TEXELS 5
 #define LIGHT_SHADOW_TEXELS 1
 
 // Round outlines are drawn with straight edges of the same area, whose vertices lie at most so many times as far out
@@ -39,13 +40,21 @@ struct LightTexels {
 // difference keeps its own.
 // Of an area light (LightTypeInfo::isArea) position is its middle, color its radiance. A rectangle and a disk reach
 // from the middle by axis.xyz and attenuation.xyz, at right angles, whose cross product points where they shine;
-// attenuation.w is 1 where they shine from both sides. A sphere has its radius in axis.w; a tube reaches from the
-// middle by axis.xyz and its opposite, and has its radius in axis.w.
+// attenuation.w is 1 where they shine from both sides. A polygon has its plane so too, whose vectors are both as long
+// as its farthest corner is away, and in axis.w its area in parts of their product. A sphere has its radius in axis.w;
+// a tube reaches from the middle by axis.xyz and its opposite, and has its radius in axis.w.
 struct LightShapeTexels {
     vec4 axis;        // xyz a LS, w first parameter; cone: -a where cos outer <= -0.5, w weight: scale/2, -scale/2,
                       // broad: scale
     vec4 attenuation; // xyz A, B, C; w second parameter; cone: offset: (1 - cos outer) x scale, -(1 + cos outer) x
                       // scale, broad: -cos outer x scale
+};
+
+// The outline of a polygon, in parts of axis.xyz and attenuation.xyz; corners run counterclockwise, from the first to
+// the second.
+struct LightCornerTexels {
+    vec4 outline;    // xy the middle of its area, z how many corners
+    vec4 corners[4]; // xy one and zw the next
 };
 
 struct LightShadowTexels {

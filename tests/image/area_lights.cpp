@@ -1,6 +1,8 @@
 // Area lights: every technique, what they leave out, known answers, and the reference.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -33,7 +35,15 @@ scenes::Light areaLight(LightType type, const glm::dvec3& positionWS, const glm:
     return light;
 }
 
-constexpr LightType kAreaTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+constexpr LightType kAreaTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
+                                    LightType::Polygon};
+
+scenes::LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
+    scenes::LightCorners corners;
+    corners.count = 0;
+    for (const glm::vec2& place : places) corners.add(place);
+    return corners;
+}
 
 /// The scene's lights and one of each type, with and without a range, from the front and on both sides.
 scenes::Scene withAreaLights(scenes::Scene scene) {
@@ -42,6 +52,7 @@ scenes::Scene withAreaLights(scenes::Scene scene) {
         scenes::Light light = areaLight(type, {x, 1.0, 1.5}, {-0.3 * x, -0.5, -1.0}, 3.0f);
         light.rangeMetres = type == LightType::Disk ? 4.0f : scenes::kInfinity;
         light.isTwoSided = type == LightType::Disk;
+        light.corners.metres[2] = {0.1f, -0.1f}; // points inwards
         scene.lights.push_back(light);
         x += 1.0;
     }
@@ -207,8 +218,62 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
     EXPECT_NEAR(seen(matte(), {tube}) / (pi * 0.3), 1.0, 2e-3) << "tube";
 }
 
+/// Half of the sum, over the edges, of the angle under which one is seen times the height of the unit normal of its
+/// plane (Lambert 1760).
+TEST_F(AreaLightTruth, aPolygonLightsAMatteSurfaceAsLambertSays) {
+    const scenes::LightCorners outlines[] = {
+        cornersOf({{-0.4f, -0.3f}, {0.7f, 0.0f}, {0.1f, 0.6f}}),
+        cornersOf({{0, 0}, {1, -0.5f}, {0.5f, 0}, {1, 0.5f}, {0, 0.3f}}), // points inwards
+        cornersOf({{0, 0.5f},
+                   {0.4f, 0.4f},
+                   {0.6f, 0},
+                   {0.4f, -0.3f},
+                   {0, -0.5f},
+                   {-0.4f, -0.4f},
+                   {-0.5f, 0},
+                   {-0.3f, 0.3f}})};
+    for (const scenes::LightCorners& corners : outlines)
+        for (const glm::dvec3& at :
+             {glm::dvec3(0.2, 0.1, 1.0), glm::dvec3(-1.0, 0.5, 1.2), glm::dvec3(0.0, 0.0, 40.0)}) {
+            scenes::Light light = areaLight(LightType::Polygon, at, -at - glm::dvec3(0.0, 0.2, 0.4), 1.0f);
+            light.corners = corners;
+            double sum = 0.0;
+            const glm::dvec3 acrossWS = glm::cross(light.directionWS, light.alongWS);
+            const auto cornerWS = [&](std::size_t i) {
+                const glm::dvec2 corner(corners.metres[i % corners.count]);
+                return glm::normalize(at + corner.x * light.alongWS + corner.y * acrossWS);
+            };
+            for (std::size_t i = 0; i < corners.count; ++i) {
+                const glm::dvec3 normal = glm::cross(cornerWS(i), cornerWS(i + 1));
+                sum += std::asin(glm::length(normal)) * glm::normalize(normal).z; // of less than a right angle
+            }
+            EXPECT_NEAR(seen(matte(), {light}) / (0.5 * std::abs(sum)), 1.0, 2e-5)
+                << corners.count << " corners at " << at.z;
+        }
+}
+
+TEST_F(AreaLightTruth, aSquarePolygonIsTheRectangleOfItsSides) {
+    scenes::Material metal;
+    metal.metallic = 0.5f;
+    metal.doubleSided = true;
+    for (const double roughness : {0.2, 0.6})
+        for (const glm::dvec3& at :
+             {glm::dvec3(-0.5, 0.1, 1.0), glm::dvec3(0.6, 0.0, 0.2), glm::dvec3(-1.0, 2.0, 9.0)}) {
+            metal.perceptualRoughness = float(roughness);
+            scenes::Light rectangle = areaLight(LightType::Rectangle, at, -at, 1.0f), polygon = rectangle;
+            polygon.type = LightType::Polygon;
+            rectangle.widthMetres = 1.5f;
+            for (glm::vec2& corner : polygon.corners.metres) corner.x *= 1.5f;
+            const double wanted = seen(metal, {rectangle}, {0.5, 0.0, 1.0});
+            EXPECT_GT(wanted, 1e-4);
+            EXPECT_NEAR(seen(metal, {polygon}, {0.5, 0.0, 1.0}) / wanted, 1.0, 1e-5) << roughness << ", " << at.z;
+            std::reverse(polygon.corners.metres.begin(), polygon.corners.metres.begin() + 4);
+            EXPECT_NEAR(seen(metal, {polygon}, {0.5, 0.0, 1.0}) / wanted, 1.0, 1e-5) << "the other way round";
+        }
+}
+
 TEST_F(AreaLightTruth, flatLightsShineFromTheirFrontAndWhereTheyAreTwoSidedFromTheBack) {
-    for (const LightType type : {LightType::Rectangle, LightType::Disk}) {
+    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
         scenes::Light light = areaLight(type, {0.1, 0.2, 1.0}, {0.0, 0.0, 1.0}, 1.0f);
         EXPECT_EQ(seen(matte(), {light}), 0.0);
         light.isTwoSided = true;
@@ -337,6 +402,7 @@ TEST_F(AreaLightTruth, extremeSizesAndPlacesGiveFiniteLight) {
                         scenes::Light light = areaLight(type, at, {0.3, 0.0, -1.0}, kRadiance);
                         light.alongWS = glm::normalize(glm::cross(light.directionWS, glm::dvec3(0.0, 1.0, 0.0)));
                         light.widthMetres = light.heightMetres = light.lengthMetres = light.radiusMetres = size;
+                        for (glm::vec2& corner : light.corners.metres) corner *= size;
                         const double radiance = seen(metal, {light}, toViewer);
                         EXPECT_TRUE(std::isfinite(radiance) && radiance >= 0.0 && radiance <= 1.001 * fromEverywhere)
                             << scenes::infoOf(type).name << " of " << size << " at " << at.x << " " << at.z << ": "

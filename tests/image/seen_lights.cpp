@@ -27,10 +27,22 @@ using scenes::LightType;
 using std::numbers::pi;
 using namespace test;
 
-constexpr LightType kSeenTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+constexpr LightType kSeenTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
+                                    LightType::Polygon};
 constexpr glm::vec3 kShown(5.0f, 2.5f, 1.25f); ///< the radiance of seenLamp()
 
-/// At a place, turned to +z, 1 m wide and 0.6 m high or long, or of a radius of 0.4 m.
+/// A rectangle of 1 x 0.6 m without one of its corners.
+constexpr double kEllSquareMetres = 0.52;
+scenes::LightCorners ellCorners() {
+    scenes::LightCorners corners;
+    corners.count = 0;
+    for (const glm::vec2& corner : {glm::vec2(-0.5f, -0.3f), glm::vec2(0.5f, -0.3f), glm::vec2(0.5f, 0.1f),
+                                    glm::vec2(0.1f, 0.1f), glm::vec2(0.1f, 0.3f), glm::vec2(-0.5f, 0.3f)})
+        corners.add(corner);
+    return corners;
+}
+
+/// At a place, turned to +z, 1 m wide and 0.6 m high or long, or of a radius of 0.4 m; a polygon is an L.
 scenes::Light seenLamp(LightType type, const glm::dvec3& positionWS) {
     scenes::Light light;
     light.type = type;
@@ -38,6 +50,7 @@ scenes::Light seenLamp(LightType type, const glm::dvec3& positionWS) {
     light.directionWS = {0.0, 0.0, 1.0};
     light.heightMetres = light.lengthMetres = 0.6f;
     light.radiusMetres = type == LightType::Rectangle ? 0.0f : 0.4f;
+    light.corners = ellCorners();
     light.color = {1.0f, 0.5f, 0.25f};
     light.intensity = 5.0f;
     return light;
@@ -94,6 +107,7 @@ scenes::Scene amongSurfaces() {
             light.widthMetres = 0.3f;
             light.heightMetres = light.lengthMetres = 0.2f;
             if (type != LightType::Rectangle) light.radiusMetres = 0.1f;
+            for (glm::vec2& corner : light.corners.metres) corner *= 0.3f;
             light.color = {1.0f, float(turn / 8.0), 0.5f};
             light.isTwoSided = height < 0.5;
             scene.lights.push_back(light);
@@ -263,6 +277,8 @@ double projectedAreaOf(const scenes::Light& light, const glm::dvec3& toEye) {
         return pi * radius * radius * cosine;
     case LightType::Sphere:
         return pi * radius * radius;
+    case LightType::Polygon:
+        return kEllSquareMetres * cosine;
     default:
         return 2.0 * radius * double(light.lengthMetres) * std::sqrt(1.0 - cosine * cosine) +
                pi * radius * radius * cosine;
@@ -467,6 +483,7 @@ TEST_F(SeenLightPictures, extremeSizesAndPlacesShowTheRadianceOrNothing) {
                         scenes::Light light = turnedLamp(type, at, towards);
                         light.isTwoSided = true;
                         light.widthMetres = light.heightMetres = light.lengthMetres = light.radiusMetres = size;
+                        for (glm::vec2& corner : light.corners.metres) corner *= size;
                         scene.lights = {light};
                         SCOPED_TRACE(
                             fmt::format("{} of {} m at {} {} {}", scenes::infoOf(type).name, size, at.x, at.y, at.z));

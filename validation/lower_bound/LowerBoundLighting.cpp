@@ -50,7 +50,8 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
     : programs_(programs), spec_(withoutShadows(spec)), view_("lower bound view", sizeof(shared::ViewConstants)),
       constants_("lower bound lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
       lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
-      shapes_("lower bound light shapes", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightShapeTexels),
+      shapes_("lower bound light shapes",
+              LIGHT_UNIFORM_LIGHTS * (sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels)),
               gpu::BufferUse::Dynamic),
       texels_("lower bound light texels", frame::lightBytes(spec_.features, LIGHT_UNIFORM_LIGHTS),
               gpu::BufferUse::Dynamic),
@@ -69,7 +70,7 @@ void LowerBoundLighting::setLights(const frame::PackedLights& lights) {
     constants.lights.x = unsigned(lights.texels.size());
     constants_.uploadValue(constants);
     lights_.upload(lights.texels);
-    shapes_.upload(lights.shapes);
+    shapes_.upload(frame::shapeTexelsOf(lights, spec_.features));
     texels_.upload(frame::texelsOf(lights, spec_.features));
 }
 

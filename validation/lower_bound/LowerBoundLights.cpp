@@ -27,6 +27,16 @@ shared::LightTexels lowerBoundLight(int kind, int index, int count) {
     return light;
 }
 
+/// Of a polygon: a square.
+shared::LightCornerTexels lowerBoundLightCorners() {
+    const float half = std::sqrt(0.5f);
+    shared::LightCornerTexels corners{};
+    corners.outline = glm::vec4(0.0f, 0.0f, 4.0f, 0.0f);
+    corners.corners[0] = glm::vec4(-half, -half, half, -half);
+    corners.corners[1] = glm::vec4(half, half, -half, half);
+    return corners;
+}
+
 /// A surface half a metre wide that faces ahead; a cone of full intensity everywhere ahead (cos inner 0, cos outer -1),
 /// or parameters of 1 in that direction, and a mild falloff.
 shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
@@ -37,6 +47,7 @@ shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
         shape.axis =
             glm::vec4(type == scenes::LightType::Sphere ? 0.0f : 0.25f, 0.0f, 0.0f, info.isFlat ? 0.0f : 0.25f);
         if (info.isFlat) shape.attenuation = glm::vec4(0.0f, -0.25f, 0.0f, 0.0f);
+        if (info.hasCorners()) shape.axis.w = 2.0f; // a square's area by half of its diagonal, squared
         return shape;
     }
     shape.axis = isCone ? glm::vec4(0.0f, 0.0f, 1.0f, -0.5f) : glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
@@ -60,6 +71,7 @@ frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count)
                              : int(like.texels[chosen].color.w) & ~(LIGHT_BROAD | LIGHT_SHADOWED | LIGHT_SIX_FACES);
         lights.texels.push_back(lowerBoundLight(kind, i, count));
         lights.shapes.push_back(lowerBoundLightShape(frame::typeOf(lights.texels.back())));
+        if (lights.features[scenes::LightType::Polygon]) lights.corners.push_back(lowerBoundLightCorners());
         lights.shadows.emplace_back();
     }
     return lights;

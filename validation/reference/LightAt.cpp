@@ -24,6 +24,17 @@ double attenuationAt(const scenes::Light& light, double distanceMetres) {
            double(light.attenuation.z) * distanceMetres * distanceMetres;
 }
 
+/// Within an outline, m^2, by the shoelace formula.
+double outlineArea(const scenes::LightCorners& corners) {
+    const std::span<const glm::vec2> all = corners.all();
+    double twice = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const glm::dvec2 a = glm::dvec2(all[i]), b = glm::dvec2(all[(i + 1) % all.size()]);
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * std::abs(twice);
+}
+
 /// The projected area of an area light, m^2, by the cosine between its direction and that to the point: on its front
 /// above 0.
 double projectedArea(const scenes::Light& light, double cosFront) {
@@ -39,6 +50,8 @@ double projectedArea(const scenes::Light& light, double cosFront) {
     case LightType::Tube:
         return 2.0 * radius * double(light.lengthMetres) * std::sqrt(std::max(1.0 - cosFront * cosFront, 0.0)) +
                circle * std::abs(cosFront);
+    case LightType::Polygon:
+        return outlineArea(light.corners) * facing;
     default:
         return 0.0;
     }
@@ -55,6 +68,12 @@ double boundingRadiusMetres(const scenes::Light& light) {
     if (light.type == LightType::Rectangle)
         return 0.5 * std::hypot(double(light.widthMetres), double(light.heightMetres));
     if (light.type == LightType::Tube) return std::hypot(double(light.radiusMetres), 0.5 * double(light.lengthMetres));
+    if (light.type == LightType::Polygon) {
+        double farthest = 0.0;
+        for (const glm::vec2& corner : light.corners.all())
+            farthest = std::max(farthest, std::hypot(double(corner.x), double(corner.y)));
+        return farthest;
+    }
     return double(light.radiusMetres);
 }
 
@@ -111,7 +130,8 @@ constexpr std::array kTypes{Type{LightType::Directional, directional},
                             Type{LightType::Rectangle, area},
                             Type{LightType::Disk, area},
                             Type{LightType::Sphere, area},
-                            Type{LightType::Tube, area}};
+                            Type{LightType::Tube, area},
+                            Type{LightType::Polygon, area}};
 consteval bool isInOrder() {
     for (std::size_t i = 0; i < kTypes.size(); ++i)
         if (kTypes[i].type != LightType(i)) return false;

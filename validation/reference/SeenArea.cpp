@@ -9,6 +9,57 @@ namespace tessera::reference {
 using scenes::LightType;
 using std::numbers::pi;
 
+namespace {
+
+using FlatCorners = std::array<glm::dvec2, 3>;
+
+double crossOf(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Whether a place lies in a triangle or on its edge.
+bool isInTriangle(const glm::dvec2& place, const FlatCorners& triangle) {
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double side = crossOf(triangle[(i + 1) % 3] - triangle[i], place - triangle[i]);
+        left += side > 0.0;
+        right += side < 0.0;
+    }
+    return left == 0 || right == 0;
+}
+
+/// Triangles that cover an outline once: corners whose triangle with their neighbours holds no other corner are cut off
+/// one by one. Of every simple outline there is one (Meisters 1975, "Polygons have ears").
+std::vector<FlatCorners> trianglesOf(const scenes::LightCorners& corners) {
+    std::vector<glm::dvec2> left(corners.all().begin(), corners.all().end());
+    double turn = 0.0;
+    for (std::size_t i = 0; i < left.size(); ++i) turn += crossOf(left[i], left[(i + 1) % left.size()]);
+    if (turn < 0.0) std::ranges::reverse(left);
+    std::vector<FlatCorners> triangles;
+    while (left.size() > 3) {
+        const std::size_t count = left.size();
+        std::size_t ear = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const FlatCorners triangle{left[(i + count - 1) % count], left[i], left[(i + 1) % count]};
+            const double bend = crossOf(triangle[1] - triangle[0], triangle[2] - triangle[1]);
+            const auto isHeld = [&](const glm::dvec2& corner) {
+                return std::ranges::find(triangle, corner) == triangle.end() && isInTriangle(corner, triangle);
+            };
+            // A corner on a straight line bounds nothing, and goes first.
+            if (bend == 0.0 || (bend > 0.0 && std::ranges::none_of(left, isHeld))) {
+                ear = i;
+                if (bend != 0.0) triangles.push_back(triangle);
+                break;
+            }
+        }
+        left.erase(left.begin() + std::ptrdiff_t(ear));
+    }
+    triangles.push_back({left[0], left[1], left[2]});
+    return triangles;
+}
+
+} // namespace
+
 SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const scenes::Light& light = shining.light;
     const glm::dvec3 middle = shining.positionRWS - positionRWS;
@@ -28,6 +79,8 @@ SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
         addSphere(middle, radius);
     } else if (light.type == LightType::Tube) {
         addTube(middle, light);
+    } else if (light.type == LightType::Polygon) {
+        addPolygon(middle, light, front);
     }
     std::erase_if(patches_, [](const Patch& patch) { return !(patch.area() > 0.0); });
     double all = 0.0;
@@ -62,6 +115,17 @@ void SeenArea::addTube(const glm::dvec3& middle, const scenes::Light& light) {
                         std::acos(radius / away)});
 }
 
+void SeenArea::addPolygon(const glm::dvec3& middle, const scenes::Light& light, const glm::dvec3& front) {
+    const Frame frame{light.alongWS, glm::cross(light.directionWS, light.alongWS), front};
+    for (const FlatCorners& triangle : trianglesOf(light.corners)) {
+        Patch& patch = patches_.emplace_back();
+        patch.shape = Shape::Triangle;
+        patch.middle = middle + triangle[0].x * frame.x + triangle[0].y * frame.y;
+        patch.frame = frame;
+        patch.sides = {triangle[1] - triangle[0], triangle[2] - triangle[0]};
+    }
+}
+
 double SeenArea::Patch::area() const {
     switch (shape) {
     case Shape::Rectangle:
@@ -72,6 +136,8 @@ double SeenArea::Patch::area() const {
         return 2.0 * pi * opening;
     case Shape::Mantle:
         return 2.0 * opening * sizeMetres.x * sizeMetres.y;
+    case Shape::Triangle:
+        return 0.5 * std::abs(crossOf(sides[0], sides[1]));
     }
     return 0.0;
 }
@@ -80,12 +146,16 @@ bool SeenArea::isRound(std::size_t patch) const {
     return patches_[patch].shape == Shape::Disk || patches_[patch].shape == Shape::Cone;
 }
 
+bool SeenArea::isFan(std::size_t patch) const {
+    return isRound(patch) || patches_[patch].shape == Shape::Triangle;
+}
+
 SeenArea::Place SeenArea::at(std::size_t patchNumber, const glm::dvec2& square) const {
     const Patch& patch = patches_[patchNumber];
     const Frame& frame = patch.frame;
     const double turn = 2.0 * pi * square.y;
-    // Rings grow with the distance from the middle, by which the mean is 1/2.
-    const double ring = isRound(patchNumber) ? 2.0 * square.x : 1.0;
+    // Rings grow with the distance from the middle or the first corner, by which the mean is 1/2.
+    const double ring = isFan(patchNumber) ? 2.0 * square.x : 1.0;
     if (patch.shape == Shape::Cone) {
         const double opened = patch.opening * square.x * square.x;
         const double sine = std::sqrt(opened * (2.0 - opened));
@@ -94,6 +164,9 @@ SeenArea::Place SeenArea::at(std::size_t patchNumber, const glm::dvec2& square) 
     glm::dvec3 place = patch.middle, normal = frame.z;
     if (patch.shape == Shape::Rectangle) {
         const glm::dvec2 across = (square - 0.5) * patch.sizeMetres;
+        place += across.x * frame.x + across.y * frame.y;
+    } else if (patch.shape == Shape::Triangle) {
+        const glm::dvec2 across = square.x * glm::mix(patch.sides[0], patch.sides[1], square.y);
         place += across.x * frame.x + across.y * frame.y;
     } else if (patch.shape == Shape::Disk) {
         place += square.x * patch.sizeMetres.x * (std::cos(turn) * frame.x + std::sin(turn) * frame.y);
@@ -114,7 +187,7 @@ glm::dvec3 SeenArea::direction(const glm::dvec2& random) const {
         const double share = patches_[patch].share;
         if (x < share || patch + 1 == patches_.size()) {
             const double u = std::clamp(x / share, 0.0, 1.0);
-            return at(patch, {isRound(patch) ? std::sqrt(u) : u, random.y}).direction;
+            return at(patch, {isFan(patch) ? std::sqrt(u) : u, random.y}).direction;
         }
         x -= share;
     }
@@ -150,9 +223,11 @@ double SeenArea::density(const Patch& patch, const glm::dvec3& direction) {
         if (!(cosine > 0.0)) return 0.0;
         distance = -glm::dot(patch.middle, frame.z) / cosine;
         const glm::dvec3 place = frame.in(distance * direction - patch.middle);
-        const bool isInside = patch.shape == Shape::Rectangle ? std::abs(place.x) <= 0.5 * patch.sizeMetres.x &&
-                                                                    std::abs(place.y) <= 0.5 * patch.sizeMetres.y
-                                                              : glm::length(glm::dvec2(place)) <= patch.sizeMetres.x;
+        const bool isInside = patch.shape == Shape::Triangle
+                                  ? isInTriangle(glm::dvec2(place), {glm::dvec2(0.0), patch.sides[0], patch.sides[1]})
+                              : patch.shape == Shape::Rectangle ? std::abs(place.x) <= 0.5 * patch.sizeMetres.x &&
+                                                                      std::abs(place.y) <= 0.5 * patch.sizeMetres.y
+                                                                : glm::length(glm::dvec2(place)) <= patch.sizeMetres.x;
         if (!isInside) return 0.0;
     }
     return cosine > 0.0 ? distance * distance / (cosine * patch.area()) : 0.0;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ public:
     std::size_t patchCount() const { return patches_.size(); }
     /// Whether a patch's first coordinate is the distance from its middle, and the second the angle around it.
     bool isRound(std::size_t patch) const;
+    /// Whether a patch's first coordinate is the distance from a place, so that rings grow with it.
+    bool isFan(std::size_t patch) const;
 
     struct Place {
         glm::dvec3 direction{0.0}; ///< unit, from the point
@@ -32,12 +35,13 @@ private:
     enum class Shape {
         Rectangle,
         Disk,
-        Cone,  ///< of a sphere's directions
-        Mantle ///< of a cylinder, what is seen of it
+        Cone,   ///< of a sphere's directions
+        Mantle, ///< of a cylinder, what is seen of it
+        Triangle
     };
     struct Patch {
         Shape shape;
-        glm::dvec3 middle{0.0}; ///< from the point; of a mantle's axis
+        glm::dvec3 middle{0.0}; ///< from the point; of a mantle's axis; the first corner of a triangle
         /// A rectangle's and a mantle's x and y are along the first and the second coordinate of the square, and
         /// unit, like z: the front of what is flat, the axis of a cone. The middle of what is seen of a mantle is
         /// along z, its axis along y.
@@ -45,10 +49,13 @@ private:
         glm::dvec2 sizeMetres{0.0}; ///< sides; radius; a mantle's radius and length
         double opening = 0.0;       ///< a cone's 1 - cos; a mantle's half angle around its axis
         double share = 0.0;         ///< of the directions
+        /// A triangle's, metres along x and y from the first corner to the two others.
+        std::array<glm::dvec2, 2> sides{};
         double area() const;
     };
     void addSphere(const glm::dvec3& middle, double radiusMetres);
     void addTube(const glm::dvec3& middle, const scenes::Light& light);
+    void addPolygon(const glm::dvec3& middle, const scenes::Light& light, const glm::dvec3& front);
     static double density(const Patch& patch, const glm::dvec3& direction);
 
     std::vector<Patch> patches_;

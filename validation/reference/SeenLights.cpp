@@ -39,11 +39,21 @@ std::optional<DepthSpan> withinSlab(double start, double step, double most) {
     return DepthSpan{std::min(one, other), std::max(one, other)};
 }
 
+/// Whether the corners turn about a place, by the sum of the angles under which it sees the edges.
+bool isWithin(const scenes::LightCorners& corners, const glm::dvec2& place) {
+    const std::span<const glm::vec2> all = corners.all();
+    double turned = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const glm::dvec2 a = glm::dvec2(all[i]) - place, b = glm::dvec2(all[(i + 1) % all.size()]) - place;
+        turned += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+    }
+    return std::abs(turned) > std::numbers::pi;
+}
+
 /// As the two coordinates and the depth that solve middle + x along + y across = origin + t direction.
 std::optional<double> entryOfFlat(const scenes::Light& light, const glm::dvec3& start, const glm::dvec3& direction) {
-    const bool isRectangle = light.type == LightType::Rectangle;
     glm::dvec3 along = light.alongWS;
-    if (!isRectangle) {
+    if (light.type == LightType::Disk) {
         // A disk may be turned in its plane.
         const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}};
         along = glm::normalize(glm::cross(light.directionWS, axes[std::abs(light.directionWS.x) > 0.5 ? 1 : 0]));
@@ -56,10 +66,11 @@ std::optional<double> entryOfFlat(const scenes::Light& light, const glm::dvec3& 
     const double y = glm::determinant(glm::dmat3(along, start, -direction)) / determinant;
     const double depth = glm::determinant(glm::dmat3(along, across, start)) / determinant;
     const double radius = double(light.radiusMetres);
-    const bool isWithin =
-        isRectangle ? std::abs(x) <= 0.5 * double(light.widthMetres) && std::abs(y) <= 0.5 * double(light.heightMetres)
-                    : x * x + y * y <= radius * radius;
-    return isWithin ? std::optional(depth) : std::nullopt;
+    const bool isMet = light.type == LightType::Polygon ? isWithin(light.corners, {x, y})
+                       : light.type == LightType::Disk  ? x * x + y * y <= radius * radius
+                                                        : std::abs(x) <= 0.5 * double(light.widthMetres) &&
+                                                             std::abs(y) <= 0.5 * double(light.heightMetres);
+    return isMet ? std::optional(depth) : std::nullopt;
 }
 
 /// The depth at which a ray enters the surface; `start` is its origin from the light's middle.

@@ -220,6 +220,13 @@ void measureCones(StressBench& bench, StressFigures& figures) {
 void drawSurface(StressRandom& random, Light& light) {
     for (float* metres : {&light.widthMetres, &light.heightMetres, &light.lengthMetres, &light.radiusMetres})
         *metres = float(random.logarithmic(1e-3, 1e3));
+    light.corners.count = 0;
+    // Corners in the order of their angles, at any distance, are an outline.
+    const double around = 2.0 * std::numbers::pi / double(3 + random.index(6));
+    for (double angle = 0.0; angle < 2.0 * std::numbers::pi - 0.5 * around; angle += around) {
+        const double metres = double(light.widthMetres) * random.between(0.1, 1.0);
+        light.corners.add(glm::vec2(metres * glm::dvec2(std::cos(angle), std::sin(angle))));
+    }
     light.alongWS = random.around(light.directionWS, 0.0);
     light.isTwoSided = random.index(2) == 0;
     light.falloff = Falloff::InverseSquare;

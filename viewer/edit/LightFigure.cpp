@@ -73,6 +73,9 @@ public:
             addTube();
             reachMetres = 0.5 * double(light_.lengthMetres);
             break;
+        case scenes::LightType::Polygon:
+            addPolygon();
+            break;
         default:
             break;
         }
@@ -176,6 +179,15 @@ private:
                                       firstWS - 2.0 * otherHalfWS, firstWS});
         addPair(&scenes::Light::widthMetres, light_.alongWS, 0.5);
         addPair(&scenes::Light::heightMetres, acrossWS, 0.5);
+    }
+
+    void addPolygon() {
+        const glm::dvec3 acrossWS = glm::cross(light_.directionWS, light_.alongWS);
+        Outline outline;
+        for (const glm::vec2& corner : light_.corners.all())
+            outline.push_back(figure_.middleWS + double(corner.x) * light_.alongWS + double(corner.y) * acrossWS);
+        outline.push_back(outline.front());
+        figure_.outlinesWS.push_back(outline);
     }
 
     void addDisk() {

@@ -23,6 +23,12 @@ std::string withoutNumber(const std::string& name) {
     return isNumber ? name.substr(0, space) : name;
 }
 
+bool setCorners(scenes::Light& light, const scenes::LightCorners& corners) {
+    if (!scenes::cornersProblem(corners).empty()) return false;
+    light.corners = corners;
+    return true;
+}
+
 } // namespace
 
 std::string lightLabel(const Lights& lights, std::size_t index) {
@@ -84,12 +90,31 @@ void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMe
     light.falloff = scenes::Falloff::InverseSquare;
     if (!(light.radiusMetres > 0.0f))
         light.radiusMetres = float(std::min(kFirstRadiusShare * sceneSizeMetres, scenes::kMostRadiusMetres));
+    if (scenes::infoOf(type).hasCorners() && !scenes::hasSurface(light)) light.corners = {};
     turnLight(light, light.directionWS);
+}
+
+bool moveCorner(scenes::Light& light, std::size_t corner, const glm::vec2& placeMetres) {
+    scenes::LightCorners moved = light.corners;
+    assert(corner < moved.count);
+    moved.metres[corner] = placeMetres;
+    return setCorners(light, moved);
+}
+
+bool addCorner(scenes::Light& light) {
+    scenes::LightCorners more = light.corners;
+    return more.add(0.5f * (more.all().front() + more.all().back())) && setCorners(light, more);
+}
+
+bool removeCorner(scenes::Light& light) {
+    scenes::LightCorners fewer = light.corners;
+    --fewer.count;
+    return setCorners(light, fewer);
 }
 
 void turnLight(scenes::Light& light, const glm::dvec3& directionWS) {
     light.directionWS = glm::normalize(directionWS);
-    if (scenes::infoOf(light.type).hasSides() && !layLight(light, light.alongWS))
+    if (scenes::infoOf(light.type).isTurned() && !layLight(light, light.alongWS))
         light.alongWS = scenes::usualAlong(light.directionWS);
 }
 

@@ -33,15 +33,23 @@ void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo);
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);
 
 /// Gives a light a type. One that becomes an area light falls off as such, and gets a radius where it has none: a
-/// hundredth of the scene's size.
+/// hundredth of the scene's size; one that becomes a polygon a square where its outline holds next to no area.
 void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres);
 
-/// Turns a light to a direction of any length above 0; the width of a rectangle stays across it, turned as little as
-/// can be.
+/// Moves a corner of a polygon; false, and no change, where its corners would make no outline.
+bool moveCorner(scenes::Light& light, std::size_t corner, const glm::vec2& placeMetres);
+
+/// Adds a corner in the middle of the last edge, and takes the last corner away. False, and no change, where there are
+/// as many or as few as there can be, or the others make no outline.
+bool addCorner(scenes::Light& light);
+bool removeCorner(scenes::Light& light);
+
+/// Turns a light to a direction of any length above 0; the width of a rectangle, and a polygon's x, stays across it,
+/// turned as little as can be.
 void turnLight(scenes::Light& light, const glm::dvec3& directionWS);
 
-/// Lets the width of a rectangle run along a vector, of which counts what is across the light's direction. Returns
-/// false, and changes nothing, where that is nothing.
+/// Lets the width of a rectangle, or a polygon's x, run along a vector, of which counts what is across the light's
+/// direction. Returns false, and changes nothing, where that is nothing.
 bool layLight(scenes::Light& light, const glm::dvec3& alongWS);
 
 /// Puts a light, with its path where it is animated, so that it is at a place at this time.

@@ -155,6 +155,27 @@ bool dragVector(const char* label, glm::dvec3& value, float speed, double most) 
     });
 }
 
+bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
+    bool changed = false;
+    const auto most = float(scenes::kMostRadiusMetres);
+    for (std::size_t i = 0; i < light.corners.count; ++i) {
+        const std::string label = fmt::format("Corner {}", i);
+        row(label.c_str());
+        glm::vec2 corner = light.corners.metres[i];
+        const bool moved = edit(corner, -most, most, [&](glm::vec2& place) {
+            return ImGui::DragFloat2(("##" + label).c_str(), &place.x, float(0.001 * sceneSizeMetres), -most, most,
+                                     "%.3g m");
+        });
+        if (moved) changed |= moveCorner(light, i, corner);
+    }
+    row("");
+    if (ImGui::Button("Add a corner")) changed |= addCorner(light);
+    tip("In the middle of the last edge");
+    ImGui::SameLine();
+    if (ImGui::Button("Remove the last")) changed |= removeCorner(light);
+    return changed;
+}
+
 bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
     bool changed = false;
     if (scenes::infoOf(light.type).hasPosition()) {
@@ -171,10 +192,13 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
             changed = true;
         }
     }
-    if (scenes::infoOf(light.type).hasSides()) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    if (info.isTurned()) {
         glm::dvec3 alongWS = light.alongWS;
-        if (dragVector("Width along", alongWS, 0.01f, kMostDirection)) changed |= layLight(light, alongWS);
-        tip("Where its width runs, across its direction");
+        if (dragVector(info.hasSides() ? "Width along" : "Corners along", alongWS, 0.01f, kMostDirection))
+            changed |= layLight(light, alongWS);
+        tip(info.hasSides() ? "Where its width runs, across its direction"
+                            : "Where the first numbers of its corners run, across its direction");
     }
     return changed;
 }
@@ -189,6 +213,7 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     if (info.hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
     changed |= parameterRows(light, sceneSizeMetres);
     changed |= placeRows(light, timeSeconds, sceneSizeMetres);
+    if (info.hasCorners()) changed |= cornerRows(light, sceneSizeMetres);
     row("Shadow");
     changed |= ImGui::Checkbox("casts##light", &light.castsShadow);
     const scenes::LightParameter* size = scenes::sizeParameter(info);

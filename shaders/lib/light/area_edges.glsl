@@ -44,6 +44,13 @@ float closingPart(vec3 a, vec3 b, float height)
     return part;
 }
 
+// Of such an edge: 1 along the way that a convex outline is closed, -1 against it.
+float closingTurn(vec3 a, vec3 b, vec2 way)
+{
+    precise float along = dot(b.xy - a.xy, way);
+    return along < 0.0 ? -1.0 : 1.0;
+}
+
 // Cuts an outline where it goes below a plane, and closes it there.
 struct Cut {
     vec3 left, entered; // where it went below, and where it came up first

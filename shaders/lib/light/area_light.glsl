@@ -142,9 +142,10 @@ float shareSeen(Outline outline, AreaLobe lobe)
     bool isLong = isTube(outline), isWide = right2 > up2;
     if (!isLong && max(right2, up2) < 4e-6 * distance2) {
         precise float facing = abs(dot(outline.middle, outline.faces));
-        return min(shareOfPlace(outline.middle, facing, lobe) * lobe.perAbove, 1.0);
+        precise vec3 place = outline.middle + outline.toSide;
+        return min(shareOfPlace(place, facing, lobe) * lobe.perAbove, 1.0);
     }
-    if (isLong || !outline.isRound) {
+    if (isLong || !(outline.isRound || isPolygon(outline))) {
         vec3 line = isLong ? toEnds : isWide ? right : up;
         float line2 = isLong ? ends2 : max(right2, up2), across2 = isLong ? max(right2, up2) : min(right2, up2);
         precise float nearest = clamp(-dot(middle, line) / max(line2, 1e-36), -1.0, 1.0);
@@ -167,6 +168,15 @@ float shareSeen(Outline outline, AreaLobe lobe)
     float turn = isClockwise ? 1.0 : -1.0;
     precise vec3 surfaceNormal = cross(lobe.cosineFromSurface[0], lobe.cosineFromSurface[1]);
     precise float surfaceHeight = turn * surfaceNormal.z / length(surfaceNormal);
+    // The ways in which a convex outline is closed along the horizon and along the cosine's; other parts of a polygon that
+    // is not convex run back.
+    vec2 horizonWay = vec2(0.0), baseWay = vec2(0.0);
+    if (isPolygon(outline)) {
+        precise vec3 facesSurface = lobe.surfaceFromLS * outline.faces;
+        precise vec3 faces = cross(right, up);
+        horizonWay = vec2(-facesSurface.y, facesSurface.x);
+        baseWay = vec2(-faces.y, faces.x);
+    }
     precise float sum = 0.0;
     Cut horizon = kNoCut, base = kNoCut;
     precise vec3 corner = outlineCorner(outline, 0);
@@ -202,15 +212,20 @@ float shareSeen(Outline outline, AreaLobe lobe)
             bool comesUpAgain;
             if (!cutEdge(startAbove, endAbove, betweenAbove, base, comesUpAgain)) continue;
             if (comesUpAgain && base.isBelow) {
-                sum += closingPart(base.left, startAbove, turn);
+                sum += closingPart(base.left, startAbove, turn * closingTurn(base.left, startAbove, baseWay));
                 base.isBelow = false;
             }
-            sum += part == 0 || isClosing ? closingPart(startAbove, endAbove, surfaceHeight)
-                                          : edgePart(startAbove, endAbove, betweenAbove);
+            if (part == 0 || isClosing) {
+                float way = closingTurn(part == 0 ? horizon.left : from, part == 0 ? from : to, horizonWay);
+                sum += closingPart(startAbove, endAbove, surfaceHeight * way);
+            } else {
+                sum += edgePart(startAbove, endAbove, betweenAbove);
+            }
         }
         if (closes) horizon.isBelow = false;
     }
-    if (base.isBelow && base.hasEntered) sum += closingPart(base.left, base.entered, turn);
+    if (base.isBelow && base.hasEntered)
+        sum += closingPart(base.left, base.entered, turn * closingTurn(base.left, base.entered, baseWay));
     precise float share = abs(sum) * (0.5 * kInversePi) * lobe.perAbove;
     return min(share, 1.0);
 }
@@ -256,7 +271,7 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, vec3 positionLS, 
     precise vec3 middle = place.xyz - positionLS;
     precise float reach = dot(middle, middle) * place.w;
     precise float window = 1.0 - reach * reach;
-    Outline outline = areaOutline(kind, middle, lightShapeTexel(index, 0), lightShapeTexel(index, 1));
+    Outline outline = areaOutline(index, kind, middle);
     if (outline.edges == 0) return vec3(0.0);
     precise vec3 reflected = vec3(0.0);
     for (int lobe = 0; lobe < AREA_LOBES; ++lobe)

@@ -1,8 +1,9 @@
-// What a point sees of an area light: a convex outline of straight edges. Round ones have kRoundEdges of them and
+// What a point sees of an area light: an outline of straight edges, convex but for polygons. Round ones have kRoundEdges of them and
 // the area of the circle, so that their light is right to 1e-4 and their edge to 3e-3 of the radius; of a tube an end that
 // is seen as many, one that is hidden half of them, and 1.4e-2.
 #pragma once
 #include "shared/light.h"
+#include "lib/light/light_store.glsl"
 #include "lib/maths/math.glsl"
 
 const int kRoundEdges = 32;
@@ -12,28 +13,29 @@ const float kRoundGrowth = 1.0032206; // sqrt(2 pi / (32 sin(2 pi / 32)))
 struct Outline {
     vec3 middle;    // metres from the point, as all
     vec3 faces;     // what is seen as flat: along its normal, as long as it is large
-    vec3 right, up; // of a rectangle the halves of its sides; else radii at right angles
+    vec3 right, up; // of a rectangle the halves of its sides; else radii at right angles, of a polygon around its corners
     vec3 toEnds;    // from the middle to the middle of the first arc, and back to the second
     vec2 turns;     // of a tube the angle between two vertices of the first arc, and of the second
     vec2 firstTurn; // the angle of the first vertex of either
     // Of a tube, as flat pieces: the strip between the lines, and what of either end lies beyond it. Each has its square
     // metres times the point's distance from its plane.
-    vec3 toSide; // from the middle to that of the strip
+    vec3 toSide; // from the middle to that of the strip; of a polygon to that of its area
     float ofSide;
     vec2 ofEnds;
     ivec2 arcEdges; // of either arc
     int edges;      // 0 where nothing is seen
     bool isRound;
+    int polygon; // its number among the lights, of which it has its corners; -1 of other shapes
 };
 
 const Outline kNoOutline = Outline(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0),
-                                   vec3(0.0), 0.0, vec2(0.0), ivec2(0), 0, false);
+                                   vec3(0.0), 0.0, vec2(0.0), ivec2(0), 0, false, -1);
 
 Outline roundOutline(vec3 middle, vec3 right, vec3 up, vec3 faces)
 {
     const float kTurn = 2.0 * kPi / float(kRoundEdges);
     return Outline(middle, faces, right, up, vec3(0.0), vec2(kTurn), vec2(0.0), vec3(0.0), 0.0, vec2(0.0),
-                   ivec2(0), kRoundEdges, true);
+                   ivec2(0), kRoundEdges, true, -1);
 }
 
 #if HAS_SPHERE_LIGHTS
@@ -89,14 +91,25 @@ Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
                              seesSecond ? 2.0 * kPi - 2.0 * seenHalf : -2.0 * seenHalf);
     precise vec2 turns = arcs / vec2(arcEdges);
     return Outline(middle, vec3(0.0), right, up, halfLength, turns, vec2(-seenHalf, seenHalf), cosHalf * right, ofSide,
-                   ofEnds, arcEdges, arcEdges.x + arcEdges.y + 2, true);
+                   ofEnds, arcEdges, arcEdges.x + arcEdges.y + 2, true, -1);
 }
 #endif
 
-// Of an area light; `first` and `second` are its LightShapeTexels.
-Outline areaOutline(int kind, vec3 middle, vec4 first, vec4 second)
+#if HAS_POLYGON_LIGHTS
+Outline polygonOutline(int index, vec3 middle, vec3 right, vec3 up, vec3 faces)
+{
+    vec4 outline = lightShapeTexel(index, LIGHT_SHAPE_TEXELS);
+    precise vec3 toMiddle = outline.x * right + outline.y * up;
+    return Outline(middle, faces, right, up, vec3(0.0), vec2(0.0), vec2(0.0), toMiddle, 0.0, vec2(0.0), ivec2(0),
+                   int(outline.z), false, index);
+}
+#endif
+
+// Of area light `index`.
+Outline areaOutline(int index, int kind, vec3 middle)
 {
     int type = kind & LIGHT_TYPE_MASK;
+    vec4 first = lightShapeTexel(index, 0), second = lightShapeTexel(index, 1);
 #if HAS_SPHERE_LIGHTS
     if (type == LIGHT_SPHERE) return sphereOutline(middle, first.w);
 #endif
@@ -108,8 +121,11 @@ Outline areaOutline(int kind, vec3 middle, vec4 first, vec4 second)
 #if HAS_DISK_LIGHTS
     if (type == LIGHT_DISK) return roundOutline(middle, first.xyz, second.xyz, kPi * faces);
 #endif
+#if HAS_POLYGON_LIGHTS
+    if (type == LIGHT_POLYGON) return polygonOutline(index, middle, first.xyz, second.xyz, first.w * faces);
+#endif
     return Outline(middle, 4.0 * faces, first.xyz, second.xyz, vec3(0.0), vec2(0.0), vec2(0.0), vec3(0.0), 0.0, vec2(0.0),
-                   ivec2(0), 4, false);
+                   ivec2(0), 4, false, -1);
 }
 
 bool isTube(Outline outline)
@@ -121,10 +137,27 @@ bool isTube(Outline outline)
 #endif
 }
 
+bool isPolygon(Outline outline)
+{
+#if HAS_POLYGON_LIGHTS
+    return outline.polygon >= 0;
+#else
+    return false;
+#endif
+}
+
 // From the light's middle to a vertex; vertex `edges` is the first again.
 vec3 outlineCorner(Outline outline, int vertex)
 {
     int number = vertex == outline.edges ? 0 : vertex;
+#if HAS_POLYGON_LIGHTS
+    if (isPolygon(outline)) {
+        vec4 two = lightShapeTexel(outline.polygon, LIGHT_SHAPE_TEXELS + 1 + number / 2);
+        vec2 at = (number & 1) == 0 ? two.xy : two.zw;
+        precise vec3 corner = at.x * outline.right + at.y * outline.up;
+        return corner;
+    }
+#endif
     if (!outline.isRound) {
         precise vec3 corner = (number == 0 || number == 3 ? outline.right : -outline.right)
                               + (number < 2 ? outline.up : -outline.up);

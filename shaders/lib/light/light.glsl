@@ -40,7 +40,11 @@ float areaFacing(int type, vec3 toLightLS, LightShapeTexels shape)
         precise float facing = shape.axis.w * (4.0 * across + ends);
         return facing;
     }
-    precise vec3 faces = cross(shape.axis.xyz, shape.attenuation.xyz) * (type == LIGHT_DISK ? kPi : 4.0);
+    float areaShare = type == LIGHT_DISK ? kPi : 4.0;
+#if HAS_POLYGON_LIGHTS
+    if (type == LIGHT_POLYGON) areaShare = shape.axis.w;
+#endif
+    precise vec3 faces = cross(shape.axis.xyz, shape.attenuation.xyz) * areaShare;
     precise float facing = -dot(faces, toLightLS);
     return shape.attenuation.w != 0.0 ? abs(facing) : max(facing, 0.0);
 }

@@ -7,7 +7,9 @@
 #ifndef HAS_OTHER_LIGHT_STORE
 layout(binding = TEXTURE_UNIT_LIGHTS) uniform samplerBuffer lightTexels;
 
-#if HAS_LIGHT_SHAPES
+#if HAS_POLYGON_LIGHTS
+#define TEXELS_BEFORE_SHADOW (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS)
+#elif HAS_LIGHT_SHAPES
 #define TEXELS_BEFORE_SHADOW (LIGHT_TEXELS + LIGHT_SHAPE_TEXELS)
 #else
 #define TEXELS_BEFORE_SHADOW LIGHT_TEXELS
@@ -25,7 +27,7 @@ vec4 lightTexel(int index, int texel)
 }
 
 #if HAS_LIGHT_SHAPES
-// The same in the order of LightShapeTexels.
+// The same in the order of LightShapeTexels and, behind them, LightCornerTexels.
 vec4 lightShapeTexel(int index, int texel)
 {
     return texelFetch(lightTexels, index * TEXELS_A_LIGHT + LIGHT_TEXELS + texel);

@@ -139,30 +139,42 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     frame::PackedLights lights;
     lights.texels.resize(LIGHT_UNIFORM_LIGHTS); // as many as fit a uniform block
     lights.shapes.resize(LIGHT_UNIFORM_LIGHTS);
+    lights.corners.resize(LIGHT_UNIFORM_LIGHTS);
     float next = 0.0f;
     for (std::size_t i = 0; i < lights.texels.size(); ++i)
         for (glm::vec4* member : {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
-                                  &lights.shapes[i].attenuation})
+                                  &lights.shapes[i].attenuation, &lights.corners[i].outline,
+                                  &lights.corners[i].corners[0], &lights.corners[i].corners[3]})
             for (int k = 0; k < 4; ++k) (*member)[k] = next++;
-    lights.features.add(frame::featureOf(scenes::LightType::Spot));
-    const frame::LightBuffer buffer(lights, lights.features);
-    buffer.bind();
-    const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
-    const gpu::Buffer shapes = gpu::Buffer::of("light shapes", lights.shapes);
-    gpu::bindUniformBuffer(UNIFORM_LIGHTS, texels);
-    gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes);
-    gpu::bindStorageBuffer(STORAGE_LIGHTS, texels);
-    gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes);
-    for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
-        SCOPED_TRACE(store);
-        const shader::Defines defines{{"HAS_LIGHT_SHAPES", "1"}, {"LIGHT_STORE", store}};
-        const std::vector<glm::vec4> out =
-            bench.run("test/light_texels.comp", defines, {glm::vec4(0.0f)}, lights.texels.size(), 4);
-        for (std::size_t i = 0; i < lights.texels.size(); ++i) {
-            EXPECT_EQ(out[4 * i], lights.texels[i].position);
-            EXPECT_EQ(out[4 * i + 1], lights.texels[i].color);
-            EXPECT_EQ(out[4 * i + 2], lights.shapes[i].axis);
-            EXPECT_EQ(out[4 * i + 3], lights.shapes[i].attenuation);
+    for (const scenes::LightType type : {scenes::LightType::Spot, scenes::LightType::Polygon}) {
+        const bool hasCorners = type == scenes::LightType::Polygon;
+        lights.features = {};
+        lights.features.add(frame::featureOf(type));
+        const frame::LightBuffer buffer(lights, lights.features);
+        buffer.bind();
+        const gpu::Buffer texels = gpu::Buffer::of("lights", lights.texels);
+        const gpu::Buffer shapes = gpu::Buffer::of("light shapes", frame::shapeTexelsOf(lights, lights.features));
+        gpu::bindUniformBuffer(UNIFORM_LIGHTS, texels);
+        gpu::bindUniformBuffer(UNIFORM_LIGHT_SHAPES, shapes);
+        gpu::bindStorageBuffer(STORAGE_LIGHTS, texels);
+        gpu::bindStorageBuffer(STORAGE_LIGHT_SHAPES, shapes);
+        for (const char* store : {"LIGHT_STORE_TEXEL", "LIGHT_STORE_UNIFORM", "LIGHT_STORE_STORAGE"}) {
+            SCOPED_TRACE(store);
+            const shader::Defines defines{
+                {"HAS_LIGHT_SHAPES", "1"}, {"HAS_POLYGON_LIGHTS", hasCorners ? "1" : "0"}, {"LIGHT_STORE", store}};
+            const std::size_t each = LIGHT_TEXELS + LIGHT_SHAPE_TEXELS + (hasCorners ? LIGHT_CORNER_TEXELS : 0);
+            const std::vector<glm::vec4> out =
+                bench.run("test/light_texels.comp", defines, {glm::vec4(0.0f)}, lights.texels.size(), each);
+            for (std::size_t i = 0; i < lights.texels.size(); ++i) {
+                EXPECT_EQ(out[each * i], lights.texels[i].position);
+                EXPECT_EQ(out[each * i + 1], lights.texels[i].color);
+                EXPECT_EQ(out[each * i + 2], lights.shapes[i].axis);
+                EXPECT_EQ(out[each * i + 3], lights.shapes[i].attenuation);
+                if (!hasCorners) continue;
+                EXPECT_EQ(out[each * i + 4], lights.corners[i].outline);
+                EXPECT_EQ(out[each * i + 5], lights.corners[i].corners[0]);
+                EXPECT_EQ(out[each * i + 8], lights.corners[i].corners[3]);
+            }
         }
     }
 }

@@ -1,20 +1,38 @@
 // What a clamped cosine that a matrix transforms sees of area lights; the normal is z. In: (middle from the point, type),
-// LightShapeTexels' two, the three columns of the matrix. Out: (share, edges of the outline, 0, 0).
-#include "lib/reflectance/reflectance.glsl"
-#include "lib/light/light.glsl"
-#include "lib/light/area_light.glsl"
+// LightShapeTexels' two, LightCornerTexels' five, the three columns of the matrix. Out: (share, edges of the outline, 0, 0).
+#include "shared/light.h"
+
+#define HAS_OTHER_LIGHT_STORE
+#define FIRST_COLUMN (1 + LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS)
+#define INPUTS_A_LIGHT (FIRST_COLUMN + 3)
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };
 layout(std430, binding = 1) writeonly buffer Outputs { vec4 outputs[]; };
 
+vec4 lightTexel(int index, int texel)
+{
+    return texel == 0 ? inputs[index * INPUTS_A_LIGHT] : vec4(0.0);
+}
+
+vec4 lightShapeTexel(int index, int texel)
+{
+    return inputs[index * INPUTS_A_LIGHT + 1 + texel];
+}
+
+#include "lib/reflectance/reflectance.glsl"
+#include "lib/light/light.glsl"
+#include "lib/light/area_light.glsl"
+
 void main()
 {
-    uint i = gl_GlobalInvocationID.x;
-    if (i * 6u >= uint(inputs.length())) return;
-    vec4 place = inputs[i * 6u];
-    Outline outline = areaOutline(int(place.w), place.xyz, inputs[i * 6u + 1u], inputs[i * 6u + 2u]);
-    mat3 cosineFromSurface = mat3(inputs[i * 6u + 3u].xyz, inputs[i * 6u + 4u].xyz, inputs[i * 6u + 5u].xyz);
+    int i = int(gl_GlobalInvocationID.x);
+    int first = i * INPUTS_A_LIGHT;
+    if (first >= inputs.length()) return;
+    vec4 place = inputs[first];
+    Outline outline = areaOutline(i, int(place.w), place.xyz);
+    int column = first + FIRST_COLUMN;
+    mat3 cosineFromSurface = mat3(inputs[column].xyz, inputs[column + 1].xyz, inputs[column + 2].xyz);
     precise float perAbove = 1.0 / shareAbove(cosineFromSurface);
     float share = 0.0;
     if (outline.edges > 0) share = shareSeen(outline, AreaLobe(mat3(1.0), cosineFromSurface, perAbove));

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "renderer/frame/Features.h"
 #include "scenes/Scene.h"
 #include "tests/gpu/shaders/ShaderBench.h"
+#include "tests/support/Random.h"
 
 namespace tessera {
 namespace {
@@ -26,7 +28,46 @@ struct SeenShape {
     float radius = 0.0f;   ///< of a tube
     glm::vec3 second{0.0f};
     bool isTwoSided = true;
+    std::vector<glm::vec2> corners{}; ///< of a polygon, counterclockwise: in parts of `first` and `second`
 };
+
+/// Of corners: twice the area within them, in their own measure.
+double twiceAreaOf(const std::vector<glm::vec2>& corners) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 a(corners[i]), b(corners[(i + 1) % corners.size()]);
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return twice;
+}
+
+/// As LightCornerTexels, and the share of the product of both vectors that is within the corners.
+struct PackedOutline {
+    std::array<glm::vec4, 5> texels{};
+    float areaShare = 0.0f;
+};
+
+PackedOutline packedOutline(const std::vector<glm::vec2>& corners) {
+    PackedOutline packed;
+    if (corners.empty()) return packed;
+    const double twice = twiceAreaOf(corners);
+    glm::dvec2 middle(0.0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec2 a(corners[i]), b(corners[(i + 1) % corners.size()]);
+        middle += (a.x * b.y - a.y * b.x) * (a + b) / (3.0 * twice);
+        glm::vec4& two = packed.texels[1 + i / 2];
+        (i % 2 == 0 ? two.x : two.z) = corners[i].x;
+        (i % 2 == 0 ? two.y : two.w) = corners[i].y;
+    }
+    packed.texels[0] = glm::vec4(glm::vec2(middle), float(corners.size()), 0.0f);
+    packed.areaShare = float(0.5 * twice);
+    return packed;
+}
+
+/// Hollowed outlines: a square without one of its quarters, and one with a notch from below.
+const std::vector<glm::vec2> kEll{{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
+const std::vector<glm::vec2> kBridge{{-1, -1},   {-0.5f, -1}, {-0.5f, 0.5f}, {0.5f, 0.5f},
+                                     {0.5f, -1}, {1, -1},     {1, 1},        {-1, 1}};
 
 /// To a clamped cosine: a matte surface, and lobes that lean and are narrow.
 const std::array<glm::mat3, 3> kCosineMatrices{
@@ -69,6 +110,19 @@ double overSquare(int columns, int rows, const Value& value) {
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& matrix) {
     const LobeDensity density(matrix);
     const glm::dvec3 middle(shape.middle), first(shape.first), second(shape.second);
+    if (shape.type == LightType::Polygon) { // triangles from the first corner, those that turn back taken away
+        double share = 0.0;
+        for (std::size_t i = 2; i < shape.corners.size(); ++i) {
+            const glm::dvec2 a = shape.corners[i - 1] - shape.corners[0], b = shape.corners[i] - shape.corners[0];
+            const glm::dvec3 corner = middle + double(shape.corners[0].x) * first + double(shape.corners[0].y) * second;
+            const glm::dvec3 toA = a.x * first + a.y * second, toB = b.x * first + b.y * second;
+            share += 0.25 * (a.x * b.y - a.y * b.x) * overSquare(50, 50, [&](double x, double y) {
+                         const double along = 0.5 + 0.5 * x;
+                         return along * density.at(corner + along * glm::mix(toA, toB, 0.5 + 0.5 * y));
+                     });
+        }
+        return std::abs(glm::dot(middle, glm::cross(first, second))) * share;
+    }
     if (shape.type == LightType::Rectangle)
         return std::abs(glm::dot(middle, glm::cross(first, second))) *
                overSquare(100, 10, [&](double x, double y) { return density.at(middle + x * first + y * second); });
@@ -105,13 +159,15 @@ double shareByQuadrature(const SeenShape& shape, const glm::mat3& matrix) {
 std::vector<double> sharesSeen(test::ShaderBench& bench, const std::vector<SeenShape>& shapes,
                                const glm::mat3& matrix) {
     std::vector<glm::vec4> inputs;
-    for (const SeenShape& shape : shapes)
+    for (const SeenShape& shape : shapes) {
+        const PackedOutline outline = packedOutline(shape.corners);
+        const float radius = shape.type == LightType::Polygon ? outline.areaShare : shape.radius;
         inputs.insert(inputs.end(), {{shape.middle, float(int(shape.type))},
-                                     {shape.first, shape.radius},
-                                     {shape.second, shape.isTwoSided ? 1.0f : 0.0f},
-                                     {matrix[0], 0.0f},
-                                     {matrix[1], 0.0f},
-                                     {matrix[2], 0.0f}});
+                                     {shape.first, radius},
+                                     {shape.second, shape.isTwoSided ? 1.0f : 0.0f}});
+        inputs.insert(inputs.end(), outline.texels.begin(), outline.texels.end());
+        inputs.insert(inputs.end(), {{matrix[0], 0.0f}, {matrix[1], 0.0f}, {matrix[2], 0.0f}});
+    }
     shader::Defines defines = frame::featureDefines(frame::allFeatures());
     defines.emplace_back("ENVIRONMENT_COMPENSATION", "0");
     std::vector<double> shares;
@@ -145,6 +201,7 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
             shapes.push_back({LightType::Disk, middle, width * along, 0.0f, across});
             shapes.push_back({LightType::Tube, middle, 0.5 * along, radius});
             shapes.push_back({LightType::Tube, middle, width * along, radius});
+            shapes.push_back({LightType::Polygon, middle, width * along, 0.0f, across, true, kEll});
         }
     for (const glm::mat3& matrix : kCosineMatrices) {
         const std::vector<double> shares = run(shapes, matrix);
@@ -157,6 +214,101 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
                 << std::max(shape.radius, glm::length(shape.second)) << ", lobe " << &matrix - kCosineMatrices.data();
         }
     }
+}
+
+/// The part of a shape's plane between two places, in parts of its vectors.
+SeenShape rectangleWithin(const SeenShape& shape, const glm::dvec2& least, const glm::dvec2& most) {
+    SeenShape part = shape;
+    const glm::dvec2 middle = 0.5 * (least + most), half = 0.5 * (most - least);
+    part.type = LightType::Rectangle;
+    part.corners.clear();
+    part.middle = glm::dvec3(shape.middle) + middle.x * glm::dvec3(shape.first) + middle.y * glm::dvec3(shape.second);
+    part.first = half.x * glm::dvec3(shape.first);
+    part.second = half.y * glm::dvec3(shape.second);
+    return part;
+}
+
+/// Of a pair of sides at right angles, anywhere about the point and above or across its horizon.
+SeenShape randomPolygon(test::Random& random, const std::vector<glm::vec2>& corners) {
+    SeenShape shape;
+    shape.type = LightType::Polygon;
+    const glm::dvec3 normal = random.direction(), right = random.around(normal, 0.0, 0.0);
+    shape.first = random.between(0.3, 1.5) * right;
+    shape.second = random.between(0.3, 1.5) * glm::cross(normal, right);
+    shape.middle = random.direction() * random.between(0.3, 2.0);
+    shape.middle.z = std::abs(shape.middle.z);
+    shape.corners = corners;
+    return shape;
+}
+
+/// Above the horizon and across it, seen from either side, where the horizon leaves one piece, two or none.
+TEST_F(AreaShares, aHollowedPolygonIsTheSumOfItsParts) {
+    using Part = std::pair<glm::dvec2, glm::dvec2>;
+    const std::pair<std::vector<glm::vec2>, std::vector<Part>> cases[] = {
+        {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{{-1, -1}, {1, 1}}}},
+        {kEll, {{{-1, -1}, {1, 0}}, {{-1, 0}, {0, 1}}}},
+        {kBridge, {{{-1, -1}, {-0.5, 0.5}}, {{0.5, -1}, {1, 0.5}}, {{-1, 0.5}, {1, 1}}}}};
+    for (const auto& [corners, parts] : cases) {
+        test::Random random(31);
+        std::vector<SeenShape> whole, pieces;
+        for (int i = 0; i < 2000; ++i) {
+            whole.push_back(randomPolygon(random, corners));
+            // However the corners are numbered.
+            std::vector<glm::vec2>& turned = whole.back().corners;
+            std::rotate(turned.begin(), turned.begin() + random.index(int(turned.size())), turned.end());
+            for (const auto& [least, most] : parts) pieces.push_back(rectangleWithin(whole.back(), least, most));
+        }
+        for (const glm::mat3& matrix : kCosineMatrices) {
+            const std::vector<double> shares = run(whole, matrix), partShares = run(pieces, matrix);
+            for (std::size_t i = 0; i < whole.size(); ++i) {
+                double sum = 0.0;
+                for (std::size_t part = 0; part < parts.size(); ++part) sum += partShares[i * parts.size() + part];
+                // Rectangles that a lobe sees from their edge are lines (narrowLightsKeepTheirDigits).
+                EXPECT_NEAR(shares[i], sum, 1e-5 + 4e-4 * sum)
+                    << corners.size() << " corners, light " << i << ", lobe " << &matrix - kCosineMatrices.data();
+            }
+        }
+    }
+}
+
+/// Edges that are neither along nor across, against the integral over the surface.
+TEST_F(AreaShares, aPolygonAcrossTheHorizonIsTheIntegralOverIt) {
+    const std::vector<std::vector<glm::vec2>> outlines{
+        {{-0.5f, -0.7f}, {0.9f, -0.1f}, {-0.2f, 0.8f}},
+        {{-1, 0}, {0.1f, -0.4f}, {1, 0}, {0.1f, 0.9f}, {0, 0}}, // points inwards at its last corner
+        {{0.2f, 0}, {0.7f, 0.7f}, {0, 0.2f}, {-0.7f, 0.7f}, {-0.2f, 0}, {-0.7f, -0.7f}, {0, -0.2f}, {0.7f, -0.7f}}};
+    test::Random random(32);
+    std::vector<SeenShape> shapes;
+    while (shapes.size() < 60) {
+        const SeenShape shape = randomPolygon(random, outlines[shapes.size() % outlines.size()]);
+        // Quadrature needs a plane some way off.
+        const glm::vec3 normal = glm::normalize(glm::cross(shape.first, shape.second));
+        if (std::abs(glm::dot(shape.middle, normal)) > 0.15f) shapes.push_back(shape);
+    }
+    for (const glm::mat3& matrix : {kCosineMatrices[0], kCosineMatrices[1]}) {
+        const std::vector<double> shares = run(shapes, matrix);
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+            EXPECT_NEAR(shares[i], shareByQuadrature(shapes[i], matrix), 2e-3)
+                << shapes[i].corners.size() << " corners, light " << i;
+    }
+}
+
+/// A point in a notch is not within, one in a leg beside it is, and gets the lune that a whole plane fills.
+TEST_F(AreaShares, aPointInThePlaneOfAPolygonGetsLightWithinItsCornersAlone) {
+    const glm::dvec3 right(0.5, 0.0, 0.0), up(0.0, 0.3, 0.4), normal = glm::normalize(glm::cross(right, up));
+    const double lune = 0.5 * (1.0 - std::abs(normal.z));
+    for (const double side : {1.0, -1.0}) // legs up, and down
+        for (const auto& [x, isWithin] : {std::pair{-0.75, true}, {0.0, false}, {0.75, true}, {-2.0, false}}) {
+            std::vector<SeenShape> shapes;
+            const std::vector<double> offs{0.0, 1e-12, 1e-8, 1e-7, 1e-6};
+            for (const double off : offs)
+                shapes.push_back({LightType::Polygon, -side * (x * right - 0.25 * up) - off * normal, side * right,
+                                  0.0f, side * up, true, kBridge});
+            const std::vector<double> shares = run(shapes, kCosineMatrices[0]);
+            for (std::size_t i = 0; i < shares.size(); ++i)
+                EXPECT_NEAR(shares[i], isWithin ? lune : 0.0, 20.0 * offs[i] + 2e-5)
+                    << "at " << x << ", side " << side << ", before it by " << offs[i];
+        }
 }
 
 /// Along lines on which a point comes to see an end, and comes out of the cylinder's continuation, by an end's edge:
@@ -238,6 +390,11 @@ constexpr AreaFault kAreaFaults[] = {
      "share += 0.0 * shareOfPlace(outline.middle - halfLine"},
     {"a tube's side as wide from beside its end", "lib/light/area_outline.glsl", "(sinHalf * sinHalf * sinHalf)",
      "1.0"},
+    {"what closes a hollowed outline always along one way", "lib/light/area_edges.glsl", "along < 0.0 ? -1.0 : 1.0",
+     "1.0"},
+    {"a polygon's corners in twos", "lib/light/area_outline.glsl", "(number & 1) == 0 ? two.xy : two.zw", "two.xy"},
+    {"a small polygon in its position", "lib/light/area_light.glsl", "outline.middle + outline.toSide;\n        return",
+     "outline.middle;\n        return"},
     {"lines not cut at the horizon", "lib/light/area_light.glsl", "part.x = max(part.x, crossing)", "part.x = -1.0"},
 };
 
@@ -254,6 +411,16 @@ std::vector<SeenShape> faultFindingShapes() {
                 shapes.push_back({LightType::Rectangle, middle, along, 0.0f, side * 1e-3f * across, isTwoSided});
             }
     shapes.push_back({LightType::Rectangle, low, -along, 0.0f, across, true});
+    // Its legs stand up from below the horizon.
+    shapes.push_back({LightType::Polygon, {0.1f, 0.8f, 0.15f}, {0.5f, 0, 0}, 0.0f, {0, 0.1f, -0.4f}, true, kBridge});
+    // So small that it counts as a place, beside its position and low over the horizon.
+    shapes.push_back({LightType::Polygon,
+                      {0.0f, 1.0f, 0.01f},
+                      {0, 0, 1e-3f},
+                      0.0f,
+                      {1e-3f, 0, 0},
+                      true,
+                      {{0.5f, -1}, {1, -1}, {1, 1}, {0.5f, 1}}});
     shapes.push_back({LightType::Tube, high, along, 0.1f});
     shapes.push_back({LightType::Tube, glm::vec3(0.0f, 2e-3f, 0.9f), glm::vec3(0.0f, 0.0f, 0.2f), 1e-3f});
     return shapes;

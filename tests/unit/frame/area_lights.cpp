@@ -8,6 +8,7 @@
 
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/CullLights.h"
+#include "renderer/frame/LightBuffer.h"
 #include "scenes/AreaLight.h"
 #include "tests/support/Random.h"
 
@@ -16,7 +17,8 @@ namespace {
 
 using scenes::LightType;
 
-constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
+                                 LightType::Polygon};
 
 /// In sight of the default camera, which looks along -z.
 scenes::Light surfaceLight(LightType type) {
@@ -34,6 +36,8 @@ scenes::Light randomSurface(test::Random& random, LightType type) {
     for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
                                          &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
         light.*metres = float(random.logarithmic(0.1, 2.0));
+    for (std::size_t i = 0; i < light.corners.count; ++i)
+        light.corners.metres[i] *= glm::vec2(light.widthMetres, light.heightMetres) * float(random.between(0.5, 1.0));
     return light;
 }
 
@@ -88,6 +92,31 @@ TEST(PackedAreaLights, aSphereHasARadiusAndATubeHalfOfItselfToo) {
     EXPECT_FLOAT_EQ(packed.shadows.at(0).shadow.x, float(std::sqrt((3.0 + test::pi * 0.25) / test::pi)));
 }
 
+TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockwise) {
+    scenes::Light light = surfaceLight(LightType::Polygon);
+    light.corners.count = 0;
+    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(0, 2), glm::vec2(1, 0.5), glm::vec2(1.5, 0)})
+        light.corners.add(corner); // clockwise
+    PackedLights packed = packSurfaces({light, surfaceLight(LightType::Disk)});
+    ASSERT_EQ(packed.corners.size(), 2u);
+    EXPECT_EQ(glm::vec3(packed.shapes[0].axis), glm::vec3(2, 0, 0));
+    EXPECT_EQ(packed.shapes[0].attenuation, glm::vec4(0, -2, 0, 0));
+    EXPECT_FLOAT_EQ(packed.shapes[0].axis.w, float(scenes::largestSeenArea(light) / 4.0));
+    const shared::LightCornerTexels& corners = packed.corners[0];
+    EXPECT_EQ(corners.outline.z, 4.0f);
+    EXPECT_LT(glm::distance(glm::dvec2(corners.outline), scenes::middleOf(light.corners) / 2.0), 1e-7);
+    EXPECT_EQ(corners.corners[0], glm::vec4(0.75f, 0.0f, 0.5f, 0.25f));
+    EXPECT_EQ(corners.corners[1], glm::vec4(0.0f, 1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(packed.corners[1].outline, glm::vec4(0.0f)) << "a disk has none";
+    const std::size_t with = texelsOf(packed, packed.features).size();
+    EXPECT_EQ(with, 2 * std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS));
+    EXPECT_EQ(with * sizeof(glm::vec4), lightBytes(packed.features, 2));
+    packed = packSurfaces({surfaceLight(LightType::Disk)});
+    EXPECT_TRUE(packed.corners.empty());
+    EXPECT_EQ(texelsOf(packed, packed.features).size(), std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS))
+        << "scenes without polygons pay nothing for corners";
+}
+
 TEST(PackedAreaLights, inViewSpaceTheSurfaceIsTurnedWithTheView) {
     scenes::Camera camera; // looks along +x: view (x, y, -z) is world (z, y, x)
     camera.worldFromCamera = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
@@ -110,17 +139,18 @@ TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
     for (const LightType type : kShapes) {
         scenes::Light& light = lights.emplace_back(surfaceLight(type));
         light.radiusMetres = light.widthMetres = 0.0f;
+        for (glm::vec2& corner : light.corners.metres) corner *= 1e-7f;
         lights.emplace_back(surfaceLight(type)).intensity = 0.0f;
     }
     lights.push_back(surfaceLight(LightType::Sphere));
     const PackedLights pruned = packSurfaces(lights);
-    EXPECT_EQ(pruned.dark, 8u);
-    EXPECT_THAT(pruned.sceneIndex, testing::ElementsAre(8));
+    EXPECT_EQ(pruned.dark, 10u);
+    EXPECT_THAT(pruned.sceneIndex, testing::ElementsAre(10));
     FrameSettings keep;
     keep.prune = false;
     const PackedLights whole = packSurfaces(lights, keep);
-    ASSERT_EQ(whole.texels.size(), 9u);
-    for (std::size_t i = 0; i < 8; ++i)
+    ASSERT_EQ(whole.texels.size(), 11u);
+    for (std::size_t i = 0; i < 10; ++i)
         EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
 }
 
@@ -129,7 +159,7 @@ TEST(PackedAreaLights, theirSurfaceLiesInTheBallThatCullingTakesThemFor) {
     for (const LightType type : kShapes) {
         for (int i = 0; i < 50; ++i) {
             const scenes::Light light = randomSurface(random, type);
-            const bool isRound = type != LightType::Rectangle;
+            const bool isRound = type != LightType::Rectangle && type != LightType::Polygon;
             const double exact = scenes::surfaceReachMetres(light) * double(isRound ? AREA_OUTLINE_REACH : 1.0f);
             EXPECT_NEAR(surfaceReachMetres(type, packSurfaces({light}).shapes.at(0)), exact, 3e-7 * exact);
         }
@@ -264,7 +294,7 @@ TEST(AreaLightCulling, aListByNormalsNeverLacksALightThatHasAPartInFrontOfASurfa
         const WallOfNormals wall(random);
         std::vector<scenes::Light> lights;
         for (int i = 0; i < 300; ++i) {
-            scenes::Light& light = lights.emplace_back(randomSurface(random, kShapes[random.index(4)]));
+            scenes::Light& light = lights.emplace_back(randomSurface(random, kShapes[random.index(5)]));
             light.positionWS = glm::dvec3(0.0, 0.0, -5.0) + random.direction() * random.between(0.0, 5.0);
             light.rangeMetres = float(random.between(1.0, 8.0));
         }

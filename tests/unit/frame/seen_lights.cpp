@@ -14,7 +14,8 @@ namespace {
 
 using scenes::LightType;
 
-constexpr LightType kSurfaces[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+constexpr LightType kSurfaces[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
+                                   LightType::Polygon};
 
 /// 5 m before the default camera, which looks along -z, and turned to it.
 scenes::Light lamp(LightType type) {
@@ -42,6 +43,12 @@ glm::dvec3 placeOn(const scenes::Light& light, test::Random& random) {
     case LightType::Rectangle:
         return light.positionWS + (random.unit() - 0.5) * double(light.widthMetres) * light.alongWS +
                (random.unit() - 0.5) * double(light.heightMetres) * glm::cross(front, light.alongWS);
+    case LightType::Polygon: // within the triangle of its first corners
+        return light.positionWS +
+               glm::dmat2x3(light.alongWS, glm::cross(front, light.alongWS)) *
+                   glm::mix(glm::dvec2(light.corners.metres[0]),
+                            glm::dvec2(glm::mix(light.corners.metres[1], light.corners.metres[2], random.unit())),
+                            share);
     case LightType::Disk:
         return light.positionWS + share * radius * outwards;
     case LightType::Sphere:
@@ -67,7 +74,7 @@ TEST(SeenLights, aPlaceInThePictureAlwaysLiesInItsLightsWindow) {
         if (i % 2 == 0) camera.projection = scenes::Projection::Orthographic;
         camera.halfHeightMetres = 2.0;
         camera.nearMetres = random.logarithmic(0.01, 1.0);
-        scenes::Light light = lamp(kSurfaces[i / 2 % 4]);
+        scenes::Light light = lamp(kSurfaces[i / 2 % 5]);
         light.isTwoSided = true;
         light.positionWS =
             eyeWS + glm::dmat3(camera.worldFromCamera) *
@@ -77,6 +84,7 @@ TEST(SeenLights, aPlaceInThePictureAlwaysLiesInItsLightsWindow) {
         for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
                                              &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
             light.*metres = float(random.logarithmic(0.01, 4.0));
+        for (glm::vec2& corner : light.corners.metres) corner *= glm::vec2(light.widthMetres, light.heightMetres);
         const std::vector<SeenLight> seen = seenOf(light, camera, settings);
         const CameraView view = makeCameraView(camera, sizePixels, LightingSpace::World, glm::vec3(0.0f));
         // A solid that the eye is in is not seen.
@@ -135,7 +143,10 @@ TEST(SeenLights, areThoseThatShineAndAreInViewAndToBeSeen) {
         isGone("no intensity", [](scenes::Light& light) { light.intensity = 0.0f; });
         isGone("black", [](scenes::Light& light) { light.color = glm::vec3(0.0f); });
         isGone("no range", [](scenes::Light& light) { light.rangeMetres = 0.0f; });
-        isGone("no surface", [](scenes::Light& light) { light.radiusMetres = light.widthMetres = 0.0f; });
+        isGone("no surface", [](scenes::Light& light) {
+            light.radiusMetres = light.widthMetres = 0.0f;
+            for (glm::vec2& corner : light.corners.metres) corner *= 1e-7f;
+        });
         isGone("behind the eye", [](scenes::Light& light) { light.positionWS.z = 5.0; });
         isGone("beside the picture", [](scenes::Light& light) { light.positionWS.x = 50.0; });
         isGone("at the eye", [](scenes::Light& light) { light.positionWS.z = 0.0; });
@@ -218,6 +229,20 @@ TEST(SeenLights, arePackedRelativeToTheOriginOfLightingSpace) {
     const shared::SeenLightTexels eye = packed(LightingSpace::View);
     EXPECT_NEAR(eye.middle.z, -4.0, 1e-6);
     EXPECT_NEAR(eye.along.x, 1.0, 1e-6) << "to the right";
+}
+
+TEST(SeenLights, aPolygonBringsItsCornersInMetresInTheirOrder) {
+    scenes::Light light = lamp(LightType::Polygon);
+    light.corners.metres[4] = {-2.0f, 0.125f};
+    light.corners.count = 5;
+    const std::vector<SeenLight> seen = seenOf(light);
+    ASSERT_EQ(seen.size(), 1u);
+    EXPECT_NEAR(seen[0].bounds.boxWS.max.x, 2.0, 1e-12) << "as far to either side";
+    const shared::SeenLightTexels texels =
+        packSeenLights(seen, makeCameraView({}, {64, 64}, LightingSpace::World, glm::vec3(0.0f))).at(0);
+    EXPECT_EQ(texels.along.w, 5.0f);
+    EXPECT_EQ(texels.corners[0], glm::vec4(-0.5f, -0.5f, 0.5f, -0.5f));
+    EXPECT_EQ(texels.corners[2], glm::vec4(-2.0f, 0.125f, 0.0f, 0.0f));
 }
 
 TEST(SeenLights, aPlanIsToldWhyThereAreNone) {

@@ -1,6 +1,9 @@
 #include "scenes/AreaLight.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -10,6 +13,13 @@
 
 namespace tessera::scenes {
 namespace {
+
+LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
+    LightCorners corners;
+    corners.count = 0;
+    for (const glm::vec2& place : places) corners.add(place);
+    return corners;
+}
 
 TEST(AreaLight, isDarkExactlyWithoutASurface) {
     Light light;
@@ -29,6 +39,50 @@ TEST(AreaLight, isDarkExactlyWithoutASurface) {
         EXPECT_FALSE(with(type, member, 0.9e-6f));
         EXPECT_TRUE(with(type, member, 1e-6f));
     }
+    light.type = LightType::Polygon;
+    EXPECT_TRUE(hasSurface(light));
+    for (const float metres : {0.9e-6f, 1.01e-6f}) {
+        light.corners = cornersOf({{0.0f, 0.0f}, {metres, 0.0f}, {metres, metres}, {0.0f, metres}});
+        EXPECT_EQ(hasSurface(light), metres > 1e-6f);
+    }
+}
+
+TEST(LightCorners, haveTheAreaAndTheMiddleOfTheirOutline) {
+    // An L of two bars: 2 x 1 m, and 1 x 2 m on top of its left half.
+    const LightCorners ell = cornersOf({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}});
+    EXPECT_DOUBLE_EQ(signedArea(ell), 4.0);
+    EXPECT_LT(glm::distance(middleOf(ell), 0.5 * (glm::dvec2(1.0, 0.5) + glm::dvec2(0.5, 2.0))), 1e-15);
+    LightCorners other = ell;
+    std::reverse(other.metres.begin(), other.metres.begin() + 6);
+    EXPECT_DOUBLE_EQ(signedArea(other), -4.0);
+    EXPECT_LT(glm::distance(middleOf(other), middleOf(ell)), 1e-15);
+    for (std::size_t i = 0; i < other.count; ++i) other.metres[i] += glm::vec2(100.0f, -50.0f);
+    EXPECT_DOUBLE_EQ(signedArea(other), -4.0);
+    EXPECT_LT(glm::distance(middleOf(other), middleOf(ell) + glm::dvec2(100.0, -50.0)), 1e-12);
+}
+
+TEST(LightCorners, whatIsNoOutlineIsNamed) {
+    for (const auto& [corners, problem] : {
+             std::pair{cornersOf({{0, 0}, {1, 0}, {0, 1}}), ""},
+             {cornersOf({{0, 0}, {0, 1}, {1, 0}}), ""},            // the other way round
+             {cornersOf({{0, 0}, {1, 0}, {2, 0}, {0, 1}}), ""},    // one on a straight edge
+             {cornersOf({{0, 0}, {2, 0}, {2, 2}, {1, 0.5f}}), ""}, // one that points inwards
+             {cornersOf({{0, 0}, {1, 0}}), "number 2; 3 to 8 are needed"},
+             {cornersOf({{0, 0}, {2e6f, 0}, {0, 1}}),
+              "have number 1 at (2e+06, 0); both must lie between -1e+06 and 1e+06 m"},
+             {cornersOf({{0, 0}, {1, 0}, {0, 1}, {1, 0}}), "1 and 3 lie in one place; keep one"},
+             {cornersOf({{0, 0}, {2, 0}, {1, 0}}), "fold back at number 1; no area lies between the two edges"},
+             {cornersOf({{0, 0}, {1, 1}, {1, 0}, {0, 1}}),
+              "cross or touch: the edges behind number 0 and behind number 2 meet"},
+             {cornersOf({{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}}),
+              "cross or touch: the edges behind number 0 and behind number 2 meet"},
+             {cornersOf({{0, 0}, {4, 0}, {4, 1}, {3, 1}, {1, 0}, {0, 1}}),
+              "cross or touch: the edges behind number 0 and behind number 3 meet"},
+         })
+        EXPECT_EQ(cornersProblem(corners), problem);
+    LightCorners broken;
+    broken.metres[2].y = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(cornersProblem(broken), "have number 2 at (0.5, nan); both must lie between -1e+06 and 1e+06 m");
 }
 
 TEST(AreaLight, itsShadowsSeeADiskOfTheAreaThatItShowsAtMost) {
@@ -77,6 +131,17 @@ double solidAngleFrom(const Light& light, const glm::dvec3& from) {
                                       glm::cross(axis, light.alongWS) * ((t - 0.5) * double(light.heightMetres));
                 add(at, axis, largestSeenArea(light) * piece);
                 add(at, -axis, largestSeenArea(light) * piece);
+            } else if (light.type == LightType::Polygon) { // hollowed: two triangles, at its first corner side by side
+                const std::span<const glm::vec2> corners = light.corners.all();
+                for (const std::size_t k : {1u, 2u}) {
+                    const glm::dvec2 first(corners[0]), a = glm::dvec2(corners[k]) - first,
+                                                        b = glm::dvec2(corners[k + 1]) - first;
+                    const glm::dvec2 place = first + std::sqrt(s) * glm::mix(a, b, t);
+                    const glm::dvec3 at = place.x * light.alongWS + place.y * glm::cross(axis, light.alongWS);
+                    const double area = 0.5 * std::abs(a.x * b.y - a.y * b.x) * piece;
+                    add(at, axis, area);
+                    add(at, -axis, area);
+                }
             } else {
                 const double disk = tessera::test::pi * radius * radius * piece;
                 const glm::dvec3 end = light.type == LightType::Tube ? axis * half : glm::dvec3(0.0);
@@ -103,6 +168,9 @@ TEST(AreaLight, isNeverSeenLargerThanItsAreaFromTheBallItLiesIn) {
             for (float Light::*metres :
                  {&Light::widthMetres, &Light::heightMetres, &Light::lengthMetres, &Light::radiusMetres})
                 light.*metres = float(random.logarithmic(0.05, 5.0));
+            const float size = light.widthMetres;
+            light.corners =
+                cornersOf({{-0.2f * size, 0.1f * size}, {size, 0}, {0.1f * size, size}, {-0.6f * size, size}});
             const double ball = surfaceReachMetres(light), away = ball * random.logarithmic(0.3, 30.0);
             const glm::dvec3 from = random.direction() * (ball + away);
             // Pieces of 1/3600 of the surface are off by a few per cent at most.

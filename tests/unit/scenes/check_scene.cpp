@@ -176,6 +176,9 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              s.lights[0].type = LightType::Rectangle;
              s.lights[0].alongWS = glm::normalize(glm::dvec3(1.0, 0.0, 0.01));
          }},
+        {"its corners 1 and 3 lie in one place; keep one",
+         [](Scene& s) { s.lights[0].corners.metres[3] = s.lights[0].corners.metres[1]; }},
+        {"its corners number 9; 3 to 8 are needed", [](Scene& s) { s.lights[0].corners.count = 9; }},
         {"the width must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].widthMetres = 1.1e6f; }},
         {"the height must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].heightMetres = -1.0f; }},
         {"the length must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].lengthMetres = kNaN; }},

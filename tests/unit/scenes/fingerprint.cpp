@@ -138,6 +138,8 @@ const std::vector<Change>& changes() {
         {"light.height", [](Scene& s) { s.lights[0].heightMetres = 2.0f; }},
         {"light.length", [](Scene& s) { s.lights[0].lengthMetres = 2.0f; }},
         {"light.along", [](Scene& s) { s.lights[0].alongWS.z = 1.0; }},
+        {"light.corners", [](Scene& s) { s.lights[0].corners.metres[3].y = 0.75f; }},
+        {"light.cornerCount", [](Scene& s) { s.lights[0].corners.count = 3; }},
         {"light.twoSided", [](Scene& s) { s.lights[0].isTwoSided = true; }},
         {"light.seen", [](Scene& s) { s.lights[0].isSeen = false; }},
         {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},

@@ -22,7 +22,8 @@ std::string keysOf(const LightTypeInfo& type, float share) {
         keys += fmt::format(R"(, "{}": {})", parameter.key, glm::mix(parameter.least, parameter.most, share));
     if (const LightParameter* size = sizeParameter(type); size != nullptr && type.isArea)
         keys += fmt::format(R"(, "{}": {})", size->key, glm::mix(size->least, size->most, share));
-    if (type.hasSides()) keys += R"(, "along": [0, 0, -2])";
+    if (type.isTurned()) keys += R"(, "along": [0, 0, -2])";
+    if (type.hasCorners()) keys += R"(, "corners": [[0, 0], [2, 0], [0.5, 0.25]])";
     if (type.isFlat) keys += R"(, "twoSided": true)";
     if (type.isArea) keys += R"(, "seen": false)";
     return keys;
@@ -36,8 +37,9 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     std::set<std::string_view> names, fields;
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
-        std::set<std::string_view> keys{"type",    "name",      "enabled",   "fields", "color", "intensity", "position",
-                                        "falloff", "animation", "direction", "target", "along", "twoSided",  "seen"};
+        std::set<std::string_view> keys{"type",      "name",     "enabled", "fields",    "color",
+                                        "intensity", "position", "falloff", "animation", "direction",
+                                        "target",    "along",    "corners", "twoSided",  "seen"};
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
@@ -67,7 +69,8 @@ TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
             }
             EXPECT_EQ(light.isTwoSided, type.isFlat);
             EXPECT_EQ(light.isSeen, !type.isArea);
-            EXPECT_EQ(light.alongWS, type.hasSides() ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0));
+            EXPECT_EQ(light.alongWS, type.isTurned() ? glm::dvec3(0, 0, -1) : glm::dvec3(1, 0, 0));
+            EXPECT_EQ(light.corners.count, type.hasCorners() ? 3u : LightCorners().count);
         }
     }
 }
@@ -85,7 +88,8 @@ TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
         for (const LightParameter& parameter : type.parameters)
             for (const float beyond : {parameter.least - 1.0f, parameter.most + 1.0f})
                 isRefused(keysOf(bare, 0.0f) + fmt::format(R"(, "{}": {})", parameter.key, beyond));
-        if (!type.hasSides()) isRefused(keys + R"(, "along": [1, 0, 0])");
+        if (!type.isTurned()) isRefused(keys + R"(, "along": [1, 0, 0])");
+        if (!type.hasCorners()) isRefused(keys + R"(, "corners": [[0, 0], [2, 0], [0.5, 0.25]])");
         if (!type.isFlat) isRefused(keys + R"(, "twoSided": false)");
         if (!type.isArea) isRefused(keys + R"(, "seen": true)");
         if (sizeParameter(type) == nullptr) isRefused(keys + R"(, "radius": 1)");
@@ -109,7 +113,8 @@ TEST(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
             light.*parameter.member = parameter.kind == LightParameter::Kind::Angle ? glm::radians(30.0f) : 0.375f;
         if (const LightParameter* size = sizeParameter(type); size != nullptr && type.isArea)
             light.*size->member = 0.625f;
-        if (type.hasSides()) light.alongWS = {0.6, 0.0, -0.8};
+        if (type.isTurned()) light.alongWS = {0.6, 0.0, -0.8};
+        if (type.hasCorners()) light.corners.metres[2] = {0.1f, 3.0f};
         light.isTwoSided = type.isFlat;
         light.isSeen = !type.isArea;
         const nlohmann::json written(write::lightJson(light));

@@ -139,7 +139,7 @@ TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
             const glm::dvec2 there = handle->place + glm::dvec2(-5.0, -8.0);
             EXPECT_TRUE(drag.drag(turned, 0.0, view, there, false));
             EXPECT_NEAR(glm::length(turned.directionWS), 1.0, 1e-12);
-            EXPECT_NEAR(glm::dot(turned.directionWS, turned.alongWS), 0.0, type.hasSides() ? 1e-12 : 1.0);
+            EXPECT_NEAR(glm::dot(turned.directionWS, turned.alongWS), 0.0, type.isTurned() ? 1e-12 : 1.0);
             const glm::dvec3 tipWS = figure.middleWS + glm::length(armWS) * turned.directionWS;
             EXPECT_LT(glm::distance(view.placeOf(tipWS).value(), there), 1e-6);
             drag.drag(turned, 0.0, view, handle->place, false);

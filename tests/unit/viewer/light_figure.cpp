@@ -48,6 +48,9 @@ TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
             EXPECT_EQ(shaping, ofShape.contains(type.type) ? ofShape.at(type.type) : 0u);
             EXPECT_EQ(figure.sun.has_value(), !type.hasPosition());
             EXPECT_EQ(figure.outlinesWS.empty(), type.type == Type::Point);
+            if (type.hasCorners()) {
+                EXPECT_EQ(figure.outlinesWS.at(0).size(), 5u) << "its corners, and the first again";
+            }
             // A light that shines from an area shows all its measures.
             for (const scenes::LightParameter& parameter : type.parameters)
                 if (type.isArea) {

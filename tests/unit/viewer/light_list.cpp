@@ -154,6 +154,26 @@ TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     EXPECT_EQ(light.radiusMetres, 0.125f) << "it has one already";
 }
 
+TEST(LightList, cornersOfAPolygonNeverMakeNoOutline) {
+    scenes::Light light;
+    light.type = scenes::LightType::Polygon; // a square of 1 m
+    EXPECT_TRUE(moveCorner(light, 2, {0.0f, -0.25f}));
+    EXPECT_EQ(light.corners.metres[2], glm::vec2(0.0f, -0.25f));
+    const scenes::Light before = light;
+    EXPECT_FALSE(moveCorner(light, 2, {0.0f, -0.5f})) << "onto an edge";
+    EXPECT_FALSE(moveCorner(light, 2, {0.0f, -2.0f})) << "across an edge";
+    EXPECT_TRUE(light == before);
+    for (std::size_t count = 5; count <= scenes::LightCorners::kMost; ++count) {
+        EXPECT_TRUE(addCorner(light));
+        EXPECT_EQ(light.corners.count, count);
+    }
+    EXPECT_EQ(light.corners.metres[4], glm::vec2(-0.5f, 0.0f)) << "in the middle of the last edge";
+    EXPECT_FALSE(addCorner(light));
+    for (std::size_t count = 7; count >= scenes::LightCorners::kLeast; --count) EXPECT_TRUE(removeCorner(light));
+    EXPECT_FALSE(removeCorner(light));
+    EXPECT_EQ(light.corners.count, scenes::LightCorners::kLeast);
+}
+
 TEST(LightList, theWidthOfARectangleStaysAcrossItsDirection) {
     scenes::Light light;
     light.type = scenes::LightType::Rectangle;

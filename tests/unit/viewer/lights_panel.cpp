@@ -37,6 +37,8 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
         EXPECT_EQ(isIn(text, "Shines"), type.isFlat) << text;
         EXPECT_EQ(isIn(text, "Surface"), type.isArea) << text;
         EXPECT_EQ(isIn(text, "Width along"), type.hasSides()) << text;
+        EXPECT_EQ(isIn(text, "Corners along"), type.hasCorners()) << text;
+        EXPECT_EQ(isIn(text, "Corner 3"), type.hasCorners()) << text;
         EXPECT_EQ(isIn(text, "Range"), type.hasPosition()) << text;
         EXPECT_NE(text.find(fmt::format(" {} }}\n", type.unit)), std::string::npos) << type.unit << " in" << text;
     }

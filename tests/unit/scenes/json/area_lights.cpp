@@ -40,6 +40,14 @@ TEST(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
     const Light tube = areaLight(folder, R"("type": "tube", "direction": [1, 0, 0], "length": 1.5, "radius": 0.02)");
     EXPECT_EQ(tube.lengthMetres, 1.5f);
     EXPECT_EQ(tube.radiusMetres, 0.02f);
+    const Light polygon = areaLight(folder, R"("type": "polygon", "direction": [0, -1, 0], "along": [0, 0, 2],
+        "corners": [[0, 0], [1, 0], [0.5, 0.25], [0, 2]], "twoSided": true)");
+    EXPECT_EQ(polygon.type, LightType::Polygon);
+    ASSERT_EQ(polygon.corners.count, 4u);
+    EXPECT_EQ(polygon.corners.metres[2], glm::vec2(0.5f, 0.25f));
+    EXPECT_EQ(polygon.corners.metres[3], glm::vec2(0.0f, 2.0f));
+    EXPECT_EQ(polygon.alongWS, glm::dvec3(0, 0, 1));
+    EXPECT_TRUE(polygon.isTwoSided);
 }
 
 TEST(SceneJsonAreaLights, aWidthThatIsNotStatedIsHorizontal) {
@@ -79,13 +87,21 @@ TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
               "castsShadow, fields");
     EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
     EXPECT_EQ(error(panel + R"(, "seen": 1)"), "/lights/0/seen: is a number; true or false is needed");
+    const std::string polygon = R"("type": "polygon", "direction": [0, 0, 1])";
+    EXPECT_EQ(error(polygon), "/lights/0: lacks the key 'corners'; add it");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(areaDocument(polygon + R"(, "corners": [[0, 0], [1, 1], [1, 0], [0, 1]])")),
+              "/lights/0/corners: cross or touch: the edges behind number 0 and behind number 2 meet");
+    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 1]])"), "");
+    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1]])"), "");
+    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1, 1000001]])"), "");
     EXPECT_EQ(error(R"("type": "sphere")"), "/lights/0: lacks the key 'radius'; add it");
     EXPECT_EQ(error(R"("type": "sphere", "radius": 1, "twoSided": true)").substr(0, 45),
               "/lights/0: a sphere light has no key 'twoSide");
     EXPECT_EQ(error(R"("type": "tube", "radius": 1)"), "/lights/0: lacks the key 'direction'; add it");
     for (const char* shape :
          {R"("type": "rectangle", "direction": [0, 0, 1])", R"("type": "disk", "direction": [0, 0, 1], "radius": 1)",
-          R"("type": "sphere", "radius": 1)", R"("type": "tube", "direction": [0, 0, 1], "radius": 1)"}) {
+          R"("type": "sphere", "radius": 1)", R"("type": "tube", "direction": [0, 0, 1], "radius": 1)",
+          R"("type": "polygon", "direction": [0, 0, 1], "corners": [[0, 0], [1, 0], [0, 1]])"}) {
         const std::string text = error(std::string(shape) + R"(, "falloff": {"type": "attenuation", "C": 1})");
         EXPECT_NE(text.find("light has no falloff 'attenuation', since its shape decides how its light falls off; "
                             "inverse_square may end it by a range"),
@@ -120,6 +136,31 @@ TEST(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
     EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(-1, 0, 0)), 1e-12);
     EXPECT_LT(glm::distance(light.alongWS, glm::dvec3(0, 0, -1)), 1e-12);
     EXPECT_EQ(light.widthMetres, 2.0f) << "scales change directions alone";
+}
+
+TEST(SceneJsonAreaLights, anIncludedPolygonIsMirroredWithItsPart) {
+    const SceneFolder folder;
+    folder.write("parts/sign.json", R"({"tessera": 1, "lights": [
+        {"type": "polygon", "position": [0, 0, 0], "direction": [0, 0, 1], "along": [1, 0, 0],
+         "corners": [[0, 0], [2, 0], [2, 1]]}]})");
+    const auto placesOf = [](const Light& light) {
+        std::vector<glm::dvec3> places;
+        for (const glm::vec2& corner : light.corners.all())
+            places.push_back(double(corner.x) * light.alongWS +
+                             double(corner.y) * glm::cross(light.directionWS, light.alongWS));
+        return places;
+    };
+    for (const auto& [scale, sign] : {std::pair{"[1, 1, 1]", glm::dvec3(1)},
+                                      {"[-1, 1, 1]", glm::dvec3(-1, 1, 1)},
+                                      {"[1, -1, 1]", glm::dvec3(1, -1, 1)},
+                                      {"[1, 1, -1]", glm::dvec3(1, 1, -1)}}) {
+        const Scene scene = folder.import(fmt::format(
+            R"({{"tessera": 1, "include": [{{"file": "parts/sign.json", "transform": {{"scale": {}}}}}]}})", scale));
+        const std::vector<glm::dvec3> places = placesOf(scene.lights.at(0)),
+                                      wanted{glm::dvec3(0), sign * glm::dvec3(2, 0, 0), sign * glm::dvec3(2, 1, 0)};
+        ASSERT_EQ(places.size(), wanted.size());
+        for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_LT(glm::distance(places[i], wanted[i]), 1e-12) << scale;
+    }
 }
 
 } // namespace

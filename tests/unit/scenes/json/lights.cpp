@@ -125,7 +125,7 @@ TEST(SceneJsonLights, impossibleSpotsAreRefused) {
 TEST(SceneJsonLights, typesThatThereAreNotAreRefusedByName) {
     const SceneFolder folder;
     EXPECT_EQ(errorOfLight(folder, R"({"type": "area"})"),
-              "/lights/0/type: 'area' names no shape; types of area lights are rectangle, disk, sphere, tube");
+              "/lights/0/type: 'area' names no shape; types of area lights are rectangle, disk, sphere, tube, polygon");
     EXPECT_EQ(errorOfLight(folder, R"({"type": "environment"})"),
               "/lights/0/type: light from everywhere is no light of this list; give the document a key 'environment'");
     EXPECT_EQ(errorOfLight(folder, R"({"type": "spott"})"),

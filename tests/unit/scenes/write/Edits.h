@@ -49,6 +49,10 @@ public:
         light.lengthMetres = 2.0f * share();
         light.radiusMetres = share();
         light.alongWS = glm::normalize(glm::cross(light.directionWS, direction()));
+        light.corners.count = 0;
+        for (const glm::vec2& corner : {glm::vec2(0.0f, 0.0f), glm::vec2(1.0f, 0.0f), glm::vec2(0.3f, 0.3f),
+                                        glm::vec2(0.0f, 1.0f), glm::vec2(-0.5f, 0.5f)})
+            light.corners.add(corner + 0.1f * glm::vec2(share(), share()));
         light.isTwoSided = share() < 0.5f;
         light.isSeen = share() < 0.5f;
         return light;

@@ -153,11 +153,49 @@ TEST(ReferenceAreaLights, aTubeHasThePublishedFactorOfACylinderAndShinesFromItsE
     EXPECT_NEAR(factorOf(light), 0.2, kCubature * 0.2);
 }
 
+TEST(ReferenceAreaLights, aHollowedPolygonGivesTheSumOfItsParts) {
+    test::Random random(4);
+    const auto withCorners = [](std::initializer_list<glm::vec2> places) {
+        scenes::LightCorners corners;
+        corners.count = 0;
+        for (const glm::vec2& place : places) corners.add(place);
+        return corners;
+    };
+    // A bridge: a square of 2 m with a notch; and its legs and the bar between.
+    const scenes::LightCorners whole =
+        withCorners({{-1, -1}, {-0.5f, -1}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, -1}, {1, -1}, {1, 1}, {-1, 1}});
+    const std::pair<glm::dvec2, glm::dvec2> parts[] = {// the middle, and the sides
+                                                       {{-0.75, -0.25}, {0.5, 1.5}},
+                                                       {{0.75, -0.25}, {0.5, 1.5}},
+                                                       {{0.0, 0.75}, {2.0, 0.5}}};
+    for (int i = 0; i < 50; ++i) {
+        ShiningLight light = shiningArea(LightType::Polygon, {}, random.direction());
+        light.light.alongWS = random.around(light.light.directionWS, 0.0, 0.0);
+        light.light.isTwoSided = true;
+        light.light.corners = whole;
+        std::rotate(light.light.corners.metres.begin(), light.light.corners.metres.begin() + i % 8,
+                    light.light.corners.metres.end());
+        if (i % 2 == 1) std::ranges::reverse(light.light.corners.metres);
+        light.positionRWS = random.around({0, 0, 1}, 0.3, 1.0) * random.between(1.5, 4.0);
+        double sum = 0.0;
+        for (const auto& [middle, sides] : parts) {
+            ShiningLight part = light;
+            part.light.type = LightType::Rectangle;
+            part.light.widthMetres = float(sides.x);
+            part.light.heightMetres = float(sides.y);
+            part.positionRWS +=
+                middle.x * light.light.alongWS + middle.y * glm::cross(light.light.directionWS, light.light.alongWS);
+            sum += factorOf(part);
+        }
+        EXPECT_NEAR(factorOf(light), sum, 1e-4 * sum + 1e-9) << i; // the horizon cuts some
+    }
+}
+
 TEST(ReferenceAreaLights, farAwayEveryLightGivesItsProjectedArea) {
     test::Random random(3);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 direction = random.direction();
-        ShiningLight light = shiningArea(LightType(int(LightType::Rectangle) + i % 4), {0, 0, 0}, direction);
+        ShiningLight light = shiningArea(LightType(int(LightType::Rectangle) + i % 5), {0, 0, 0}, direction);
         light.light.alongWS = random.around(direction, 0.0, 0.0);
         light.light.isTwoSided = true;
         light.light.lengthMetres = 2.0f;
@@ -172,7 +210,7 @@ TEST(ReferenceAreaLights, farAwayEveryLightGivesItsProjectedArea) {
 }
 
 TEST(ReferenceAreaLights, flatLightsShineForwardUnlessTheyHaveTwoSides) {
-    for (const LightType type : {LightType::Rectangle, LightType::Disk}) {
+    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
         ShiningLight light = shiningArea(type, {0.3, 0.2, 1.0}, {0, 0, -1});
         const double front = factorOf(light);
         EXPECT_GT(front, 0.1);
@@ -204,7 +242,7 @@ TEST(ReferenceAreaLights, aMirrorShowsALightsRadianceInsideItsOutlineAndNothingO
     const glm::dvec3 toViewer = viewerAt(0.8);
     const glm::dvec3 reflection(-toViewer.x, -toViewer.y, toViewer.z);
     const glm::dvec3 aside = glm::normalize(glm::cross(reflection, {0, 1, 0}));
-    for (int type = int(LightType::Rectangle); type <= int(LightType::Tube); ++type) {
+    for (int type = int(LightType::Rectangle); type <= int(LightType::Polygon); ++type) {
         ShiningLight light = shiningArea(LightType(type), 2.0 * reflection, -reflection);
         light.light.alongWS = aside;
         light.light.lengthMetres = 1.0f;
@@ -298,6 +336,9 @@ ShiningLight randomArea(test::Random& random, LightType type, const glm::dvec3& 
     light.light.widthMetres = float(random.logarithmic(0.02, 3.0));
     light.light.heightMetres = float(random.logarithmic(0.02, 3.0));
     light.light.lengthMetres = float(random.logarithmic(0.02, 3.0));
+    light.light.corners.metres[2] = {-0.2f, 0.0f}; // points inwards
+    for (glm::vec2& corner : light.light.corners.metres)
+        corner *= glm::vec2(light.light.widthMetres, light.light.heightMetres);
     light.light.isTwoSided = true;
     light.positionRWS =
         random.logarithmic(0.2, 3.0) * glm::normalize(towards + random.between(0.0, 1.5) * random.direction());
@@ -332,7 +373,7 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
     for (int i = 0; i < 240; ++i) {
         const SurfacePoint point = randomSurface(random, MaterialModel(1 + i % 5));
         const glm::dvec3 toViewer = random.around(point.normal, 0.05, 1.0);
-        const ShiningLight light = randomArea(random, LightType(int(LightType::Rectangle) + (i / 5) % 4),
+        const ShiningLight light = randomArea(random, LightType(int(LightType::Rectangle) + (i / 5) % 5),
                                               {-toViewer.x, -toViewer.y, toViewer.z});
         const bool onlyLobes = i % 7 == 0;
         const SeenArea area(light, glm::dvec3(0.0));

@@ -127,6 +127,7 @@ Light areaLight(LightType type) {
     light.type = type;
     light.widthMetres = 2.0f;
     light.heightMetres = 2.0f;
+    for (glm::vec2& corner : light.corners.metres) corner *= 2.0f;
     light.lengthMetres = 2.0f;
     light.radiusMetres = type == LightType::Tube ? 0.5f : 2.0f / std::sqrt(std::numbers::pi_v<float>);
     if (type == LightType::Tube) light.directionWS = {1, 0, 0};
@@ -140,7 +141,7 @@ TEST(ReferenceLight, theIrradianceOfASmallAreaLightGoesWithItsProjectedArea) {
         light.directionWS = {std::sin(angle), 0.0, -std::cos(angle)};
         return incidentAt(shining(light), {0, 0, 0}).irradiance.r;
     };
-    for (const LightType type : {LightType::Rectangle, LightType::Disk}) {
+    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
         Light light = areaLight(type);
         EXPECT_NEAR(at(light, 0.0), given(4.0), 1e-6) << "the radius is rounded to fp32";
         EXPECT_NEAR(at(light, 1.0), given(4.0 * std::cos(1.0)), 1e-6);
@@ -166,15 +167,15 @@ TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTole
     constexpr double kTolerance = 1e-3;
     Settings settings;
     settings.rangeTolerance = kTolerance;
-    for (int type = int(LightType::Rectangle); type <= int(LightType::Tube); ++type) {
+    for (int type = int(LightType::Rectangle); type <= int(LightType::Polygon); ++type) {
         Light light = areaLight(LightType(type));
         EXPECT_EQ(rangeOf(light, 3.0, 0.0), double(scenes::kInfinity));
         const double range = rangeOf(light, 3.0, kTolerance);
         EXPECT_DOUBLE_EQ(shining(light, settings).rangeMetres, range);
         // From there the whole light, were it no farther than its nearest place, gives just the tolerance.
-        const double bound = LightType(type) == LightType::Rectangle ? std::sqrt(2.0)
-                             : LightType(type) == LightType::Tube    ? std::sqrt(1.25)
-                                                                     : double(light.radiusMetres);
+        const double bound = scenes::infoOf(light.type).isTurned() ? std::sqrt(2.0)
+                             : light.type == LightType::Tube       ? std::sqrt(1.25)
+                                                                   : double(light.radiusMetres);
         const double area = LightType(type) == LightType::Tube ? 2.0 + std::numbers::pi / 4.0 : 4.0;
         EXPECT_NEAR(3.0 * area / std::pow(range - bound, 2), kTolerance, 1e-9) << type;
         EXPECT_NEAR(std::numbers::pi * std::pow(scenes::shadowRadiusMetres(light), 2), area, 1e-6) << type;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,8 @@ namespace {
 
 using scenes::LightType;
 
-constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube};
+constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
+                                 LightType::Polygon};
 
 ShiningLight lamp(LightType type) {
     ShiningLight shining;
@@ -42,6 +44,21 @@ double distanceTo(const ShiningLight& shining, const glm::dvec3& placeRWS) {
     case LightType::Tube: {
         const double beyond = std::abs(along) - 0.5 * double(light.lengthMetres), aside = away - radius;
         return std::min(std::max(beyond, aside), 0.0) + std::hypot(std::max(beyond, 0.0), std::max(aside, 0.0));
+    }
+    case LightType::Polygon: {
+        const glm::dvec2 at(glm::dot(place, light.alongWS),
+                            glm::dot(place, glm::cross(light.directionWS, light.alongWS)));
+        const std::span<const glm::vec2> corners = light.corners.all();
+        double aside = std::numeric_limits<double>::infinity();
+        bool isWithin = false;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 a(corners[i]), edge = glm::dvec2(corners[(i + 1) % corners.size()]) - a;
+            const double share = std::clamp(glm::dot(at - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+            aside = std::min(aside, glm::distance(at, a + share * edge));
+            if ((a.y > at.y) != (a.y + edge.y > at.y) && at.x < a.x + edge.x * (at.y - a.y) / edge.y)
+                isWithin = !isWithin;
+        }
+        return std::hypot(along, isWithin ? 0.0 : aside);
     }
     default: {
         const double x = std::abs(glm::dot(place, light.alongWS)) - 0.5 * double(light.widthMetres);
@@ -77,13 +94,16 @@ TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
         camera.projection = i % 2 == 0 ? scenes::Projection::Perspective : scenes::Projection::Orthographic;
         camera.halfHeightMetres = 2.0;
         camera.worldFromCamera = scenes::worldFromLookAt(glm::dvec3(0.0), random.direction());
-        ShiningLight light = lamp(kShapes[i / 2 % 4]);
+        ShiningLight light = lamp(kShapes[i / 2 % 5]);
         light.light.isTwoSided = true;
         light.light.directionWS = random.direction();
         light.light.alongWS = random.around(light.light.directionWS, 0.0, 0.0);
         for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
                                              &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
             light.light.*metres = float(random.logarithmic(0.1, 3.0));
+        light.light.corners.metres[2] = {-0.2f, 0.0f}; // points inwards
+        for (glm::vec2& corner : light.light.corners.metres)
+            corner *= glm::vec2(light.light.widthMetres, light.light.heightMetres);
         light.positionRWS = glm::dmat3(camera.worldFromCamera) *
                             glm::dvec3(random.between(-1.0, 1.0), random.between(-1.0, 1.0), -random.between(4.0, 9.0));
         const CameraRays rays(camera, {64, 64});
@@ -130,6 +150,7 @@ TEST_F(ReferenceLightInView, onlyFrontsAndOutsidesBetweenThePlanesAreMet) {
         EXPECT_FALSE(met({light}));
         light = lamp(type);
         light.light.radiusMetres = light.light.widthMetres = 0.0f;
+        for (glm::vec2& corner : light.light.corners.metres) corner *= 1e-7f;
         EXPECT_FALSE(met({light}));
         light = lamp(type);
         light.light.directionWS.z = -1.0;
