@@ -56,6 +56,38 @@ glm::dvec2 middleOf(const LightCorners& corners) {
     return area == 0.0 ? first : first + sum / area;
 }
 
+std::vector<std::array<std::uint8_t, 3>> trianglesOf(const LightCorners& corners) {
+    const std::span<const glm::vec2> all = corners.all();
+    const int around = signedArea(corners) < 0.0 ? -1 : 1;
+    const auto turn = [&](std::uint8_t a, std::uint8_t b, std::uint8_t c) {
+        return around * turnOf(glm::dvec2(all[a]), glm::dvec2(all[b]), glm::dvec2(all[c]));
+    };
+    std::vector<std::uint8_t> left;
+    for (std::size_t i = 0; i < all.size(); ++i) left.push_back(std::uint8_t(i));
+    std::vector<std::array<std::uint8_t, 3>> triangles;
+    // An ear is a corner that points outwards and whose triangle with its neighbours holds no other corner.
+    while (left.size() > 3) {
+        std::size_t ear = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            const std::uint8_t a = left[(i + left.size() - 1) % left.size()], b = left[i],
+                               c = left[(i + 1) % left.size()];
+            const bool isFree = std::ranges::none_of(left, [&](std::uint8_t other) {
+                return other != a && other != b && other != c && turn(a, b, other) >= 0 && turn(b, c, other) >= 0 &&
+                       turn(c, a, other) >= 0;
+            });
+            // One on a straight edge takes nothing away.
+            if (turn(a, b, c) == 0 || (turn(a, b, c) > 0 && isFree)) {
+                ear = i;
+                break;
+            }
+        }
+        triangles.push_back({left[(ear + left.size() - 1) % left.size()], left[ear], left[(ear + 1) % left.size()]});
+        left.erase(left.begin() + std::ptrdiff_t(ear));
+    }
+    if (left.size() == 3) triangles.push_back({left[0], left[1], left[2]});
+    return triangles;
+}
+
 std::string cornersProblem(const LightCorners& corners) {
     const std::size_t count = corners.count;
     if (count < LightCorners::kLeast || count > LightCorners::kMost)

@@ -1,6 +1,9 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scenes/Light.h"
 
@@ -16,6 +19,10 @@ double signedArea(const LightCorners& corners);
 
 /// The middle of the area within an outline, in metres as its corners.
 glm::dvec2 middleOf(const LightCorners& corners);
+
+/// The numbers of the corners of triangles that cover an outline once; on straight edges some have no area. Of corners
+/// that make no outline (cornersProblem()) any triangles.
+std::vector<std::array<std::uint8_t, 3>> trianglesOf(const LightCorners& corners);
 
 /// What keeps corners from being the outline of an area: too few or too many, corners too far out or in one place,
 /// edges that cross, touch or fold back; empty where nothing does. It follows "its corners". Corners count from 0.

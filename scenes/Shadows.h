@@ -7,12 +7,12 @@
 /// either of its sides. Transparent surfaces hide none from others. The triangle that a point lies on hides what lies
 /// on the other side of it than the viewer, whatever normal the point is lit with.
 ///
-/// What reaches a point of a light that casts shadows is the share, by area, of a disk that casters leave in sight: the
-/// disk around the light's position that faces the point, of Light::radiusMetres; or around the direction to the light,
-/// of Light::angularRadiusRadians. Where that is 0, all or nothing. The light that it shares out is that of the light
-/// without a size, and of an area light that of its surface without anything in the way. An area light's disk is as
-/// large as the largest area that its surface shows: near the truth for spheres, and for disks that face the point; an
-/// approximation for rectangles, tubes and disks seen from the side.
+/// What reaches a point of a light that casts shadows is the share, by area, of a surface that casters leave in sight:
+/// of a flat area light of its own, as large as it is; of other lights of the disk around the light's position that
+/// faces the point, of Light::radiusMetres, or around the direction to the light, of Light::angularRadiusRadians; of a
+/// tube of such disks, evenly along its axis. Where there is no size, all or nothing. The light that it shares out is
+/// that of the light without a size, and of an area light that of its surface without anything in the way. All of an
+/// area counts alike, also what is nearer. Shadow maps take every area light for the disk of shadowRadiusMetres().
 namespace tessera::scenes {
 
 /// Which of a scene's lights are to cast shadows.
@@ -31,8 +31,8 @@ struct ShadowRequest {
 /// Whether light `light` of the scene casts shadows.
 bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& request);
 
-/// The radius in metres of the disk that the shadows of a light with a position see: Light::radiusMetres, or of a
-/// rectangle and a tube that of the disk of the largest area that they show.
+/// The radius in metres of a disk that stands for a light with a position: Light::radiusMetres, or of a rectangle, a
+/// tube and a polygon that of the disk of the largest area that they show.
 double shadowRadiusMetres(const Light& light);
 
 /// Whether a light's shadows are soft.

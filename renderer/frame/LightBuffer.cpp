@@ -17,6 +17,7 @@ void addShape(std::vector<glm::vec4>& texels, const PackedLights& lights, const 
     const shared::LightCornerTexels corners = lights.corners.empty() ? shared::LightCornerTexels{} : lights.corners[i];
     texels.push_back(corners.outline);
     texels.insert(texels.end(), std::begin(corners.corners), std::end(corners.corners));
+    texels.insert(texels.end(), {corners.shareEnds, corners.lastEnd});
 }
 
 } // namespace

@@ -102,15 +102,33 @@ shared::LightCornerTexels packCorners(const scenes::Light& light) {
     shared::LightCornerTexels packed{};
     if (!scenes::infoOf(light.type).hasCorners()) return packed;
     const auto perMetre = 1.0 / double(float(scenes::surfaceReachMetres(light)));
-    const std::span<const glm::vec2> corners = light.corners.all();
-    packed.outline = glm::vec4(glm::vec2(scenes::middleOf(light.corners) * perMetre), float(corners.size()), 0.0f);
-    const bool isClockwise = scenes::signedArea(light.corners) < 0.0;
+    scenes::LightCorners outline = light.corners; // counterclockwise
+    if (scenes::signedArea(outline) < 0.0)
+        std::reverse(outline.metres.begin(), outline.metres.begin() + std::ptrdiff_t(outline.count));
+    const std::span<const glm::vec2> corners = outline.all();
+    packed.outline = glm::vec4(glm::vec2(scenes::middleOf(outline) * perMetre), float(corners.size()), 0.0f);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::vec2 corner(glm::dvec2(corners[isClockwise ? corners.size() - 1 - i : i]) * perMetre);
+        const glm::vec2 corner(glm::dvec2(corners[i]) * perMetre);
         glm::vec4& two = packed.corners[i / 2];
         (i % 2 == 0 ? two.x : two.z) = corner.x;
         (i % 2 == 0 ? two.y : two.w) = corner.y;
     }
+    const auto triangles = scenes::trianglesOf(outline);
+    const double area = scenes::signedArea(outline);
+    std::array<float, 5> ends{1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
+    std::array<int, 3> numbers{};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const auto [a, b, c] = triangles[i];
+        scenes::LightCorners triangle;
+        triangle.count = 3;
+        triangle.metres = {corners[a], corners[b], corners[c]};
+        sum += area > 0.0 ? scenes::signedArea(triangle) / area : 0.0;
+        if (i + 1 < triangles.size()) ends[i] = std::min(float(sum), 1.0f);
+        numbers[i / 2] |= (a | b << 3 | c << 6) << (i % 2 == 0 ? 0 : 9);
+    }
+    packed.shareEnds = {ends[0], ends[1], ends[2], ends[3]};
+    packed.lastEnd = {ends[4], float(numbers[0]), float(numbers[1]), float(numbers[2])};
     return packed;
 }
 static_assert(sizeof(shared::LightCornerTexels) == LIGHT_CORNER_TEXELS * sizeof(glm::vec4));

@@ -16,7 +16,7 @@
 
 #define LIGHT_TEXELS 2
 #define LIGHT_SHAPE_TEXELS 2
-#define LIGHT_CORNER_TEXELS 5
+#define LIGHT_CORNER_TEXELS 7
 #define LIGHT_SHADOW_TEXELS 1
 
 // Round outlines are drawn with straight edges of the same area, whose vertices lie at most so many times as far out
@@ -55,12 +55,17 @@ struct LightShapeTexels {
 struct LightCornerTexels {
     vec4 outline;    // xy the middle of its area, z how many corners
     vec4 corners[4]; // xy one and zw the next
+    // Up to six triangles that cover it once, for places all over it: the shares of its area with which the first five
+    // end, then the numbers of two triangles' corners each, of which each takes 3 bits, from the lowest.
+    vec4 shareEnds;
+    vec4 lastEnd; // x the fifth, yzw the numbers
 };
 
 struct LightShadowTexels {
-    vec4 shadow; // x radius in metres of the disk that shadows see; of a light without a position the tangent of its
-                 // angular radius; y index into Scene::lights; z the texel where its first face (shadow_maps.h) begins,
-                 // 0 without one; w metres by which rounding may move a surface against its faces
+    vec4 shadow; // x radius in metres of the disk that stands for it in shadows; of a light without a position the
+                 // tangent of its angular radius; y index into Scene::lights; z the texel where its first face
+                 // (shadow_maps.h) begins, 0 without one; w metres by which rounding may move a surface against its
+                 // faces
 };
 
 // The unit direction in which the light of a cone travels.

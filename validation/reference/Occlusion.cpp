@@ -1,12 +1,15 @@
 #include "validation/reference/Occlusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Shadows.h"
 #include "validation/reference/MaterialAt.h"
+#include "validation/reference/SeenArea.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/Trees.h"
 
@@ -141,6 +144,75 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
 
 } // namespace
 
+/// What shadows see of a light with a size (scenes/Shadows.h), from its middle.
+class ShadowFace {
+public:
+    /// `ahead` is the unit way to the light, `radius` that of a disk that faces the point.
+    ShadowFace(const scenes::Light& light, const glm::dvec3& ahead, double radius)
+        : type_(light.type), radius_(radius), reach_(radius), area_(std::numbers::pi * radius * radius) {
+        x_ = glm::normalize(
+            glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+        y_ = glm::cross(x_, ahead);
+        const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+        if (!info.isArea || light.type == scenes::LightType::Sphere) return;
+        reach_ = scenes::surfaceReachMetres(light);
+        axis_ = light.directionWS;
+        if (light.type == scenes::LightType::Tube) {
+            radius_ = double(light.radiusMetres);
+            halfLength_ = 0.5 * double(light.lengthMetres);
+            return;
+        }
+        isFlat_ = true;
+        x_ = info.isTurned() ? light.alongWS
+                             : glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0)
+                                                                                        : glm::dvec3(0.0, 1.0, 0.0)));
+        y_ = glm::cross(axis_, x_);
+        sidesMetres_ = {light.widthMetres, light.heightMetres};
+        if (info.hasCorners()) triangles_ = trianglesWithin(light.corners);
+    }
+
+    /// In a ring, or of what is not round a column, of so many of equal area, by the share of the way round or up and a
+    /// third number from 0 to 1: of the way along a tube, or across a column.
+    glm::dvec3 at(int ring, int rings, double turn, double third) const {
+        const double column = (ring + third) / rings;
+        if (!triangles_.empty()) return inPlane(inTriangles(column * area_, turn));
+        if (type_ == scenes::LightType::Rectangle) return inPlane((glm::dvec2(column, turn) - 0.5) * sidesMetres_);
+        const double angle = 2.0 * std::numbers::pi * turn, share = std::sqrt((ring + 0.5) / rings);
+        return inPlane(radius_ * share * glm::dvec2(std::cos(angle), std::sin(angle))) +
+               (2.0 * third - 1.0) * halfLength_ * axis_;
+    }
+
+    double reachMetres() const { return reach_; }
+    /// The most of its area, as a share, that a strip of its plane of so many metres can hold that another plane with
+    /// this normal cuts out of space.
+    double shareOfCut(double metres, const glm::dvec3& normal) const {
+        if (halfLength_ > 0.0) return std::min(2.0 * metres / (std::numbers::pi * radius_), 1.0);
+        const double sine = isFlat_ ? glm::length(glm::cross(axis_, normal)) : 1.0;
+        return std::min(2.0 * reach_ * metres / (area_ * std::max(sine, 1e-12)), 1.0);
+    }
+
+private:
+    glm::dvec3 inPlane(const glm::dvec2& place) const { return place.x * x_ + place.y * y_; }
+
+    /// Where so many square metres of the triangles end.
+    glm::dvec2 inTriangles(double squareMetres, double turn) const {
+        for (const auto& [a, b, c] : triangles_) {
+            const double area = 0.5 * std::abs(glm::determinant(glm::dmat2(b - a, c - a)));
+            if (squareMetres < area) return a + std::sqrt(squareMetres / area) * (glm::mix(b, c, turn) - a);
+            squareMetres -= area;
+        }
+        return triangles_.back()[1];
+    }
+
+    scenes::LightType type_;
+    glm::dvec3 x_{0.0}, y_{0.0}, axis_{0.0};
+    glm::dvec2 sidesMetres_{0.0};
+    double radius_, halfLength_ = 0.0;
+    double reach_, area_; ///< the largest that it shows
+    bool isFlat_ = false;
+    std::vector<std::array<glm::dvec2, 3>> triangles_; ///< of a polygon
+};
+
 struct Occlusion::Casters {
     Textures textures;           ///< a shadow has no size in pixels, so level 0 counts
     Anchor anchor;               ///< Embree's origin: the digits are where the pixels look
@@ -271,10 +343,6 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
         isPlaced ? scenes::shadowRadiusMetres(light.light) : std::tan(double(light.light.angularRadiusRadians));
     // Past all casters, where the light has no place.
     const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0;
-    const glm::dvec3 ahead = toLight / distance;
-    const glm::dvec3 aside = glm::normalize(
-        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-    const glm::dvec3 up = glm::cross(aside, ahead);
     const OwnTriangle ownTriangle(hit, toViewer);
     const bool wraps = surface.wrap != glm::dvec3(0.0);
     const OwnTriangle* const own = wraps ? nullptr : &ownTriangle;
@@ -287,17 +355,19 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     double halves[2] = {0.0, 0.0}; // of every other ray
     // The outline of an area is cut at the surface already, so only what lies before the own triangle counts.
     const bool isCut = own && scenes::infoOf(light.light.type).isArea;
-    double counted = 0.0; // the share of the disk
+    const ShadowFace face(light.light, toLight / distance, radius);
+    double counted = 0.0; // the share of the face
     const auto trace = [&](int rings) {
         halves[0] = halves[1] = 0.0;
         const int sectors = 4 * rings;
         int rays = 0;
         for (int ring = 0; ring < rings; ++ring) {
-            const double share = std::sqrt((ring + 0.5) / rings);
             for (int sector = 0; sector < sectors; ++sector) {
                 // Rings are turned against each other, so that no straight edge meets many samples at once.
-                const double angle = 2.0 * std::numbers::pi * (sector + 0.6180339887498949 * ring) / sectors;
-                const glm::dvec3 place = toLight + radius * share * (std::cos(angle) * aside + std::sin(angle) * up);
+                const auto fraction = [](double value) { return value - std::floor(value); };
+                const double turn = fraction((sector + 0.6180339887498949 * ring) / sectors);
+                const double third = fraction(0.7548776662466927 * (ring * sectors + sector + 0.5));
+                const glm::dvec3 place = toLight + face.at(ring, rings, turn, third);
                 if (isCut && own->hides(place)) continue;
                 ++rays;
                 halves[(ring + sector) % 2] +=
@@ -329,11 +399,11 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
         stray = 1.0;
         sum.isUndecided = true;
     }
-    // The own triangle's plane may cut the disk elsewhere: by the length of the chord there, at most its diameter.
+    // The own triangle's plane may cut the face elsewhere: by the length of the chord there, at most its diameter.
     const double metres = pointMetres + casters.leewayMetres(isPlaced, light, pointMetres, distance * reach);
-    const double cut = ownTriangle.leewayRadians * distance + metres / reach;
-    if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= radius + cut) {
-        const double share = 2.0 * cut / (std::numbers::pi * radius) / std::max(counted, 1e-9);
+    const double cut = ownTriangle.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
+    if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
+        const double share = face.shareOfCut(cut, own->normal) / std::max(counted, 1e-9);
         stray += share;
         sum.isUndecided = sum.isUndecided || share > kDecisiveShare;
     }

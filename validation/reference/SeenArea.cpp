@@ -28,9 +28,11 @@ bool isInTriangle(const glm::dvec2& place, const FlatCorners& triangle) {
     return left == 0 || right == 0;
 }
 
-/// Triangles that cover an outline once: corners whose triangle with their neighbours holds no other corner are cut off
-/// one by one. Of every simple outline there is one (Meisters 1975, "Polygons have ears").
-std::vector<FlatCorners> trianglesOf(const scenes::LightCorners& corners) {
+} // namespace
+
+/// Corners whose triangle with their neighbours holds no other corner are cut off one by one. Of every simple outline
+/// there is one (Meisters 1975, "Polygons have ears").
+std::vector<FlatCorners> trianglesWithin(const scenes::LightCorners& corners) {
     std::vector<glm::dvec2> left(corners.all().begin(), corners.all().end());
     double turn = 0.0;
     for (std::size_t i = 0; i < left.size(); ++i) turn += crossOf(left[i], left[(i + 1) % left.size()]);
@@ -57,8 +59,6 @@ std::vector<FlatCorners> trianglesOf(const scenes::LightCorners& corners) {
     triangles.push_back({left[0], left[1], left[2]});
     return triangles;
 }
-
-} // namespace
 
 SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const scenes::Light& light = shining.light;
@@ -117,7 +117,7 @@ void SeenArea::addTube(const glm::dvec3& middle, const scenes::Light& light) {
 
 void SeenArea::addPolygon(const glm::dvec3& middle, const scenes::Light& light, const glm::dvec3& front) {
     const Frame frame{light.alongWS, glm::cross(light.directionWS, light.alongWS), front};
-    for (const FlatCorners& triangle : trianglesOf(light.corners)) {
+    for (const FlatCorners& triangle : trianglesWithin(light.corners)) {
         Patch& patch = patches_.emplace_back();
         patch.shape = Shape::Triangle;
         patch.middle = middle + triangle[0].x * frame.x + triangle[0].y * frame.y;

@@ -8,6 +8,9 @@
 
 namespace tessera::reference {
 
+/// Triangles that cover an outline once, in metres from the light's position.
+std::vector<std::array<glm::dvec2, 3>> trianglesWithin(const scenes::LightCorners& corners);
+
 /// The part of an area light that shines at a point, in patches over unit squares. Solids shine from outside alone, and
 /// no direction meets two patches. As a strategy it is even over the area of its patches, over the solid angle of a
 /// sphere; with it sampled() integrates what is too ragged for cubature, as a light behind casters.

@@ -10,6 +10,12 @@ vec2 shadowRandom(vec2 pixel, float sceneIndex)
     return unitOf(hashOf(uvec3(uvec2(pixel), uint(sceneIndex))).xy);
 }
 
+// A third one, for what is not flat.
+float thirdShadowRandom(vec2 pixel, float sceneIndex)
+{
+    return unitOf(hashOf(uvec3(uvec2(pixel), uint(sceneIndex))).zz).x;
+}
+
 // Place i of SHADOW_SAMPLES on the unit disk.
 vec2 diskPlace(int i, vec2 random)
 {

@@ -1,11 +1,11 @@
-// Shadows by rays from a point to the light, or to a few places on its disk.
+// Shadows by rays from a point to the light, or to a few places on its surface.
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "lib/shadow/caster_walk.glsl"
 #include "lib/shadow/own_triangle.glsl"
 
 #if HAS_SOFT_SHADOWS
-#include "lib/shadow/disk_samples.glsl"
+#include "lib/shadow/surface_samples.glsl"
 #endif
 
 // 0 where something hides what is at that place, else 1. `behind` grows by 1 where the point's own triangle does.
@@ -54,15 +54,16 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, vec3 facetNo
     int rays = shadow.x > 0.0 ? SHADOW_SAMPLES : 1;
     precise vec3 ahead = toLight * (1.0 / sqrt(max(dot(toLight, toLight), 1e-37)));
     precise vec3 aside = abs(ahead.x) < 0.6 ? vec3(0.0, ahead.z, -ahead.y) : vec3(-ahead.z, 0.0, ahead.x);
-    precise vec3 across = aside * (shadow.x / max(length(aside), 1e-18));
+    precise vec3 across = aside / max(length(aside), 1e-18);
     precise vec3 up = cross(ahead, across);
+    ShadowSurface surface = shadowSurface(index, isCut, shadow.x, across, up);
     vec2 random = shadowRandom(viewpoint.pixel, shadow.y);
+    float third = thirdShadowRandom(viewpoint.pixel, shadow.y);
     precise float seen = 0.0;
     int i = 0;
     for (; i < rays; ++i) {
-        vec2 place = diskPlace(i, random);
-        precise vec3 toDisk = toLight + place.x * across + place.y * up;
-        seen += visibilityOf(reach * toDisk, lightRounding, facetNormal, triangleHides, viewpoint.positionLS,
+        precise vec3 toSurface = toLight + surfacePlace(surface, i, random, third);
+        seen += visibilityOf(reach * toSurface, lightRounding, facetNormal, triangleHides, viewpoint.positionLS,
                              behind);
     }
     if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()

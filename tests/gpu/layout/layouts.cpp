@@ -142,9 +142,10 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
     lights.corners.resize(LIGHT_UNIFORM_LIGHTS);
     float next = 0.0f;
     for (std::size_t i = 0; i < lights.texels.size(); ++i)
-        for (glm::vec4* member : {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
-                                  &lights.shapes[i].attenuation, &lights.corners[i].outline,
-                                  &lights.corners[i].corners[0], &lights.corners[i].corners[3]})
+        for (glm::vec4* member :
+             {&lights.texels[i].position, &lights.texels[i].color, &lights.shapes[i].axis,
+              &lights.shapes[i].attenuation, &lights.corners[i].outline, &lights.corners[i].corners[0],
+              &lights.corners[i].corners[3], &lights.corners[i].shareEnds, &lights.corners[i].lastEnd})
             for (int k = 0; k < 4; ++k) (*member)[k] = next++;
     for (const scenes::LightType type : {scenes::LightType::Spot, scenes::LightType::Polygon}) {
         const bool hasCorners = type == scenes::LightType::Polygon;
@@ -174,6 +175,8 @@ TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {
                 EXPECT_EQ(out[each * i + 4], lights.corners[i].outline);
                 EXPECT_EQ(out[each * i + 5], lights.corners[i].corners[0]);
                 EXPECT_EQ(out[each * i + 8], lights.corners[i].corners[3]);
+                EXPECT_EQ(out[each * i + 9], lights.corners[i].shareEnds);
+                EXPECT_EQ(out[each * i + 10], lights.corners[i].lastEnd);
             }
         }
     }

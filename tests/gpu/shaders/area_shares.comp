@@ -1,5 +1,5 @@
 // What a clamped cosine that a matrix transforms sees of area lights; the normal is z. In: (middle from the point, type),
-// LightShapeTexels' two, LightCornerTexels' five, the three columns of the matrix. Out: (share, edges of the outline, 0, 0).
+// LightShapeTexels' two, LightCornerTexels' seven, the three columns of the matrix. Out: (share, edges of the outline, 0, 0).
 #include "shared/light.h"
 
 #define HAS_OTHER_LIGHT_STORE

@@ -11,6 +11,7 @@
 
 #include "renderer/frame/Features.h"
 #include "scenes/Scene.h"
+#include "shaders/shared/light.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"
 
@@ -43,7 +44,7 @@ double twiceAreaOf(const std::vector<glm::vec2>& corners) {
 
 /// As LightCornerTexels, and the share of the product of both vectors that is within the corners.
 struct PackedOutline {
-    std::array<glm::vec4, 5> texels{};
+    std::array<glm::vec4, LIGHT_CORNER_TEXELS> texels{}; // without its triangles, which shadows alone need
     float areaShare = 0.0f;
 };
 

@@ -107,6 +107,13 @@ TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockw
     EXPECT_LT(glm::distance(glm::dvec2(corners.outline), scenes::middleOf(light.corners) / 2.0), 1e-7);
     EXPECT_EQ(corners.corners[0], glm::vec4(0.75f, 0.0f, 0.5f, 0.25f));
     EXPECT_EQ(corners.corners[1], glm::vec4(0.0f, 1.0f, 0.0f, 0.0f));
+    // The corner that points inwards is in both triangles.
+    EXPECT_GT(corners.shareEnds.x, 0.0f);
+    EXPECT_LT(corners.shareEnds.x, 1.0f);
+    EXPECT_EQ(corners.shareEnds.y, 1.0f);
+    const auto numbers = int(corners.lastEnd.y);
+    for (const int triangle : {numbers & 511, numbers >> 9})
+        EXPECT_TRUE((triangle & 7) == 1 || (triangle >> 3 & 7) == 1 || (triangle >> 6) == 1) << triangle;
     EXPECT_EQ(packed.corners[1].outline, glm::vec4(0.0f)) << "a disk has none";
     const std::size_t with = texelsOf(packed, packed.features).size();
     EXPECT_EQ(with, 2 * std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS));

@@ -61,6 +61,35 @@ TEST(LightCorners, haveTheAreaAndTheMiddleOfTheirOutline) {
     EXPECT_LT(glm::distance(middleOf(other), middleOf(ell) + glm::dvec2(100.0, -50.0)), 1e-12);
 }
 
+TEST(LightCorners, areCoveredOnceByTheirTriangles) {
+    tessera::test::Random random(6);
+    for (const LightCorners& corners :
+         {cornersOf({{0, 0}, {1, 0}, {0, 1}}), cornersOf({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}),
+          cornersOf({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 0.25f}, {0, 1}}), // one on a straight edge
+          cornersOf({{0, 3}, {1, 3}, {1, 1}, {2, 1}, {2, 3}, {3, 3}, {3, 0}, {0, 0}})}) {
+        const auto triangles = trianglesOf(corners);
+        EXPECT_EQ(triangles.size(), corners.count - 2);
+        const auto holds = [](const LightCorners& outline, const glm::dvec2& place) {
+            bool isWithin = false;
+            for (std::size_t i = 0; i < outline.count; ++i) {
+                const glm::dvec2 a(outline.metres[i]), b(outline.metres[(i + 1) % outline.count]);
+                if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y))
+                    isWithin = !isWithin;
+            }
+            return isWithin;
+        };
+        for (int i = 0; i < 2000; ++i) {
+            const glm::dvec2 place(random.between(-0.5, 3.5), random.between(-0.5, 3.5));
+            const auto covering = std::ranges::count_if(triangles, [&](const std::array<std::uint8_t, 3>& triangle) {
+                return holds(
+                    cornersOf({corners.metres[triangle[0]], corners.metres[triangle[1]], corners.metres[triangle[2]]}),
+                    place);
+            });
+            ASSERT_EQ(covering, holds(corners, place) ? 1 : 0) << place.x << ", " << place.y;
+        }
+    }
+}
+
 TEST(LightCorners, whatIsNoOutlineIsNamed) {
     for (const auto& [corners, problem] : {
              std::pair{cornersOf({{0, 0}, {1, 0}, {0, 1}}), ""},
@@ -131,7 +160,7 @@ double solidAngleFrom(const Light& light, const glm::dvec3& from) {
                                       glm::cross(axis, light.alongWS) * ((t - 0.5) * double(light.heightMetres));
                 add(at, axis, largestSeenArea(light) * piece);
                 add(at, -axis, largestSeenArea(light) * piece);
-            } else if (light.type == LightType::Polygon) { // hollowed: two triangles, at its first corner side by side
+            } else if (light.type == LightType::Polygon) { // two triangles from its first corner
                 const std::span<const glm::vec2> corners = light.corners.all();
                 for (const std::size_t k : {1u, 2u}) {
                     const glm::dvec2 first(corners[0]), a = glm::dvec2(corners[k]) - first,

@@ -216,28 +216,37 @@ TEST(ReferenceRender, aSurfaceShowsAnAreaLightAndTheErrorOfItsIntegralIsTold) {
     EXPECT_TRUE(rendered.alternatives[0].empty());
 }
 
-TEST(ReferenceRender, ofAnAreaLightTheShareOfTheDiskThatFacesAPointReachesIt) {
+TEST(ReferenceRender, ofAFlatLightTheShareOfItsSurfaceThatIsInSightReachesAPoint) {
     scenes::Scene scene;
     const Settings settings = settingsUnderASphere(scene);
     scenes::Light& light = scene.lights.front();
-    light.type = scenes::LightType::Rectangle;
     light.widthMetres = 0.4f;
     light.heightMetres = 0.1f;
-    const double whole = render(scene, settings).radiance[0].g;
-    ASSERT_GT(whole, 0.0);
-    // A triangle half way to the light hides what lies beyond a straight edge, in the light's plane 4 cm from the
-    // middle of a disk as large as the light.
+    light.radiusMetres = 0.1f;
+    for (glm::vec2& corner : light.corners.metres) corner *= glm::vec2(0.4f, 0.1f);
+    // A triangle half way to the light hides what lies beyond a straight edge, in the light's plane 4 cm from its
+    // middle.
     scenes::Mesh& mesh = scene.meshes.emplace_back(scene.meshes.front());
-    mesh.positionsOS = {{0.52f, -50.0f, 1.0f}, {50.0f, 1.0f, 1.0f}, {0.52f, 50.0f, 1.0f}};
-    scene.nodes.front().instances.push_back({1, 0});
-    const Rendered part = render(scene, settings);
-    const double t = 0.04 / std::sqrt(0.04 / std::numbers::pi);
-    const double hidden = (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
-    // Rays of 64 rings, as far apart as a hundredth of the disk along the edge.
-    EXPECT_NEAR(part.radiance[0].g, (1.0 - hidden) * whole, 2e-3 * whole);
-    EXPECT_EQ(part.areaLights[0].light, part.radiance[0]);
-    scene.meshes[1].positionsOS[0].x = scene.meshes[1].positionsOS[2].x = 0.4f;
-    EXPECT_EQ(render(scene, settings).radiance[0], glm::dvec3(0.0));
+    const double t = 0.4;
+    const double ofDisk = (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi, ofRectangle = 0.16 / 0.4;
+    for (const auto& [type, hidden] : {std::pair{scenes::LightType::Rectangle, ofRectangle},
+                                       {scenes::LightType::Polygon, ofRectangle},
+                                       {scenes::LightType::Disk, ofDisk},
+                                       {scenes::LightType::Sphere, ofDisk}}) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        light.type = type;
+        scene.nodes.front().instances.resize(1);
+        const double whole = render(scene, settings).radiance[0].g;
+        ASSERT_GT(whole, 0.0);
+        mesh.positionsOS = {{0.52f, -50.0f, 1.0f}, {50.0f, 1.0f, 1.0f}, {0.52f, 50.0f, 1.0f}};
+        scene.nodes.front().instances.push_back({1, 0});
+        const Rendered part = render(scene, settings);
+        // Rays of 64 rings, as far apart as a hundredth of the surface along the edge.
+        EXPECT_NEAR(part.radiance[0].g, (1.0 - hidden) * whole, 2e-3 * whole);
+        EXPECT_EQ(part.areaLights[0].light, part.radiance[0]);
+        mesh.positionsOS[0].x = mesh.positionsOS[2].x = 0.39f;
+        EXPECT_EQ(render(scene, settings).radiance[0], glm::dvec3(0.0));
+    }
 }
 
 TEST(ReferenceRender, idsOfTransparentTrianglesStayBelowTheirBound) {

@@ -1,0 +1,103 @@
+// Places that stand for the surface of a light (scenes/Shadows.h), metres from its middle in world axes.
+#pragma once
+#include "lib/light/light_store.glsl"
+#include "lib/shadow/disk_samples.glsl"
+
+// Of a light whose shadows see a disk, radii at right angles that face the point; of a flat area light the vectors of its
+// plane; of a tube radii of its disks, and half of its axis.
+struct ShadowSurface {
+    int light, type;
+    vec3 right, up, axis;
+};
+
+ShadowSurface shadowSurface(int light, bool isArea, float radius, vec3 right, vec3 up)
+{
+    precise vec3 diskRight = radius * right, diskUp = radius * up;
+    ShadowSurface surface = ShadowSurface(light, -1, diskRight, diskUp, vec3(0.0));
+#if HAS_AREA_LIGHTS
+    if (isArea) {
+        surface.type = int(lightTexel(light, 1).w) & LIGHT_TYPE_MASK;
+        vec4 first = lightShapeTexel(light, 0), second = lightShapeTexel(light, 1);
+        precise vec3 along = mat3(view.worldFromLS) * first.xyz;
+        precise vec3 across = mat3(view.worldFromLS) * second.xyz;
+        if (surface.type == LIGHT_TUBE) {
+            precise vec3 tubeRight = first.w * right, tubeUp = first.w * up;
+            surface.right = tubeRight;
+            surface.up = tubeUp;
+            surface.axis = along;
+        } else if (surface.type != LIGHT_SPHERE) {
+            surface.right = along;
+            surface.up = across;
+        }
+    }
+#endif
+    return surface;
+}
+
+#if HAS_AREA_LIGHTS
+// Place i of SHADOW_SAMPLES in the unit square: one in each of so many columns, rows a golden share apart, all shifted by
+// the same random numbers.
+vec2 squarePlace(int i, vec2 random)
+{
+    precise float column = (float(i) + random.y) * (1.0 / float(SHADOW_SAMPLES));
+    precise float row = fract(random.x + 0.61803399 * float(i));
+    return vec2(min(column, 0.99999994), row);
+}
+#endif
+
+#if HAS_POLYGON_LIGHTS
+vec2 lightCorner(int light, int number)
+{
+    vec4 two = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 1 + number / 2);
+    return (number & 1) == 0 ? two.xy : two.zw;
+}
+
+// In the triangle that a place of the unit square falls to by its column.
+vec2 polygonPlace(int light, vec2 place)
+{
+    vec4 first = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 5), second = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 6);
+    int triangle = int(place.x >= first.x) + int(place.x >= first.y) + int(place.x >= first.z) + int(place.x >= first.w)
+                   + int(place.x >= second.x);
+    float begin = triangle == 0 ? 0.0 : first[clamp(triangle, 1, 4) - 1];
+    if (triangle == 5) begin = second.x;
+    float end = triangle < 4 ? first[triangle] : triangle == 4 ? second.x : 1.0;
+    int numbers = int(triangle < 2 ? second.y : triangle < 4 ? second.z : second.w);
+    if ((triangle & 1) == 1) numbers >>= 9;
+    vec2 a = lightCorner(light, numbers & 7), b = lightCorner(light, (numbers >> 3) & 7),
+         c = lightCorner(light, (numbers >> 6) & 7);
+    precise float root = sqrt(clamp((place.x - begin) / max(end - begin, 1e-18), 0.0, 1.0));
+    precise vec2 opposite = b + place.y * (c - b);
+    precise vec2 inTriangle = a + root * (opposite - a);
+    return inTriangle;
+}
+#endif
+
+// Place i of SHADOW_SAMPLES. Source of the step along a tube: Roberts 2018, "The Unreasonable Effectiveness of
+// Quasirandom Sequences".
+vec3 surfacePlace(ShadowSurface surface, int i, vec2 random, float third)
+{
+    vec2 place;
+    float along = 0.0;
+#if HAS_AREA_LIGHTS
+    if (surface.type == LIGHT_RECTANGLE) {
+        precise vec2 inSquare = 2.0 * squarePlace(i, random) - 1.0;
+        place = inSquare;
+    } else
+#endif
+#if HAS_POLYGON_LIGHTS
+    if (surface.type == LIGHT_POLYGON) {
+        place = polygonPlace(surface.light, squarePlace(i, random));
+    } else
+#endif
+    {
+        place = diskPlace(i, random);
+    }
+#if HAS_TUBE_LIGHTS
+    if (surface.type == LIGHT_TUBE) {
+        precise float onAxis = 2.0 * fract(third + 0.75487767 * float(i)) - 1.0;
+        along = onAxis;
+    }
+#endif
+    precise vec3 metres = place.x * surface.right + place.y * surface.up + along * surface.axis;
+    return metres;
+}
