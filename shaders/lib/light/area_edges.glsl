@@ -47,8 +47,12 @@ float closingPart(vec3 a, vec3 b, float height)
 // Of such an edge: 1 along the way that a convex outline is closed, -1 against it.
 float closingTurn(vec3 a, vec3 b, vec2 way)
 {
+#if HAS_POLYGON_LIGHTS
     precise float along = dot(b.xy - a.xy, way);
     return along < 0.0 ? -1.0 : 1.0;
+#else
+    return 1.0; // all outlines are convex
+#endif
 }
 
 // Cuts an outline where it goes below a plane, and closes it there.

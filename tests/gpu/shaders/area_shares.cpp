@@ -217,6 +217,27 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
     }
 }
 
+/// Beside the rectangle, which is a line from 2e-3 on.
+TEST_F(AreaShares, aNarrowPolygonIsRightToItsDistanceOverItsWidth) {
+    for (const double width : {2e-5, 2e-4, 2e-3, 2e-2}) {
+        std::vector<SeenShape> rectangles, polygons;
+        for (int i = 0; i < 7; ++i) {
+            const glm::dvec3 middle(-0.4 + 0.13 * i, 0.2 * i - 0.5, 1.0 + 0.1 * i);
+            const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 0.3 + 0.2 * i, -0.1));
+            const glm::dvec3 across = 0.5 * width * glm::normalize(glm::cross(along, glm::dvec3(0.2, 0.4, 1.0)));
+            rectangles.push_back({LightType::Rectangle, middle, 0.5 * along, 0.0f, across});
+            polygons.push_back(
+                {LightType::Polygon, middle, 0.5 * along, 0.0f, across, true, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}});
+        }
+        for (const glm::mat3& matrix : kCosineMatrices) {
+            const std::vector<double> wanted = run(rectangles, matrix), shares = run(polygons, matrix);
+            for (std::size_t i = 0; i < shares.size(); ++i)
+                EXPECT_NEAR(shares[i] / wanted[i], 1.0, 1e-6 * double(glm::length(polygons[i].middle)) / width + 1e-4)
+                    << "width " << width << ", lobe " << &matrix - kCosineMatrices.data();
+        }
+    }
+}
+
 /// The part of a shape's plane between two places, in parts of its vectors.
 SeenShape rectangleWithin(const SeenShape& shape, const glm::dvec2& least, const glm::dvec2& most) {
     SeenShape part = shape;
