@@ -71,7 +71,7 @@ frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count)
                              : int(like.texels[chosen].color.w) & ~(LIGHT_BROAD | LIGHT_SHADOWED | LIGHT_SIX_FACES);
         lights.texels.push_back(lowerBoundLight(kind, i, count));
         lights.shapes.push_back(lowerBoundLightShape(frame::typeOf(lights.texels.back())));
-        if (lights.features[scenes::LightType::Polygon]) lights.corners.push_back(lowerBoundLightCorners());
+        lights.corners.push_back(lowerBoundLightCorners()); // read where lights are polygons
         lights.shadows.emplace_back();
     }
     return lights;
