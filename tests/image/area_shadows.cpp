@@ -170,5 +170,22 @@ TEST_F(AreaShadows, ofATubeAreWideAlongItAndNarrowAcrossIt) {
     EXPECT_LT(along / across, 10.0);
 }
 
+TEST_F(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
+    for (const LightType type :
+         {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube, LightType::Polygon}) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        scenes::Light light = lampOverTheFloor(type);
+        light.radiusMetres = 0.2f;
+        const scenes::Scene scene = floorUnderAPlate(light);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = kFloorPixels;
+        expectParity(renderer, settings, {engine::Technique::TiledDeferred, engine::Technique::ClusteredForward});
+        const std::vector<float> pruned = renderer.render(engine::Technique::Deferred, settings).radiance;
+        settings.prune = false;
+        EXPECT_EQ(engine::Renderer(context(), scene).render(engine::Technique::Deferred, settings).radiance, pruned);
+    }
+}
+
 } // namespace
 } // namespace tessera
