@@ -59,7 +59,8 @@ struct FloorShare {
 class AreaShadows : public test::ShadowTest {
 protected:
     std::vector<FloorShare> sharesOf(const scenes::Light& light, int samples) {
-        engine::Renderer renderer(context(), floorUnderAPlate(light));
+        const scenes::Scene scene = floorUnderAPlate(light);
+        engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = kFloorPixels;
         settings.view = frame::DebugView::Shadow;

@@ -167,6 +167,7 @@ TEST_F(LowerBoundTest, everyLightReachesEveryPixelFromTheFront) {
             frame::PackedLights one;
             one.texels = {lights.texels[i]};
             one.shapes = {lights.shapes[i]};
+            if (!lights.corners.empty()) one.corners = {lights.corners[i]};
             lighting.setLights(one);
             const std::vector<float> picture = draw(lighting, validation::lightStoreTable()[0]);
             ASSERT_GT(*std::min_element(picture.begin(), picture.end()), 0.0f);
