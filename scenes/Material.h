@@ -69,14 +69,19 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
-    float normalScale = 1.0f;              ///< scales x and y of a tangent-space normal texel
-    float occlusionStrength = 1.0f;        ///< 0..1, of the occlusion texture: 0 leaves it out
+    /// KHR_materials_transmission and _volume, metallic_roughness only (docs/glass.md).
+    float transmission = 0.0f;              ///< 0..1, the share of what enters that passes
+    float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: a sheet, which bends no light
+    glm::vec3 attenuationColor{1.0f};       ///< 0..1, what is left of white light after the distance
+    float attenuationDistanceMetres = 0.0f; ///< 0: the body absorbs nothing
+    float normalScale = 1.0f;               ///< scales x and y of a tangent-space normal texel
+    float occlusionStrength = 1.0f;         ///< 0..1, of the occlusion texture: 0 leaves it out
     NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
     TangentMethod tangents = TangentMethod::MikkTSpace;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
     bool doubleSided = false;
-    bool castsShadow = true; ///< from both sides; blended surfaces cast none (scenes/Shadows.h)
+    bool castsShadow = true; ///< from both sides; transparent surfaces cast none (scenes/Shadows.h)
     Subsurface subsurface;   ///< of lit models
     std::array<TextureUse, kTextureSlotCount> textures;
 
@@ -118,6 +123,11 @@ inline constexpr std::tuple kMaterialFields{
           kAnyNumber},
     Field{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
     Field{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
+    Field{"transmission", &Material::transmission, "the transmission", 0.0, 1.0},
+    Field{"thicknessMetres", &Material::thicknessMetres, "the thickness", 0.0, kAnyNumber},
+    Field{"attenuationColor", &Material::attenuationColor, "the attenuation's colour", 0.0, 1.0},
+    Field{"attenuationDistanceMetres", &Material::attenuationDistanceMetres, "the attenuation's distance", 0.0,
+          kAnyNumber},
     Field{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
     Field{"occlusionStrength", &Material::occlusionStrength, "the occlusion's strength", 0.0, 1.0},
     Field{"normalMapSpace", &Material::normalMapSpace},
@@ -189,7 +199,7 @@ struct MaterialModelInfo {
     float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
     Anisotropy anisotropy = Anisotropy::None;
-    bool hasLayers = false;       ///< emission, clearcoat and sheen, with what scene files and the viewer spell out
+    bool hasLayers = false; ///< emission, clearcoat, sheen and transmission, which scene files and the viewer spell out
     bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
 };
 
@@ -264,6 +274,16 @@ inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest
     const SubsurfaceMethod method = request.value_or(subsurface.method);
     const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);
     return method == SubsurfaceMethod::Wrap && !wraps ? SubsurfaceMethod::None : method;
+}
+
+/// Whether light passes through surfaces with the material.
+constexpr bool isTransmissive(const Material& material) {
+    return infoOf(material.model).hasLayers && material.transmission > 0.0f;
+}
+
+/// Whether they are drawn on top of what lies behind them, from far to near.
+constexpr bool isTransparent(const Material& material) {
+    return material.alphaMode == AlphaMode::Blend || isTransmissive(material);
 }
 
 /// Whether a material's lobe turns with the tangent.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -171,9 +172,8 @@ private:
 
 /// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
 std::string_view drawnInstead(std::string_view extension) {
-    const bool isTransparency = extension == "KHR_materials_transmission" || extension == "KHR_materials_volume" ||
-                                extension == "KHR_materials_diffuse_transmission";
-    return isTransparency ? "; its materials let through only what their alpha does" : "";
+    return extension == "KHR_materials_diffuse_transmission" ? "; its materials let through only what their alpha does"
+                                                             : "";
 }
 
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
@@ -182,6 +182,13 @@ void warnOfIgnoredFeatures(Context& context) {
     for (const std::string& extension : ignoredExtensions(context.document))
         context.warn(
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
+    if (std::ranges::find(model.extensionsUsed, "KHR_materials_dispersion") != model.extensionsUsed.end())
+        context.warn("KHR_materials_dispersion is approximated: its materials bend all colours alike");
+    for (std::size_t i = 0; i < model.materials.size(); ++i)
+        if (model.materials[i].hasUnreadTexture)
+            context.warn(fmt::format("textures of transmission and thickness are not supported; those of material {} "
+                                     "were ignored, and its factors hold everywhere",
+                                     i));
     if (!model.skins.empty()) context.warn("skins are not supported; skinned meshes keep their unskinned shape");
     if (!model.animations.empty()) context.warn("animations are not supported; nodes stay where they are");
     for (const model::Mesh& mesh : model.meshes)

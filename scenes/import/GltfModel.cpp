@@ -33,6 +33,10 @@ constexpr Choice<std::string_view, Projection> kProjections[] = {{"perspective",
 constexpr Choice<std::string_view, LightType> kLightTypes[] = {
     {"directional", LightType::Directional}, {"point", LightType::Point}, {"spot", LightType::Spot}};
 
+/// Shaders have no units left for them.
+constexpr std::string_view kUnreadTextures[] = {"extensions/KHR_materials_transmission/transmissionTexture",
+                                                "extensions/KHR_materials_volume/thicknessTexture"};
+
 } // namespace
 
 // Source of names, ranges and defaults: glTF 2.0 specification, section 5, and the extensions' README schemas.
@@ -205,6 +209,19 @@ void Material::read(Object& object) {
     object.optional("extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", layers.clearcoatNormalScale);
     object.optional("extensions/KHR_materials_sheen/sheenColorFactor", layers.sheenColor, kFraction);
     object.optional("extensions/KHR_materials_sheen/sheenRoughnessFactor", layers.sheenPerceptualRoughness, kFraction);
+    object.optional("extensions/KHR_materials_transmission/transmissionFactor", layers.transmission, kFraction);
+    object.optional("extensions/KHR_materials_volume/thicknessFactor", layers.thicknessMetres, kFromZero);
+    object.optional("extensions/KHR_materials_volume/attenuationColor", layers.attenuationColor, kFraction);
+    constexpr std::string_view kDistance = "extensions/KHR_materials_volume/attenuationDistance";
+    std::optional<float> distance; // infinity, which 0 stands for in a scene
+    object.optional(kDistance, distance, kFromZero);
+    if (distance && *distance == 0.0f) object.fail(kDistance, "is 0; more than 0 is needed");
+    layers.attenuationDistanceMetres = distance.value_or(0.0f);
+    for (const std::string_view path : kUnreadTextures) {
+        std::optional<AnyObject> texture;
+        object.optional(path, texture);
+        hasUnreadTexture = hasUnreadTexture || texture.has_value();
+    }
 }
 
 // ---- Cameras and lights --------------------------------------------------------------------------------------------

@@ -93,6 +93,22 @@ public:
         number("sheenPerceptualRoughness", TextureSlot::SheenRoughness, material_.sheenPerceptualRoughness, 0.0, 1.0);
     }
 
+    /// Without textures: shaders have no units left for them.
+    void transmission() {
+        const auto single = [&](const char* key, float Material::*member) {
+            const auto& field = fieldOf(kMaterialFields, member);
+            if (const auto value = object_.find(key)) material_.*member = value->single(field.least, field.most);
+        };
+        single("transmission", &Material::transmission);
+        single("thicknessMetres", &Material::thicknessMetres);
+        if (const auto value = object_.find("attenuationColor")) {
+            const std::vector<JsonValue> channels = value->elements(3, 3);
+            for (glm::length_t i = 0; i < 3; ++i)
+                material_.attenuationColor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
+        }
+        single("attenuationDistanceMetres", &Material::attenuationDistanceMetres);
+    }
+
     void normalMap() {
         const std::optional<JsonValue> value = object_.find("normalMap");
         if (!value) return;
@@ -154,6 +170,7 @@ public:
         emission();
         clearcoat();
         sheen();
+        transmission();
     }
 
 private:

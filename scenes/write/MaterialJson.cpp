@@ -92,6 +92,12 @@ public:
             parameter("sheenColor", numbers(material_.sheenColor), TextureSlot::SheenColor);
             parameter("sheenPerceptualRoughness", material_.sheenPerceptualRoughness, TextureSlot::SheenRoughness);
         }
+        if (material_.transmission != 0.0f) {
+            factor("transmission", material_.transmission);
+            factor("thicknessMetres", material_.thicknessMetres);
+            json_["attenuationColor"] = numbers(material_.attenuationColor);
+            factor("attenuationDistanceMetres", material_.attenuationDistanceMetres);
+        }
     }
 
 private:

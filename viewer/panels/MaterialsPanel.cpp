@@ -22,13 +22,26 @@ bool anisotropyRows(Material& material) {
     return changed;
 }
 
+bool transmissionRows(Material& material) {
+    bool changed = slider("Transmission", material.transmission, 0.0f, 1.0f);
+    if (material.transmission == 0.0f) return changed;
+    changed |= logarithmicSlider("Thickness", material.thicknessMetres, 0.0f, kMostThicknessShown,
+                                 material.thicknessMetres == 0.0f ? "a sheet" : "%.3g m");
+    tip("Of the body below the surface; a sheet bends no light");
+    if (material.thicknessMetres == 0.0f) return changed;
+    changed |= logarithmicSlider("Absorbs in", material.attenuationDistanceMetres, 0.0f, kMostThicknessShown,
+                                 material.attenuationDistanceMetres == 0.0f ? "never" : "%.3g m");
+    if (material.attenuationDistanceMetres > 0.0f) changed |= colorRow("Down to", material.attenuationColor);
+    return changed;
+}
+
 bool layerRows(Material& material) {
     bool changed = slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
     if (material.clearcoat > 0.0f) changed |= slider("Coat rough", material.clearcoatPerceptualRoughness, 0.0f, 1.0f);
     changed |= colorRow("Sheen", material.sheenColor);
     if (material.sheenColor != glm::vec3(0.0f))
         changed |= slider("Sheen rough", material.sheenPerceptualRoughness, 0.0f, 1.0f);
-    return changed;
+    return changed | transmissionRows(material);
 }
 
 bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, float Material::*member) {
@@ -104,7 +117,7 @@ bool surfaceRows(Material& material) {
         changed |= slider("Normal map", material.normalScale, 0.0f, kMostNormalScale, "x %.2f");
     row("Two sides");
     changed |= ImGui::Checkbox("##doubleSided", &material.doubleSided);
-    if (material.alphaMode == scenes::AlphaMode::Blend) return changed;
+    if (scenes::isTransparent(material)) return changed; // which casts none
     row("Shadow");
     changed |= ImGui::Checkbox("casts##material", &material.castsShadow);
     return changed;

@@ -37,6 +37,9 @@ scenes::Material materialAtBounds(bool isMost) {
     material.specularColor = material.sheenColor = glm::vec3(share);
     material.anisotropyStrength = material.clearcoat = share;
     material.clearcoatPerceptualRoughness = material.sheenPerceptualRoughness = material.alphaCutoff = share;
+    material.transmission = share;
+    material.attenuationColor = glm::vec3(share);
+    material.thicknessMetres = material.attenuationDistanceMetres = isMost ? kMostThicknessShown : 0.0f;
     material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
     for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
         for (const scenes::MaterialParameter& parameter : model.parameters) {

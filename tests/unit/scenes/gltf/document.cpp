@@ -120,10 +120,19 @@ TEST(GltfDocument, optionalExtensionThatIsNotSupportedIsWarnedOf) {
 
 TEST(GltfDocument, ignoredTransmissionIsWarnedOfWithItsReplacement) {
     Builder builder;
-    builder.merge(R"({"extensionsUsed": ["KHR_materials_transmission"]})");
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_diffuse_transmission"]})");
     EXPECT_TRUE(hasWarning(builder.import(),
-                           "KHR_materials_transmission is not supported and was ignored; its materials "
+                           "KHR_materials_diffuse_transmission is not supported and was ignored; its materials "
                            "let through only what their alpha does"));
+}
+
+TEST(GltfDocument, dispersionIsTakenAndSaidToBeApproximated) {
+    Builder builder;
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_dispersion"],
+                      "extensionsRequired": ["KHR_materials_dispersion"]})");
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "KHR_materials_dispersion is approximated: its materials bend all colours alike"));
+    EXPECT_FALSE(hasWarning(scene, "not supported"));
 }
 
 TEST(GltfDocument, integersWithADecimalPointAreReadExactly) {

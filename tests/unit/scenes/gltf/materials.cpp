@@ -37,6 +37,38 @@ TEST(GltfMaterials, defaultsAreThoseOfTheSpecification) {
     for (const TextureUse& use : material.textures) EXPECT_EQ(use.image, kNone);
 }
 
+TEST(GltfMaterials, transmissionAndVolumeAreImportedExactly) {
+    const Material material = importedMaterial(R"({"extensions": {
+        "KHR_materials_transmission": {"transmissionFactor": 0.75},
+        "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2,
+                                 "attenuationColor": [0.25, 0.5, 1]}}})");
+    EXPECT_EQ(material.transmission, 0.75f);
+    EXPECT_EQ(material.thicknessMetres, 0.5f);
+    EXPECT_EQ(material.attenuationDistanceMetres, 2.0f);
+    EXPECT_EQ(material.attenuationColor, glm::vec3(0.25f, 0.5f, 1.0f));
+    const Material plain = importedMaterial(R"({"extensions": {"KHR_materials_transmission": {},
+                                               "KHR_materials_volume": {}}})");
+    EXPECT_EQ(plain.transmission, 0.0f);
+    EXPECT_EQ(plain.thicknessMetres, 0.0f);
+    EXPECT_EQ(plain.attenuationDistanceMetres, 0.0f) << "nothing is absorbed";
+    EXPECT_EQ(plain.attenuationColor, glm::vec3(1.0f));
+}
+
+TEST(GltfMaterials, texturesOfTransmissionAndThicknessAreWarnedOf) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"extensions": {
+        "KHR_materials_volume": {"thicknessFactor": 1, "thicknessTexture": {"index": 0}}}})"));
+    builder.addTexture();
+    EXPECT_TRUE(hasWarning(builder.import(), "textures of transmission and thickness are not supported"));
+}
+
+TEST(GltfMaterials, anAttenuationDistanceOf0IsRefused) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"extensions": {
+        "KHR_materials_volume": {"attenuationDistance": 0}}})"));
+    EXPECT_NE(builder.error().find("attenuationDistance: is 0; more than 0 is needed"), std::string::npos);
+}
+
 TEST(GltfMaterials, alphaModesAreImportedExactly) {
     const Material mask = importedMaterial(R"({"alphaMode": "MASK", "alphaCutoff": 0.75})");
     EXPECT_EQ(mask.alphaMode, AlphaMode::Mask);

@@ -142,9 +142,9 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
-        "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, normalMap, "
-        "occlusionMap, "
-        "tangents, subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
+        "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, transmission, "
+        "thicknessMetres, attenuationColor, attenuationDistanceMetres, normalMap, occlusionMap, tangents, "
+        "subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),
               "/overrides/0/node: is overridden by nothing; add a 'material' or 'castsShadow'");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"k_d": [1, 1, 1]}])")),

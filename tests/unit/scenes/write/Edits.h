@@ -69,13 +69,15 @@ public:
              {&material.metallic, &material.perceptualRoughness, &material.alpha, &material.alphaY,
               &material.specularFactor, &material.anisotropyStrength, &material.clearcoat,
               &material.clearcoatPerceptualRoughness, &material.sheenPerceptualRoughness, &material.normalScale,
-              &material.clearcoatNormalScale, &material.alphaCutoff, &material.anisotropyRotationRadians})
+              &material.clearcoatNormalScale, &material.alphaCutoff, &material.anisotropyRotationRadians,
+              &material.transmission, &material.thicknessMetres, &material.attenuationDistanceMetres})
             *member = share();
         material.masking = Masking::HalfVector;
         material.exponent = 50.0f * share();
         material.ior = 1.0f + share();
         material.specularColor = color();
         material.sheenColor = color();
+        material.attenuationColor = color();
         material.subsurface.method = SubsurfaceMethod(random_.index(int(SubsurfaceMethod::Count)));
         for (float* member : {&material.subsurface.scaleMetres, &material.subsurface.wrap,
                               &material.subsurface.bodyRadiusMetres, &material.subsurface.preScatterShare})
