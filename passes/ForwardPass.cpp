@@ -20,6 +20,12 @@ gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepass
     return state;
 }
 
+/// How surfaces that transmit are drawn on what lies behind: lit, by channel. Debug views show them as other surfaces.
+std::optional<gpu::Blend> transmitting(const ForwardPass::Params& params, frame::DebugView view) {
+    const bool isLit = params.surfaces == ForwardPass::Surfaces::Transparent && view == frame::DebugView::Final;
+    return isLit ? std::optional(gpu::Blend::Transmitting) : std::nullopt;
+}
+
 } // namespace
 
 shader::ProgramDesc ForwardPass::program(const frame::FrameSpec& spec, const Params& params) {
@@ -58,8 +64,10 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             if (!prepassed) gpu::clearDepth(0.0f);
             gpu::useProgram(context.program());
             out.lighting.bind(context);
-            gpu::drawInBands(
-                [&] { out.surfaces.draw(context, params.surfaces, pipelineState(params, prepassed, view)); });
+            gpu::drawInBands([&] {
+                out.surfaces.draw(context, params.surfaces, pipelineState(params, prepassed, view),
+                                  transmitting(params, view));
+            });
         });
 }
 

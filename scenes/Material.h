@@ -267,15 +267,6 @@ constexpr bool takesMasking(MaterialModel model, Masking masking) {
            info.anisotropy == Anisotropy::Alphas;
 }
 
-/// How light that enters a surface with the material leaves it elsewhere. A method that would change nothing is none.
-inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest request) {
-    const Subsurface& subsurface = material.subsurface;
-    if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None) return SubsurfaceMethod::None;
-    const SubsurfaceMethod method = request.value_or(subsurface.method);
-    const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);
-    return method == SubsurfaceMethod::Wrap && !wraps ? SubsurfaceMethod::None : method;
-}
-
 /// Whether light passes through surfaces with the material.
 constexpr bool isTransmissive(const Material& material) {
     return infoOf(material.model).hasLayers && material.transmission > 0.0f;
@@ -284,6 +275,17 @@ constexpr bool isTransmissive(const Material& material) {
 /// Whether they are drawn on top of what lies behind them, from far to near.
 constexpr bool isTransparent(const Material& material) {
     return material.alphaMode == AlphaMode::Blend || isTransmissive(material);
+}
+
+/// How light that enters a surface with the material leaves it elsewhere. A method that would change nothing is none,
+/// and so is any where light passes through.
+inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest request) {
+    const Subsurface& subsurface = material.subsurface;
+    if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None || isTransmissive(material))
+        return SubsurfaceMethod::None;
+    const SubsurfaceMethod method = request.value_or(subsurface.method);
+    const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);
+    return method == SubsurfaceMethod::Wrap && !wraps ? SubsurfaceMethod::None : method;
 }
 
 /// Whether a material's lobe turns with the tangent.

@@ -34,7 +34,7 @@ bool hasSize(const Light& light) {
 }
 
 bool castsShadow(const Material& material) {
-    return material.castsShadow && material.alphaMode != AlphaMode::Blend;
+    return material.castsShadow && !isTransparent(material);
 }
 
 bool isCaster(const Scene& scene, const MeshInstance& instance) {
@@ -49,7 +49,7 @@ CasterCounts casterCounts(const Scene& scene) {
             if (isCaster(scene, instance))
                 counts.triangles += scene.meshes[std::size_t(instance.mesh)].indices.size() / 3;
             else if (isDrawn(scene, instance))
-                counts.transparent += scene.materials[std::size_t(instance.material)].alphaMode == AlphaMode::Blend;
+                counts.transparent += isTransparent(scene.materials[std::size_t(instance.material)]);
         }
     }
     return counts;

@@ -9,7 +9,7 @@ namespace tessera::frame {
 namespace {
 
 bool isTransparent(const scenes::Scene& scene, const Draw& draw) {
-    return scene.materials[std::size_t(draw.material)].alphaMode == scenes::AlphaMode::Blend;
+    return scenes::isTransparent(scene.materials[std::size_t(draw.material)]);
 }
 
 scenes::Box3 boxOf(const scenes::Mesh& mesh) {

@@ -57,9 +57,11 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Anisotropy, "ANISOTROPY", "anisotropy by strength", "no material has any"},
             {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
+            {Feature::Transmission, "TRANSMISSION", "transmission", "no material has any"},
+            {Feature::Volume, "VOLUME", "bodies of what transmits", "no material that transmits has a thickness"},
             {Feature::Mirrors, "MIRRORS", "mirrors of the environment", "every highlight is broader than those"},
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
-            {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended"},
+            {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended or transmits"},
             {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
             {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
              "no texture but normal maps, no vertex colour and no anisotropy changes one"},
@@ -101,7 +103,14 @@ bool varies(const scenes::Material& material) {
 /// more, since the layout `slim` keeps alphas there in steps of 8 %.
 constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
 
-/// Whether a highlight of the material may be sharper. Textures may have any texel.
+/// By how much light that passes is spread less than light that is reflected: factor of alpha.
+/// setPassing() of shaders/lib/material/material.glsl.
+double passingScale(float ior) {
+    const double scale = std::clamp(2.0 * double(ior) - 2.0, 0.0, 1.0);
+    return scale * scale;
+}
+
+/// Whether a highlight of the material may be sharper, or light that passes through it. Textures may have any texel.
 bool mayMirror(const scenes::Material& material) {
     using scenes::Microsurface, scenes::TextureSlot;
     const auto isTextured = [&](TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
@@ -116,6 +125,9 @@ bool mayMirror(const scenes::Material& material) {
         (double(material.alphaY) < kSharpAlpha || isTextured(TextureSlot::Anisotropy)))
         return true;
     const float roughness = material.*model.roughness;
+    if (scenes::isTransmissive(material) && material.thicknessMetres > 0.0f &&
+        (isTextured(TextureSlot::Ior) || squared(roughness) * passingScale(material.ior) < kSharpAlpha))
+        return true;
     switch (model.microsurface) {
     case Microsurface::None:
         break;
@@ -143,6 +155,8 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
             model.anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f);
     set.add(Feature::Clearcoat, model.hasLayers && material.clearcoat > 0.0f);
     set.add(Feature::Sheen, model.hasLayers && material.sheenColor != glm::vec3(0.0f));
+    set.add(Feature::Transmission, scenes::isTransmissive(material));
+    set.add(Feature::Volume, scenes::isTransmissive(material) && material.thicknessMetres > 0.0f);
     set.add(Feature::Mirrors, mayMirror(material));
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];
@@ -160,7 +174,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     set.add(Feature::Emission, material.emissive != glm::vec3(0.0f) || !model.isLit);
     set.add(Feature::Specular, changesSpecular(material));
     set.add(Feature::AlphaMask, material.alphaMode == scenes::AlphaMode::Mask);
-    set.add(Feature::Blend, material.alphaMode == scenes::AlphaMode::Blend);
+    set.add(Feature::Blend, scenes::isTransparent(material));
     set.add(Feature::DoubleSided, material.doubleSided);
     set.add(Feature::VaryingMaterials, varies(material));
     const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(material, subsurface);

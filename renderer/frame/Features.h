@@ -32,7 +32,9 @@ enum class Feature : std::uint8_t {
     Anisotropy,
     Clearcoat,
     Sheen,
-    Mirrors, // lobes that may be narrower than those an environment is filtered by; only where one lights surfaces
+    Transmission, // light passes through surfaces
+    Volume,       // of which some have a body that bends and absorbs it
+    Mirrors,      // lobes that may be narrower than those an environment is filtered by; only where one lights surfaces
     AlphaMask,
     Blend,
     DoubleSided,

@@ -74,7 +74,8 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<cons
         {context.program(depthPrograms[0]), depthPrograms.size() > 1 ? &context.program(depthPrograms[1]) : nullptr});
 }
 
-void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const {
+void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
+                          std::optional<gpu::Blend> transmitting) const {
     view.bind(context);
     if (scene.triangleNormals) {
         const gpu::Buffer& normals = context.buffer(*scene.triangleNormals);
@@ -83,7 +84,7 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
     if (diffused) gpu::bindImage(IMAGE_UNIT_DIFFUSED, context.texture(*diffused), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
     drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
-                       kind == Kind::Opaque ? draws.opaque : draws.transparent, state);
+                       kind == Kind::Opaque ? draws.opaque : draws.transparent, state, transmitting);
 }
 
 LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {

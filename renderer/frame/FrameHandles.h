@@ -98,8 +98,9 @@ struct SurfaceHandles {
     enum class Kind { Opaque, Transparent };
 
     SurfaceHandles read(graph::PassBuilder& pass) const;
-    /// Draws the surfaces of a kind with the program in use. Of `state` culling and winding are each batch's own.
-    void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
+    /// Draws the surfaces of a kind with the program in use, as SceneGpu::draw().
+    void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
+              std::optional<gpu::Blend> transmitting = {}) const;
 
     /// The same for a pass that wants depth alone and has the programs of depthPrograms(). Materials are read only
     /// where some have holes.

@@ -81,6 +81,13 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
     return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
+/// Beer's law: what is left after the thickness. Source: KHR_materials_volume, "Attenuation".
+glm::vec3 leftByBody(const scenes::Material& material) {
+    if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return glm::vec3(1.0f);
+    const double distances = double(material.thicknessMetres) / double(material.attenuationDistanceMetres);
+    return glm::vec3(glm::pow(glm::dvec3(material.attenuationColor), glm::dvec3(distances)));
+}
+
 /// Half the smallest side of the box around what has the material.
 double bodyRadiusMetres(const scenes::Scene& scene, int material) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
@@ -150,6 +157,10 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
         packTexture(material.textures[slot], packed.uvRow0[slot], packed.uvRow1[slot]);
     }
     packed.clearcoatTurn = packClearcoatTurn(material);
+    packed.transmission = glm::vec4(scenes::isTransmissive(material) ? material.transmission : 0.0f,
+                                    material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f,
+                                    material.thicknessMetres > 0.0f ? 1.0f : 0.0f, 0.0f);
+    packed.attenuation = glm::vec4(leftByBody(material), 0.0f);
     return packed;
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <cassert>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -30,10 +29,10 @@ constexpr std::size_t kMaterialStride =
 /// rasterisers, so it stays at trilinear.
 constexpr float kAnisotropy = 1.0f;
 
-std::vector<scenes::AlphaMode> alphaModes(const scenes::Scene& scene) {
-    std::vector<scenes::AlphaMode> modes;
-    for (const scenes::Material& material : scene.materials) modes.push_back(material.alphaMode);
-    return modes;
+std::vector<bool> transparentMaterials(const scenes::Scene& scene) {
+    std::vector<bool> transparent;
+    for (const scenes::Material& material : scene.materials) transparent.push_back(scenes::isTransparent(material));
+    return transparent;
 }
 
 std::vector<std::optional<TangentBasis>> tangentBases(const scenes::Scene& scene) {
@@ -124,7 +123,7 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
 }
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
-    Draws draws{alphaModes(scene_), makeDrawList(scene_), {}};
+    Draws draws{transparentMaterials(scene_), makeDrawList(scene_), {}};
     const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
@@ -166,9 +165,9 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
 void SceneGpu::updateMaterials() {
     std::optional<Geometry> geometry;
     if (features_.tangents() && tangentBases(scene_) != geometry_.tangentBases) geometry = makeGeometry();
-    // Blended surfaces are drawn last, in an order of their own.
+    // Transparent surfaces are drawn last, in an order of their own.
     std::optional<Draws> draws;
-    if (geometry || alphaModes(scene_) != draws_.alphaModes)
+    if (geometry || transparentMaterials(scene_) != draws_.transparentMaterials)
         draws = makeDraws(geometry ? geometry->ranges : geometry_.ranges);
     Materials materials = makeMaterials();
     // Nothing throws from here on.
@@ -190,8 +189,8 @@ std::vector<SceneGpu::CasterMaterial> SceneGpu::casterMaterials() const {
     std::vector<CasterMaterial> materials;
     for (std::size_t i = 0; i < passed.size(); ++i) {
         const scenes::Material& material = scene_.materials[i];
-        materials.emplace_back(material.castsShadow, material.alphaMode, material.alphaCutoff, material.baseColor.w,
-                               passed[i]);
+        materials.emplace_back(scenes::castsShadow(material), material.alphaMode, material.alphaCutoff,
+                               material.baseColor.w, passed[i]);
     }
     return materials;
 }
@@ -295,11 +294,15 @@ void SceneGpu::bindVertices(const ViewBuffers& view) const {
     gpu::bindVertexArray(*geometry_.array);
 }
 
-void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const {
+void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+                    std::optional<gpu::Blend> transmitting) const {
     bindVertices(view);
     int boundMaterial = -1;
     for (const Batch& batch : batches) {
-        gpu::setState(stateOf(state, scene_.materials[std::size_t(batch.material)].doubleSided, batch.mirrored));
+        const scenes::Material& material = scene_.materials[std::size_t(batch.material)];
+        gpu::PipelineState own = stateOf(state, material.doubleSided, batch.mirrored);
+        if (transmitting && scenes::isTransmissive(material)) own.blend = *transmitting;
+        gpu::setState(own);
         if (batch.material != boundMaterial) bindMaterial(batch.material);
         boundMaterial = batch.material;
         gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
@@ -311,9 +314,9 @@ void SceneGpu::drawDepth(const ViewBuffers& view, std::span<const Batch> batches
     bindVertices(view);
     for (const DepthBatch& batch : depthBatches(scene_, batches)) {
         gpu::setState(stateOf(state, batch.doubleSided, batch.mirrored));
-        assert((!batch.maskedBy || programs.masked) && "the pass has no program for materials with holes");
-        gpu::useProgram(batch.maskedBy ? *programs.masked : programs.bare);
-        if (batch.maskedBy) bindMaterial(*batch.maskedBy);
+        const bool hasHoles = batch.maskedBy && programs.masked;
+        gpu::useProgram(hasHoles ? *programs.masked : programs.bare);
+        if (hasHoles) bindMaterial(*batch.maskedBy);
         gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
     }
 }

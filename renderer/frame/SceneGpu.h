@@ -44,12 +44,15 @@ public:
         const gpu::Buffer& commands;
     };
     /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
-    /// `state` is the pass's pipeline state, of which culling and winding are the batch's.
-    void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state) const;
+    /// `state` is the pass's pipeline state, of which culling and winding are the batch's, and with `transmitting` the
+    /// blending of materials that transmit.
+    void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+              std::optional<gpu::Blend> transmitting = {}) const;
     /// What depth alone is drawn with.
     struct DepthPrograms {
         const gpu::Program& bare;             ///< samples nothing and takes no material
-        const gpu::Program* masked = nullptr; ///< of materials with holes; null where there are none
+        const gpu::Program* masked = nullptr; ///< of materials with holes; null where there are none, or where
+                                              ///< a hole may count as surface, as in bounds of depths
     };
     /// The same for passes that want depth alone: materials are bound only where they have holes.
     void drawDepth(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
@@ -101,7 +104,7 @@ private:
         std::unique_ptr<gpu::VertexArray> array;
     };
     struct Draws {
-        std::vector<scenes::AlphaMode> alphaModes; ///< by material, that the list was made with
+        std::vector<bool> transparentMaterials; ///< by material, that the list was made with
         DrawList list;
         std::vector<VertexStreams::Range> ranges; ///< parallel to list.draws
     };

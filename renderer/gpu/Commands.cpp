@@ -61,6 +61,9 @@ void setBlend(Blend blend) {
     case Blend::AlphaStraight:
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         break;
+    case Blend::Transmitting:
+        glBlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        break;
     }
 }
 

@@ -12,7 +12,8 @@ enum class Blend : std::uint8_t {
     AdditiveCovering,   ///< target + source; the target's alpha becomes the coverage
     AlphaPremultiplied, ///< source + (1 - alpha) target
     Max,                ///< the larger of target and source, by channel
-    AlphaStraight       ///< alpha source + (1 - alpha) target; the target's alpha becomes the coverage
+    AlphaStraight,      ///< alpha source + (1 - alpha) target; the target's alpha becomes the coverage
+    Transmitting        ///< source + the shader's second output x target, by channel; alpha as AlphaStraight
 };
 
 /// The fixed-function state of a draw, set as a whole so that nothing leaks from one pass into the next.

@@ -5,7 +5,14 @@
 #include "lib/raster/shading_depth.glsl"
 #include "lib/lighting/views.glsl"
 
+#if HAS_PASSING_LIGHT
+#include "lib/lighting/transmission.glsl"
+
+layout(location = 0, index = 0) out vec4 radiance;
+layout(location = 0, index = 1) out vec4 kept; // of what lies behind, by channel; read where the material transmits
+#else
 layout(location = 0) out vec4 radiance;
+#endif
 
 void main()
 {
@@ -17,7 +24,20 @@ void main()
     if (coversNothing(baseColor)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);
     precise vec3 viewed = viewedRadiance(surface, viewpoint, gl_FragCoord.xy);
-#if BLENDED
+#if HAS_PASSING_LIGHT
+    float coverage = material.transmission.y > 0.0 ? clamp(baseColor.a, 0.0, 1.0) : 1.0;
+    radiance = vec4(viewed, coverage);
+    kept = vec4(0.0);
+#if VIEW == VIEW_FINAL
+    if (material.transmission.x > 0.0) {
+        ThroughSurface through = lightThrough(surface, viewpoint, gl_FragCoord.xy);
+        precise vec3 shown = coverage * (viewed + through.radiance);
+        precise vec3 behind = coverage * through.kept + (1.0 - coverage);
+        radiance.rgb = shown;
+        kept.rgb = behind;
+    }
+#endif
+#elif BLENDED
     radiance = vec4(viewed, clamp(baseColor.a, 0.0, 1.0));
 #else
     radiance = vec4(viewed, 1.0);

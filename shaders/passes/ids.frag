@@ -17,10 +17,10 @@ float transparentId(uint object, uint triangle)
 
 void main()
 {
+    if (coversNothing(materialBaseColor(rasterisedFragment()))) discard;
 #if BLENDED
     ids = vec4(0.0, 0.0, transparentId(uint(drawnObject), uint(gl_PrimitiveID)), 1.0);
 #else
-    if (coversNothing(materialBaseColor(rasterisedFragment()))) discard;
     ids = vec4(drawnObject, float(gl_PrimitiveID), 0.0, 1.0);
 #endif
 }

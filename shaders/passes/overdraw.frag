@@ -6,8 +6,6 @@ layout(location = 0) out vec4 surfaces;
 
 void main()
 {
-#if !BLENDED
     if (coversNothing(materialBaseColor(rasterisedFragment()))) discard;
-#endif
     surfaces = vec4(1.0);
 }

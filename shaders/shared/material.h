@@ -45,6 +45,9 @@ struct MaterialConstants {
     vec4 uvRow1[TEXTURE_SLOT_COUNT]; // x y z: v' = x u + y v + z; w for --filter exact: wrap modes, u + 4 v,
                                      // and TEXTURE_MODE_*
     vec4 clearcoatTurn;              // x y z: of the coat's normal map, as y z w of anisotropy
+    vec4 transmission;               // x share of what enters that passes, 0 where the model lets none through; y 1
+                                     // where opacity covers, as of alpha-blended ones; z 1 where there is a body below
+    vec4 attenuation;                // rgb what the body leaves of white light
 };
 
 SHARED_END

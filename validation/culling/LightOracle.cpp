@@ -259,9 +259,10 @@ std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int he
 /// Opaque surfaces alone, as a view shows them; RGBA, rows from the bottom.
 std::vector<float> opaquePicture(scenes::Scene scene, const frame::FrameSettings& settings, frame::DebugView view,
                                  engine::Technique technique) {
-    // Blended surfaces become holes; without them the scene's bounds, and by them depths and edges, would change.
+    // Transparent surfaces become holes; without them the scene's bounds, and by them depths and edges, would change.
     for (scenes::Material& material : scene.materials) {
-        if (material.alphaMode != scenes::AlphaMode::Blend) continue;
+        if (!scenes::isTransparent(material)) continue;
+        material.transmission = 0.0f;
         material.alphaMode = scenes::AlphaMode::Mask;
         material.alphaCutoff = 2.0f;
     }

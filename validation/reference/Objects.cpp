@@ -231,7 +231,7 @@ void Objects::add(const scenes::Scene& scene, const scenes::MeshInstance& instan
     object.handedness = glm::determinant(glm::dmat3(worldFromNode)) < 0.0 ? -1.0 : 1.0;
     object.normalFromObject = cofactorMatrix(glm::dmat3(worldFromNode)) * object.handedness;
     if (tangentSlot(*object.material)) object.tangentsOS = &tangentsOf(*object.mesh, *object.material);
-    const bool isTransparent = object.material->alphaMode == scenes::AlphaMode::Blend;
+    const bool isTransparent = scenes::isTransparent(*object.material);
     (isTransparent ? transparent_ : opaque_).push_back(object);
 }
 

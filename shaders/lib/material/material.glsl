@@ -5,6 +5,22 @@
 #include "lib/material/material_lobes.glsl"
 #include "lib/surface/surface.glsl"
 
+#if HAS_PASSING_LIGHT
+// Source: KHR_materials_transmission and _volume. The alpha is that of the Khronos sample viewer, applyIorToRoughness():
+// the less the index of refraction bends light, the less a rough surface spreads it.
+void setPassing(vec3 baseColor, float metallic, float ior, inout Surface surface)
+{
+    precise float share = material.transmission.x * (1.0 - metallic);
+    precise vec3 passing = baseColor * material.attenuation.rgb * share;
+    precise float scale = clamp(2.0 * ior - 2.0, 0.0, 1.0);
+    precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
+    surface.transmission = material.transmission.x;
+    surface.passing = passing;
+    surface.passingIor = ior;
+    surface.passingAlpha = alpha;
+}
+#endif
+
 // All of a surface except directions on it: values that are constant over the surface if the scene has no varying
 // materials.
 void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
@@ -51,6 +67,9 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
         // KHR_materials_specular: the dielectric F0 is tinted, held to 1, then scaled.
         precise vec3 f0 = min(specularColor * reflectance, vec3(1.0)) * specularFactor;
         surface.specular = f0;
+#endif
+#if HAS_PASSING_LIGHT
+        setPassing(baseColor.rgb, roughnessMetallic.y, ior, surface);
 #endif
     }
     if (IS_MICROFACET(surface.model)) {

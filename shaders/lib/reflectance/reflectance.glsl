@@ -80,6 +80,9 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
     precise vec3 f0 = surface.specular + (surface.albedo - surface.specular) * surface.metallic;
     precise vec3 rise = (surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic) - f0;
     precise vec3 diffuse = surface.albedo * ((1.0 - surface.metallic) * kInversePi);
+#if HAS_PASSING_LIGHT
+    diffuse *= 1.0 - surface.transmission;
+#endif
     seen.f0 = f0;
     seen.fresnelRise = rise;
     seen.diffuse = diffuse;

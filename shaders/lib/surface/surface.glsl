@@ -6,6 +6,12 @@
 #include "lib/maths/normal_code.glsl"
 #include "lib/surface/facet.glsl"
 
+// Whether light may pass through surfaces: the transparent pass draws those, and none is ever stored.
+#ifndef BLENDED
+#define BLENDED 0
+#endif
+#define HAS_PASSING_LIGHT (HAS_TRANSMISSION && BLENDED)
+
 struct Surface {
     uint model;        // MODEL_*
 #if !HAS_VARYING_MATERIALS
@@ -47,6 +53,12 @@ struct Surface {
 #if HAS_SHEEN
     vec3 sheenColor;   // black where there is no sheen
     float sheenAlpha;  // alpha of the Charlie distribution, >= ALPHA_MIN
+#endif
+#if HAS_PASSING_LIGHT
+    float transmission; // 0..1, share of what enters that passes
+    vec3 passing;       // what is left of white light that passes, before what the surface and its layers reflect
+    float passingIor;   // index of refraction below the surface
+    float passingAlpha; // GGX alpha that light is spread by on its way through a body, >= ALPHA_MIN
 #endif
 };
 
@@ -120,6 +132,12 @@ void setNeutralLobes(inout Surface surface)
 #if HAS_SHEEN
     surface.sheenColor = vec3(0.0);
     surface.sheenAlpha = 1.0;
+#endif
+#if HAS_PASSING_LIGHT
+    surface.transmission = 0.0;
+    surface.passing = vec3(0.0);
+    surface.passingIor = 1.0;
+    surface.passingAlpha = ALPHA_MIN;
 #endif
 }
 

@@ -95,6 +95,25 @@ TEST_F(DrawTest, blendsComputeTheirFormula) {
     EXPECT_EQ(result(Blend::AlphaStraight), glm::vec4(3.0f, 3.0f, 3.0f, 1.0f));
 }
 
+TEST_F(DrawTest, whatTransmitsKeepsOfEachChannelWhatItsSecondOutputSays) {
+    bindFramebuffer(framebuffers.get(target));
+    const std::vector<StageSource> sources{{Stage::Vertex, kFullscreenVertex}, {Stage::Fragment, R"(#version 450 core
+layout(location = 0, index = 0) out vec4 color;
+layout(location = 0, index = 1) out vec4 kept;
+void main() { color = vec4(2.0, 2.0, 2.0, 0.5); kept = vec4(0.0, 0.5, 2.0, 7.0); }
+)"}};
+    const Program glass("glass", sources);
+    useProgram(glass);
+    const auto result = [&](Blend blend) {
+        clearColor(0, glm::vec4(4.0f, 4.0f, 4.0f, 1.0f));
+        setState({.blend = blend});
+        drawFullscreenTriangle();
+        return target.downloadAs<glm::vec4>().front();
+    };
+    EXPECT_EQ(result(Blend::Transmitting), glm::vec4(2.0f, 4.0f, 10.0f, 1.0f));
+    EXPECT_EQ(result(Blend::AlphaStraight), glm::vec4(3.0f, 3.0f, 3.0f, 1.0f)) << "which ignores the second output";
+}
+
 TEST_F(DrawTest, srgbTargetsEncode) {
     const Texture srgb("srgb", {graph::Format::Srgb8Alpha8, 1, 1, 1});
     bindFramebuffer(framebuffers.get(srgb));

@@ -76,7 +76,9 @@ TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("material.kind", offsetof(MaterialConstants, kind), 0),
                             Place("material.uvRow0[0]", offsetof(MaterialConstants, uvRow0), sizeof(glm::vec4)),
                             Place("material.uvRow1[0]", offsetof(MaterialConstants, uvRow1), sizeof(glm::vec4)),
-                            Place("material.clearcoatTurn", offsetof(MaterialConstants, clearcoatTurn), 0)));
+                            Place("material.clearcoatTurn", offsetof(MaterialConstants, clearcoatTurn), 0),
+                            Place("material.transmission", offsetof(MaterialConstants, transmission), 0),
+                            Place("material.attenuation", offsetof(MaterialConstants, attenuation), 0)));
 }
 
 TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {

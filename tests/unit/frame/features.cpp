@@ -104,6 +104,15 @@ std::vector<Change> changes() {
              m.model = MaterialModel::MetallicRoughness;
              m.sheenColor.z = 0.1f;
          })},
+        {Feature::Transmission, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.transmission = 0.1f;
+         })},
+        {Feature::Volume, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.transmission = 0.1f;
+             m.thicknessMetres = 0.1f;
+         })},
         {Feature::Mirrors, material([](Material& m) {
              m.model = MaterialModel::MetallicRoughness;
              m.perceptualRoughness = 0.1f;
@@ -129,6 +138,22 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
         change.apply(scene);
         EXPECT_TRUE(materialFeatures(scene)[change.feature]) << featureTable()[std::size_t(change.feature)].define;
     }
+}
+
+TEST(Features, whatTransmitsIsDrawnWithTheTransparentSurfacesAndHasABodyOnlyByItsThickness) {
+    const auto features = [](MaterialModel model, float transmission, float thicknessMetres) {
+        scenes::Scene scene = plainScene();
+        scene.materials[0].model = model;
+        scene.materials[0].transmission = transmission;
+        scene.materials[0].thicknessMetres = thicknessMetres;
+        return materialFeatures(scene);
+    };
+    const FeatureSet sheet = features(MaterialModel::MetallicRoughness, 1.0f, 0.0f);
+    EXPECT_TRUE(sheet[Feature::Transmission] && sheet[Feature::Blend] && !sheet[Feature::Volume]);
+    const FeatureSet opaque = features(MaterialModel::MetallicRoughness, 0.0f, 1.0f);
+    EXPECT_FALSE(opaque[Feature::Transmission] || opaque[Feature::Blend] || opaque[Feature::Volume]);
+    const FeatureSet lambert = features(MaterialModel::Lambert, 1.0f, 1.0f);
+    EXPECT_FALSE(lambert[Feature::Transmission] || lambert[Feature::Blend] || lambert[Feature::Volume]);
 }
 
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {

@@ -77,6 +77,25 @@ TEST(PackedMaterial, anisotropyCoatAndSheenAreTheMaterialsOwnValues) {
     EXPECT_EQ(packMaterial(material).kind.z, MASKING_DIRECTIONAL);
 }
 
+TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
+    Material material;
+    material.transmission = 0.5f;
+    material.thicknessMetres = 3.0f;
+    material.attenuationColor = {0.5f, 0.25f, 0.0f};
+    const auto left = [&] { return packMaterial(material).attenuation; };
+    EXPECT_EQ(packMaterial(material).transmission, glm::vec4(0.5f, 0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "without a distance";
+    material.attenuationDistanceMetres = 1.5f; // twice
+    EXPECT_EQ(left(), glm::vec4(0.25f, 0.0625f, 0.0f, 0.0f));
+    material.thicknessMetres = 0.0f;
+    EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "a sheet";
+    EXPECT_EQ(packMaterial(material).transmission.z, 0.0f);
+    material.alphaMode = scenes::AlphaMode::Blend;
+    EXPECT_EQ(packMaterial(material).transmission.y, 1.0f) << "opacity covers";
+    material.model = MaterialModel::Lambert;
+    EXPECT_EQ(packMaterial(material).transmission.x, 0.0f);
+}
+
 TEST(PackedMaterial, transformsOfTexturesWithVectorsRotateTheVectors) {
     Material material;
     material.clearcoat = 1.0f;

@@ -280,6 +280,17 @@ TEST(SceneJsonMaterials, onlyMetallicRoughnessTransmits) {
     }
 }
 
+TEST(SceneJsonMaterials, whatTransmitsHasNoSubsurface) {
+    Material material;
+    material.subsurface.method = SubsurfaceMethod::DepthMap;
+    EXPECT_EQ(scenes::subsurfaceOf(material, {}), SubsurfaceMethod::DepthMap);
+    material.transmission = 0.5f;
+    EXPECT_EQ(scenes::subsurfaceOf(material, {}), SubsurfaceMethod::None);
+    EXPECT_EQ(scenes::subsurfaceOf(material, SubsurfaceMethod::TextureSpaceDiffusion), SubsurfaceMethod::None);
+    material.model = MaterialModel::Lambert;
+    EXPECT_EQ(scenes::subsurfaceOf(material, {}), SubsurfaceMethod::DepthMap) << "of which nothing transmits";
+}
+
 TEST(SceneJsonMaterials, aSubsurfaceIsAMethodOrAnObjectWithWhatMethodsUse) {
     const SceneFolder folder;
     const auto subsurfaceOf = [&](const std::string& json) {
