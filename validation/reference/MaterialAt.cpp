@@ -61,6 +61,21 @@ void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
         squaredRoughness(double(material.sheenPerceptualRoughness) * texel(TextureSlot::SheenRoughness).a);
 }
 
+void setTransmission(const scenes::Material& material, SurfacePoint& point) {
+    if (!scenes::isTransmissive(material)) return;
+    if (material.alphaMode != scenes::AlphaMode::Blend) point.opacity = 1.0;
+    point.transmission = double(material.transmission);
+    const double thickness = double(material.thicknessMetres), distance = double(material.attenuationDistanceMetres);
+    point.hasBody = thickness > 0.0;
+    if (point.hasBody && distance > 0.0)
+        for (int c = 0; c < 3; ++c) {
+            const double absorptionPerMetre = -std::log(double(material.attenuationColor[c])) / distance;
+            point.leftByBody[c] = std::exp(-absorptionPerMetre * thickness);
+        }
+    // A roughness is scaled before it is squared, as the Khronos sample viewer does.
+    point.passingAlpha = squaredRoughness(point.roughness * std::clamp(2.0 * (point.ior - 1.0), 0.0, 1.0));
+}
+
 } // namespace
 
 SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
@@ -91,6 +106,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.normal = normalAt(hit, textures);
     setDirection(hit, textures, point);
     setLayers(hit, textures, point);
+    setTransmission(material, point);
     if (hit.object->subsurface == scenes::SubsurfaceMethod::Wrap) {
         point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;

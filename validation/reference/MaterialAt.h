@@ -13,7 +13,7 @@ inline constexpr double kSmallestAlpha = 1e-3;
 struct SurfacePoint {
     scenes::MaterialModel model = scenes::MaterialModel::Lambert;
     glm::dvec3 color{0.0};                             ///< base colour, k_d, or the unlit colour
-    double opacity = 1.0;                              ///< 0..1
+    double opacity = 1.0;                              ///< 0..1, what it covers of what lies behind
     double metallic = 0.0;                             ///< 0..1
     double alpha = 1.0;                                ///< of GGX; along the tangent where the lobe has a direction
     double alphaAcross = 1.0;                          ///< along the bitangent
@@ -33,6 +33,10 @@ struct SurfacePoint {
     glm::dvec3 coatNormal{0.0};   ///< unit, where there is a coat
     glm::dvec3 sheenColor{0.0};   ///< 0..1, KHR_materials_sheen
     double sheenAlpha = 1.0;
+    double transmission = 0.0;        ///< 0..1, KHR_materials_transmission
+    bool hasBody = false;             ///< that bends and absorbs what passes, KHR_materials_volume
+    glm::dvec3 leftByBody{1.0};       ///< of what passes, by channel
+    double passingAlpha = 1.0;        ///< of GGX, by which a body spreads it
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that it goes round
     bool spreads = false;             ///< light that enters leaves elsewhere (Diffusion.h)

@@ -138,7 +138,8 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
     const bool hasLobe = specular && point.reflectsLobe && directions.hasLobe();
     const double lobe = hasLobe ? glossyLobe(point, directions) : 0.0;
     const glm::dvec3 f = fresnelOf(point, directions.cosIncidence);
-    const glm::dvec3 diffuse = (1.0 - f) * ((1.0 - point.metallic) / std::numbers::pi) * point.color;
+    const double reflecting = (1.0 - point.metallic) * (1.0 - point.transmission);
+    const glm::dvec3 diffuse = (1.0 - f) * (reflecting / std::numbers::pi) * point.color;
     return underSheen(point, directions, diffuse + f * lobe, specular) * directions.cosLight;
 }
 
@@ -253,6 +254,28 @@ glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const 
     if (!point.passes || directions.cosLight >= 0.0) return glm::dvec3(0.0);
     const double uncoated = point.coat > 0.0 ? 1.0 - coatWeight(point, toViewer) : 1.0;
     return modelOf(point.model).entering(point, directions) * (-directions.cosLight * uncoated);
+}
+
+glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    const double cosView = glm::dot(point.normal, toViewer);
+    const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
+    double share = point.transmission * (1.0 - point.metallic);
+    if (strongest > 0.0)
+        share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
+    if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
+    const glm::dvec3 entering = glm::max(1.0 - fresnelOf(point, std::abs(cosView)), glm::dvec3(0.0));
+    return share * point.color * point.leftByBody * entering;
+}
+
+std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    const double cosView = glm::dot(point.normal, toViewer);
+    const glm::dvec3 outward = cosView < 0.0 ? -point.normal : point.normal;
+    const glm::dvec3 across = toViewer - glm::dot(toViewer, outward) * outward;
+    const double sine = glm::length(across), bentSine = sine / point.ior;
+    if (!(bentSine <= 1.0)) return std::nullopt;
+    const glm::dvec3 along = sine > 0.0 ? across / sine : glm::dvec3(0.0);
+    const double angle = std::asin(bentSine);
+    return -std::cos(angle) * outward - std::sin(angle) * along;
 }
 
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,12 @@ SurfacePoint withoutMirrors(const SurfacePoint& point);
 /// As reflected(), of light from below the horizon that passes through the surface and leaves it at the angle to the
 /// normal at which it meets it from below.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
+
+/// What shows through a surface that transmits of a radiance behind it, by channel.
+glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer);
+
+/// Along which the light came, unit, that leaves a body towards the viewer; nothing where none gets out.
+std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer);
 
 /// What leaves towards the viewer of light that has spread below the surface.
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare);

@@ -175,6 +175,7 @@ private:
         mutable std::vector<std::optional<Diffusion::Answer>> spread{};                 ///< the same, by surface
         mutable std::vector<std::optional<Estimate>> surroundings{};                    ///< the same
         mutable std::vector<std::vector<std::optional<Estimate>>> areaLights{}; ///< by light too, nothing hidden
+        mutable std::vector<std::optional<glm::dvec3>> throughBodies{};         ///< as surroundings
         std::uint32_t seed = 0;                                                 ///< of Diffusion and Surroundings
 
         bool hasUndecidedShadows() const {
@@ -291,6 +292,7 @@ private:
     struct Lit {
         glm::dvec3 radiance{0.0};
         double opacity = 1.0;
+        glm::dvec3 passed{0.0};   ///< what it shows, where it covers, of the radiance behind it, by channel
         Noise noise = {};         ///< as Rendered::shadowNoise
         Estimate areaLights = {}; ///< as Rendered::areaLights
     };
@@ -302,9 +304,9 @@ private:
         if (seen.opaque) all = litSurface(seen, 0, nudge, ray, shadows);
         for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
             const Lit own = litSurface(seen, 1 + i, nudge, ray, shadows);
-            const double before = 1.0 - own.opacity;
+            const glm::dvec3 before = 1.0 - own.opacity + own.opacity * own.passed;
             all.radiance = own.opacity * own.radiance + before * all.radiance;
-            all.noise = all.noise.times(before);
+            all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // at most
             all.noise += own.noise.times(own.opacity);
             all.areaLights = all.areaLights.times(before);
             all.areaLights += own.areaLights.times(own.opacity);
@@ -329,6 +331,7 @@ private:
         const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
         const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
         Lit lit{emitted(point, toViewer), point.opacity};
+        if (point.transmission > 0.0) addPassing(seen, surface, point, toViewer, lit);
         if (surroundings_.lights()) {
             if (seen.surroundings.size() <= surface) seen.surroundings.resize(surface + 1);
             // The rounding that a nudge stands for changes this light less than its samples do.
@@ -360,6 +363,22 @@ private:
             lit.radiance += passedOnBy(seen, surface, hit, point, positionRWS, toViewer, shadows);
         }
         return lit;
+    }
+
+    /// What shows through: the surroundings by a body, where there are any, else what lies straight behind.
+    void addPassing(const Seen& seen, std::size_t surface, const SurfacePoint& point, const glm::dvec3& toViewer,
+                    Lit& lit) const {
+        const glm::dvec3 share = transmitted(point, toViewer);
+        if (!point.hasBody || !surroundings_.showsThroughBodies()) {
+            lit.passed = share;
+            return;
+        }
+        const std::optional<glm::dvec3> direction = refracted(point, toViewer);
+        if (!direction) return;
+        if (seen.throughBodies.size() <= surface) seen.throughBodies.resize(surface + 1);
+        std::optional<glm::dvec3>& light = seen.throughBodies[surface];
+        if (!light) light = surroundings_.around(*direction, point.passingAlpha, seen.seed);
+        lit.radiance += share * *light;
     }
 
     /// What all lights below the horizon give.

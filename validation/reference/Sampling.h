@@ -81,7 +81,8 @@ struct Estimate {
     glm::dvec3 variance{0.0}; ///< of it: the square of its standard error
 
     /// Of so many times as much light.
-    Estimate times(double factor) const { return {factor * light, factor * factor * variance}; }
+    Estimate times(const glm::dvec3& factor) const { return {factor * light, factor * factor * variance}; }
+    Estimate times(double factor) const { return times(glm::dvec3(factor)); }
     Estimate& operator+=(const Estimate& other) {
         light += other.light;
         variance += other.variance;

@@ -25,7 +25,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     turnRadians_ = glm::radians(double(scene.environment->rotationDegrees) + settings.environmentRotationDegrees);
     isSeen_ = settings.environmentIsSeen;
     compensates_ = settings.environmentCompensates;
-    lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
+    showsThroughBodies_ = lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
     for (const scenes::Material& material : scene.materials)
@@ -197,6 +197,33 @@ Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer,
         for (const Mirror& mirror : mirrorsOf(point, toViewer))
             all.light += mirror.share * radianceOf(mirror.direction);
     return all.times(point.openness);
+}
+
+glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
+    if (alpha <= kSmallestAlpha) return radianceOf(direction);
+    if (!lights_) return glm::dvec3(0.0);
+    const ByMap map(*this);
+    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
+    const Strategy* const strategies[] = {&map, &lobe};
+    const auto weight = [&](const glm::dvec3& way) {
+        const double cosine = glm::dot(way, direction);
+        if (!(cosine > 0.0)) return 0.0;
+        return 0.25 * distributionGgx(alpha, glm::dot(glm::normalize(way + direction), direction)) * cosine;
+    };
+    const Estimate light = sampled(strategies, paths_, seed, [&](const glm::dvec3& way) {
+        const double share = weight(way);
+        return share > 0.0 ? share * radianceOf(way) : glm::dvec3(0.0);
+    });
+    // The lobe's share below a slope s of the half vector is s^2 / (s^2 + alpha^2); it ends where that leans by 45
+    // degrees, and sends light by twice its angle.
+    constexpr int kSteps = 4096;
+    const double last = 1.0 / (1.0 + alpha * alpha);
+    double whole = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double below = last * (i + 0.5) / kSteps, slope2 = alpha * alpha * below / (1.0 - below);
+        whole += last / kSteps * (1.0 - slope2) / (1.0 + slope2);
+    }
+    return light.light / whole;
 }
 
 void Surroundings::makeIrradiances() {

@@ -15,6 +15,8 @@ public:
     Surroundings(const scenes::Scene& scene, const Settings& settings);
 
     bool lights() const { return lights_; } ///< whether there is any light that surfaces reflect
+    /// Whether bodies of what transmits show it, however dark it is.
+    bool showsThroughBodies() const { return showsThroughBodies_; }
     bool isSeen() const { return isSeen_; } ///< where nothing is drawn
     /// From a unit direction, world axes.
     glm::dvec3 radianceOf(const glm::dvec3& direction) const;
@@ -22,6 +24,10 @@ public:
     /// What a surface reflects of it; `onlyLobes` leaves out what enters the surface.
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                 std::uint32_t seed) const;
+
+    /// The mean around a unit direction by a lobe of GGX along it, as of a mirror seen straight on, times the cosine;
+    /// of the least alpha what comes from the direction itself.
+    glm::dvec3 around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const;
 
     /// On a surface that faces this way, interpolated between directions three degrees apart.
     glm::dvec3 irradiance(const glm::dvec3& normal) const;
@@ -39,7 +45,7 @@ private:
 
     const scenes::Image* map_ = nullptr;
     double intensity_ = 0.0, turnRadians_ = 0.0;
-    bool lights_ = false, isSeen_ = false, compensates_ = false;
+    bool lights_ = false, showsThroughBodies_ = false, isSeen_ = false, compensates_ = false;
     int paths_ = 0;
     std::vector<double> rowsSummed_, columnsSummed_; ///< shares of rows, and of the columns of each row, up to each
     std::vector<double> densities_;                  ///< by texel, 1/sr
