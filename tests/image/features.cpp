@@ -192,6 +192,14 @@ TEST_F(Features, everyMaterialParameterChangesThePicture) {
         material("alpha cutoff", kMasked, [](Material& m) { m.alphaCutoff = 0.1f; }),
         material("mask off", kMasked, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
         material("opacity of a blended surface", kGlass, [](Material& m) { m.baseColor.a = 0.9f; }),
+        material("transmission", kGlass, [](Material& m) { m.transmission = 0.8f; }),
+        material("transmission of what does not blend", kMasked, [](Material& m) { m.transmission = 0.8f; }),
+        material("absorption of a body", kGlass,
+                 [](Material& m) {
+                     m.transmission = 0.8f;
+                     m.thicknessMetres = m.attenuationDistanceMetres = 1.0f;
+                     m.attenuationColor = {0.1f, 1.0f, 0.1f};
+                 }),
         material("blend off", kGlass, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
         material("double-sided, seen from behind", kDielectric, [](Material& m) { m.doubleSided = false; }),
         material("wrap", kGloss, [](Material& m) { m.subsurface.wrap = 0.2f; }),

@@ -1,6 +1,7 @@
 #include "validation/reference/Reflectance.h"
 
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -259,6 +260,64 @@ TEST(ReferenceReflectance, thereIsNotALobeBelowTheHorizonOrBetweenOppositeDirect
 TEST(ReferenceReflectance, aModelWithoutARowIsRefused) {
     for (const Model& row : modelTable()) EXPECT_EQ(modelOf(row.model).reflected, row.reflected);
     EXPECT_THROW(modelOf(MaterialModel(250)), std::logic_error);
+}
+
+TEST(ReferenceReflectance, lightIsBentBySnellsLawAndNotBeyondTheCriticalAngle) {
+    test::Random random(24);
+    int total = 0;
+    for (int i = 0; i < 20000; ++i) {
+        SurfacePoint point;
+        point.normal = random.direction();
+        point.ior = 0.5 + 2.0 * random.unit();
+        const glm::dvec3 toViewer = random.direction();
+        const glm::dvec3 outward = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
+        const double sine = glm::length(glm::cross(outward, toViewer));
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        ASSERT_EQ(bent.has_value(), sine <= point.ior);
+        total += bent ? 0 : 1;
+        if (!bent) continue;
+        ASSERT_NEAR(glm::length(*bent), 1.0, 1e-12);
+        ASSERT_LE(glm::dot(*bent, outward), 1e-12) << "it goes on below the surface";
+        // Source: Born and Wolf, "Principles of Optics", section 3.2.2: n1 (N x s1) = n2 (N x s2).
+        const glm::dvec3 off = glm::cross(outward, -toViewer) - point.ior * glm::cross(outward, *bent);
+        ASSERT_LE(glm::length(off), 1e-12) << i;
+    }
+    EXPECT_GT(total, 100);
+}
+
+TEST(ReferenceReflectance, atBrewstersAngleLightIsBentAtRightAnglesToItsMirrorImage) {
+    for (const double ior : {0.75, 1.33, 1.5, 2.4}) {
+        SurfacePoint point;
+        point.normal = {0.0, 0.0, 1.0};
+        point.ior = ior;
+        const double angle = std::atan(ior);
+        const glm::dvec3 toViewer(std::sin(angle), 0.0, std::cos(angle));
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        ASSERT_TRUE(bent);
+        EXPECT_NEAR(glm::dot(*bent, glm::dvec3(-toViewer.x, 0.0, toViewer.z)), 0.0, 1e-12) << ior;
+    }
+}
+
+/// What a mirror reflects and what shows through are all of even light.
+TEST(ReferenceReflectance, clearGlassLosesNoLight) {
+    test::Random random(25);
+    for (int i = 0; i < 2000; ++i) {
+        SurfacePoint point;
+        point.model = MaterialModel::MetallicRoughness;
+        point.normal = {0.0, 0.0, 1.0};
+        point.color = glm::dvec3(1.0);
+        point.alpha = point.alphaAcross = kSmallestAlpha;
+        point.ior = 1.0 + random.unit();
+        point.specularFactor = random.unit();
+        point.transmission = 1.0;
+        point.coat = i % 2 == 0 ? 0.0 : random.unit();
+        point.coatAlpha = kSmallestAlpha;
+        point.coatNormal = point.normal;
+        const glm::dvec3 toViewer = random.around(point.normal, 0.05, 1.0);
+        glm::dvec3 sum = transmitted(point, toViewer);
+        for (const Mirror& mirror : mirrorsOf(point, toViewer)) sum += mirror.share;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(sum[c], 1.0, 1e-12) << i;
+    }
 }
 
 } // namespace

@@ -1,0 +1,367 @@
+// Light that passes through surfaces: against closed forms, between techniques, and against the reference.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/image/EnvironmentTest.h"
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::EnvironmentLight;
+using scenes::Material;
+using scenes::Scene;
+using namespace test;
+
+constexpr double kGlassRounding = 2e-6; ///< relative, of a few operations in fp32
+
+Material clearGlass() {
+    Material glass;
+    glass.name = "clear glass";
+    glass.metallic = 0.0f;
+    glass.perceptualRoughness = 0.0f;
+    glass.transmission = 1.0f;
+    return glass;
+}
+
+/// Without a reflection.
+Material bareGlass(double ior, double roughness = 0.0) {
+    Material glass = clearGlass();
+    glass.specularFactor = 0.0f;
+    glass.ior = float(ior);
+    glass.perceptualRoughness = float(roughness);
+    glass.thicknessMetres = 0.1f;
+    return glass;
+}
+
+class GlassSheets : public FlatTest {
+protected:
+    void expectShown(const Scene& scene, const glm::dvec3& wanted, float coverage = 1.0f) {
+        const glm::vec4 shown = center(scene);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], wanted[c], kGlassRounding * std::max(wanted[c], 1e-3)) << c;
+        EXPECT_EQ(shown.a, coverage);
+    }
+};
+
+TEST_F(GlassSheets, showWhatLiesBehindByChannel) {
+    Material sheet = clearGlass();
+    sheet.baseColor = {0.5f, 0.8f, 0.2f, 0.25f}; // an opacity that nothing asks for
+    sheet.transmission = 0.7f;
+    sheet.metallic = 0.25f;
+    Scene scene = flatScene(sheet);
+    scene.background = {0.25f, 0.5f, 0.75f};
+    glm::dvec3 wanted;
+    for (int c = 0; c < 3; ++c) {
+        const double color = double(sheet.baseColor[c]), straight = std::lerp(0.04, color, 0.25);
+        wanted[c] = double(0.7f) * 0.75 * color * (1.0 - straight) * double(scene.background[c]);
+    }
+    expectShown(scene, wanted);
+    // Opacity covers where it blends: the rest of what lies behind stays as it is.
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    expectShown(scene, 0.25 * wanted + 0.75 * glm::dvec3(scene.background), 0.25f);
+    // A body that nothing bends light into absorbs all the same.
+    scene.materials[0].alphaMode = scenes::AlphaMode::Opaque;
+    scene.materials[0].thicknessMetres = 0.5f;
+    scene.materials[0].attenuationDistanceMetres = 0.25f;
+    scene.materials[0].attenuationColor = {0.5f, 1.0f, 0.0f};
+    expectShown(scene, wanted * glm::dvec3(0.25, 1.0, 0.0));
+}
+
+TEST_F(GlassSheets, behindEachOtherMultiply) {
+    Material sheet = clearGlass();
+    sheet.baseColor = {0.5f, 0.8f, 0.2f, 1.0f};
+    Scene scene = flatScene(sheet);
+    scene.background = {0.25f, 0.5f, 0.75f};
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes.back().parentFromNode[3].z = -0.5;
+    expectShown(scene,
+                glm::dvec3(scene.background) * glm::dvec3(sheet.baseColor) * glm::dvec3(sheet.baseColor) * 0.96 * 0.96);
+}
+
+/// All that is left of light is the highlight: that of a black body with the same reflectance.
+TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
+    const auto lit = [](const Material& material) {
+        Scene scene = underTheSun(material, glm::normalize(glm::dvec3(-0.1, -0.15, -1.0)));
+        scene.background = glm::vec3(0.0f);
+        return scene;
+    };
+    Material black = clearGlass();
+    black.perceptualRoughness = 0.4f;
+    black.transmission = 0.0f;
+    black.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    const glm::vec4 highlight = center(lit(black));
+    EXPECT_GT(highlight.g, 0.01f);
+    Material sheet = black;
+    sheet.baseColor = glm::vec4(1.0f);
+    sheet.transmission = 1.0f;
+    expectShown(lit(sheet), glm::dvec3(highlight));
+    sheet.transmission = 0.25f; // of a matte body three quarters stay
+    Material matte = sheet;
+    matte.transmission = 0.0f;
+    const glm::vec4 whole = center(lit(matte));
+    expectShown(lit(sheet), glm::mix(glm::dvec3(highlight), glm::dvec3(whole), 0.75));
+}
+
+class Glass : public EnvironmentTest {
+protected:
+    static frame::FrameSettings ofSide(int side, EnvironmentLight light = EnvironmentLight::SplitSum) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {side, side};
+        settings.environment.light = light;
+        settings.environment.samples = 16;
+        return settings;
+    }
+    std::vector<float> drawn(const Scene& scene, const frame::FrameSettings& settings,
+                             Technique technique = Technique::Deferred) {
+        return engine::Renderer(context(), scene).render(technique, settings).radiance;
+    }
+};
+
+/// Whatever it lets through and reflects is the same light.
+TEST_F(Glass, clearInEvenLightShowsExactlyThatLight) {
+    constexpr int kFurnacePixels = 48;
+    for (const float thickness : {0.0f, 0.1f})
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            Material glass = clearGlass();
+            glass.thicknessMetres = thickness;
+            glass.clearcoat = 0.5f;
+            Scene scene = ballUnderSky(glass);
+            scene.environment = evenEnvironment(1.0);
+            const std::vector<float> shown = drawn(scene, ofSide(kFurnacePixels, light));
+            for (int y = 0; y < kFurnacePixels; ++y)
+                for (int x = 0; x < kFurnacePixels; ++x) {
+                    const glm::dvec2 at =
+                        1.02 * (glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(kFurnacePixels) - 1.0);
+                    // At its rim interpolated normals turn away from the viewer.
+                    if (std::abs(glm::length(at) - 1.0) < 0.03) continue;
+                    for (int c = 0; c < 3; ++c)
+                        ASSERT_NEAR(shown[std::size_t(4 * (y * kFurnacePixels + x) + c)], 1.0f, 1e-3f)
+                            << thickness << ", " << infoOf(light).name << " at " << x << ", " << y;
+                }
+        }
+}
+
+constexpr int kBentPixels = 48, kBentWidth = 256, kBentHeight = 128;
+constexpr double kBentTiltRadians = 0.6; ///< of the plane, about x
+
+/// Smooth in all directions.
+double bentSky(int x, int y) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    return 1.0 +
+           0.5 * std::sin(3.0 * kTurn * (x + 0.5) / kBentWidth) * std::sin(0.5 * kTurn * (y + 0.5) / kBentHeight) +
+           0.4 * std::cos(2.0 * kTurn * (y + 0.5) / kBentHeight);
+}
+
+double bentSkyAlong(const glm::dvec3& direction) {
+    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kBentWidth, kBentHeight) - 0.5;
+    const glm::dvec2 corner = glm::floor(place), share = place - corner;
+    const auto at = [&](int i, int j) {
+        return bentSky((int(corner.x) + i + kBentWidth) % kBentWidth,
+                       std::clamp(int(corner.y) + j, 0, kBentHeight - 1));
+    };
+    return std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
+}
+
+/// A plane through the origin that fills the picture, seen from z = 3 through a wide lens.
+Scene bentPlane(const Material& material) {
+    Scene scene = quadScene(material);
+    const double cosine = std::cos(kBentTiltRadians), sine = std::sin(kBentTiltRadians);
+    glm::dmat4& placed = scene.nodes[0].parentFromNode;
+    placed = glm::dmat4(1.0);
+    placed[0] = {90.0, 0.0, 0.0, 0.0};
+    placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * 90.0;
+    placed[2] = {0.0, sine, cosine, 0.0};
+    scene.cameras[0].fovYRadians = 1.6;
+    scene.cameras[0].nearMetres = 0.1;
+    scene.cameras[0].farMetres = 1000.0;
+    scene.environment = environmentOf(kBentWidth, kBentHeight, [](int x, int y) { return glm::dvec3(bentSky(x, y)); });
+    return scene;
+}
+
+const glm::dvec3 kBentNormal(0.0, std::sin(kBentTiltRadians), std::cos(kBentTiltRadians));
+
+glm::dvec3 toViewerOfBent(int x, int y) {
+    const double half = std::tan(0.8) / kBentPixels;
+    return -glm::normalize(
+        glm::dvec3((2.0 * x + 1.0 - kBentPixels) * half, (kBentPixels - 1.0 - 2.0 * y) * half, -1.0));
+}
+
+/// Snell's law by angles; nothing where all is reflected.
+std::optional<glm::dvec3> bentDirection(const glm::dvec3& toViewer, double ior) {
+    const double angle = std::acos(glm::dot(kBentNormal, toViewer)), bentSine = std::sin(angle) / ior;
+    if (bentSine > 1.0) return std::nullopt;
+    const glm::dvec3 along = glm::normalize(toViewer - std::cos(angle) * kBentNormal);
+    return -std::cos(std::asin(bentSine)) * kBentNormal - bentSine * along;
+}
+
+TEST_F(Glass, aBodyShowsTheEnvironmentWhereSnellsLawSays) {
+    for (const double ior : {1.0, 1.5, 2.4, 0.75})
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            const std::vector<float> shown = drawn(bentPlane(bareGlass(ior)), ofSide(kBentPixels, light));
+            int judged = 0, dark = 0;
+            for (int y = 0; y < kBentPixels; ++y)
+                for (int x = 0; x < kBentPixels; ++x) {
+                    const float* const pixel = &shown[std::size_t(4 * (y * kBentPixels + x))];
+                    const glm::dvec3 toViewer = toViewerOfBent(x, y);
+                    const double cosView = glm::dot(kBentNormal, toViewer);
+                    // Beyond the plane's edge, and where total reflection begins, which steepens what rounding does.
+                    if (cosView < 0.05 || std::abs(std::sqrt(1.0 - cosView * cosView) - ior) < 1e-3) continue;
+                    const std::optional<glm::dvec3> bent = bentDirection(toViewer, ior);
+                    // Angles in fp32 are good to 1e-5, and the sky changes by less than 3 per rad.
+                    ASSERT_NEAR(pixel[0], bent ? bentSkyAlong(*bent) : 0.0, 1e-3)
+                        << ior << ", " << infoOf(light).name << " at " << x << ", " << y;
+                    ++judged;
+                    dark += bent ? 0 : 1;
+                }
+            EXPECT_GT(judged, kBentPixels * kBentPixels / 2);
+            EXPECT_EQ(dark > 0, ior < 1.0) << ior << ": total reflection";
+        }
+}
+
+/// Roughness spreads light by the index of refraction: none at 1, all from 1.5 on.
+TEST_F(Glass, aRoughBodyAgreesWithTheReference) {
+    for (const double ior : {1.0, 1.25, 1.5}) {
+        Material rough = bareGlass(ior, 0.6);
+        rough.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
+        rough.attenuationDistanceMetres = 0.2f;
+        rough.attenuationColor = {0.25f, 0.5f, 0.75f};
+        const Scene scene = bentPlane(rough);
+        frame::FrameSettings settings = ofSide(kBentPixels);
+        settings.environment.samples = 1024;
+        settings.filter = frame::TextureFilter::Exact;
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            settings.environment.light = light;
+            const std::vector<float> shown = drawn(scene, settings);
+            double own = 0.0, other = 0.0, worst = 0.0;
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                if (i % 4 == 3 || truth.picture.covered[i / 4] == 0) continue;
+                own += double(shown[i]);
+                other += double(truth.picture.rgba[i]);
+                worst = std::max(worst, double(std::abs(shown[i] - truth.picture.rgba[i])));
+            }
+            EXPECT_GT(other, 100.0);
+            EXPECT_NEAR(own, other, 0.01 * other) << ior << ", " << infoOf(light).name;
+            EXPECT_LE(worst, 0.1) << ior << ", " << infoOf(light).name; // noise of both; levels between alphas
+        }
+    }
+}
+
+/// Sheets and bodies among all other materials.
+Scene sceneWithGlass() {
+    Scene scene = everythingScene();
+    Material& sheet = scene.materials[3]; // a textured sphere
+    sheet.transmission = 0.8f;
+    sheet.metallic = 0.2f;
+    Material& masked = scene.materials[5];
+    masked.transmission = 0.5f;
+    Material& coated = scene.materials[11];
+    coated.transmission = 0.9f;
+    coated.thicknessMetres = 0.1f;
+    coated.attenuationDistanceMetres = 0.2f;
+    coated.attenuationColor = {0.9f, 0.4f, 0.2f};
+    return scene;
+}
+
+TEST_F(Glass, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
+    for (const bool isUnderSky : {false, true}) {
+        Scene scene = sceneWithGlass();
+        if (isUnderSky) scene.environment = builtinEnvironment("studio");
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        engine::Renderer renderer(context(), scene);
+        // Compiling takes nearly all of the time: with the environment two suffice.
+        expectParity(renderer, settings,
+                     isUnderSky ? std::vector{Technique::Deferred, Technique::ClusteredForward}
+                                : std::vector<Technique>{});
+        const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+        settings.prune = false;
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+    }
+}
+
+TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
+    const Scene scene = sceneWithGlass();
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    settings.filter = frame::TextureFilter::Exact;
+    const validation::ReferencePicture truth = validation::referencePicture(scene, settings);
+    const engine::RenderedFrame shown = engine::Renderer(context(), scene).render(Technique::Forward, settings);
+    // At edges rasterisers show another triangle than rays hit.
+    int wrong = 0, covered = 0;
+    for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
+        if (truth.picture.covered[i] == 0) continue;
+        ++covered;
+        const auto isFar = [&](int c) {
+            const double own = double(shown.radiance[4 * i + std::size_t(c)]),
+                         other = double(truth.picture.rgba[4 * i + std::size_t(c)]);
+            return std::abs(own - other) > 1e-3 * other + 1e-4;
+        };
+        wrong += isFar(0) || isFar(1) || isFar(2) ? 1 : 0;
+    }
+    EXPECT_GT(covered, 2000);
+    EXPECT_LE(wrong, covered / 20);
+}
+
+/// Other surfaces of the transparent pass take other code beside it, and the same bits.
+TEST_F(Glass, elsewhereInASceneChangesNoBitOfBlendedSurfaces) {
+    Material blended;
+    blended.baseColor = {0.4f, 0.6f, 0.9f, 0.3f};
+    blended.metallic = 0.0f;
+    blended.alphaMode = scenes::AlphaMode::Blend;
+    Scene scene = quadScene(blended);
+    scene.lights = {pointLight({0.3, 0.4, 1.0}, 3.0f)};
+    scene.background = {0.2f, 0.3f, 0.1f};
+    const std::vector<float> alone = drawn(scene, ofSide(32));
+    scene.materials.push_back(clearGlass());
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes.back().instances[0].material = 1;
+    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 50.0, 1.0}; // behind the camera
+    EXPECT_EQ(drawn(scene, ofSide(32)), alone);
+}
+
+TEST_F(Glass, materialsMayBecomeItWhileASceneIsShown) {
+    Scene scene = everythingScene();
+    frame::FrameSettings settings = ofSide(64);
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> before = renderer.render(Technique::Deferred, settings).radiance;
+    scene.materials = sceneWithGlass().materials;
+    renderer.materialsChanged();
+    const std::vector<float> edited = renderer.render(Technique::Deferred, settings).radiance;
+    EXPECT_NE(edited, before);
+    EXPECT_EQ(edited, drawn(scene, settings));
+    scene.materials = everythingScene().materials;
+    renderer.materialsChanged();
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, before);
+}
+
+TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
+    const auto valuesOf = [](const Scene& scene, const std::string& define) {
+        std::vector<std::string> values;
+        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
+            for (const auto& [name, value] : program.defines)
+                if (name == define) values.push_back(value);
+        return values;
+    };
+    using ::testing::Each;
+    Scene scene = quadScene({});
+    EXPECT_THAT(valuesOf(scene, "HAS_TRANSMISSION"), Each("0"));
+    EXPECT_FALSE(valuesOf(scene, "HAS_TRANSMISSION").empty());
+    EXPECT_THAT(valuesOf(scene, "HAS_VOLUME"), Each("0"));
+    EXPECT_THAT(planText(engine::planFrame(scene, Technique::Deferred, {})), ::testing::HasSubstr("transmission"))
+        << "told as left out";
+    scene.materials[0].transmission = 0.5f;
+    EXPECT_THAT(valuesOf(scene, "HAS_TRANSMISSION"), ::testing::Contains("1"));
+    EXPECT_THAT(valuesOf(scene, "HAS_VOLUME"), Each("0"));
+}
+
+} // namespace
+} // namespace tessera
