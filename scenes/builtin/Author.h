@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "scenes/Scene.h"
@@ -90,6 +91,20 @@ inline void addDirectionalLight(Scene& scene, const std::string& name, const glm
     light.color = color;
     light.intensity = lux;
     scene.lights.push_back(std::move(light));
+}
+
+/// A light with an area at a place, turned towards a target. The reference is good until the next light is added.
+inline Light& addAreaLight(Scene& scene, const std::string& name, LightType type, const glm::dvec3& positionWS,
+                           const glm::dvec3& targetWS, const glm::vec3& color, float radiance) {
+    Light& light = scene.lights.emplace_back();
+    light.name = name;
+    light.type = type;
+    light.positionWS = positionWS;
+    light.directionWS = glm::normalize(targetWS - positionWS);
+    light.alongWS = usualAlong(light.directionWS);
+    light.color = color;
+    light.intensity = radiance;
+    return light;
 }
 
 /// Scenes with a few placed lights keep the first `options.lights` of them.

@@ -26,6 +26,8 @@ Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger& ledger);
 Scene makeLamps(const LoadOptions& options, LoadLedger& ledger);
 /// Seven materials before a paper sweep, lit by lights of every shape.
 Scene makeProductStudio(const LoadOptions& options, LoadLedger& ledger);
+/// Bottles, tumblers, a prism and coloured panes on a table in the studio (docs/glass.md).
+Scene makeGlass(const LoadOptions& options, LoadLedger& ledger);
 /// A bust with an object-space normal map; a scanned head where TESSERA_ASSETS holds one and `useAssets` is set.
 Scene makeHead(const LoadOptions& options, LoadLedger& ledger);
 

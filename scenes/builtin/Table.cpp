@@ -30,6 +30,8 @@ std::span<const BuiltinScene> builtinScenes() {
                      4 * kMiB},
         BuiltinScene{"studio", "products of seven materials, lit by lights of every shape", builtin::makeProductStudio,
                      4 * kMiB},
+        BuiltinScene{"glass", "bottles, tumblers, a prism and coloured panes on a table in the studio",
+                     builtin::makeGlass, 16 * kMiB},
     };
     return kScenes;
 }

@@ -16,8 +16,9 @@ namespace {
 constexpr int kEntryPixels = 18;
 constexpr int kFirstEntryPixels = 24;
 constexpr int kLinePixels = 6;
-constexpr std::string_view kBuiltin[] = {"hall", "spheres",   "models",      "lattice",         "room",  "shadow_truth",
-                                         "head", "head_skin", "head_marble", "diffusion_truth", "lamps", "studio"};
+constexpr std::string_view kBuiltin[] = {"hall",         "spheres", "models",    "lattice",     "room",
+                                         "shadow_truth", "head",    "head_skin", "head_marble", "diffusion_truth",
+                                         "lamps",        "studio",  "glass"};
 
 /// Clicks what lies so far under the box of the list.
 void chooseEntry(const DrivenViewer& viewer, glm::ivec2 box, int pixels) {

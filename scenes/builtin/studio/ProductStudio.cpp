@@ -58,20 +58,6 @@ void addProducts(Scene& scene) {
                metallicRoughness("orange plastic", {0.80f, 0.19f, 0.015f}, 0.0f, 0.28f));
 }
 
-/// A light of a type at a place, turned towards a target.
-Light& addAreaLight(Scene& scene, const std::string& name, LightType type, const glm::dvec3& positionWS,
-                    const glm::dvec3& targetWS, const glm::vec3& color, float radiance) {
-    Light& light = scene.lights.emplace_back();
-    light.name = name;
-    light.type = type;
-    light.positionWS = positionWS;
-    light.directionWS = glm::normalize(targetWS - positionWS);
-    light.alongWS = usualAlong(light.directionWS);
-    light.color = color;
-    light.intensity = radiance;
-    return light;
-}
-
 /// A lamp that is in the picture. What is seen to shine lies just within the light, so that the light does not shine on
 /// it, and casts no shadow.
 void addSeenLamp(Scene& scene, Mesh mesh, const Light& light) {

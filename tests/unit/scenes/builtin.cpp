@@ -73,6 +73,8 @@ std::uint64_t digest(const Scene& scene) {
         digest.add(glm::vec4(material.metallic, material.perceptualRoughness, material.alpha, material.ior));
         digest.add(glm::vec4(material.alphaY, material.exponent, material.anisotropyStrength, material.clearcoat));
         digest.add(material.sheenColor);
+        digest.add(glm::vec4(material.attenuationColor, material.transmission));
+        digest.add(glm::vec2(material.thicknessMetres, material.attenuationDistanceMetres));
     }
     for (const Light& light : scene.lights) {
         digest.add(light.positionWS);
@@ -296,6 +298,30 @@ TEST(Studio, showsEveryLayerUnderLightsOfEveryShape) {
     for (const Material& material : scene.materials)
         EXPECT_EQ(material.castsShadow, material.emissive == glm::vec3(0.0f)) << material.name;
     EXPECT_EQ(underLedger(builtin::makeProductStudio, withLights(2)).lights.size(), 2u);
+}
+
+TEST(GlassTable, showsSheetsAndBodiesOfManyColoursInTheStudio) {
+    const Scene scene = underLedger(builtin::makeGlass, withoutAssets());
+    EXPECT_LE(triangleCount(scene), 60000u);
+    ASSERT_TRUE(scene.environment);
+    EXPECT_EQ(scene.environment->source, "builtin:studio");
+    std::set<float> thicknesses, roughnesses;
+    int sheets = 0, absorbing = 0;
+    for (const Material& material : scene.materials) {
+        if (!isTransmissive(material)) continue;
+        roughnesses.insert(material.perceptualRoughness);
+        sheets += material.thicknessMetres == 0.0f ? 1 : 0;
+        const bool absorbs = material.attenuationDistanceMetres > 0.0f && material.attenuationColor != glm::vec3(1.0f);
+        absorbing += absorbs ? 1 : 0;
+        // A sheet is tinted by its colour, a body by what it absorbs.
+        EXPECT_EQ(absorbs, material.thicknessMetres > 0.0f) << material.name;
+        EXPECT_EQ(material.doubleSided, material.name.ends_with(" pane")) << material.name;
+    }
+    EXPECT_EQ(sheets, 6);
+    EXPECT_EQ(absorbing, 5);
+    EXPECT_EQ(roughnesses.size(), 2u) << "clear and frosted";
+    EXPECT_TRUE(std::ranges::all_of(scene.lights, [](const Light& light) { return infoOf(light.type).isArea; }));
+    EXPECT_EQ(underLedger(builtin::makeGlass, withLights(1)).lights.size(), 1u);
 }
 
 TEST(Spheres, spanRoughnessAndMetalness) {

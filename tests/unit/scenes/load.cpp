@@ -25,7 +25,7 @@ TEST(LoadScene, unknownNamesBringTheNearest) {
     EXPECT_EQ(complaint("latice"), "no built-in scene or file is called 'latice'; did you mean 'lattice'?");
     EXPECT_EQ(complaint("quetzalcoatl"),
               "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, models, lattice, room, "
-              "shadow_truth, head, head_skin, head_marble, diffusion_truth, lamps, studio");
+              "shadow_truth, head, head_skin, head_marble, diffusion_truth, lamps, studio, glass");
 }
 
 TEST(LoadScene, missingAndForeignFilesAreNamed) {
