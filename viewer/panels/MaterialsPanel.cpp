@@ -133,7 +133,9 @@ bool materialRows(Material& material) {
         changed = true;
     }
     changed |= modelRows(material);
-    if (scenes::infoOf(material.model).isLit) changed |= subsurfaceRows(material.subsurface);
+    // Of what transmits it is ignored.
+    if (scenes::infoOf(material.model).isLit && !scenes::isTransmissive(material))
+        changed |= subsurfaceRows(material.subsurface);
     changed |= colorRow("Emission", material.emissive, kMostRadiance);
     changed |= surfaceRows(material);
     const auto textured = std::count_if(material.textures.begin(), material.textures.end(),
