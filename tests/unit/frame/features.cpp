@@ -205,6 +205,13 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
             m.clearcoatPerceptualRoughness = roughness;
         };
     };
+    const auto body = [](float thicknessMetres, float ior) {
+        return [=](Material& m) {
+            m.transmission = 1.0f;
+            m.thicknessMetres = thicknessMetres;
+            m.ior = ior;
+        };
+    };
     const auto textured = [](TextureSlot slot) { return [slot](Material& m) { addTexture(m, slot); }; };
     const std::vector<Case> cases = {
         {true, metal(0.0f)},
@@ -224,6 +231,11 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
         {true, blinn(2e4f)}, // as wide as alpha 0.01
         {false, blinn(1e4f)},
         {true, also(blinn(1e4f), textured(TextureSlot::MetallicRoughness))},
+        // Bodies that hardly bend light hardly spread it.
+        {true, also(metal(0.5f), body(0.1f, 1.02f))},
+        {false, also(metal(0.5f), body(0.1f, 1.5f))},
+        {false, also(metal(0.5f), body(0.0f, 1.02f))}, // a sheet
+        {true, also(also(metal(0.5f), body(0.1f, 1.5f)), textured(TextureSlot::Ior))},
         {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has none
     for (std::size_t i = 0; i < cases.size(); ++i) {
         scenes::Scene scene = plainScene();
