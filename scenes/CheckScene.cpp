@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "scenes/AreaLight.h"
+#include "scenes/CheckRig.h"
 #include "scenes/Limits.h"
 #include "scenes/Scene.h"
 
@@ -184,28 +185,6 @@ Box3 boxOf(const Mesh& mesh) {
     return boxOS;
 }
 
-/// That everything drawn lies within kFarthestMetres.
-void checkPlaces(const Scene& scene) {
-    std::vector<Box3> boxesOS;
-    std::transform(scene.meshes.begin(), scene.meshes.end(), std::back_inserter(boxesOS), boxOf);
-    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Element element(scene, "node", i, scene.nodes[i].name);
-        for (const MeshInstance& instance : scene.nodes[i].instances) {
-            const Box3& boxOS = boxesOS[static_cast<std::size_t>(instance.mesh)];
-            if (boxOS.empty()) continue;
-            for (const double x : {boxOS.min.x, boxOS.max.x})
-                for (const double y : {boxOS.min.y, boxOS.max.y})
-                    for (const double z : {boxOS.min.z, boxOS.max.z})
-                        if (!isNearEnough(glm::dvec3(worldFromNode[i] * glm::dvec4(x, y, z, 1.0))))
-                            element.require(
-                                false, fmt::format("part of it lies more than {:g} m from the origin; make the scene "
-                                                   "smaller",
-                                                   kFarthestMetres));
-        }
-    }
-}
-
 void checkAnimation(const Element& element, const LightAnimation& animation) {
     element.require(std::isfinite(animation.periodSeconds) && animation.periodSeconds > 0.0,
                     "the period of its animation must be positive");
@@ -343,6 +322,42 @@ void checkSceneWide(const Scene& scene) {
 
 } // namespace
 
+void checkPlaces(const Scene& scene) {
+    std::vector<Box3> boxesOS;
+    std::transform(scene.meshes.begin(), scene.meshes.end(), std::back_inserter(boxesOS), boxOf);
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Element element(scene, "node", i, scene.nodes[i].name);
+        for (const MeshInstance& instance : scene.nodes[i].instances) {
+            const Box3& boxOS = boxesOS[static_cast<std::size_t>(instance.mesh)];
+            if (boxOS.empty()) continue;
+            for (const double x : {boxOS.min.x, boxOS.max.x})
+                for (const double y : {boxOS.min.y, boxOS.max.y})
+                    for (const double z : {boxOS.min.z, boxOS.max.z})
+                        if (!isNearEnough(glm::dvec3(worldFromNode[i] * glm::dvec4(x, y, z, 1.0))))
+                            element.require(
+                                false, fmt::format("part of it lies more than {:g} m from the origin; make the scene "
+                                                   "smaller",
+                                                   kFarthestMetres));
+        }
+    }
+    // Checked here only where nodes carry them; else checkLight() and checkCamera() do.
+    const auto requireNear = [&](bool isNear, std::string_view kind, int index, const std::string& name) {
+        if (!isNear)
+            Element(scene, kind, std::size_t(index), name)
+                .require(false, fmt::format("its node carries it more than {:g} m from the origin; keep it nearer",
+                                            kFarthestMetres));
+    };
+    for (const Carried& carried : scene.rig.lights) {
+        const Light& light = scene.lights[std::size_t(carried.element)];
+        requireNear(isNearEnough(light.positionWS), "light", carried.element, light.name);
+    }
+    for (const Carried& carried : scene.rig.cameras) {
+        const Camera& camera = scene.cameras[std::size_t(carried.element)];
+        requireNear(isNearEnough(glm::dvec3(camera.worldFromCamera[3])), "camera", carried.element, camera.name);
+    }
+}
+
 void checkScene(const Scene& scene) {
     const auto checkName = [&](std::string_view kind, const std::string& name) {
         if (name.size() > kMostNameBytes)
@@ -372,6 +387,7 @@ void checkScene(const Scene& scene) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         checkNode({scene, "node", i, scene.nodes[i].name}, scene.nodes[i], i, scene);
     }
+    checkRig(scene);
     checkPlaces(scene);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         checkLight({scene, "light", i, scene.lights[i].name}, scene.lights[i]);

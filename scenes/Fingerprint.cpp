@@ -119,10 +119,58 @@ public:
         addAll(map, intensity, rotationDegrees);
         static_cast<void>(source); // where it comes from, not what it is
     }
+    void add(const AnimationSampler& sampler) {
+        const auto& [interpolation, width, timesSeconds, values] = sampler;
+        addAll(interpolation, width, timesSeconds, values);
+    }
+    void add(const AnimationChannel& channel) {
+        const auto& [property, target, sampler] = channel;
+        addAll(property, target, sampler);
+    }
+    void add(const Clip& clip) {
+        const auto& [name, samplers, channels] = clip;
+        addAll(name, samplers, channels);
+    }
+    void add(const RestNode& node) {
+        const auto& [index, translation, rotation, scale] = node;
+        addAll(index, translation, rotation, scale);
+    }
+    void add(const RestWeights& rest) {
+        const auto& [node, weights] = rest;
+        addAll(node, weights);
+    }
+    void add(const RestNumber& rest) {
+        const auto& [property, element, number] = rest;
+        addAll(property, element, number);
+    }
+    void add(const Skin& skin) {
+        const auto& [name, joints, jointFromBind] = skin;
+        addAll(name, joints, jointFromBind);
+    }
+    void add(const MorphTarget& target) {
+        const auto& [positionsOS, normalsOS, tangentsOS, texCoords, colors] = target;
+        addAll(positionsOS, normalsOS, tangentsOS, texCoords, colors);
+    }
+    void add(const Shape& shape) {
+        const auto& [rest, isFlat, targets, influences, joints, weights] = shape;
+        addAll(rest, isFlat, targets, influences, joints, weights);
+    }
+    void add(const Deformed& deformed) {
+        const auto& [mesh, shape, node, standsAt, skin, weights] = deformed;
+        addAll(mesh, shape, node, standsAt, skin, weights);
+    }
+    void add(const Carried& carried) {
+        const auto& [element, node] = carried;
+        addAll(element, node);
+    }
+    void add(const Rig& rig) {
+        const auto& [clips, playing, nodes, weights, numbers, skins, shapes, deformed, lights, cameras] = rig;
+        addAll(clips, playing, nodes, weights, numbers, skins, shapes, deformed, lights, cameras);
+    }
     void add(const Scene& scene) {
-        const auto& [name, images, materials, meshes, nodes, lights, cameras, environment, background, options,
+        const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options,
                      warnings] = scene;
-        addAll(name, images, materials, meshes, nodes, lights, cameras, environment, background, options);
+        addAll(name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options);
         static_cast<void>(warnings); // words about the file, not content
     }
 

@@ -84,8 +84,36 @@ std::uint64_t bytesOf(const Mesh& mesh) {
            bytesOf(mesh.indices);
 }
 
+std::uint64_t bytesOf(const Shape& shape) {
+    std::uint64_t bytes = sizeof(Shape) + bytesOf(shape.rest) + bytesOf(shape.joints) + bytesOf(shape.weights);
+    for (const MorphTarget& target : shape.targets)
+        bytes += sizeof(MorphTarget) + bytesOf(target.positionsOS) + bytesOf(target.normalsOS) +
+                 bytesOf(target.tangentsOS) + bytesOf(target.texCoords[0]) + bytesOf(target.texCoords[1]) +
+                 bytesOf(target.colors);
+    return bytes;
+}
+
+std::uint64_t bytesOf(const Clip& clip) {
+    std::uint64_t bytes = sizeof(Clip) + clip.name.size() + bytesOf(clip.channels);
+    for (const AnimationSampler& sampler : clip.samplers)
+        bytes += sizeof(AnimationSampler) + bytesOf(sampler.timesSeconds) + bytesOf(sampler.values);
+    return bytes;
+}
+
+std::uint64_t bytesOf(const Rig& rig) {
+    std::uint64_t bytes = bytesOf(rig.playing) + bytesOf(rig.nodes) + bytesOf(rig.weights) + bytesOf(rig.numbers) +
+                          bytesOf(rig.deformed) + bytesOf(rig.lights) + bytesOf(rig.cameras);
+    for (const Clip& clip : rig.clips) bytes += bytesOf(clip);
+    for (const RestWeights& rest : rig.weights) bytes += bytesOf(rest.weights);
+    for (const Skin& skin : rig.skins)
+        bytes += sizeof(Skin) + skin.name.size() + bytesOf(skin.joints) + bytesOf(skin.jointFromBind);
+    for (const Shape& shape : rig.shapes) bytes += bytesOf(shape);
+    return bytes;
+}
+
 std::uint64_t bytesOf(const Scene& scene) {
-    std::uint64_t bytes = sizeof(Scene) + bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.cameras);
+    std::uint64_t bytes =
+        sizeof(Scene) + bytesOf(scene.rig) + bytesOf(scene.materials) + bytesOf(scene.lights) + bytesOf(scene.cameras);
     for (const Image& image : scene.images) bytes += sizeof(Image) + image.name.size() + image.texels.size();
     if (scene.environment) bytes += scene.environment->source.size() + scene.environment->map.texels.size();
     for (const Material& material : scene.materials) bytes += material.name.size();

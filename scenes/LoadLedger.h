@@ -59,6 +59,9 @@ private:
 
 /// Bytes that parts of a scene hold.
 std::uint64_t bytesOf(const Mesh& mesh);
+std::uint64_t bytesOf(const Shape& shape);
+std::uint64_t bytesOf(const Clip& clip);
+std::uint64_t bytesOf(const Rig& rig);
 std::uint64_t bytesOf(const Scene& scene);
 
 } // namespace tessera::scenes

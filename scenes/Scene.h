@@ -11,10 +11,12 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Animation.h"
 #include "scenes/Environment.h"
 #include "scenes/Image.h"
 #include "scenes/Light.h"
 #include "scenes/Material.h"
+#include "scenes/Mesh.h"
 
 /// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a
 /// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
@@ -31,18 +33,6 @@ struct Box3 {
         min = glm::min(min, point);
         max = glm::max(max, point);
     }
-};
-
-/// Indexed triangles, counter-clockwise seen from the front. Positions and normals are always there and of one length;
-/// every other attribute is either empty or of that length too.
-struct Mesh {
-    std::string name;
-    std::vector<glm::vec3> positionsOS;
-    std::vector<glm::vec3> normalsOS;  ///< unit length
-    std::vector<glm::vec4> tangentsOS; ///< xyz unit length, w handedness (+1 or -1); empty: a renderer derives them
-    std::array<std::vector<glm::vec2>, 2> texCoords; ///< origin at the picture's top-left corner, v down
-    std::vector<glm::vec4> colors;                   ///< linear, multiply baseColor
-    std::vector<std::uint32_t> indices;              ///< three a triangle
 };
 
 /// A mesh drawn with a material, at a node.
@@ -99,6 +89,7 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Light> lights; ///< in document order: glTF depth first, then those of the .json
     std::vector<Camera> cameras;
+    Rig rig; ///< empty where nothing moves and nothing is skinned or morphed
     std::optional<Environment> environment;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
@@ -117,6 +108,10 @@ Box3 worldBounds(const Scene& scene);
 
 /// Triangles drawn, instances counted each.
 std::size_t triangleCount(const Scene& scene);
+
+/// Throws InputError unless everything drawn lies within kFarthestMetres of the origin, and the lights and cameras that
+/// nodes carry do: the part of checkScene() that a pose may break.
+void checkPlaces(const Scene& scene);
 
 /// Throws InputError unless every index is in range, every attribute has its mesh's length and every number is finite
 /// (a light's infinite range and a camera's infinite far plane excepted). The text names the scene and the element.

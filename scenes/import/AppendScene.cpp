@@ -10,6 +10,7 @@
 #include "base/Error.h"
 #include "scenes/AreaLight.h"
 #include "scenes/Direction.h"
+#include "scenes/Transform.h"
 
 namespace tessera::scenes {
 namespace {
@@ -25,15 +26,6 @@ void shift(int& index, std::size_t offset) {
 
 glm::dvec3 movedPoint(const glm::dmat4& worldFromPart, const glm::dvec3& point) {
     return glm::dvec3(worldFromPart * glm::dvec4(point, 1.0));
-}
-
-/// det(M) M^-T without a division, up to a positive factor: what normals and axes of rotation are moved by.
-glm::dmat3 cofactorOf(glm::dmat3 matrix) {
-    // Products of its entries neither overflow nor vanish.
-    double largest = 0.0;
-    for (glm::length_t i = 0; i < 9; ++i) largest = std::max(largest, std::abs(matrix[i / 3][i % 3]));
-    if (largest > 0.0) matrix /= largest;
-    return {glm::cross(matrix[1], matrix[2]), glm::cross(matrix[2], matrix[0]), glm::cross(matrix[0], matrix[1])};
 }
 
 /// `what` names whose direction it is.
@@ -74,6 +66,42 @@ void moveCamera(Camera& camera, const glm::dmat4& worldFromPart) {
                               moved[3]};
 }
 
+/// Before anything of `part` is moved into `whole`. Its nodes will stand behind `nodes` others.
+void shiftRig(Rig& rig, const Scene& whole, std::size_t nodes) {
+    const Rig& before = whole.rig;
+    for (int& clip : rig.playing) shift(clip, before.clips.size());
+    for (RestNode& rest : rig.nodes) shift(rest.node, nodes);
+    for (RestWeights& rest : rig.weights) shift(rest.node, nodes);
+    for (RestNumber& rest : rig.numbers)
+        shift(rest.element,
+              infoOf(rest.property).owner == AnimatedOwner::Light ? whole.lights.size() : whole.materials.size());
+    for (Skin& skin : rig.skins)
+        for (int& joint : skin.joints) shift(joint, nodes);
+    for (Deformed& deformed : rig.deformed) {
+        shift(deformed.mesh, whole.meshes.size());
+        shift(deformed.shape, before.shapes.size());
+        shift(deformed.node, nodes);
+        shift(deformed.standsAt, nodes);
+        shift(deformed.skin, before.skins.size());
+        shift(deformed.weights, before.weights.size());
+    }
+    for (Carried& carried : rig.lights) {
+        shift(carried.element, whole.lights.size());
+        shift(carried.node, nodes);
+    }
+    for (Carried& carried : rig.cameras) {
+        shift(carried.element, whole.cameras.size());
+        shift(carried.node, nodes);
+    }
+    for (Clip& clip : rig.clips)
+        for (AnimationChannel& channel : clip.channels) {
+            const AnimatedOwner owner = infoOf(channel.property).owner;
+            shift(channel.target, owner == AnimatedOwner::Node      ? before.nodes.size()
+                                  : owner == AnimatedOwner::Weights ? before.weights.size()
+                                                                    : before.numbers.size());
+        }
+}
+
 } // namespace
 
 void appendScene(Scene& whole, Scene part, const std::string& name, const glm::dmat4& worldFromPart) {
@@ -95,6 +123,7 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
             shift(instance.material, whole.materials.size());
         }
     }
+    shiftRig(part.rig, whole, static_cast<std::size_t>(rootIndex) + 1);
     for (Light& light : part.lights) moveLight(light, worldFromPart);
     for (Camera& camera : part.cameras) moveCamera(camera, worldFromPart);
 
@@ -104,6 +133,16 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
     moveAll(part.nodes, whole.nodes);
     moveAll(part.lights, whole.lights);
     moveAll(part.cameras, whole.cameras);
+    moveAll(part.rig.clips, whole.rig.clips);
+    moveAll(part.rig.playing, whole.rig.playing);
+    moveAll(part.rig.nodes, whole.rig.nodes);
+    moveAll(part.rig.weights, whole.rig.weights);
+    moveAll(part.rig.numbers, whole.rig.numbers);
+    moveAll(part.rig.skins, whole.rig.skins);
+    moveAll(part.rig.shapes, whole.rig.shapes);
+    moveAll(part.rig.deformed, whole.rig.deformed);
+    moveAll(part.rig.lights, whole.rig.lights);
+    moveAll(part.rig.cameras, whole.rig.cameras);
     moveAll(part.warnings, whole.warnings);
 }
 

@@ -6,36 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Transform.h"
+
 namespace tessera::scenes::gltf {
 namespace {
 
 constexpr std::size_t kCopies = 2; ///< while a vector grows
-
-/// Scales the axis by a power of two, so that its largest component is from 1 to 2. Nested scales can make squares
-/// overflow. Zero stays zero.
-glm::dvec3 aboutOne(const glm::dvec4& axis) {
-    const glm::dvec3 size = glm::abs(glm::dvec3(axis));
-    const double largest = std::max({size.x, size.y, size.z});
-    if (largest == 0.0) return glm::dvec3(0.0);
-    const int exponent = std::ilogb(largest);
-    return {std::scalbn(axis.x, -exponent), std::scalbn(axis.y, -exponent), std::scalbn(axis.z, -exponent)};
-}
-
-/// Looks where the transform sends -Z, with its +Y as upright as can be, and never mirrored.
-glm::dmat4 rigidOf(const glm::dmat4& worldFromNode, bool& isDegenerate) {
-    const glm::dvec3 upWS = aboutOne(worldFromNode[1]), backWS = aboutOne(worldFromNode[2]);
-    const glm::dvec3 rightWS = glm::cross(upWS, backWS);
-    // 1e-12 is far above double's rounding.
-    isDegenerate = !(glm::length(rightWS) > 1e-12 * glm::length(backWS) * glm::length(upWS));
-    glm::dmat4 rigid(1.0);
-    if (!isDegenerate) {
-        rigid[2] = glm::dvec4(glm::normalize(backWS), 0.0);
-        rigid[0] = glm::dvec4(glm::normalize(rightWS), 0.0);
-        rigid[1] = glm::dvec4(glm::cross(glm::dvec3(rigid[2]), glm::dvec3(rigid[0])), 0.0);
-    }
-    rigid[3] = worldFromNode[3];
-    return rigid;
-}
 
 std::string uniqueName(Context& context, const std::string& wanted) {
     std::string name = wanted;
@@ -123,11 +99,7 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     light.color = stored.color;
     light.intensity = stored.intensity;
     light.falloff = Falloff::InverseSquare;
-    light.positionWS = glm::dvec3(worldFromNode[3]);
-    const glm::dvec3 backwardsWS = aboutOne(worldFromNode[2]);
-    if (backwardsWS != glm::dvec3(0.0))
-        light.directionWS = -backwardsWS / glm::length(backwardsWS);
-    else if (infoOf(light.type).hasDirection)
+    if (!placeAtNode(light, worldFromNode) && infoOf(light.type).hasDirection)
         context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
                                  light.name));
     if (stored.range && infoOf(light.type).hasPosition()) {

@@ -1,0 +1,131 @@
+#include "scenes/Deform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "scenes/Direction.h"
+#include "scenes/Transform.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// A target that counts at all.
+struct Morph {
+    const MorphTarget* target;
+    double weight;
+};
+
+template <typename Wide, typename Vector, typename Pick>
+Wide morphed(const Vector& rest, const std::vector<Morph>& morphs, std::size_t vertex, const Pick& pick) {
+    Wide sum(rest);
+    for (const Morph& morph : morphs) {
+        const auto& added = pick(*morph.target);
+        if (!added.empty()) sum += morph.weight * Wide(added[vertex]);
+    }
+    return sum;
+}
+
+/// The mean of the joints' matrices by a vertex's weights, which need not sum to 1.
+glm::dmat4x3 blended(const Shape& shape, const VertexMatrices& matrices, std::size_t vertex) {
+    glm::dmat4x3 sum(0.0);
+    double weights = 0.0;
+    for (std::size_t i = vertex * shape.influences; i < (vertex + 1) * shape.influences; ++i) {
+        const double weight = double(shape.weights[i]);
+        if (weight == 0.0) continue;
+        sum += matrices.fromBind[shape.joints[i]] * weight;
+        weights += weight;
+    }
+    return weights > 0.0 ? sum / weights : matrices.ofOwn;
+}
+
+/// Whether the joints mirror more of what follows them than they do not.
+bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
+    std::vector<double> signs;
+    for (const glm::dmat4x3& matrix : matrices.fromBind) {
+        const double determinant = glm::determinant(glm::dmat3(matrix));
+        signs.push_back(determinant < 0.0 ? -1.0 : determinant > 0.0 ? 1.0 : 0.0);
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < shape.joints.size(); ++i)
+        if (shape.weights[i] > 0.0f) sum += double(shape.weights[i]) * signs[shape.joints[i]];
+    return sum < 0.0;
+}
+
+void setFlatNormals(Mesh& mesh, const std::vector<glm::dvec3>& positionsOS) {
+    for (std::size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
+        const std::array<std::uint32_t, 3> at{mesh.indices[corner], mesh.indices[corner + 1], mesh.indices[corner + 2]};
+        const glm::dvec3 a = positionsOS[at[0]];
+        const glm::vec3 normalOS(directionOf(glm::cross(positionsOS[at[1]] - a, positionsOS[at[2]] - a))
+                                     .value_or(glm::dvec3(0.0, 0.0, 1.0)));
+        for (const std::uint32_t vertex : at) mesh.normalsOS[vertex] = normalOS;
+    }
+}
+
+} // namespace
+
+glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const VertexMatrices* matrices, Mesh& mesh) {
+    const Mesh& rest = shape.rest;
+    const std::size_t vertices = rest.positionsOS.size();
+    std::vector<Morph> morphs;
+    for (std::size_t i = 0; i < std::min(weights.size(), shape.targets.size()); ++i)
+        if (weights[i] != 0.0) morphs.push_back({&shape.targets[i], weights[i]});
+    const bool mirrors = matrices != nullptr && isMirrored(shape, *matrices);
+    const glm::dvec3 mirror(mirrors ? -1.0 : 1.0, 1.0, 1.0);
+
+    std::vector<glm::dvec3> positions(vertices);
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    bool isFinite = true;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        glm::dvec3 position = morphed<glm::dvec3>(
+            rest.positionsOS[v], morphs, v, [](const MorphTarget& t) -> const auto& { return t.positionsOS; });
+        glm::dvec3 normal(rest.normalsOS[v]), tangent(0.0);
+        if (!shape.isFlat)
+            normal = morphed<glm::dvec3>(
+                rest.normalsOS[v], morphs, v, [](const MorphTarget& t) -> const auto& { return t.normalsOS; });
+        if (!rest.tangentsOS.empty())
+            tangent = morphed<glm::dvec3>(
+                glm::vec3(rest.tangentsOS[v]), morphs, v,
+                [](const MorphTarget& t) -> const auto& { return t.tangentsOS; });
+        if (matrices != nullptr) {
+            glm::dmat4x3 moved = blended(shape, *matrices, v);
+            for (int column = 0; column < 4; ++column) moved[column] *= mirror;
+            position = moved * glm::dvec4(position, 1.0);
+            normal = cofactorOf(glm::dmat3(moved)) * normal;
+            tangent = glm::dmat3(moved) * tangent;
+        }
+        positions[v] = position;
+        least = glm::min(least, position);
+        most = glm::max(most, position);
+        isFinite = isFinite && std::isfinite(position.x + position.y + position.z);
+        // Where a singular matrix or targets leave no direction, that of rest is as good as any.
+        mesh.normalsOS[v] = directionOf(normal).value_or(glm::dvec3(rest.normalsOS[v]));
+        if (!rest.tangentsOS.empty())
+            mesh.tangentsOS[v] =
+                glm::vec4(directionOf(tangent).value_or(glm::dvec3(rest.tangentsOS[v])), rest.tangentsOS[v].w);
+    }
+    const glm::dvec3 middle = matrices != nullptr && vertices > 0 ? 0.5 * least + 0.5 * most : glm::dvec3(0.0);
+    for (std::size_t v = 0; v < vertices; ++v) mesh.positionsOS[v] = glm::vec3(positions[v] - middle);
+    if (shape.isFlat) setFlatNormals(mesh, positions);
+    for (std::size_t set = 0; set < rest.texCoords.size(); ++set)
+        for (std::size_t v = 0; v < rest.texCoords[set].size(); ++v)
+            mesh.texCoords[set][v] = morphed<glm::dvec2>(
+                rest.texCoords[set][v], morphs,
+                v, [set](const MorphTarget& t) -> const auto& { return t.texCoords[set]; });
+    // Source: glTF 2.0 specification, 3.7.2.2: colours are clamped after targets are added.
+    for (std::size_t v = 0; v < rest.colors.size(); ++v)
+        mesh.colors[v] =
+            glm::clamp(morphed<glm::dvec4>(
+                           rest.colors[v], morphs, v, [](const MorphTarget& t) -> const auto& { return t.colors; }),
+                       0.0, 1.0);
+
+    glm::dmat4 nodeFromMesh(1.0);
+    nodeFromMesh[0][0] = mirror.x;
+    // `mirror` was applied to vertices around the origin, and their middle with them.
+    nodeFromMesh[3] = glm::dvec4(mirror * middle, 1.0);
+    if (!isFinite) nodeFromMesh[3] = glm::dvec4(glm::dvec3(std::numeric_limits<double>::quiet_NaN()), 1.0);
+    return nodeFromMesh;
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,311 @@
+#include "scenes/Pose.h"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "scenes/Deform.h"
+#include "scenes/Transform.h"
+
+namespace tessera::scenes {
+namespace {
+
+// ---- Curves --------------------------------------------------------------------------------------------------------
+
+void makeUnit(std::span<double> quaternion) {
+    double largest = 0.0;
+    for (const double number : quaternion) largest = std::max(largest, std::abs(number));
+    if (!(largest > 0.0)) {
+        std::ranges::fill(quaternion, 0.0);
+        quaternion.back() = 1.0; // a spline through zero has no direction there
+        return;
+    }
+    double square = 0.0;
+    for (double& number : quaternion) {
+        number /= largest;
+        square += number * number;
+    }
+    for (double& number : quaternion) number /= std::sqrt(square);
+}
+
+/// Value `which` of key `key` of a sampler.
+std::span<const float> stored(const AnimationSampler& sampler, std::size_t key, std::size_t which) {
+    const auto width = std::size_t(sampler.width);
+    return std::span(sampler.values).subspan((key * sampler.valuesPerKey() + which) * width, width);
+}
+
+/// The value at a key.
+void atKey(const AnimationSampler& sampler, bool isRotation, std::size_t key, std::span<double> value) {
+    std::ranges::copy(stored(sampler, key, sampler.interpolation == Interpolation::CubicSpline ? 1 : 0), value.begin());
+    if (isRotation) makeUnit(value);
+}
+
+/// Between unit quaternions the shortest way, at constant speed.
+void slerp(std::span<double> from, std::span<const double> to, double share) {
+    double dot = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i) dot += from[i] * to[i];
+    const double sign = dot < 0.0 ? -1.0 : 1.0;
+    // Of the angle the half by its tangent, which keeps its digits near 0 too.
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        difference += (sign * to[i] - from[i]) * (sign * to[i] - from[i]);
+        sum += (sign * to[i] + from[i]) * (sign * to[i] + from[i]);
+    }
+    const double angleRadians = 2.0 * std::atan2(std::sqrt(difference), std::sqrt(sum));
+    const double sine = std::sin(angleRadians);
+    double a = 1.0 - share, b = share;
+    if (sine > 1e-12) { // below, the arc is its chord
+        a = std::sin((1.0 - share) * angleRadians) / sine;
+        b = std::sin(share * angleRadians) / sine;
+    }
+    for (std::size_t i = 0; i < from.size(); ++i) from[i] = a * from[i] + b * sign * to[i];
+    makeUnit(from);
+}
+
+/// Source: glTF 2.0 specification, appendix C.5.
+void spline(const AnimationSampler& sampler, std::size_t key, double share, double seconds, std::span<double> value) {
+    const double s = share, s2 = s * s, s3 = s2 * s;
+    const std::span<const float> p0 = stored(sampler, key, 1), out = stored(sampler, key, 2);
+    const std::span<const float> in = stored(sampler, key + 1, 0), p1 = stored(sampler, key + 1, 1);
+    for (std::size_t i = 0; i < value.size(); ++i)
+        value[i] = (2.0 * s3 - 3.0 * s2 + 1.0) * double(p0[i]) + seconds * (s3 - 2.0 * s2 + s) * double(out[i]) +
+                   (3.0 * s2 - 2.0 * s3) * double(p1[i]) + seconds * (s3 - s2) * double(in[i]);
+}
+
+// ---- Application ---------------------------------------------------------------------------------------------------
+
+/// Every node's transform into the space of the node that skinned meshes stand below, of those that are in one: there
+/// joints and meshes meet. Elsewhere into the world.
+std::vector<glm::dmat4x3> modelFromNodes(const Scene& scene) {
+    std::vector<bool> holdsModel(scene.nodes.size());
+    for (const Deformed& deformed : scene.rig.deformed) {
+        const int above = scene.nodes[std::size_t(deformed.standsAt)].parent;
+        if (deformed.skin != kNone && above != kNone) holdsModel[std::size_t(above)] = true;
+    }
+    std::vector<glm::dmat4> modelFromNode;
+    modelFromNode.reserve(scene.nodes.size());
+    for (const Node& node : scene.nodes) {
+        const bool begins = node.parent == kNone || holdsModel[std::size_t(node.parent)];
+        modelFromNode.push_back(begins ? node.parentFromNode
+                                       : modelFromNode[std::size_t(node.parent)] * node.parentFromNode);
+    }
+    return {modelFromNode.begin(), modelFromNode.end()};
+}
+
+void deformAll(Scene& scene, const Pose& pose) {
+    if (scene.rig.deformed.empty()) return;
+    const std::vector<glm::dmat4x3> modelFromNode = modelFromNodes(scene);
+    std::vector<glm::dmat4x3> fromBind;
+    for (const Deformed& deformed : scene.rig.deformed) {
+        const Shape& shape = scene.rig.shapes[std::size_t(deformed.shape)];
+        Mesh& mesh = scene.meshes[std::size_t(deformed.mesh)];
+        std::span<const double> weights;
+        if (deformed.weights != kNone) weights = pose.weights[std::size_t(deformed.weights)];
+        const auto requireFinite = [&](const glm::dmat4& matrix) {
+            const auto isFinite = [](const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); };
+            if (!std::isfinite(matrix[3].x) || !std::ranges::all_of(mesh.positionsOS, isFinite))
+                throw InputError(fmt::format("scene '{}': the pose of mesh '{}' is not finite; choose another time or "
+                                             "clip",
+                                             scene.name, mesh.name));
+        };
+        if (deformed.skin == kNone) {
+            requireFinite(deform(shape, weights, nullptr, mesh));
+            continue;
+        }
+        const Skin& skin = scene.rig.skins[std::size_t(deformed.skin)];
+        fromBind.clear();
+        for (std::size_t i = 0; i < skin.joints.size(); ++i)
+            fromBind.emplace_back(modelFromNode[std::size_t(skin.joints[i])] * skin.jointFromBind[i]);
+        const VertexMatrices matrices{fromBind, modelFromNode[std::size_t(deformed.node)]};
+        glm::dmat4& parentFromNode = scene.nodes[std::size_t(deformed.standsAt)].parentFromNode;
+        parentFromNode = deform(shape, weights, &matrices, mesh);
+        requireFinite(parentFromNode);
+    }
+}
+
+template <typename Owner>
+void setNumber(Owner& owner, const AnimatedMember& member, const glm::dvec4& number) {
+    // Splines go past their keys; a member that has bounds stays within them, and none is negative.
+    const auto within = [&](const auto& fields, auto memberOfOwner, double value) {
+        const auto field = fieldOf(fields, memberOfOwner);
+        if (field.what != nullptr) return float(std::clamp(value, field.least, field.most));
+        return std::isinf(value) ? kInfinity : float(std::clamp(value, 0.0, kAnyNumber)); // a range may be infinite
+    };
+    std::visit(
+        [&](auto memberOfAny) {
+            if constexpr (requires { owner.*memberOfAny; }) {
+                const auto bounded = [&](double value) {
+                    if constexpr (std::is_same_v<Owner, Light>)
+                        return within(kLightFields, memberOfAny, value);
+                    else
+                        return within(kMaterialFields, memberOfAny, value);
+                };
+                auto& value = owner.*memberOfAny;
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
+                    value = bounded(number.x);
+                else
+                    for (glm::length_t i = 0; i < value.length(); ++i) value[i] = bounded(number[i]);
+            }
+        },
+        member);
+}
+
+} // namespace
+
+double lengthSeconds(const Clip& clip) {
+    double seconds = 0.0;
+    for (const AnimationSampler& sampler : clip.samplers)
+        seconds = std::max(seconds, double(sampler.timesSeconds.back()));
+    return seconds;
+}
+
+void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value) {
+    assert(std::isfinite(timeSeconds) && value.size() == std::size_t(sampler.width));
+    const std::vector<float>& times = sampler.timesSeconds;
+    const auto next = std::ranges::upper_bound(times, timeSeconds, {}, [](float time) { return double(time); });
+    if (next == times.begin()) return atKey(sampler, isRotation, 0, value);
+    const auto key = std::size_t(next - times.begin()) - 1;
+    if (next == times.end() || sampler.interpolation == Interpolation::Step)
+        return atKey(sampler, isRotation, key, value);
+    const double seconds = double(times[key + 1]) - double(times[key]);
+    const double share = (timeSeconds - double(times[key])) / seconds;
+    if (sampler.interpolation == Interpolation::CubicSpline) {
+        spline(sampler, key, share, seconds, value);
+        if (isRotation) makeUnit(value);
+        return;
+    }
+    std::vector<double> to(value.size());
+    atKey(sampler, isRotation, key, value);
+    atKey(sampler, isRotation, key + 1, to);
+    if (isRotation) return slerp(value, to, share);
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] = (1.0 - share) * value[i] + share * to[i];
+}
+
+Pose poseAt(const Rig& rig, double timeSeconds) {
+    Pose pose;
+    std::vector<RestNode> nodes = rig.nodes;
+    for (const RestWeights& rest : rig.weights) pose.weights.emplace_back(rest.weights.begin(), rest.weights.end());
+    for (const RestNumber& rest : rig.numbers) pose.numbers.emplace_back(rest.number);
+    std::vector<double> value;
+    for (const int number : rig.playing) {
+        const Clip& clip = rig.clips[std::size_t(number)];
+        for (const AnimationChannel& channel : clip.channels) {
+            const AnimationSampler& sampler = clip.samplers[std::size_t(channel.sampler)];
+            value.resize(std::size_t(sampler.width));
+            valueAt(sampler, channel.property == AnimatedProperty::Rotation, timeSeconds, value);
+            const auto target = std::size_t(channel.target);
+            switch (channel.property) {
+            case AnimatedProperty::Translation:
+                nodes[target].translation = {value[0], value[1], value[2]};
+                break;
+            case AnimatedProperty::Rotation:
+                nodes[target].rotation = {value[0], value[1], value[2], value[3]};
+                break;
+            case AnimatedProperty::Scale:
+                nodes[target].scale = {value[0], value[1], value[2]};
+                break;
+            case AnimatedProperty::Weights:
+                pose.weights[target] = value;
+                break;
+            default:
+                for (std::size_t i = 0; i < value.size(); ++i) pose.numbers[target][glm::length_t(i)] = value[i];
+            }
+        }
+    }
+    for (const RestNode& node : nodes)
+        pose.parentFromNode.push_back(transformOf(node.translation, node.rotation, node.scale));
+    return pose;
+}
+
+void applyPose(Scene& scene, const Pose& pose) {
+    const Rig& rig = scene.rig;
+    for (std::size_t i = 0; i < rig.nodes.size(); ++i)
+        scene.nodes[std::size_t(rig.nodes[i].node)].parentFromNode = pose.parentFromNode[i];
+    for (std::size_t i = 0; i < rig.numbers.size(); ++i) {
+        const RestNumber& rest = rig.numbers[i];
+        if (rest.element == kNone) continue;
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        if (info.owner == AnimatedOwner::Light)
+            setNumber(scene.lights[std::size_t(rest.element)], info.member, pose.numbers[i]);
+        else
+            setNumber(scene.materials[std::size_t(rest.element)], info.member, pose.numbers[i]);
+    }
+    deformAll(scene, pose);
+    if (!rig.lights.empty() || !rig.cameras.empty()) {
+        const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+        for (const Carried& carried : rig.lights)
+            placeAtNode(scene.lights[std::size_t(carried.element)], worldFromNode[std::size_t(carried.node)]);
+        for (const Carried& carried : rig.cameras) {
+            bool isDegenerate = false;
+            scene.cameras[std::size_t(carried.element)].worldFromCamera =
+                rigidOf(worldFromNode[std::size_t(carried.node)], isDegenerate);
+        }
+    }
+    checkPlaces(scene);
+}
+
+bool hasPoses(const Scene& scene) {
+    return !scene.rig.clips.empty() || !scene.rig.deformed.empty();
+}
+
+bool isPlaying(const Scene& scene) {
+    return !scene.rig.playing.empty();
+}
+
+void poseScene(Scene& scene, double timeSeconds) {
+    if (hasPoses(scene)) applyPose(scene, poseAt(scene.rig, timeSeconds));
+}
+
+void playClip(Scene& scene, const std::string& nameOrNumber) {
+    Rig& rig = scene.rig;
+    rig.playing.clear();
+    for (std::size_t i = 0; i < rig.clips.size(); ++i)
+        if (rig.clips[i].name == nameOrNumber) rig.playing.push_back(int(i));
+    if (!rig.playing.empty() || nameOrNumber == kNoClip) return;
+    std::size_t number = 0;
+    const char* const end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
+    if (error == std::errc() && rest == end && number < rig.clips.size()) {
+        rig.playing.push_back(int(number));
+        return;
+    }
+    std::vector<std::string_view> names{kNoClip};
+    for (const Clip& clip : rig.clips) names.push_back(clip.name);
+    throw InputError(fmt::format("no clip of the scene is called '{}', nor is it the number of one; {}", nameOrNumber,
+                                 suggestNames(nameOrNumber, names)));
+}
+
+std::string clipText(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    if (rig.clips.empty()) return {};
+    if (rig.playing.empty()) return fmt::format("no clip of {}", rig.clips.size());
+    std::string text;
+    for (const int playing : rig.playing) {
+        const Clip& clip = rig.clips[std::size_t(playing)];
+        text += fmt::format("{}clip '{}' ({} of {}), {:.3g} s", text.empty() ? "" : "; ", clip.name, playing + 1,
+                            rig.clips.size(), lengthSeconds(clip));
+    }
+    return text;
+}
+
+void keepLights(Scene& scene, std::size_t count) {
+    if (count >= scene.lights.size()) return;
+    scene.lights.resize(count);
+    std::erase_if(scene.rig.lights, [&](const Carried& carried) { return std::size_t(carried.element) >= count; });
+    for (RestNumber& rest : scene.rig.numbers)
+        if (infoOf(rest.property).owner == AnimatedOwner::Light && std::size_t(rest.element) >= count)
+            rest.element = kNone;
+}
+
+void dropCameras(Scene& scene) {
+    scene.cameras.clear();
+    scene.rig.cameras.clear();
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,54 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/Scene.h"
+
+/// A scene at a time: the clips that play are evaluated in double precision and closed form, so any time can be asked
+/// for directly, and what they move is written into the scene. Everything that draws the scene, the reference too,
+/// reads the same vertices.
+namespace tessera::scenes {
+
+/// Where a rig's parts are at a time.
+struct Pose {
+    std::vector<glm::dmat4> parentFromNode;   ///< by Rig::nodes
+    std::vector<std::vector<double>> weights; ///< by Rig::weights
+    std::vector<glm::dvec4> numbers;          ///< by Rig::numbers
+};
+
+/// The value of a curve at a time, `width` numbers. A rotation is a unit quaternion.
+void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value);
+
+/// What the clips that play say of a finite time; what they do not change is as it is by itself.
+Pose poseAt(const Rig& rig, double timeSeconds);
+
+/// Writes a pose of the scene's rig into the scene: transforms of nodes, deformed meshes, lights and cameras that nodes
+/// carry, and numbers of lights and materials. It depends on the pose alone, not on earlier ones. Throws InputError
+/// where something then lies too far away or nowhere.
+void applyPose(Scene& scene, const Pose& pose);
+
+/// Whether a pose changes anything of the scene.
+bool hasPoses(const Scene& scene);
+/// Whether the scene's picture changes with the time of its clips.
+bool isPlaying(const Scene& scene);
+
+/// Poses a scene that hasPoses(), and leaves others alone.
+void poseScene(Scene& scene, double timeSeconds);
+
+inline constexpr std::string_view kNoClip = "none";
+
+/// Lets the clips of a name play, else the one of that number from 0, or none (kNoClip). Throws InputError that lists
+/// the names.
+void playClip(Scene& scene, const std::string& nameOrNumber);
+
+/// "clip 'Walk' (1 of 3), 1.04 s"; empty where the scene has no clips.
+std::string clipText(const Scene& scene);
+
+/// Takes away lights from number `count` on, and what the rig knows of them.
+void keepLights(Scene& scene, std::size_t count);
+/// Takes away all cameras, and what the rig knows of them.
+void dropCameras(Scene& scene);
+
+} // namespace tessera::scenes

@@ -1,0 +1,315 @@
+#include "scenes/Pose.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/Error.h"
+#include "scenes/Fingerprint.h"
+#include "scenes/import/AppendScene.h"
+#include "tests/unit/scenes/RiggedScene.h"
+
+namespace tessera::scenes {
+namespace {
+
+std::vector<double> sampled(const AnimationSampler& sampler, double timeSeconds, bool isRotation = false) {
+    std::vector<double> value(std::size_t(sampler.width));
+    valueAt(sampler, isRotation, timeSeconds, value);
+    return value;
+}
+
+double oneAt(const AnimationSampler& sampler, double timeSeconds) {
+    return sampled(sampler, timeSeconds).front();
+}
+
+/// Of the first instance that node `node` draws.
+std::vector<glm::dvec3> positionsWS(const Scene& scene, std::size_t node) {
+    const glm::dmat4 worldFromNode = worldFromNodes(scene)[node];
+    const Mesh& mesh = scene.meshes[std::size_t(scene.nodes[node].instances.at(0).mesh)];
+    std::vector<glm::dvec3> positions;
+    for (const glm::vec3& positionOS : mesh.positionsOS)
+        positions.emplace_back(worldFromNode * glm::dvec4(positionOS, 1.0));
+    return positions;
+}
+
+void expectNear(const glm::dvec3& found, const glm::dvec3& wanted, double tolerance = 1e-6) {
+    EXPECT_NEAR(found.x, wanted.x, tolerance);
+    EXPECT_NEAR(found.y, wanted.y, tolerance);
+    EXPECT_NEAR(found.z, wanted.z, tolerance);
+}
+
+constexpr std::size_t kSkinned = 3; // node
+
+// ---- Curves --------------------------------------------------------------------------------------------------------
+
+TEST(PoseCurves, stepKeepsAKeyUntilTheNextAndLinearMovesEvenly) {
+    AnimationSampler sampler{Interpolation::Step, 1, {1.0f, 2.0f, 4.0f}, {10.0f, 20.0f, 40.0f}};
+    EXPECT_EQ(oneAt(sampler, 1.999), 10.0);
+    EXPECT_EQ(oneAt(sampler, 2.0), 20.0);
+    EXPECT_EQ(oneAt(sampler, 3.9), 20.0);
+    sampler.interpolation = Interpolation::Linear;
+    EXPECT_DOUBLE_EQ(oneAt(sampler, 1.25), 12.5);
+    EXPECT_DOUBLE_EQ(oneAt(sampler, 3.0), 30.0);
+}
+
+TEST(PoseCurves, timesOutsideOfTheKeysAreClampedHoweverFar) {
+    for (const Interpolation interpolation : {Interpolation::Step, Interpolation::Linear}) {
+        const AnimationSampler sampler{interpolation, 1, {1.0f, 2.0f}, {10.0f, 20.0f}};
+        for (const double early : {1.0, 0.0, -1.0, -1e9}) EXPECT_EQ(oneAt(sampler, early), 10.0);
+        for (const double late : {2.0, 3.0, 1e9, 1e300}) EXPECT_EQ(oneAt(sampler, late), 20.0);
+    }
+    const AnimationSampler spline{Interpolation::CubicSpline, 1, {1.0f, 2.0f}, {9, 10, 9, 9, 20, 9}};
+    EXPECT_EQ(oneAt(spline, -5.0), 10.0);
+    EXPECT_EQ(oneAt(spline, 1.0), 10.0);
+    EXPECT_EQ(oneAt(spline, 2.0), 20.0);
+    EXPECT_EQ(oneAt(spline, 5.0), 20.0);
+}
+
+TEST(PoseCurves, oneKeyIsAConstant) {
+    for (const double time : {-1.0, 0.5, 7.0}) {
+        EXPECT_EQ(oneAt({Interpolation::Linear, 1, {0.5f}, {3.0f}}, time), 3.0);
+        EXPECT_EQ(oneAt({Interpolation::CubicSpline, 1, {0.5f}, {8.0f, 3.0f, 9.0f}}, time), 3.0);
+    }
+}
+
+TEST(PoseCurves, aSplineFollowsACubicWithItsTangents) {
+    // t^3 - 2 t on [0, 2] has the slopes -2 and 10.
+    const AnimationSampler sampler{Interpolation::CubicSpline, 1, {0.0f, 2.0f}, {99, 0, -2, 10, 4, 99}};
+    for (const double t : {0.25, 0.5, 1.0, 1.75}) EXPECT_NEAR(oneAt(sampler, t), t * t * t - 2.0 * t, 1e-12) << t;
+}
+
+TEST(PoseCurves, rotationsTurnTheShortWayAtConstantSpeed) {
+    const double pi = std::numbers::pi;
+    // From 0 to 90 degrees about y; the second key has the other sign, which is the same rotation.
+    const auto s = float(std::sin(pi / 4.0));
+    const AnimationSampler sampler{Interpolation::Linear, 4, {0.0f, 1.0f}, {0, 0, 0, 1, 0, -s, 0, -s}};
+    for (const double share : {0.1, 0.5, 0.9}) {
+        const std::vector<double> q = sampled(sampler, share, true);
+        EXPECT_NEAR(std::abs(q[1]), std::sin(share * pi / 4.0), 1e-7);
+        EXPECT_NEAR(std::abs(q[3]), std::cos(share * pi / 4.0), 1e-7);
+        EXPECT_GT(q[1] * q[3], 0.0);
+    }
+}
+
+TEST(PoseCurves, rotationsOfAnyLengthBecomeUnitQuaternions) {
+    for (const Interpolation interpolation : {Interpolation::Step, Interpolation::Linear, Interpolation::CubicSpline}) {
+        AnimationSampler sampler{interpolation, 4, {0.0f, 1.0f}, {0, 0, 0, 5, 1e-30f, 0, 0, 1e-30f}};
+        if (interpolation == Interpolation::CubicSpline)
+            sampler.values = {0, 0, 0, 0, 0, 0, 0, 5, 7, 7, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0};
+        for (const double time : {0.0, 0.3, 1.0}) {
+            double square = 0.0;
+            for (const double number : sampled(sampler, time, true)) square += number * number;
+            EXPECT_NEAR(square, 1.0, 1e-12);
+        }
+    }
+}
+
+TEST(PoseCurves, aHundredThousandKeysAreSearchedInNoTime) {
+    AnimationSampler sampler{Interpolation::Linear, 1, {}, {}};
+    for (int i = 0; i < 100'000; ++i) {
+        sampler.timesSeconds.push_back(float(i));
+        sampler.values.push_back(float(i));
+    }
+    const auto start = std::chrono::steady_clock::now();
+    double sum = 0.0;
+    for (int i = 0; i < 100'000; ++i) sum += oneAt(sampler, i + 0.5) - i;
+    EXPECT_NEAR(sum, 100'000 * 0.5, 1.0);
+    // Some 10 ms with a binary search, minutes with a linear one.
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+}
+
+// ---- Skins and morph targets ---------------------------------------------------------------------------------------
+
+TEST(Poses, jointsAndTargetsMoveVerticesAsTheirWeightsSay) {
+    Scene scene = riggedScene();
+    ASSERT_NO_THROW(checkScene(scene));
+    poseScene(scene, 1.0);
+    const std::vector<glm::dvec3> positions = positionsWS(scene, kSkinned);
+    expectNear(positions[0], {0.0, 0.0, 0.0});
+    expectNear(positions[1], {1.0, 1.0, 0.0}); // 1 beyond the knee, turned
+    // (0, 4, 1) of the hip, and turned about (1, 0) it is at (-3, -1, 1).
+    expectNear(positions[2], {-1.5, 1.5, 1.0});
+    EXPECT_NO_THROW(checkScene(scene));
+}
+
+TEST(Poses, aPoseDependsOnItsTimeAlone) {
+    Scene direct = riggedScene(), wandering = riggedScene();
+    poseScene(direct, 0.25);
+    for (const double time : {1e9, -1e9, 0.9, 0.25}) poseScene(wandering, time);
+    EXPECT_EQ(fingerprint(direct), fingerprint(wandering));
+    playClip(direct, "none");
+    playClip(wandering, "none");
+    poseScene(direct, 0.9);
+    poseScene(wandering, 0.0);
+    EXPECT_EQ(fingerprint(direct), fingerprint(wandering));
+    expectNear(positionsWS(direct, kSkinned)[1], {2.0, 0.0, 0.0});
+}
+
+TEST(Poses, weightsNeedNotSumToOneAndWithoutAnyAVertexFollowsItsNode) {
+    Scene scene = riggedScene();
+    scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, 7.0, 1.0);
+    Shape& shape = scene.rig.shapes[0];
+    for (float& weight : shape.weights) weight *= 0.25f;
+    std::fill_n(shape.weights.begin(), 4, 0.0f);
+    poseScene(scene, 1.0);
+    const std::vector<glm::dvec3> positions = positionsWS(scene, kSkinned);
+    expectNear(positions[0], {0.0, 0.0, 7.0});
+    expectNear(positions[1], {1.0, 1.0, 0.0});
+    expectNear(positions[2], {-1.5, 1.5, 1.0});
+}
+
+TEST(Poses, aSkinnedMeshIgnoresItsNodesTransform) {
+    Scene scene = riggedScene(), moved = riggedScene();
+    moved.nodes[0].parentFromNode = glm::dmat4(-3.0);
+    moved.nodes[0].parentFromNode[3] = glm::dvec4(5.0, 6.0, 7.0, 1.0);
+    for (Scene* one : {&scene, &moved}) poseScene(*one, 0.5);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(positionsWS(scene, kSkinned)[i], positionsWS(moved, kSkinned)[i]) << i;
+}
+
+TEST(Poses, normalsStandOnTheDeformedSurface) {
+    for (const double mirror : {1.0, -1.0}) {
+        Scene scene = riggedScene();
+        scene.nodes[1].parentFromNode[0][0] = 3.0 * mirror; // sheared by the knee below
+        scene.rig.shapes[0].weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+        scene.rig.shapes[0].joints = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+        scene.rig.shapes[0].rest.positionsOS[2].z = 1.0f; // aslant
+        const auto normalOf = [](const std::vector<glm::dvec3>& p) {
+            return glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+        };
+        const std::vector<glm::vec3>& rest = scene.rig.shapes[0].rest.positionsOS;
+        const glm::dvec3 normalOS = normalOf({rest.begin(), rest.end()});
+        scene.rig.shapes[0].rest.normalsOS.assign(3, glm::vec3(normalOS));
+        playClip(scene, "none");
+        poseScene(scene, 0.0);
+        const glm::dmat3 worldFromMesh(worldFromNodes(scene)[kSkinned]);
+        // Drawn, a mirrored node turns the winding, and its normals by the inverse transpose.
+        const double side = glm::determinant(worldFromMesh) < 0.0 ? -1.0 : 1.0;
+        EXPECT_EQ(side, mirror);
+        const glm::dvec3 normalWS =
+            glm::normalize(glm::transpose(glm::inverse(worldFromMesh)) * glm::dvec3(scene.meshes[0].normalsOS[0]));
+        expectNear(normalWS, side * normalOf(positionsWS(scene, kSkinned)));
+    }
+}
+
+TEST(Poses, singularJointsLeaveUnitNormals) {
+    Scene scene = riggedScene();
+    scene.nodes[1].parentFromNode = glm::dmat4(0.0);
+    scene.nodes[1].parentFromNode[3].w = 1.0;
+    scene.rig.shapes[0].rest.tangentsOS.assign(3, {1.0f, 0.0f, 0.0f, 1.0f});
+    scene.meshes[0].tangentsOS = scene.rig.shapes[0].rest.tangentsOS;
+    poseScene(scene, 0.5);
+    EXPECT_NO_THROW(checkScene(scene));
+    for (const glm::vec3& normalOS : scene.meshes[0].normalsOS) EXPECT_NEAR(glm::length(normalOS), 1.0f, 1e-6f);
+}
+
+TEST(Poses, aMeshFarFromTheOriginKeepsItsDigits) {
+    Scene scene = riggedScene();
+    scene.nodes[1].parentFromNode[3].x = 1e7;
+    poseScene(scene, 1.0);
+    expectNear(positionsWS(scene, kSkinned)[1] - glm::dvec3(1e7, 0.0, 0.0), {1.0, 1.0, 0.0});
+}
+
+TEST(Poses, aPoseThatIsNowhereIsRefusedByName) {
+    Scene scene = riggedScene();
+    scene.nodes[1].parentFromNode[3].x = 1e16;
+    try {
+        poseScene(scene, 0.0);
+        FAIL() << "nothing was refused";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("scene 'rigged'"));
+    }
+}
+
+// ---- What moves along ----------------------------------------------------------------------------------------------
+
+TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
+    Scene scene = riggedScene();
+    poseScene(scene, 1.0);
+    expectNear(scene.lights[0].positionWS, {1.0, 0.0, 0.0});
+    expectNear(scene.lights[0].directionWS, {0.0, 0.0, -1.0});
+    EXPECT_FLOAT_EQ(scene.lights[0].intensity, 2.0f);
+    expectNear(glm::dvec3(scene.cameras[0].worldFromCamera[0]), {0.0, 1.0, 0.0});
+    expectNear(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
+}
+
+TEST(Poses, numbersStayWithinTheirBounds) {
+    Scene scene = riggedScene();
+    scene.rig.numbers.push_back({AnimatedProperty::Metallic, 0, glm::vec4(0.5f)});
+    scene.rig.numbers.push_back({AnimatedProperty::LightRange, 0, glm::vec4(kInfinity)});
+    scene.rig.clips[0].samplers.push_back({Interpolation::Linear, 1, {0.0f, 1.0f}, {-3.0f, 3.0f}});
+    scene.rig.clips[0].channels.push_back({AnimatedProperty::Metallic, 1, 3});
+    poseScene(scene, 0.0);
+    EXPECT_EQ(scene.materials[0].metallic, 0.0f);
+    EXPECT_EQ(scene.lights[0].rangeMetres, kInfinity);
+    poseScene(scene, 1.0);
+    EXPECT_EQ(scene.materials[0].metallic, 1.0f);
+    EXPECT_NO_THROW(checkScene(scene));
+}
+
+TEST(Poses, anIncludedRigMovesBelowItsRoot) {
+    Scene whole = riggedScene();
+    glm::dmat4 worldFromPart(1.0);
+    worldFromPart[0][0] = -2.0; // mirrored, and wider
+    worldFromPart[3] = glm::dvec4(0.0, 100.0, 0.0, 1.0);
+    const std::size_t nodesBefore = whole.nodes.size() + 1;
+    appendScene(whole, riggedScene(), "part", worldFromPart);
+    ASSERT_NO_THROW(checkScene(whole));
+    ASSERT_EQ(whole.rig.playing.size(), 2u);
+    poseScene(whole, 1.0);
+    const std::vector<glm::dvec3> own = positionsWS(whole, kSkinned);
+    const std::vector<glm::dvec3> part = positionsWS(whole, nodesBefore + kSkinned);
+    for (std::size_t i = 0; i < own.size(); ++i)
+        expectNear(part[i], glm::dvec3(worldFromPart * glm::dvec4(own[i], 1.0)), 1e-5);
+    expectNear(whole.lights[1].positionWS, {-2.0, 100.0, 0.0});
+    EXPECT_FLOAT_EQ(whole.lights[1].intensity, 2.0f);
+    EXPECT_NO_THROW(checkScene(whole));
+}
+
+TEST(Poses, lightsThatAreLeftOutAreLeftAlone) {
+    Scene scene = riggedScene();
+    keepLights(scene, 0);
+    dropCameras(scene);
+    EXPECT_NO_THROW(poseScene(scene, 1.0));
+    EXPECT_NO_THROW(checkScene(scene));
+}
+
+// ---- Clips ---------------------------------------------------------------------------------------------------------
+
+TEST(Clips, areChosenByNameThenByNumber) {
+    Scene scene = riggedScene();
+    scene.rig.clips.push_back(scene.rig.clips[0]);
+    scene.rig.clips[1].name = "0";
+    playClip(scene, "0");
+    EXPECT_EQ(scene.rig.playing, std::vector{1});
+    EXPECT_EQ(clipText(scene), "clip '0' (2 of 2), 1 s");
+    playClip(scene, "bend");
+    EXPECT_EQ(scene.rig.playing, std::vector{0});
+    playClip(scene, "1");
+    EXPECT_EQ(scene.rig.playing, std::vector{1});
+    playClip(scene, "none");
+    EXPECT_FALSE(isPlaying(scene));
+    EXPECT_EQ(clipText(scene), "no clip of 2");
+    try {
+        playClip(scene, "bent");
+        FAIL() << "nothing was refused";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'bend'"));
+    }
+}
+
+TEST(Clips, aSceneWithoutAnyHasNoPoses) {
+    Scene scene = tinyScene();
+    const std::uint64_t before = fingerprint(scene);
+    EXPECT_FALSE(hasPoses(scene));
+    EXPECT_EQ(clipText(scene), "");
+    EXPECT_NO_THROW(playClip(scene, "none"));
+    poseScene(scene, 3.0);
+    EXPECT_EQ(fingerprint(scene), before);
+}
+
+} // namespace
+} // namespace tessera::scenes
