@@ -14,6 +14,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
+#include "scenes/Pose.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
@@ -122,9 +123,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {
         scene = importFile(nameOrPath, ledger);
-        if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
-            scene.lights.resize(static_cast<std::size_t>(*options.lights));
-        }
+        if (options.lights) keepLights(scene, static_cast<std::size_t>(*options.lights));
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
@@ -134,6 +133,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     try {
         checkScene(scene);
+        if (options.clip) playClip(scene, *options.clip);
+        poseScene(scene, 0.0);
     } catch (const InputError& error) {
         throw InputError(nameOrPath + ": " + error.what());
     }

@@ -17,7 +17,9 @@ class LoadLedger;
 
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
-    bool defaultLight = true;  ///< light a scene without lights by the studio, unless all is unlit
+    std::optional<std::string>
+        clip;                 ///< plays those of this name, or the one of this number, or kNoClip; none: the first
+    bool defaultLight = true; ///< light a scene without lights by the studio, unless all is unlit
     /// Takes the place of the scene's own: a built-in one's name, a picture file, or kNoEnvironment.
     std::optional<std::string> environment;
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
 
+#include "scenes/Transform.h"
 #include "scenes/import/GltfCamerasAndLights.h"
 #include "scenes/import/GltfGeometry.h"
 #include "scenes/import/GltfMaterials.h"
+#include "scenes/import/GltfRig.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
@@ -20,8 +21,9 @@ using namespace gltf;
 
 /// A node of the imported scene, before anything is made of it.
 struct PlacedNode {
-    int node = -1;   ///< in the document
-    int parent = -1; ///< in the list of placed nodes
+    int node = -1;       ///< in the document
+    int parent = -1;     ///< in the list of placed nodes
+    bool isDrawn = true; ///< false: a skin follows joints of its tree, which the scene does not have
     glm::dmat4 parentFromNode{1.0};
     glm::dmat4 worldFromNode{1.0};
 };
@@ -86,7 +88,7 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
     return roots;
 }
 
-glm::dmat4 transformOf(const Document& document, int index) {
+glm::dmat4 parentFromNodeOf(const Document& document, int index) {
     const model::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
     if (node.matrix) {
         const glm::dmat4& matrix = *node.matrix;
@@ -94,15 +96,9 @@ glm::dmat4 transformOf(const Document& document, int index) {
             document.fail(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1");
         return matrix;
     }
-    const glm::dquat rotation(node.rotation.w, node.rotation.x, node.rotation.y, node.rotation.z); // glm takes w first
-    if (glm::dot(rotation, rotation) == 0.0)
+    if (glm::dot(node.rotation, node.rotation) == 0.0)
         document.fail(placeOf(index) + "/rotation", "is the zero quaternion, which is no rotation");
-    const glm::dmat3 turned = glm::mat3_cast(glm::normalize(rotation));
-    glm::dmat4 parentFromNode(1.0);
-    for (int column = 0; column < 3; ++column)
-        parentFromNode[column] = glm::dvec4(turned[column] * node.scale[column], 0.0);
-    parentFromNode[3] = glm::dvec4(node.translation, 1.0);
-    return parentFromNode;
+    return transformOf(node.translation, node.rotation, node.scale);
 }
 
 bool isFinite(const glm::dmat4& matrix) {
@@ -113,7 +109,8 @@ bool isFinite(const glm::dmat4& matrix) {
 }
 
 /// The nodes of the document's default scene, else of scene 0, else those below every root, depth first, parents before
-/// children. Throws InputError naming the node when the graph is not a forest or a transform is not finite.
+/// children; then, not drawn, those of the trees of other joints that skins follow. Throws InputError naming the node
+/// when the graph is not a forest or a transform is not finite.
 std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::vector<int> parents = parentsOf(document);
     refuseCycles(document, parents);
@@ -127,18 +124,37 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
             waiting.push_back(next);
         }
     };
-    wait(rootsOf(document, parents), -1);
-    while (!waiting.empty()) {
-        PlacedNode next = waiting.back();
-        waiting.pop_back();
-        next.parentFromNode = transformOf(document, next.node);
-        next.worldFromNode = next.parentFromNode;
-        if (next.parent >= 0)
-            next.worldFromNode = placed[static_cast<std::size_t>(next.parent)].worldFromNode * next.parentFromNode;
-        if (!isFinite(next.worldFromNode))
-            document.fail(placeOf(next.node), "its transform, with its ancestors', is not finite");
-        placed.push_back(next);
-        wait(document.model.nodes[static_cast<std::size_t>(next.node)].children, static_cast<int>(placed.size()) - 1);
+    std::vector<bool> isPlaced(parents.size());
+    const auto placeTrees = [&](const std::vector<int>& roots, bool isDrawn) {
+        wait(roots, -1);
+        while (!waiting.empty()) {
+            PlacedNode next = waiting.back();
+            waiting.pop_back();
+            next.isDrawn = isDrawn;
+            isPlaced[static_cast<std::size_t>(next.node)] = true;
+            next.parentFromNode = parentFromNodeOf(document, next.node);
+            next.worldFromNode = next.parentFromNode;
+            if (next.parent >= 0)
+                next.worldFromNode = placed[static_cast<std::size_t>(next.parent)].worldFromNode * next.parentFromNode;
+            if (!isFinite(next.worldFromNode))
+                document.fail(placeOf(next.node), "its transform, with its ancestors', is not finite");
+            placed.push_back(next);
+            wait(document.model.nodes[static_cast<std::size_t>(next.node)].children,
+                 static_cast<int>(placed.size()) - 1);
+        }
+    };
+    placeTrees(rootsOf(document, parents), true);
+    const std::size_t drawn = placed.size();
+    std::vector<bool> isFollowed(document.model.skins.size()); // once each
+    for (std::size_t i = 0; i < drawn; ++i) {
+        const model::Node& node = document.model.nodes[static_cast<std::size_t>(placed[i].node)];
+        if (node.skin == kNone || node.mesh == kNone || isFollowed[static_cast<std::size_t>(node.skin)]) continue;
+        isFollowed[static_cast<std::size_t>(node.skin)] = true;
+        for (int joint : document.model.skins[static_cast<std::size_t>(node.skin)].joints) {
+            if (isPlaced[static_cast<std::size_t>(joint)]) continue;
+            while (parents[static_cast<std::size_t>(joint)] >= 0) joint = parents[static_cast<std::size_t>(joint)];
+            placeTrees({joint}, false);
+        }
     }
     return placed;
 }
@@ -155,10 +171,10 @@ public:
         if (!isNew) return entry->second;
         const auto& primitives = context_.document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
         for (std::size_t i = 0; i < primitives.size(); ++i) {
-            std::optional<Mesh> imported = importPrimitive(context_, mesh, static_cast<int>(i));
+            std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i));
             if (!imported) continue;
             const int sceneMesh = static_cast<int>(context_.scene.meshes.size());
-            context_.scene.meshes.push_back(std::move(*imported));
+            context_.scene.meshes.push_back(std::move(imported->rest));
             entry->second.push_back({sceneMesh, materials_.material(primitives[i].material)});
         }
         return entry->second;
@@ -189,12 +205,6 @@ void warnOfIgnoredFeatures(Context& context) {
             context.warn(fmt::format("textures of transmission and thickness are not supported; those of material {} "
                                      "were ignored, and its factors hold everywhere",
                                      i));
-    if (!model.skins.empty()) context.warn("skins are not supported; skinned meshes keep their unskinned shape");
-    if (!model.animations.empty()) context.warn("animations are not supported; nodes stay where they are");
-    for (const model::Mesh& mesh : model.meshes)
-        for (const model::Primitive& primitive : mesh.primitives)
-            if (!primitive.targets.empty())
-                context.warn("morph targets are not supported; morphed meshes keep their base shape");
 }
 
 } // namespace
@@ -215,21 +225,31 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
                   [&] { return fmt::format("{}: /nodes, {} elements", document.file, nodeCount); });
     Materials materials(context);
     Meshes meshes(context, materials);
-    for (const PlacedNode& placed : placeNodes(document)) {
+    const std::vector<PlacedNode> allPlaced = placeNodes(document);
+    std::vector<int> sceneNodes(nodeCount, kNone);
+    for (std::size_t i = 0; i < allPlaced.size(); ++i)
+        sceneNodes[static_cast<std::size_t>(allPlaced[i].node)] = static_cast<int>(i);
+    Rigging rigging(context, materials, std::move(sceneNodes));
+    for (const PlacedNode& placed : allPlaced) {
         const model::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
         Node node;
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
-        if (stored.mesh != kNone) {
+        const bool isDeformed = placed.isDrawn && stored.mesh != kNone && rigging.deformsOf(placed.node) != Deforms();
+        if (placed.isDrawn && stored.mesh != kNone && !isDeformed) {
             const std::vector<MeshInstance>& instances = meshes.instancesOf(stored.mesh);
             document.charge(instances.size() * sizeof(MeshInstance), "nodes", placed.node);
             node.instances = instances;
         }
         scene.nodes.push_back(std::move(node));
+        if (!placed.isDrawn) continue;
+        if (isDeformed) rigging.addDeformed(placed.node);
         importCamera(context, placed.node, placed.worldFromNode);
         importLight(context, placed.node, placed.worldFromNode);
+        rigging.addCarried(placed.node);
     }
+    rigging.finish();
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }

@@ -10,7 +10,7 @@ namespace tessera::scenes::gltf {
 /// An accessor's elements as floats: normalised integers in 0..1 or -1..1, other integers as their value.
 struct Elements {
     std::size_t count = 0;
-    int components = 0; ///< 1..4 an element, 16 at most
+    int components = 0; ///< 1..4 an element, or the 16 of a matrix, column by column
     bool normalized = false;
     model::ComponentType componentType{};
     std::vector<float> values;

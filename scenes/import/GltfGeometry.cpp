@@ -18,9 +18,10 @@ constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6; ///< modes; lin
 class PrimitiveReader {
 public:
     PrimitiveReader(Context& context, const model::Primitive& primitive, std::string place, std::string meshName)
-        : context_(context), primitive_(primitive), place_(std::move(place)), meshName_(std::move(meshName)) {}
+        : context_(context), primitive_(primitive), attributes_(&primitive.attributes), place_(std::move(place)),
+          meshName_(std::move(meshName)) {}
 
-    bool has(const std::string& attribute) const { return primitive_.attributes.contains(attribute); }
+    bool has(const std::string& attribute) const { return attributes_->contains(attribute); }
 
     void fillVertices(Mesh& mesh) {
         const Elements positions = read("POSITION", {3});
@@ -32,9 +33,65 @@ public:
             const std::string name = fmt::format("TEXCOORD_{}", set);
             if (has(name)) mesh.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
         }
-        if (has("COLOR_0")) mesh.colors = vectors<glm::vec4>("COLOR_0", colors(), true);
+        if (has("COLOR_0")) mesh.colors = vectors<glm::vec4>("COLOR_0", colors(1.0f), true);
         // Source: glTF 2.0 specification, 3.7.2.1: each component must be clamped to [0, 1].
         for (glm::vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
+    }
+
+    void fillTargets(std::vector<MorphTarget>& targets) {
+        for (std::size_t i = 0; i < primitive_.targets.size(); ++i) {
+            attributes_ = &primitive_.targets[i];
+            inPlace_ = fmt::format("targets/{}", i);
+            MorphTarget& target = targets.emplace_back();
+            if (has("POSITION"))
+                target.positionsOS = vectors<glm::vec3>("POSITION", readVertices("POSITION", {3}), true);
+            if (has("NORMAL")) target.normalsOS = vectors<glm::vec3>("NORMAL", readVertices("NORMAL", {3}), true);
+            if (has("TANGENT")) target.tangentsOS = vectors<glm::vec3>("TANGENT", readVertices("TANGENT", {3}), true);
+            for (std::size_t set = 0; set < target.texCoords.size(); ++set) {
+                const std::string name = fmt::format("TEXCOORD_{}", set);
+                if (has(name)) target.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
+            }
+            if (has("COLOR_0")) target.colors = vectors<glm::vec4>("COLOR_0", colors(0.0f), true);
+        }
+        attributes_ = &primitive_.attributes;
+        inPlace_ = "attributes";
+    }
+
+    /// Joints and weights of both sets. Weights that are negative count as 0, and joints without weight as joint 0:
+    /// some files have nonsense there.
+    void fillInfluences(Shape& shape) {
+        constexpr std::size_t kSet = 4;
+        bool hasNegative = false;
+        const std::size_t sets = has("JOINTS_0") ? (has("JOINTS_1") ? 2 : 1) : 0;
+        shape.influences = kSet * sets;
+        context_.document.ledger.charge(vertexCount_ * shape.influences * (sizeof(std::uint32_t) + sizeof(float)),
+                                        [&] { return placeInFile(); });
+        shape.joints.resize(vertexCount_ * shape.influences);
+        shape.weights.resize(shape.joints.size());
+        for (std::size_t set = 0; set < sets; ++set) {
+            const std::string jointsName = fmt::format("JOINTS_{}", set), weightsName = fmt::format("WEIGHTS_{}", set);
+            if (!has(weightsName))
+                context_.document.fail(fmt::format("{}/attributes", place_),
+                                       fmt::format("has {} but no {}", jointsName, weightsName));
+            const Elements joints = readVertices(jointsName, {4});
+            const bool areIntegers = joints.componentType == model::ComponentType::UnsignedByte ||
+                                     joints.componentType == model::ComponentType::UnsignedShort;
+            if (!areIntegers || joints.normalized)
+                fail(jointsName, "names joints, so it must be of UNSIGNED_BYTE or UNSIGNED_SHORT, not normalized");
+            const std::vector<glm::vec4> weights =
+                vectors<glm::vec4>(weightsName, readVertices(weightsName, {4}), true);
+            for (std::size_t v = 0; v < vertexCount_; ++v)
+                for (std::size_t i = 0; i < kSet; ++i) {
+                    const float weight = weights[v][static_cast<glm::length_t>(i)];
+                    hasNegative = hasNegative || weight < 0.0f;
+                    const std::size_t at = v * shape.influences + set * kSet + i;
+                    shape.weights[at] = std::max(weight, 0.0f);
+                    if (weight > 0.0f) shape.joints[at] = static_cast<std::uint32_t>(joints.values[v * kSet + i]);
+                }
+        }
+        if (hasNegative) context_.warn(fmt::format("{}: weights of joints that are negative count as 0", place_));
+        if (has("JOINTS_2"))
+            context_.warn(fmt::format("{}: JOINTS_2 and further are left out; a vertex follows 8 joints", place_));
     }
 
     /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without.
@@ -87,13 +144,13 @@ private:
     std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
 
     [[noreturn]] void fail(const std::string& attribute, const std::string& what) const {
-        const int accessor = primitive_.attributes.at(attribute);
-        context_.document.fail(fmt::format("{}/attributes/{}", place_, attribute),
+        const int accessor = attributes_->at(attribute);
+        context_.document.fail(fmt::format("{}/{}/{}", place_, inPlace_, attribute),
                                fmt::format("accessor {} of mesh '{}' {}", accessor, meshName_, what));
     }
 
     Elements read(const std::string& attribute, std::initializer_list<int> components) {
-        Elements elements = context_.accessors.elements(primitive_.attributes.at(attribute));
+        Elements elements = context_.accessors.elements(attributes_->at(attribute));
         if (std::ranges::find(components, elements.components) == components.end())
             fail(attribute, fmt::format("has {} components an element; {} needs {}", elements.components, attribute,
                                         components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4"));
@@ -107,25 +164,24 @@ private:
         return elements;
     }
 
-    /// RGB gets alpha 1. Integers that were not marked normalised cannot be meant as 0..255, so they are read as if
-    /// they were.
-    Elements colors() {
+    /// RGB gets the alpha given. Integers that were not marked normalised cannot be meant as 0..255, so they are read
+    /// as if they were.
+    Elements colors(float alpha) {
         Elements elements = readVertices("COLOR_0", {3, 4});
         if (!elements.normalized && elements.componentType != model::ComponentType::Float) {
             const double largest = std::exp2(8.0 * static_cast<double>(bytesOf(elements.componentType))) - 1.0;
             for (float& value : elements.values) value = static_cast<float>(value / largest);
             context_.warn(
-                fmt::format("{}/attributes/COLOR_0: holds integers that are not marked normalized; read as if they "
-                            "were",
-                            place_));
+                fmt::format("{}/{}/COLOR_0: holds integers that are not marked normalized; read as if they were",
+                            place_, inPlace_));
         }
         if (elements.components == 4) return elements;
-        context_.document.charge(elements.count * sizeof(glm::vec4), "accessors", primitive_.attributes.at("COLOR_0"));
+        context_.document.charge(elements.count * sizeof(glm::vec4), "accessors", attributes_->at("COLOR_0"));
         std::vector<float> withAlpha;
         withAlpha.reserve(elements.count * 4);
         for (std::size_t i = 0; i < elements.count; ++i) {
             withAlpha.insert(withAlpha.end(), &elements.values[i * 3], &elements.values[i * 3] + 3);
-            withAlpha.push_back(1.0f);
+            withAlpha.push_back(alpha);
         }
         elements.values = std::move(withAlpha);
         elements.components = 4;
@@ -149,6 +205,8 @@ private:
 
     Context& context_;
     const model::Primitive& primitive_;
+    const std::map<std::string, int>* attributes_; ///< the primitive's, or a target's
+    std::string inPlace_ = "attributes";
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
@@ -171,11 +229,12 @@ glm::vec3 faceNormalOS(const Mesh& mesh, std::size_t firstCorner) {
 }
 
 template <typename T>
-void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) {
+void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices, std::size_t each = 1) {
     if (values.empty()) return;
     std::vector<T> own;
-    own.reserve(indices.size());
-    for (const std::uint32_t index : indices) own.push_back(values[index]);
+    own.reserve(indices.size() * each);
+    for (const std::uint32_t index : indices)
+        for (std::size_t i = 0; i < each; ++i) own.push_back(values[index * each + i]);
     values = std::move(own);
 }
 
@@ -200,7 +259,18 @@ std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corn
 
 /// Gives every triangle three vertices of its own and its geometric normal; tangents are dropped, as they belonged to
 /// other normals. A triangle without area gets an arbitrary unit normal.
-void makeFlat(Mesh& mesh) {
+void makeFlat(Shape& shape) {
+    Mesh& mesh = shape.rest;
+    shape.isFlat = true;
+    for (MorphTarget& target : shape.targets) {
+        unshare(target.positionsOS, mesh.indices);
+        for (auto& set : target.texCoords) unshare(set, mesh.indices);
+        unshare(target.colors, mesh.indices);
+        target.normalsOS.clear();
+        target.tangentsOS.clear();
+    }
+    unshare(shape.joints, mesh.indices, shape.influences);
+    unshare(shape.weights, mesh.indices, shape.influences);
     std::vector<glm::vec3> normalsOS;
     normalsOS.reserve(mesh.indices.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
@@ -241,12 +311,21 @@ bool normalizeTangents(Mesh& mesh) {
     return true;
 }
 
-void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
+void finishNormals(Context& context, const std::string& place, Shape& shape) {
+    Mesh& mesh = shape.rest;
+    // What is added to attributes that are not there is nothing.
+    for (MorphTarget& target : shape.targets) {
+        if (mesh.colors.empty()) target.colors.clear();
+        for (std::size_t set = 0; set < mesh.texCoords.size(); ++set)
+            if (mesh.texCoords[set].empty()) target.texCoords[set].clear();
+    }
     if (mesh.normalsOS.empty()) {
         constexpr std::size_t kMostVertexBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
-        context.document.ledger.charge(mesh.indices.size() * kMostVertexBytes,
+        const std::size_t mostBytes =
+            (1 + shape.targets.size()) * kMostVertexBytes + shape.influences * (sizeof(std::uint32_t) + sizeof(float));
+        context.document.ledger.charge(mesh.indices.size() * mostBytes,
                                        [&] { return fmt::format("{}: {}", context.document.file, place); });
-        return makeFlat(mesh);
+        return makeFlat(shape);
     }
     if (const std::size_t broken = repairNormals(mesh); broken > 0)
         context.warn(fmt::format("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place,
@@ -256,15 +335,18 @@ void finishNormals(Context& context, const std::string& place, Mesh& mesh) {
         context.warn(fmt::format(
             "{}/attributes/TANGENT: holds tangents without a direction; tangents are derived instead", place));
     }
+    if (mesh.tangentsOS.empty())
+        for (MorphTarget& target : shape.targets) target.tangentsOS.clear();
 }
 
 } // namespace
 
-std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primitiveIndex) {
+std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
     const model::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
     const model::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
-    Mesh mesh;
+    Shape shape;
+    Mesh& mesh = shape.rest;
     mesh.name = nameOr(stored.name, "mesh", meshIndex);
     if (stored.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", primitiveIndex);
 
@@ -281,6 +363,8 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
         return std::nullopt;
     }
     reader.fillVertices(mesh);
+    if (deforms.byTargets) reader.fillTargets(shape.targets);
+    if (deforms.byJoints) reader.fillInfluences(shape);
     std::vector<std::uint32_t> corners = reader.corners();
     if (primitive.mode == kTriangles && corners.size() % 3 != 0)
         context.warn(
@@ -291,13 +375,13 @@ std::optional<Mesh> importPrimitive(Context& context, int meshIndex, int primiti
                       [&] { return fmt::format("{}: {}", context.document.file, place); });
     mesh.indices = trianglesOf(primitive.mode, std::move(corners));
     reader.warnOfUnused();
-    finishNormals(context, place, mesh);
-    ledger.settle(mark, context.buffers.heldBytes() + bytesOf(mesh));
+    finishNormals(context, place, shape);
+    ledger.settle(mark, context.buffers.heldBytes() + bytesOf(shape));
     if (mesh.indices.empty()) {
         context.warn(fmt::format("{}: mesh '{}' has no triangle and is left out", place, mesh.name));
         return std::nullopt;
     }
-    return mesh;
+    return shape;
 }
 
 } // namespace tessera::scenes::gltf

@@ -1,13 +1,21 @@
 #pragma once
+#include <compare>
 #include <optional>
 
 #include "scenes/import/GltfContext.h"
 
 namespace tessera::scenes::gltf {
 
+/// What of a primitive is read beside its rest.
+struct Deforms {
+    bool byTargets = false;
+    bool byJoints = false;
+    auto operator<=>(const Deforms&) const = default;
+};
+
 /// The triangles of primitive `primitive` of glTF mesh `mesh`, or nothing (with a warning) when it draws points or
 /// lines or has no positions. Strips and fans become triangles; missing normals become flat ones, for which vertices
 /// are unshared. Throws InputError naming the mesh and the accessor.
-std::optional<Mesh> importPrimitive(Context& context, int mesh, int primitive);
+std::optional<Shape> importPrimitive(Context& context, int mesh, int primitive, Deforms deforms = {});
 
 } // namespace tessera::scenes::gltf

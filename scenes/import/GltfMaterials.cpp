@@ -38,6 +38,11 @@ Material Materials::convert(int index) {
     return material;
 }
 
+std::optional<int> Materials::imported(int index) const {
+    const auto found = materials_.find(index);
+    return found == materials_.end() ? std::nullopt : std::optional(found->second);
+}
+
 TextureUse Materials::use(const model::TextureInfo& info, const std::string& place) {
     if (info.texture == kNone) return {};
     if (info.texCoordSet > 1) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 
 #include "scenes/import/GltfContext.h"
 
@@ -13,6 +14,8 @@ public:
     /// The scene's index of glTF material `index`; kNone gives the default material of the specification, named
     /// "default". Throws InputError naming the image's file when one cannot be read.
     int material(int index);
+    /// The scene's index of glTF material `index` where something uses it.
+    std::optional<int> imported(int index) const;
 
 private:
     Material convert(int index);

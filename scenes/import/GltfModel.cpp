@@ -12,7 +12,7 @@ constexpr Choice<int, ComponentType> kComponentTypes[] = {
 constexpr Choice<int, ComponentType> kIndexTypes[] = {
     {5121, ComponentType::UnsignedByte}, {5123, ComponentType::UnsignedShort}, {5125, ComponentType::UnsignedInt}};
 constexpr Choice<std::string_view, int> kComponents[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                                                         {"MAT2", 0},   {"MAT3", 0}, {"MAT4", 0}};
+                                                         {"MAT2", 0},   {"MAT3", 0}, {"MAT4", 16}};
 constexpr Choice<std::string_view, std::string_view> kModes[] = {
     {"ATTRIBUTES", "ATTRIBUTES"}, {"TRIANGLES", "TRIANGLES"}, {"INDICES", "INDICES"}};
 constexpr Choice<std::string_view, std::string_view> kFilters[] = {
@@ -28,6 +28,8 @@ constexpr Choice<int, Wrap> kWraps[] = {
     {33071, Wrap::ClampToEdge}, {33648, Wrap::MirroredRepeat}, {10497, Wrap::Repeat}};
 constexpr Choice<std::string_view, AlphaMode> kAlphaModes[] = {
     {"OPAQUE", AlphaMode::Opaque}, {"MASK", AlphaMode::Mask}, {"BLEND", AlphaMode::Blend}};
+constexpr Choice<std::string_view, Interpolation> kInterpolations[] = {
+    {"LINEAR", Interpolation::Linear}, {"STEP", Interpolation::Step}, {"CUBICSPLINE", Interpolation::CubicSpline}};
 constexpr Choice<std::string_view, Projection> kProjections[] = {{"perspective", Projection::Perspective},
                                                                  {"orthographic", Projection::Orthographic}};
 constexpr Choice<std::string_view, LightType> kLightTypes[] = {
@@ -73,7 +75,8 @@ void Node::read(Object& object) {
     object.optional("children", children, IndexOf{"nodes"});
     object.optional("mesh", mesh, IndexOf{"meshes"});
     object.optional("camera", camera, IndexOf{"cameras"});
-    object.optional("skin", unneeded<int>(), IndexOf{"skins"});
+    object.optional("skin", skin, IndexOf{"skins"});
+    object.optional("weights", weights);
     object.optional("matrix", matrix);
     object.optional("translation", translation);
     object.optional("rotation", rotation);
@@ -86,6 +89,7 @@ void Node::read(Object& object) {
 void Mesh::read(Object& object) {
     object.optional("name", name);
     object.required("primitives", primitives);
+    object.optional("weights", weights);
 }
 
 void Primitive::read(Object& object) {
@@ -93,7 +97,7 @@ void Primitive::read(Object& object) {
     object.optional("indices", indices, IndexOf{"accessors"});
     object.optional("material", material, IndexOf{"materials"});
     object.optional("mode", mode, Range{0.0, 6.0});
-    object.optional("targets", targets);
+    object.optional("targets", targets, IndexOf{"accessors"});
     object.optional("extensions", unneeded<AnyObject>());
 }
 
@@ -194,7 +198,6 @@ void Material::read(Object& object) {
     // An unlit material is its base colour; the rest is a fallback for programs that do not know the extension.
     scenes::Material unneededLayers;
     scenes::Material& layers = unlit ? unneededLayers : surface;
-    float emissiveStrength = 1.0f;
     object.optional("emissiveFactor", layers.emissive, kFromZero);
     object.optional("extensions/KHR_materials_emissive_strength/emissiveStrength", emissiveStrength, kFromZero);
     layers.emissive *= emissiveStrength;
@@ -222,6 +225,39 @@ void Material::read(Object& object) {
         object.optional(path, texture);
         hasUnreadTexture = hasUnreadTexture || texture.has_value();
     }
+}
+
+// ---- Animation -----------------------------------------------------------------------------------------------------
+
+void Skin::read(Object& object) {
+    object.optional("name", name);
+    object.optional("inverseBindMatrices", inverseBindMatrices, IndexOf{"accessors"});
+    object.optional("skeleton", unneeded<int>(), IndexOf{"nodes"});
+    object.required("joints", joints, IndexOf{"nodes"});
+}
+
+void AnimationSampler::read(Object& object) {
+    object.required("input", input, IndexOf{"accessors"});
+    object.required("output", output, IndexOf{"accessors"});
+    object.optional("interpolation", interpolation, kInterpolations);
+}
+
+void AnimationChannel::read(Object& object) {
+    object.required("sampler", sampler, kInts);
+    object.required("target", unneeded<AnyObject>());
+    object.required("target/path", path);
+    object.optional("target/node", node, IndexOf{"nodes"});
+    object.optional("target/extensions/KHR_animation_pointer/pointer", pointer);
+}
+
+void Animation::read(Object& object) {
+    object.optional("name", name);
+    object.required("samplers", samplers);
+    object.required("channels", channels);
+    for (const AnimationChannel& channel : channels)
+        if (static_cast<std::size_t>(channel.sampler) >= samplers.size())
+            object.fail("channels",
+                        fmt::format("names sampler {}, but there are only {}", channel.sampler, samplers.size()));
 }
 
 // ---- Cameras and lights --------------------------------------------------------------------------------------------

@@ -23,6 +23,8 @@ struct Node {
     std::string name;
     std::vector<int> children;
     int mesh = kNone;
+    int skin = kNone;
+    std::vector<float> weights; ///< of the mesh's morph targets; empty: those of the mesh
     int camera = kNone;
     int light = kNone;
     std::optional<glm::dmat4> matrix; ///< instead of the three below
@@ -38,7 +40,7 @@ struct Primitive {
     int indices = kNone;
     int material = kNone;
     int mode = 4;
-    std::vector<AnyValue> targets;
+    std::vector<std::map<std::string, int>> targets; ///< accessors by attribute
 
     void read(Object& object);
 };
@@ -46,6 +48,7 @@ struct Primitive {
 struct Mesh {
     std::string name;
     std::vector<Primitive> primitives;
+    std::vector<float> weights; ///< of morph targets; empty: all 0
 
     void read(Object& object);
 };
@@ -68,7 +71,7 @@ struct Accessor {
     std::size_t byteOffset = 0;
     ComponentType componentType{};
     std::size_t count = 0;
-    int components = 0; ///< of an element; 0 stands for a matrix
+    int components = 0; ///< of an element; 16: a 4x4 matrix, 0: another one
     bool normalized = false;
     std::optional<Sparse> sparse;
 
@@ -166,6 +169,7 @@ struct Material {
     std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
     double ior = 1.5;
     bool hasUnreadTexture = false; ///< of transmission or thickness
+    float emissiveStrength = 1.0f; ///< in surface.emissive
 
     void read(Object& object);
 };
@@ -196,6 +200,38 @@ struct Light {
     void read(Object& object);
 };
 
+struct Skin {
+    std::string name;
+    int inverseBindMatrices = kNone; ///< an accessor; none: identities
+    std::vector<int> joints;
+
+    void read(Object& object);
+};
+
+struct AnimationSampler {
+    int input = kNone, output = kNone; ///< accessors
+    Interpolation interpolation = Interpolation::Linear;
+
+    void read(Object& object);
+};
+
+struct AnimationChannel {
+    int sampler = kNone;
+    int node = kNone; ///< that the path starts from
+    std::string path;
+    std::string pointer; ///< KHR_animation_pointer, instead of both
+
+    void read(Object& object);
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationSampler> samplers;
+    std::vector<AnimationChannel> channels;
+
+    void read(Object& object);
+};
+
 struct Model {
     std::vector<std::string> extensionsUsed;
     std::vector<std::string> extensionsRequired;
@@ -212,8 +248,8 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
-    std::vector<AnyObject> skins;
-    std::vector<AnyObject> animations;
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
 
     void read(Object& object);
 };

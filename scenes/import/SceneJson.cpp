@@ -7,6 +7,7 @@
 #include "base/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
+#include "scenes/Pose.h"
 #include "scenes/import/AppendScene.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/Importers.h"
@@ -101,8 +102,8 @@ private:
 
         if (base) {
             readBase(*base, scene);
-            if (replacesLights) scene.lights.clear();
-            if (replacesCameras) scene.cameras.clear();
+            if (replacesLights) keepLights(scene, 0);
+            if (replacesCameras) dropCameras(scene);
             if (options) scene.options = SceneOptions();
         }
         const BaseSize baseSize{scene.materials.size(), scene.images.size()};

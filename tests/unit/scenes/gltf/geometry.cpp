@@ -308,14 +308,5 @@ TEST(GltfGeometry, indexThatRestartsAPrimitiveIsRefused) {
     EXPECT_NE(ints.find("; split the mesh"), std::string::npos) << ints;
 }
 
-TEST(GltfGeometry, morphTargetsAreWarnedOfOnce) {
-    Builder builder;
-    builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}, {"POSITION": 0}])");
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.meshes.size(), 1u);
-    EXPECT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(hasWarning(scene, "morph targets are not supported"));
-}
-
 } // namespace
 } // namespace tessera::scenes::gltf::test

@@ -122,15 +122,6 @@ TEST(GltfNodes, deepHierarchyNeverOverflowsTheStack) {
     EXPECT_EQ(builder.import().nodes.size(), static_cast<std::size_t>(kDepth));
 }
 
-TEST(GltfNodes, skinsAndAnimationsAreWarnedOf) {
-    Builder builder;
-    builder.merge(R"({"skins": [{"joints": [0]}], "animations": [{"channels": [], "samplers": []}]})");
-    const Scene scene = builder.import();
-    EXPECT_TRUE(hasWarning(scene, "model.gltf: skins are not supported"));
-    EXPECT_TRUE(hasWarning(scene, "animations are not supported"));
-    EXPECT_EQ(scene.meshes.size(), 1u);
-}
-
 // ---- Cameras -------------------------------------------------------------------------------------------------------
 
 TEST(GltfCameras, perspectiveIsImportedExactly) {

@@ -1,0 +1,75 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenes/import/GltfContext.h"
+#include "scenes/import/GltfGeometry.h"
+#include "scenes/import/GltfMaterials.h"
+
+namespace tessera::scenes::gltf {
+
+/// Builds the scene's rig: what deforms meshes, and clips.
+class Rigging {
+public:
+    /// `sceneNodes` is by node of the document the scene's, kNone where the scene does not have it.
+    Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes);
+
+    /// What deforms the meshes of a node.
+    Deforms deformsOf(int node) const;
+    /// Gives a node instances of its own of its mesh deformed.
+    void addDeformed(int node);
+    /// Called when a node's camera and light were imported.
+    void addCarried(int node);
+    /// Called when all nodes are in the scene: adds those that skinned meshes stand at, and clips.
+    void finish();
+
+private:
+    struct Drawn {
+        int shape = 0;
+        int material = 0;
+    };
+    /// An instance whose node is not there yet.
+    struct Standing {
+        std::size_t deformed = 0;
+        MeshInstance instance;
+    };
+    /// What a channel changes.
+    struct Animated {
+        AnimatedProperty property{};
+        std::vector<int> targets; ///< as AnimationChannel::target
+        std::size_t width = 0;    ///< numbers of a value
+    };
+
+    const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms);
+    std::vector<float> restWeights(int node) const;
+    int skinOf(int index);
+    void requireJoints(const Shape& shape, int mesh, int skin, std::size_t joints) const;
+    void standAll();
+
+    Clip clip(int index);
+    std::optional<Animated> animated(const model::AnimationChannel& channel);
+    std::optional<Animated> animatedByPointer(const std::string& pointer);
+    std::optional<Animated> animatedOfNode(int node, std::string_view path);
+    std::optional<Animated> animatedNumber(AnimatedOwner owner, std::size_t index, std::string_view path);
+    int restNode(int node);
+    int restNumber(AnimatedProperty property, int element);
+    AnimationSampler sampler(int animation, int index, const Animated& animated);
+    void carryAll();
+
+    Context& context_;
+    Materials& materials_;
+    std::vector<int> sceneNodes_;
+    std::vector<bool> hasAnimatedWeights_;                         ///< by node of the document
+    std::map<std::pair<int, Deforms>, std::vector<Drawn>> shapes_; ///< by mesh of the document
+    std::map<int, int> skins_;                                     ///< of the rig, by those of the document
+    std::map<int, int> weights_, nodes_;                           ///< of the rig, by nodes of the document
+    std::map<std::pair<AnimatedProperty, int>, int> numbers_;      ///< of the rig
+    std::vector<Standing> standing_;
+    std::map<int, std::vector<int>> lights_; ///< of the scene, by those of the document
+    std::vector<Carried> carriedLights_, carriedCameras_;
+    std::size_t leftOut_ = 0; ///< channels
+    std::string leftOutPath_; ///< of the first of these
+};
+
+} // namespace tessera::scenes::gltf

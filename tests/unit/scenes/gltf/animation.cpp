@@ -1,0 +1,381 @@
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "scenes/Pose.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kFloat = 5126, kShort = 5122, kUnsignedByte = 5121, kUnsignedShort = 5123;
+constexpr float kHalf = 0.70710678f;
+
+/// Adds a clip with one channel.
+void addClip(Builder& builder, const std::vector<float>& times, int output, Json target,
+             const char* interpolation = "LINEAR", const char* name = "clip") {
+    const int input = builder.add(times, kFloat, "SCALAR", times.size());
+    builder.json["animations"].push_back(
+        {{"name", name},
+         {"samplers", Json::array({{{"input", input}, {"output", output}, {"interpolation", interpolation}}})},
+         {"channels", Json::array({{{"sampler", 0}, {"target", std::move(target)}}})}});
+}
+
+/// A triangle that moves 2 along x within a second.
+Builder movingTriangle() {
+    Builder builder;
+    const int output = builder.add(std::vector<float>{0, 0, 0, 2, 0, 0}, kFloat, "VEC3", 2);
+    addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "translation"}});
+    return builder;
+}
+
+/// The triangle with a skin of joints 1 and 2, of which 2 is a child of 1, 1 along x. Every vertex follows joint 2.
+Builder skinnedTriangle() {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0, "translation": [7, 7, 7]}, {"children": [2]},
+                                {"translation": [1, 0, 0]}],
+                      "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2]}]})");
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["JOINTS_0"] =
+        builder.add(std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
+    attributes["WEIGHTS_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
+    return builder;
+}
+
+/// Places of the vertices that the scene draws, at a time.
+std::vector<glm::dvec3> drawnAt(Scene scene, double timeSeconds) {
+    checkScene(scene);
+    poseScene(scene, timeSeconds);
+    checkScene(scene);
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    std::vector<glm::dvec3> places;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+        for (const MeshInstance& instance : scene.nodes[node].instances)
+            for (const glm::vec3& positionOS : scene.meshes[std::size_t(instance.mesh)].positionsOS)
+                places.emplace_back(worldFromNode[node] * glm::dvec4(positionOS, 1.0));
+    return places;
+}
+
+void expectPlace(const glm::dvec3& found, const glm::dvec3& wanted) {
+    EXPECT_NEAR(found.x, wanted.x, 1e-6);
+    EXPECT_NEAR(found.y, wanted.y, 1e-6);
+    EXPECT_NEAR(found.z, wanted.z, 1e-6);
+}
+
+// ---- Clips ---------------------------------------------------------------------------------------------------------
+
+TEST(GltfAnimation, aNodeMovesAsItsChannelsSay) {
+    const Scene scene = movingTriangle().import();
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.rig.playing, std::vector{0});
+    expectPlace(drawnAt(scene, 0.25)[0], {0.5, 0.0, 0.0});
+    expectPlace(drawnAt(scene, 9.0)[1], {3.0, 0.0, 0.0});
+    EXPECT_EQ(clipText(scene), "clip 'clip' (1 of 1), 1 s");
+}
+
+TEST(GltfAnimation, normalizedIntegersAreFractions) {
+    Builder builder;
+    const int output = builder.add(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 32767, 0}, kShort, "VEC4", 2, true);
+    addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "rotation"}});
+    expectPlace(drawnAt(builder.import(), 1.0)[1], {-1.0, 0.0, 0.0});
+    Builder plain;
+    const int integers = plain.add(std::vector<std::int16_t>{0, 0, 0, 1, 0, 0, 1, 0}, kShort, "VEC4", 2);
+    addClip(plain, {0, 1}, integers, {{"node", 0}, {"path", "rotation"}});
+    EXPECT_THAT(plain.error(), HasSubstr("/animations/0/samplers/0/output: accessor 1 holds integers that are not "
+                                         "normalized"));
+}
+
+TEST(GltfAnimation, keyTimesThatDoNotAscendAreRefusedByName) {
+    const auto errorWith = [](const std::vector<float>& times) {
+        Builder builder;
+        const int output = builder.add(std::vector<float>(3 * times.size(), 0.0f), kFloat, "VEC3", times.size());
+        addClip(builder, times, output, {{"node", 0}, {"path", "scale"}});
+        return builder.error();
+    };
+    EXPECT_EQ(errorWith({0, 1, 2}), "");
+    EXPECT_THAT(errorWith({0, 1, 1}), HasSubstr("/animations/0/samplers/0/input: accessor 2 has key 1 at 1 s and key "
+                                                "2 at 1 s; key times must ascend"));
+    EXPECT_THAT(errorWith({0, 2, 1}), HasSubstr("has key 1 at 2 s and key 2 at 1 s"));
+    EXPECT_THAT(errorWith({0, std::numeric_limits<float>::quiet_NaN()}), HasSubstr("key times must be finite"));
+}
+
+TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
+    const auto errorWith = [](const std::vector<float>& values, const char* type, std::size_t count, const char* path,
+                              const char* interpolation = "LINEAR") {
+        Builder builder;
+        const int output = builder.add(values, kFloat, type, count);
+        addClip(builder, {0, 1}, output, {{"node", 0}, {"path", path}}, interpolation);
+        return builder.error();
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(errorWith({0, 0, 0, 0, nan, 0}, "VEC3", 2, "translation"), HasSubstr("holds nan in element 1"));
+    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2, "rotation"),
+                HasSubstr("has the zero quaternion at key 1"));
+    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2, "scale"),
+                HasSubstr("has 4 components an element; scale needs 3"));
+    EXPECT_THAT(errorWith({0, 0, 0, 0, 0, 0}, "VEC3", 2, "scale", "CUBICSPLINE"),
+                HasSubstr("has 2 elements, but 2 keys of scale need 6"));
+}
+
+TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
+    Builder builder = movingTriangle();
+    Json& channels = builder.json["animations"][0]["channels"];
+    for (const char* pointer : {"/cameras/0/perspective/yfov", "/nodes/0/visible"})
+        channels.push_back(
+            {{"sampler", 0},
+             {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("/animations: 2 channels change things that cannot be animated, such as "
+                                             "/cameras/0/perspective/yfov, and are left out"));
+    expectPlace(drawnAt(scene, 1.0)[0], {2.0, 0.0, 0.0});
+}
+
+TEST(GltfAnimation, pointersReachLightsAndMaterials) {
+    Builder builder;
+    builder.material();
+    builder.merge(R"({"nodes": [{"mesh": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0}}}],
+                      "scenes": [{"nodes": [0, 1]}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}]}}})");
+    const auto add = [&](const char* pointer, const std::vector<float>& values, const char* type) {
+        const int output = builder.add(values, kFloat, type, 2);
+        addClip(builder, {0, 1}, output,
+                {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}});
+    };
+    add("/extensions/KHR_lights_punctual/lights/0/intensity", {2, 6}, "SCALAR");
+    add("/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 1, 1, 0.5f, 0, 1}, "VEC4");
+    add("/materials/0/emissiveFactor", {0, 0, 0, 0, 2, 0}, "VEC3");
+    Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    scene.rig.playing = {0, 1, 2};
+    poseScene(scene, 0.5);
+    EXPECT_FLOAT_EQ(scene.lights[0].intensity, 4.0f);
+    EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 0.25f);
+    EXPECT_FLOAT_EQ(scene.materials[0].emissive.y, 1.0f);
+    playClip(scene, "none");
+    poseScene(scene, 0.5);
+    EXPECT_FLOAT_EQ(scene.lights[0].intensity, 3.0f);
+    EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 1.0f);
+}
+
+TEST(GltfAnimation, lightsAndCamerasOnMovingNodesMove) {
+    Builder builder = movingTriangle();
+    builder.merge(R"({"nodes": [{"children": [1]}, {"mesh": 0, "camera": 0, "extensions":
+                                {"KHR_lights_punctual": {"light": 0}}}, {"camera": 0}],
+                      "scenes": [{"nodes": [0, 2]}],
+                      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
+    Scene scene = builder.import();
+    ASSERT_EQ(scene.rig.cameras.size(), 1u);
+    ASSERT_EQ(scene.rig.lights.size(), 1u);
+    poseScene(scene, 0.5);
+    expectPlace(scene.lights[0].positionWS, {1.0, 0.0, 0.0});
+    expectPlace(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
+    expectPlace(glm::dvec3(scene.cameras[1].worldFromCamera[3]), {0.0, 0.0, 0.0});
+}
+
+// ---- Skins ---------------------------------------------------------------------------------------------------------
+
+TEST(GltfSkins, verticesFollowTheirJointsAndNotTheirNode) {
+    Builder builder = skinnedTriangle();
+    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, kHalf, kHalf}, kFloat, "VEC4", 2);
+    addClip(builder, {0, 1}, output, {{"node", 2}, {"path", "rotation"}});
+    const Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    expectPlace(drawnAt(scene, 0.0)[1], {2.0, 0.0, 0.0});
+    expectPlace(drawnAt(scene, 1.0)[1], {1.0, 1.0, 0.0});
+}
+
+TEST(GltfSkins, inverseBindMatricesComeFirst) {
+    Builder builder = skinnedTriangle();
+    std::vector<float> matrices(32, 0.0f);
+    for (std::size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u}) matrices[i] = 1.0f;
+    matrices[16 + 12] = -1.0f;
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloat, "MAT4", 2);
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
+    builder.json["accessors"].back()["count"] = 1;
+    EXPECT_THAT(builder.error(), HasSubstr("/skins/0/inverseBindMatrices: accessor 3 has 1 matrices for 2 joints"));
+    builder.json["accessors"].back()["type"] = "VEC4";
+    EXPECT_THAT(builder.error(), HasSubstr("accessor 3 must be of MAT4"));
+}
+
+TEST(GltfSkins, aVertexMayFollowEightJoints) {
+    Builder builder = skinnedTriangle();
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["JOINTS_1"] = builder.add(std::vector<std::uint16_t>(12, 0), kUnsignedShort, "VEC4", 3);
+    attributes["WEIGHTS_1"] =
+        builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByte, "VEC4", 3, true); // four thirds in all
+    // 1 of joint 2 and 4/3 of joint 1.
+    expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
+}
+
+TEST(GltfSkins, jointsOutsideOfTheSceneAreFollowedAndNotDrawn) {
+    Builder builder = skinnedTriangle();
+    builder.json["nodes"][1]["mesh"] = 0;
+    builder.json["nodes"][1]["translation"] = {0, 5, 0};
+    builder.json["scenes"][0]["nodes"] = Json::array({0});
+    const Scene scene = builder.import();
+    EXPECT_EQ(triangleCount(scene), 1u);
+    expectPlace(drawnAt(scene, 0.0)[0], {1.0, 5.0, 0.0});
+}
+
+TEST(GltfSkins, jointsThatTheSkinLacksAreRefusedUnlessTheirWeightIsZero) {
+    Builder builder = skinnedTriangle();
+    builder.json["skins"][0]["joints"] = Json::array({1});
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0: vertex 0 of mesh 'mesh 0' follows joint 1, but /skins/0 has "
+                                           "only 1"));
+    Builder spare = skinnedTriangle();
+    spare.primitive()["attributes"]["JOINTS_0"] =
+        spare.add(std::vector<std::uint8_t>{1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0}, kUnsignedByte, "VEC4", 3);
+    expectPlace(drawnAt(spare.import(), 0.0)[0], {1.0, 0.0, 0.0});
+}
+
+TEST(GltfSkins, instancesOfOneMeshAreDeformedEachByItsOwnSkin) {
+    Builder builder = skinnedTriangle();
+    builder.json["skins"].push_back(Json::object({{"joints", Json::array({1, 1})}}));
+    builder.json["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
+    builder.json["nodes"].push_back(Json::object({{"mesh", 0}}));
+    builder.json["scenes"][0]["nodes"] = Json::array({0, 1, 3, 4});
+    const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
+    ASSERT_EQ(places.size(), 9u);
+    expectPlace(places[0], {0.0, 0.0, 0.0}); // node 4, plain; skinned ones stand behind all nodes
+    expectPlace(places[3], {1.0, 0.0, 0.0});
+    expectPlace(places[6], {0.0, 0.0, 0.0});
+}
+
+// ---- Morph targets -------------------------------------------------------------------------------------------------
+
+TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
+    Builder builder;
+    builder.primitive()["targets"] = Json::array(
+        {Json::object({{"POSITION", builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3)}})});
+    EXPECT_TRUE(builder.import().rig.deformed.empty()) << "nothing can move it";
+    builder.json["meshes"][0]["weights"] = Json::array({0.5});
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.5});
+    builder.json["nodes"][0]["weights"] = Json::array({2});
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 2.0});
+}
+
+TEST(GltfMorphTargets, everyAttributeIsMorphedAndWeightsAreAnimated) {
+    Builder builder;
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
+    attributes["TANGENT"] = builder.add(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, kFloat, "VEC4", 3);
+    attributes["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloat, "VEC2", 3);
+    attributes["COLOR_0"] = builder.add(std::vector<float>(12, 0.5f), kFloat, "VEC4", 3);
+    const int ones = builder.add(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
+    builder.primitive()["targets"] =
+        Json::array({Json::object({{"POSITION", ones}}),
+                     {{"NORMAL", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0}, kFloat, "VEC3", 3)},
+                      {"TANGENT", builder.add(std::vector<float>{-1, 1, 0, 0, 0, 0, 0, 0, 0}, kFloat, "VEC3", 3)},
+                      {"TEXCOORD_0", builder.add(std::vector<float>(6, 0.25f), kFloat, "VEC2", 3)},
+                      {"COLOR_0", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, -1, 0, 0}, kFloat, "VEC3", 3)}}});
+    const int weights = builder.add(std::vector<float>{0, 0, 0.5f, 1}, kFloat, "SCALAR", 4);
+    addClip(builder, {0, 1}, weights, {{"node", 0}, {"path", "weights"}});
+    Scene scene = builder.import();
+    poseScene(scene, 1.0);
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.positionsOS[1], glm::vec3(1.5f, 0.5f, 0.5f));
+    EXPECT_NEAR(mesh.normalsOS[0].x, kHalf, 1e-6f);
+    EXPECT_NEAR(mesh.tangentsOS[0].y, 1.0f, 1e-6f);
+    EXPECT_EQ(mesh.tangentsOS[0].w, -1.0f);
+    EXPECT_EQ(mesh.texCoords[0][0], glm::vec2(0.25f));
+    EXPECT_EQ(mesh.colors[0], glm::vec4(1.0f, 0.5f, 0.5f, 0.5f));
+    EXPECT_EQ(mesh.colors[2].x, 0.0f);
+}
+
+TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
+    Builder builder;
+    const int indices = builder.addView(bytesOf(std::vector<std::uint16_t>{2, 0}));
+    const int values = builder.addView(bytesOf(std::vector<float>{0, 0, 3}));
+    builder.json["accessors"].push_back({{"componentType", kFloat},
+                                         {"type", "VEC3"},
+                                         {"count", 3},
+                                         {"sparse",
+                                          {{"count", 1},
+                                           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
+                                           {"values", {{"bufferView", values}}}}}});
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", builder.json["accessors"].size() - 1}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
+    expectPlace(places[0], {0.0, 0.0, 0.0});
+    expectPlace(places[2], {0.0, 1.0, 3.0});
+}
+
+TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
+    Builder builder;
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{2, 0, 1}, kUnsignedByte, "SCALAR", 3);
+    builder.primitive()["targets"] = Json::array(
+        {Json::object({{"POSITION", builder.add(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC3", 3)}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    Scene scene = builder.import();
+    poseScene(scene, 0.0);
+    // (0,0,0) (1,0,1) (0,1,0): the plane x = z.
+    for (const glm::vec3& normalOS : scene.meshes.at(0).normalsOS) {
+        EXPECT_NEAR(normalOS.x, -kHalf, 1e-6f);
+        EXPECT_NEAR(normalOS.z, kHalf, 1e-6f);
+    }
+}
+
+TEST(GltfMorphTargets, anotherLengthIsRefusedByName) {
+    Builder builder;
+    builder.primitive()["targets"] =
+        Json::array({Json::object({{"POSITION", builder.add(std::vector<float>(6, 0.0f), kFloat, "VEC3", 2)}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/targets/0/POSITION: accessor 1 of mesh 'mesh 0' "
+                                           "has 2 elements, but there are 3 positions"));
+}
+
+// ---- Loading -------------------------------------------------------------------------------------------------------
+
+TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsAskedFor) {
+    Builder builder = movingTriangle();
+    const int output = builder.add(std::vector<float>{0, 4, 0}, kFloat, "VEC3", 1);
+    addClip(builder, {0}, output, {{"node", 0}, {"path", "translation"}}, "STEP", "up");
+    const std::string file = builder.folder.write("clips.gltf", builder.json.dump()).string();
+    const auto placeWith = [&](std::optional<std::string> clip) {
+        LoadOptions options;
+        options.clip = std::move(clip);
+        return glm::dvec3(loadScene(file, options).nodes[0].parentFromNode[3]);
+    };
+    expectPlace(placeWith({}), {0.0, 0.0, 0.0});
+    expectPlace(placeWith("up"), {0.0, 4.0, 0.0});
+    expectPlace(placeWith("1"), {0.0, 4.0, 0.0});
+    expectPlace(placeWith("none"), {0.0, 0.0, 0.0});
+    EXPECT_THROW(placeWith("2"), InputError);
+}
+
+TEST(GltfAnimation, deformedInstancesAreChargedBeforeTheyAreCopied) {
+    const auto errorWith = [](int instances) {
+        constexpr std::size_t kVertices = 3000;
+        Builder builder = skinnedTriangle();
+        Json& attributes = builder.primitive()["attributes"];
+        attributes["POSITION"] = builder.add(std::vector<float>(3 * kVertices), kFloat, "VEC3", kVertices);
+        attributes["JOINTS_0"] =
+            builder.add(std::vector<std::uint8_t>(4 * kVertices), kUnsignedByte, "VEC4", kVertices);
+        attributes["WEIGHTS_0"] = builder.add(std::vector<float>(4 * kVertices), kFloat, "VEC4", kVertices);
+        Json roots = Json::array({0, 1});
+        for (int i = 0; i < instances; ++i) {
+            roots.push_back(builder.json["nodes"].size());
+            builder.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+        }
+        builder.json["scenes"][0]["nodes"] = roots;
+        try {
+            underLedger(importGltf, builder.folder.write("many.gltf", builder.json.dump()), 64 * kMiB);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(errorWith(20), "");
+    // 84 KB each
+    EXPECT_THAT(errorWith(2000), HasSubstr("/nodes/"));
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
