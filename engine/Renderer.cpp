@@ -60,11 +60,22 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         auto scene = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
         uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
     } else {
-        if (found->materialsChanged) found->scene->updateMaterials();
-        found->materialsChanged = false;
+        if (found->geometryChanged)
+            found->scene->updateGeometry();
+        else if (found->materialsChanged)
+            found->scene->updateMaterials();
+        found->materialsChanged = found->geometryChanged = false;
         std::rotate(uploaded_.begin(), found, found + 1);
     }
     return *uploaded_.front().scene;
+}
+
+void Renderer::geometryChanged() {
+    drawn_.reset(); // it points at atlases
+    bounds_ = frame::surfaceBounds(scene_);
+    diffusionAtlases_.forget();
+    for (auto& [view, memory] : diffusionMemories_) memory.forget();
+    for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;
 }
 
 /// What the view's shadows ask of the scene.

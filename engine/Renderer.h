@@ -97,10 +97,15 @@ public:
     }
 
     /// To be called after factors of the scene's materials were changed, not their textures: the next draw() takes them
-    /// as they are then. Lights and cameras of the scene may change between draws without notice, nodes and meshes not.
+    /// as they are then. Lights and cameras of the scene may change between draws without notice.
     void materialsChanged() {
         for (Uploaded& uploaded : uploaded_) uploaded.materialsChanged = true;
     }
+
+    /// To be called after vertices of the scene's meshes, transforms of its nodes or factors of its materials were
+    /// changed (scenes::applyPose()), but not which instances there are nor their attributes, triangles and textures:
+    /// the next draw() uploads them. No program is compiled anew. The latest frame is gone.
+    void geometryChanged();
 
     /// To be called after the scene got another map of its environment; how that lies and shines may change without
     /// notice. Who has filtered the map already may bring that.
@@ -151,6 +156,7 @@ private:
         scenes::SubsurfaceRequest subsurface;
         std::unique_ptr<frame::SceneGpu> scene;
         bool materialsChanged = false;
+        bool geometryChanged = false;
     };
     std::vector<Uploaded> uploaded_; ///< the latest first, and the one before: two sides of a comparison alternate
     std::unique_ptr<Drawn> drawn_;   ///< the latest frame; null before the first and after one that failed

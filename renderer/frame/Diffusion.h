@@ -94,6 +94,8 @@ public:
     explicit DiffusionAtlases(const scenes::Scene& scene) : scene_(scene) {}
     /// Throws InputError where the object's texture coordinates do not unwrap it.
     const DiffusionAtlas& of(const DiffusedObject& object, int sideTexels, int gutterTexels);
+    /// Drops all, since they hold for meshes and nodes as they were.
+    void forget() { atlases_.clear(); }
 
 private:
     const scenes::Scene& scene_;

@@ -180,6 +180,20 @@ void SceneGpu::updateMaterials() {
     }
 }
 
+void SceneGpu::updateGeometry() {
+    Geometry geometry = makeGeometry();
+    Draws draws = makeDraws(geometry.ranges);
+    Materials materials = makeMaterials();
+    std::vector<CasterMaterial> revised = casterMaterials();
+    // Nothing throws from here on.
+    geometry_ = std::move(geometry);
+    draws_ = std::move(draws);
+    materials_ = std::move(materials);
+    casters_.reset();
+    revisedMaterials_ = std::move(revised);
+    casterRevision_ = newRevision();
+}
+
 bool SceneGpu::isCaster(const Draw& draw) const {
     return draw.castsShadow && scenes::castsShadow(scene_.materials[std::size_t(draw.material)]);
 }

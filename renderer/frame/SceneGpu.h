@@ -34,6 +34,10 @@ public:
     /// memory runs out; then all is as it was.
     void updateMaterials();
 
+    /// Uploads the scene's current meshes, nodes and materials; which instances there are, their attributes, triangles
+    /// and textures must be unchanged. Throws as updateMaterials(); then all is as it was.
+    void updateGeometry();
+
     const DrawList& drawList() const { return draws_.list; }
     /// One for each draw that a view may see. Its baseInstance selects the draw's rows.
     std::vector<gpu::DrawIndexedCommand> commandsOf(const ViewDraws& draws) const;
@@ -70,7 +74,7 @@ public:
 
     /// Whether what is drawn hides light (scenes/Shadows.h).
     bool isCaster(const Draw& draw) const;
-    /// Changes where materials change what hides light; no two scenes share one.
+    /// Changes where materials or geometry change what hides light; no two scenes share one.
     std::uint64_t casterRevision() const { return casterRevision_; }
 
     /// What hides lights.
