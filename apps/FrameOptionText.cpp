@@ -14,6 +14,7 @@ std::string frameOptionText(const FrameOptions& options) {
         text += fmt::format(" {} {}", setting.flag, shellWord(setting.isOfScene ? *said : setting.text(request)));
     }
     if (options.lights) text += fmt::format(" --lights {}", *options.lights);
+    if (options.clip) text += " --clip " + shellWord(*options.clip);
     text += viewer::poseText(options.pose);
     if (options.environment) text += " --environment " + shellWord(*options.environment);
     if (options.noDefaultLight) text += " --no-default-light";

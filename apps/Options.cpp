@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
+#include "scenes/Pose.h"
 #include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {
@@ -85,7 +86,26 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
             addWholeNumber(command, "--lights", options.lights,
                            "Built-in scenes make this many lights, files keep their first N", "N")
                 ->group(std::string(group));
+        if (setting.key == "time")
+            command
+                .add_option("--clip", options.clip,
+                            "The clip of the scene that plays, by name or counted from 0, or none [its first]")
+                ->type_name("NAME")
+                ->group(std::string(group));
     }
+}
+
+/// The time that the options, else the scene ask for.
+double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
+    const engine::Setting& time = engine::settingOf("time");
+    engine::ViewRequest request;
+    if (const auto said = options.said("time"))
+        time.read(request, *said, fromCommandLine(time));
+    else
+        engine::takeWishes(scene, options.scene, request, [](const engine::Setting& setting) {
+            return setting.key != "time"; // of the others the texts alone are read
+        });
+    return request.settings.timeSeconds;
 }
 
 } // namespace
@@ -170,6 +190,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
     load.environment = options.environment;
+    load.clip = options.clip;
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
     return load;
 }
@@ -178,6 +199,7 @@ scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* fil
     scenes::LoadOptions load = loadOptionsOf(options);
     load.files = files;
     scenes::Scene scene = scenes::loadScene(options.scene, load);
+    if (scenes::isPlaying(scene)) scenes::poseScene(scene, secondsFor(options, scene));
     placeCamera(options, scene);
     return scene;
 }
@@ -189,7 +211,11 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
     engine::ViewRequest request;
     if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
     scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
+    const glm::dmat4 before = camera.worldFromCamera;
     camera = scenes::changedCamera(camera, options.pose);
+    if (camera.worldFromCamera != before)
+        std::erase_if(scene.rig.cameras,
+                      [&](const scenes::Carried& carried) { return carried.element == request.settings.camera; });
 }
 
 Request resolveWithoutScene(const FrameOptions& options) {
@@ -214,6 +240,8 @@ Request resolve(const FrameOptions& options) {
     resolveForScene(options, request);
     for (const std::string& warning : request.scene.warnings)
         spdlog::warn("{}", oneLine(request.scene.name + ": " + warning));
+    if (const std::string clip = scenes::clipText(request.scene); !clip.empty())
+        spdlog::info("{}", oneLine(request.scene.name + ": " + clip));
     return request;
 }
 

@@ -37,6 +37,7 @@ struct FrameOptions {
     std::optional<int> lights;
     bool noDefaultLight = false;
     std::optional<std::string> environment; ///< as scenes::LoadOptions has it
+    std::optional<std::string> clip;        ///< the same
     scenes::CameraChange pose;              ///< of the camera that is chosen
 
     /// What was said of the setting of that key.
@@ -52,15 +53,16 @@ struct Request : engine::ViewRequest {
     scenes::Scene scene;
     std::vector<std::string> files; ///< that the scene was read from
 };
-/// The scene alone, as the options have it, the camera they choose where they place it.
+/// The scene alone, as the options have it: at the time that they, else the scene ask for, the camera they choose where
+/// they place it.
 /// Names of the files it was read from are added to `files`.
 scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr);
 /// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
 Request resolveWithoutScene(const FrameOptions& options);
 /// Options that name things of the request's scene, and the scene's own options where the command line sets none.
 void resolveForScene(const FrameOptions& options, Request& request);
-/// Places the camera that the options, else the scene choose, and turns the light along it that the scene was given
-/// for want of its own. Throws InputError for what no camera can have.
+/// Places the camera that the options, else the scene choose, so that no clip moves it any more, and turns the light
+/// along it that the scene was given for want of its own. Throws InputError for what no camera can have.
 void placeCamera(const FrameOptions& options, scenes::Scene& scene);
 /// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
 Request resolve(const FrameOptions& options);

@@ -24,6 +24,7 @@
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "renderer/shader/SourceTree.h"
+#include "scenes/Pose.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/pictures/ShownPicture.h"
 
@@ -48,6 +49,13 @@ struct RenderJob {
 
     /// How many pictures are to be made.
     std::size_t pictures() const { return sequence ? sequence->unfinished() : 1; }
+    /// Shows the scene at a time of the sequence; a single picture's scene is at its time already. True where something
+    /// may have moved.
+    bool pose(double timeSeconds) {
+        if (!sequence || !scenes::isPlaying(request.scene)) return false;
+        scenes::poseScene(request.scene, timeSeconds);
+        return true;
+    }
     void make(const frame::FrameSettings& settings, const MakePicture& makePicture) {
         if (sequence) return sequence->draw(outputs, settings, makePicture);
         writeFileAtomically(outputs.at(output), makePicture(output, settings));
@@ -121,6 +129,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     const bool isLinear = extensionOf(options.output) == ".exr";
     if (!isLinear && settings.toneMap != frame::ToneMap::None)
         throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
+    job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
@@ -130,6 +139,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
             spdlog::warn("{} changes nothing. The reference follows rays of its own", setting.flag);
     bool hasWarned = false;
     job.make(settings, [&](const std::string& path, const frame::FrameSettings& one) {
+        job.pose(one.timeSeconds);
         Picture picture = validation::referencePicture(
                               job.request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
                               .picture;
@@ -170,6 +180,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     engine::requireTaken(request);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     request.settings.display = extensionOf(job.output) != ".exr";
+    job.pose(0.0); // as in renderReference()
     if (job.sequence)
         job.sequence->leaveOutFinished(
             request, request.scene,
@@ -182,6 +193,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     bool hasWarned = false, hasWarnedOfShadows = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
+        if (job.pose(one.timeSeconds)) renderer.geometryChanged();
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
@@ -207,6 +219,8 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     job.request = resolve(frame);
     job.outputs = Outputs(job.sequence ? job.sequence->outputs() : std::vector{job.output});
     job.outputs.reads(job.request.files);
+    if (const std::string clip = scenes::clipText(job.request.scene); !clip.empty() && !global.quiet)
+        fmt::print("{}\n", oneLine(clip));
     if (isReference)
         renderReference(options, job, global);
     else

@@ -212,7 +212,7 @@ std::vector<Setting> frameSettings() {
          .flag = "--time",
          .key = "time",
          .type = "SECONDS",
-         .help = "Moves animated lights to this time",
+         .help = "Moves animated lights and the clip that plays to this time",
          .panel = SettingPanel::None,
          .sameCost = true,
          .isShared = true,

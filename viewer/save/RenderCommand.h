@@ -13,6 +13,7 @@ struct RenderRequest : engine::ViewRequest {
     std::optional<int> lights;              ///< number requested of the load
     bool defaultLight = true;               ///< the same
     std::optional<std::string> environment; ///< the same
+    std::optional<std::string> clip;        ///< the same
     scenes::CameraChange pose;              ///< of the camera that the settings choose
 };
 

@@ -79,6 +79,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.lights = open.load().lights;
     request.defaultLight = open.load().defaultLight;
     request.environment = open.load().environment;
+    request.clip = open.load().clip;
     request.technique = look.technique;
     request.settings = look.settings;
     request.settings.sizePixels = sizePixels;

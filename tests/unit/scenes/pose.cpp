@@ -35,7 +35,7 @@ std::vector<glm::dvec3> positionsWS(const Scene& scene, std::size_t node) {
     return positions;
 }
 
-void expectNear(const glm::dvec3& found, const glm::dvec3& wanted, double tolerance = 1e-6) {
+void expectAt(const glm::dvec3& found, const glm::dvec3& wanted, double tolerance = 1e-6) {
     EXPECT_NEAR(found.x, wanted.x, tolerance);
     EXPECT_NEAR(found.y, wanted.y, tolerance);
     EXPECT_NEAR(found.z, wanted.z, tolerance);
@@ -128,10 +128,10 @@ TEST(Poses, jointsAndTargetsMoveVerticesAsTheirWeightsSay) {
     ASSERT_NO_THROW(checkScene(scene));
     poseScene(scene, 1.0);
     const std::vector<glm::dvec3> positions = positionsWS(scene, kSkinned);
-    expectNear(positions[0], {0.0, 0.0, 0.0});
-    expectNear(positions[1], {1.0, 1.0, 0.0}); // 1 beyond the knee, turned
+    expectAt(positions[0], {0.0, 0.0, 0.0});
+    expectAt(positions[1], {1.0, 1.0, 0.0}); // 1 beyond the knee, turned
     // (0, 4, 1) of the hip, and turned about (1, 0) it is at (-3, -1, 1).
-    expectNear(positions[2], {-1.5, 1.5, 1.0});
+    expectAt(positions[2], {-1.5, 1.5, 1.0});
     EXPECT_NO_THROW(checkScene(scene));
 }
 
@@ -145,7 +145,7 @@ TEST(Poses, aPoseDependsOnItsTimeAlone) {
     poseScene(direct, 0.9);
     poseScene(wandering, 0.0);
     EXPECT_EQ(fingerprint(direct), fingerprint(wandering));
-    expectNear(positionsWS(direct, kSkinned)[1], {2.0, 0.0, 0.0});
+    expectAt(positionsWS(direct, kSkinned)[1], {2.0, 0.0, 0.0});
 }
 
 TEST(Poses, weightsNeedNotSumToOneAndWithoutAnyAVertexFollowsItsNode) {
@@ -156,9 +156,9 @@ TEST(Poses, weightsNeedNotSumToOneAndWithoutAnyAVertexFollowsItsNode) {
     std::fill_n(shape.weights.begin(), 4, 0.0f);
     poseScene(scene, 1.0);
     const std::vector<glm::dvec3> positions = positionsWS(scene, kSkinned);
-    expectNear(positions[0], {0.0, 0.0, 7.0});
-    expectNear(positions[1], {1.0, 1.0, 0.0});
-    expectNear(positions[2], {-1.5, 1.5, 1.0});
+    expectAt(positions[0], {0.0, 0.0, 7.0});
+    expectAt(positions[1], {1.0, 1.0, 0.0});
+    expectAt(positions[2], {-1.5, 1.5, 1.0});
 }
 
 TEST(Poses, aSkinnedMeshIgnoresItsNodesTransform) {
@@ -191,7 +191,7 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
         EXPECT_EQ(side, mirror);
         const glm::dvec3 normalWS =
             glm::normalize(glm::transpose(glm::inverse(worldFromMesh)) * glm::dvec3(scene.meshes[0].normalsOS[0]));
-        expectNear(normalWS, side * normalOf(positionsWS(scene, kSkinned)));
+        expectAt(normalWS, side * normalOf(positionsWS(scene, kSkinned)));
     }
 }
 
@@ -210,7 +210,7 @@ TEST(Poses, aMeshFarFromTheOriginKeepsItsDigits) {
     Scene scene = riggedScene();
     scene.nodes[1].parentFromNode[3].x = 1e7;
     poseScene(scene, 1.0);
-    expectNear(positionsWS(scene, kSkinned)[1] - glm::dvec3(1e7, 0.0, 0.0), {1.0, 1.0, 0.0});
+    expectAt(positionsWS(scene, kSkinned)[1] - glm::dvec3(1e7, 0.0, 0.0), {1.0, 1.0, 0.0});
 }
 
 TEST(Poses, aPoseThatIsNowhereIsRefusedByName) {
@@ -229,11 +229,11 @@ TEST(Poses, aPoseThatIsNowhereIsRefusedByName) {
 TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
     Scene scene = riggedScene();
     poseScene(scene, 1.0);
-    expectNear(scene.lights[0].positionWS, {1.0, 0.0, 0.0});
-    expectNear(scene.lights[0].directionWS, {0.0, 0.0, -1.0});
+    expectAt(scene.lights[0].positionWS, {1.0, 0.0, 0.0});
+    expectAt(scene.lights[0].directionWS, {0.0, 0.0, -1.0});
     EXPECT_FLOAT_EQ(scene.lights[0].intensity, 2.0f);
-    expectNear(glm::dvec3(scene.cameras[0].worldFromCamera[0]), {0.0, 1.0, 0.0});
-    expectNear(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
+    expectAt(glm::dvec3(scene.cameras[0].worldFromCamera[0]), {0.0, 1.0, 0.0});
+    expectAt(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
 }
 
 TEST(Poses, numbersStayWithinTheirBounds) {
@@ -263,8 +263,8 @@ TEST(Poses, anIncludedRigMovesBelowItsRoot) {
     const std::vector<glm::dvec3> own = positionsWS(whole, kSkinned);
     const std::vector<glm::dvec3> part = positionsWS(whole, nodesBefore + kSkinned);
     for (std::size_t i = 0; i < own.size(); ++i)
-        expectNear(part[i], glm::dvec3(worldFromPart * glm::dvec4(own[i], 1.0)), 1e-5);
-    expectNear(whole.lights[1].positionWS, {-2.0, 100.0, 0.0});
+        expectAt(part[i], glm::dvec3(worldFromPart * glm::dvec4(own[i], 1.0)), 1e-5);
+    expectAt(whole.lights[1].positionWS, {-2.0, 100.0, 0.0});
     EXPECT_FLOAT_EQ(whole.lights[1].intensity, 2.0f);
     EXPECT_NO_THROW(checkScene(whole));
 }

@@ -65,6 +65,7 @@ void expectSame(const RenderRequest& request) {
     load.lights = request.lights;
     load.defaultLight = request.defaultLight;
     load.environment = request.environment;
+    load.clip = request.clip;
     const scenes::Scene scene = scenes::loadScene(request.source, load);
     const std::string line = renderCommand(request, scene, "it's a picture.exr");
     SCOPED_TRACE(line);
@@ -115,6 +116,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.lights = 1;
     request.defaultLight = false;
     request.environment = "sky";
+    request.clip = "none";
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;

@@ -13,13 +13,13 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kFloat = 5126, kShort = 5122, kUnsignedByte = 5121, kUnsignedShort = 5123;
+constexpr int kFloatType = 5126, kShortType = 5122, kUnsignedByteType = 5121, kUnsignedShortType = 5123;
 constexpr float kHalf = 0.70710678f;
 
 /// Adds a clip with one channel.
 void addClip(Builder& builder, const std::vector<float>& times, int output, Json target,
              const char* interpolation = "LINEAR", const char* name = "clip") {
-    const int input = builder.add(times, kFloat, "SCALAR", times.size());
+    const int input = builder.add(times, kFloatType, "SCALAR", times.size());
     builder.json["animations"].push_back(
         {{"name", name},
          {"samplers", Json::array({{{"input", input}, {"output", output}, {"interpolation", interpolation}}})},
@@ -29,7 +29,7 @@ void addClip(Builder& builder, const std::vector<float>& times, int output, Json
 /// A triangle that moves 2 along x within a second.
 Builder movingTriangle() {
     Builder builder;
-    const int output = builder.add(std::vector<float>{0, 0, 0, 2, 0, 0}, kFloat, "VEC3", 2);
+    const int output = builder.add(std::vector<float>{0, 0, 0, 2, 0, 0}, kFloatType, "VEC3", 2);
     addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "translation"}});
     return builder;
 }
@@ -42,8 +42,9 @@ Builder skinnedTriangle() {
                       "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2]}]})");
     Json& attributes = builder.primitive()["attributes"];
     attributes["JOINTS_0"] =
-        builder.add(std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByte, "VEC4", 3);
-    attributes["WEIGHTS_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
+        builder.add(std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByteType, "VEC4", 3);
+    attributes["WEIGHTS_0"] =
+        builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC4", 3);
     return builder;
 }
 
@@ -80,11 +81,12 @@ TEST(GltfAnimation, aNodeMovesAsItsChannelsSay) {
 
 TEST(GltfAnimation, normalizedIntegersAreFractions) {
     Builder builder;
-    const int output = builder.add(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 32767, 0}, kShort, "VEC4", 2, true);
+    const int output =
+        builder.add(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 32767, 0}, kShortType, "VEC4", 2, true);
     addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "rotation"}});
     expectPlace(drawnAt(builder.import(), 1.0)[1], {-1.0, 0.0, 0.0});
     Builder plain;
-    const int integers = plain.add(std::vector<std::int16_t>{0, 0, 0, 1, 0, 0, 1, 0}, kShort, "VEC4", 2);
+    const int integers = plain.add(std::vector<std::int16_t>{0, 0, 0, 1, 0, 0, 1, 0}, kShortType, "VEC4", 2);
     addClip(plain, {0, 1}, integers, {{"node", 0}, {"path", "rotation"}});
     EXPECT_THAT(plain.error(), HasSubstr("/animations/0/samplers/0/output: accessor 1 holds integers that are not "
                                          "normalized"));
@@ -93,7 +95,7 @@ TEST(GltfAnimation, normalizedIntegersAreFractions) {
 TEST(GltfAnimation, keyTimesThatDoNotAscendAreRefusedByName) {
     const auto errorWith = [](const std::vector<float>& times) {
         Builder builder;
-        const int output = builder.add(std::vector<float>(3 * times.size(), 0.0f), kFloat, "VEC3", times.size());
+        const int output = builder.add(std::vector<float>(3 * times.size(), 0.0f), kFloatType, "VEC3", times.size());
         addClip(builder, times, output, {{"node", 0}, {"path", "scale"}});
         return builder.error();
     };
@@ -108,7 +110,7 @@ TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
     const auto errorWith = [](const std::vector<float>& values, const char* type, std::size_t count, const char* path,
                               const char* interpolation = "LINEAR") {
         Builder builder;
-        const int output = builder.add(values, kFloat, type, count);
+        const int output = builder.add(values, kFloatType, type, count);
         addClip(builder, {0, 1}, output, {{"node", 0}, {"path", path}}, interpolation);
         return builder.error();
     };
@@ -143,7 +145,7 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
                       "scenes": [{"nodes": [0, 1]}],
                       "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}]}}})");
     const auto add = [&](const char* pointer, const std::vector<float>& values, const char* type) {
-        const int output = builder.add(values, kFloat, type, 2);
+        const int output = builder.add(values, kFloatType, type, 2);
         addClip(builder, {0, 1}, output,
                 {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}});
     };
@@ -183,7 +185,7 @@ TEST(GltfAnimation, lightsAndCamerasOnMovingNodesMove) {
 
 TEST(GltfSkins, verticesFollowTheirJointsAndNotTheirNode) {
     Builder builder = skinnedTriangle();
-    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, kHalf, kHalf}, kFloat, "VEC4", 2);
+    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, kHalf, kHalf}, kFloatType, "VEC4", 2);
     addClip(builder, {0, 1}, output, {{"node", 2}, {"path", "rotation"}});
     const Scene scene = builder.import();
     EXPECT_TRUE(scene.warnings.empty());
@@ -196,7 +198,7 @@ TEST(GltfSkins, inverseBindMatricesComeFirst) {
     std::vector<float> matrices(32, 0.0f);
     for (std::size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u}) matrices[i] = 1.0f;
     matrices[16 + 12] = -1.0f;
-    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloat, "MAT4", 2);
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloatType, "MAT4", 2);
     expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
     builder.json["accessors"].back()["count"] = 1;
     EXPECT_THAT(builder.error(), HasSubstr("/skins/0/inverseBindMatrices: accessor 3 has 1 matrices for 2 joints"));
@@ -207,9 +209,9 @@ TEST(GltfSkins, inverseBindMatricesComeFirst) {
 TEST(GltfSkins, aVertexMayFollowEightJoints) {
     Builder builder = skinnedTriangle();
     Json& attributes = builder.primitive()["attributes"];
-    attributes["JOINTS_1"] = builder.add(std::vector<std::uint16_t>(12, 0), kUnsignedShort, "VEC4", 3);
+    attributes["JOINTS_1"] = builder.add(std::vector<std::uint16_t>(12, 0), kUnsignedShortType, "VEC4", 3);
     attributes["WEIGHTS_1"] =
-        builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByte, "VEC4", 3, true); // four thirds in all
+        builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByteType, "VEC4", 3, true); // four thirds in all
     // 1 of joint 2 and 4/3 of joint 1.
     expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
 }
@@ -231,7 +233,7 @@ TEST(GltfSkins, jointsThatTheSkinLacksAreRefusedUnlessTheirWeightIsZero) {
                                            "only 1"));
     Builder spare = skinnedTriangle();
     spare.primitive()["attributes"]["JOINTS_0"] =
-        spare.add(std::vector<std::uint8_t>{1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0}, kUnsignedByte, "VEC4", 3);
+        spare.add(std::vector<std::uint8_t>{1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0}, kUnsignedByteType, "VEC4", 3);
     expectPlace(drawnAt(spare.import(), 0.0)[0], {1.0, 0.0, 0.0});
 }
 
@@ -252,8 +254,8 @@ TEST(GltfSkins, instancesOfOneMeshAreDeformedEachByItsOwnSkin) {
 
 TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
     Builder builder;
-    builder.primitive()["targets"] = Json::array(
-        {Json::object({{"POSITION", builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3)}})});
+    builder.primitive()["targets"] = Json::array({Json::object(
+        {{"POSITION", builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3)}})});
     EXPECT_TRUE(builder.import().rig.deformed.empty()) << "nothing can move it";
     builder.json["meshes"][0]["weights"] = Json::array({0.5});
     expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.5});
@@ -264,18 +266,19 @@ TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
 TEST(GltfMorphTargets, everyAttributeIsMorphedAndWeightsAreAnimated) {
     Builder builder;
     Json& attributes = builder.primitive()["attributes"];
-    attributes["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
-    attributes["TANGENT"] = builder.add(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, kFloat, "VEC4", 3);
-    attributes["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloat, "VEC2", 3);
-    attributes["COLOR_0"] = builder.add(std::vector<float>(12, 0.5f), kFloat, "VEC4", 3);
-    const int ones = builder.add(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
-    builder.primitive()["targets"] =
-        Json::array({Json::object({{"POSITION", ones}}),
-                     {{"NORMAL", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0}, kFloat, "VEC3", 3)},
-                      {"TANGENT", builder.add(std::vector<float>{-1, 1, 0, 0, 0, 0, 0, 0, 0}, kFloat, "VEC3", 3)},
-                      {"TEXCOORD_0", builder.add(std::vector<float>(6, 0.25f), kFloat, "VEC2", 3)},
-                      {"COLOR_0", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, -1, 0, 0}, kFloat, "VEC3", 3)}}});
-    const int weights = builder.add(std::vector<float>{0, 0, 0.5f, 1}, kFloat, "SCALAR", 4);
+    attributes["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3);
+    attributes["TANGENT"] =
+        builder.add(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, kFloatType, "VEC4", 3);
+    attributes["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloatType, "VEC2", 3);
+    attributes["COLOR_0"] = builder.add(std::vector<float>(12, 0.5f), kFloatType, "VEC4", 3);
+    const int ones = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
+    builder.primitive()["targets"] = Json::array(
+        {Json::object({{"POSITION", ones}}),
+         {{"NORMAL", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
+          {"TANGENT", builder.add(std::vector<float>{-1, 1, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
+          {"TEXCOORD_0", builder.add(std::vector<float>(6, 0.25f), kFloatType, "VEC2", 3)},
+          {"COLOR_0", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, -1, 0, 0}, kFloatType, "VEC3", 3)}}});
+    const int weights = builder.add(std::vector<float>{0, 0, 0.5f, 1}, kFloatType, "SCALAR", 4);
     addClip(builder, {0, 1}, weights, {{"node", 0}, {"path", "weights"}});
     Scene scene = builder.import();
     poseScene(scene, 1.0);
@@ -293,13 +296,14 @@ TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
     Builder builder;
     const int indices = builder.addView(bytesOf(std::vector<std::uint16_t>{2, 0}));
     const int values = builder.addView(bytesOf(std::vector<float>{0, 0, 3}));
-    builder.json["accessors"].push_back({{"componentType", kFloat},
-                                         {"type", "VEC3"},
-                                         {"count", 3},
-                                         {"sparse",
-                                          {{"count", 1},
-                                           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShort}}},
-                                           {"values", {{"bufferView", values}}}}}});
+    builder.json["accessors"].push_back(
+        {{"componentType", kFloatType},
+         {"type", "VEC3"},
+         {"count", 3},
+         {"sparse",
+          {{"count", 1},
+           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShortType}}},
+           {"values", {{"bufferView", values}}}}}});
     builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", builder.json["accessors"].size() - 1}})});
     builder.json["nodes"][0]["weights"] = Json::array({1});
     const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
@@ -309,9 +313,9 @@ TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
 
 TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
     Builder builder;
-    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{2, 0, 1}, kUnsignedByte, "SCALAR", 3);
-    builder.primitive()["targets"] = Json::array(
-        {Json::object({{"POSITION", builder.add(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC3", 3)}})});
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{2, 0, 1}, kUnsignedByteType, "SCALAR", 3);
+    builder.primitive()["targets"] = Json::array({Json::object(
+        {{"POSITION", builder.add(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC3", 3)}})});
     builder.json["nodes"][0]["weights"] = Json::array({1});
     Scene scene = builder.import();
     poseScene(scene, 0.0);
@@ -325,7 +329,7 @@ TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
 TEST(GltfMorphTargets, anotherLengthIsRefusedByName) {
     Builder builder;
     builder.primitive()["targets"] =
-        Json::array({Json::object({{"POSITION", builder.add(std::vector<float>(6, 0.0f), kFloat, "VEC3", 2)}})});
+        Json::array({Json::object({{"POSITION", builder.add(std::vector<float>(6, 0.0f), kFloatType, "VEC3", 2)}})});
     builder.json["nodes"][0]["weights"] = Json::array({1});
     EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/targets/0/POSITION: accessor 1 of mesh 'mesh 0' "
                                            "has 2 elements, but there are 3 positions"));
@@ -335,7 +339,7 @@ TEST(GltfMorphTargets, anotherLengthIsRefusedByName) {
 
 TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsAskedFor) {
     Builder builder = movingTriangle();
-    const int output = builder.add(std::vector<float>{0, 4, 0}, kFloat, "VEC3", 1);
+    const int output = builder.add(std::vector<float>{0, 4, 0}, kFloatType, "VEC3", 1);
     addClip(builder, {0}, output, {{"node", 0}, {"path", "translation"}}, "STEP", "up");
     const std::string file = builder.folder.write("clips.gltf", builder.json.dump()).string();
     const auto placeWith = [&](std::optional<std::string> clip) {
@@ -355,10 +359,10 @@ TEST(GltfAnimation, deformedInstancesAreChargedBeforeTheyAreCopied) {
         constexpr std::size_t kVertices = 3000;
         Builder builder = skinnedTriangle();
         Json& attributes = builder.primitive()["attributes"];
-        attributes["POSITION"] = builder.add(std::vector<float>(3 * kVertices), kFloat, "VEC3", kVertices);
+        attributes["POSITION"] = builder.add(std::vector<float>(3 * kVertices), kFloatType, "VEC3", kVertices);
         attributes["JOINTS_0"] =
-            builder.add(std::vector<std::uint8_t>(4 * kVertices), kUnsignedByte, "VEC4", kVertices);
-        attributes["WEIGHTS_0"] = builder.add(std::vector<float>(4 * kVertices), kFloat, "VEC4", kVertices);
+            builder.add(std::vector<std::uint8_t>(4 * kVertices), kUnsignedByteType, "VEC4", kVertices);
+        attributes["WEIGHTS_0"] = builder.add(std::vector<float>(4 * kVertices), kFloatType, "VEC4", kVertices);
         Json roots = Json::array({0, 1});
         for (int i = 0; i < instances; ++i) {
             roots.push_back(builder.json["nodes"].size());
