@@ -1,0 +1,212 @@
+#include <cstdlib>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Pose.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+#include "tests/unit/scenes/gltf/TruthOfAnimation.h"
+
+/// Deformed vertices against a second computation from the files.
+namespace tessera::scenes::gltf::test {
+namespace {
+
+struct DrawnCorner {
+    glm::dvec3 placeWS;
+    glm::dvec3 normalWS;
+};
+
+std::vector<DrawnCorner> drawnCorners(const Scene& scene) {
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    std::vector<DrawnCorner> corners;
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+        const glm::dmat3 normalFromNode = glm::transpose(glm::inverse(glm::dmat3(worldFromNode[node])));
+        for (const MeshInstance& instance : scene.nodes[node].instances) {
+            const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+            for (const std::uint32_t vertex : mesh.indices)
+                corners.push_back({glm::dvec3(worldFromNode[node] * glm::dvec4(mesh.positionsOS[vertex], 1.0)),
+                                   normalFromNode * glm::dvec3(mesh.normalsOS[vertex])});
+        }
+    }
+    return corners;
+}
+
+glm::dvec3 vectorOf(const TruthOfAnimation::Point& point) {
+    return {point.x, point.y, point.z};
+}
+
+/// The largest distance of a place from the truth, as a share of the picture's extent, and of a normal's direction.
+struct Difference {
+    double place = 0.0, normal = 0.0;
+};
+
+Difference differenceAt(Scene& scene, TruthOfAnimation& truth, int clip, double time) {
+    scene.rig.playing.clear();
+    if (clip >= 0) scene.rig.playing.push_back(clip);
+    poseScene(scene, time);
+    EXPECT_NO_THROW(checkScene(scene));
+    const std::vector<DrawnCorner> drawn = drawnCorners(scene);
+    const std::vector<TruthOfAnimation::Corner> wanted = truth.corners(clip, time);
+    Difference difference;
+    EXPECT_EQ(drawn.size(), wanted.size());
+    if (drawn.size() != wanted.size()) return difference;
+    Box3 box;
+    for (const TruthOfAnimation::Corner& corner : wanted) box.extend(vectorOf(corner.placeWS));
+    const double extent = std::max(glm::length(box.max - box.min), glm::length(glm::max(glm::abs(box.min), box.max)));
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        difference.place =
+            std::max(difference.place, glm::distance(drawn[i].placeWS, vectorOf(wanted[i].placeWS)) / extent);
+        const glm::dvec3 normal = (wanted[i].mirrored ? -1.0 : 1.0) * vectorOf(wanted[i].normalWS);
+        if (glm::length(normal) > 1e-12)
+            difference.normal =
+                std::max(difference.normal, glm::distance(glm::normalize(drawn[i].normalWS), glm::normalize(normal)));
+    }
+    return difference;
+}
+
+/// Positions and normals of all clips, and of none, at times within and without.
+void expectTrue(const std::filesystem::path& file) {
+    SCOPED_TRACE(file.string());
+    Scene scene = underLedger(importGltf, file);
+    TruthOfAnimation truth(file);
+    ASSERT_EQ(scene.rig.clips.size(), truth.clips());
+    for (int clip = -1; clip < int(truth.clips()); ++clip) {
+        const double length = clip < 0 ? 0.0 : truth.lengthSeconds(std::size_t(clip));
+        if (clip >= 0) {
+            EXPECT_EQ(lengthSeconds(scene.rig.clips[std::size_t(clip)]), length);
+        }
+        std::vector<double> times{0.0};
+        if (clip >= 0) times.insert(times.end(), {0.37 * length, length + 1.0});
+        for (const double time : times) {
+            const Difference difference = differenceAt(scene, truth, clip, time);
+            EXPECT_LT(difference.place, 1e-5) << "clip " << clip << " at " << time << " s";
+            EXPECT_LT(difference.normal, 1e-3) << "clip " << clip << " at " << time << " s";
+        }
+    }
+}
+
+/// A cloud of triangles that a chain of joints, one of which mirrors, and two targets deform, by every interpolation.
+Builder randomModel(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> even(-1.0f, 1.0f);
+    constexpr std::size_t kVertices = 90, kJoints = 6, kKeys = 5;
+    const auto numbers = [&](std::size_t count, float scale = 1.0f) {
+        std::vector<float> list(count);
+        for (float& number : list) number = scale * even(random);
+        return list;
+    };
+    Builder builder;
+    Json nodes = Json::array(
+        {{{"mesh", 0}, {"skin", 0}, {"scale", {-2, 1, 1}}, {"translation", {9, 9, 9}}, {"weights", {0.25, 0}}}});
+    Json joints = Json::array();
+    for (std::size_t i = 1; i <= kJoints; ++i) {
+        Json& node = nodes.emplace_back();
+        const std::vector<float> q = numbers(4);
+        node = {{"translation", numbers(3, 0.5f)}, {"rotation", q}, {"scale", {i == 2 ? -1.1 : 0.9, 1.2, 1.0}}};
+        if (i < kJoints) node["children"] = Json::array({i + 1});
+        joints.push_back(i);
+    }
+    builder.json["nodes"] = nodes;
+    builder.json["scenes"][0]["nodes"] = Json::array({1, 0});
+    Json& primitive = builder.primitive();
+    std::vector<float> normals = numbers(3 * kVertices);
+    for (std::size_t v = 0; v < kVertices; ++v) {
+        const glm::vec3 unit = glm::normalize(glm::vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]));
+        for (int c = 0; c < 3; ++c) normals[3 * v + std::size_t(c)] = unit[c];
+    }
+    primitive["attributes"]["POSITION"] = builder.add(numbers(3 * kVertices), 5126, "VEC3", kVertices);
+    primitive["attributes"]["NORMAL"] = builder.add(normals, 5126, "VEC3", kVertices);
+    for (const char* set : {"0", "1"}) {
+        std::vector<std::uint16_t> followed(4 * kVertices);
+        for (std::uint16_t& joint : followed) joint = std::uint16_t(random() % kJoints);
+        std::vector<float> weights = numbers(4 * kVertices);
+        for (float& weight : weights) weight = std::abs(weight);
+        primitive["attributes"][std::string("JOINTS_") + set] = builder.add(followed, 5123, "VEC4", kVertices);
+        primitive["attributes"][std::string("WEIGHTS_") + set] = builder.add(weights, 5126, "VEC4", kVertices);
+    }
+    primitive["targets"] = Json::array();
+    for (int target = 0; target < 2; ++target)
+        primitive["targets"].push_back(
+            Json::object({{"POSITION", builder.add(numbers(3 * kVertices, 0.3f), 5126, "VEC3", kVertices)},
+                          {"NORMAL", builder.add(numbers(3 * kVertices, 0.3f), 5126, "VEC3", kVertices)}}));
+    builder.json["skins"] = Json::array({Json::object({{"joints", joints}})});
+    std::vector<float> matrices;
+    for (std::size_t joint = 0; joint < kJoints; ++joint)
+        for (int i = 0; i < 16; ++i)
+            matrices.push_back(i % 4 == 3 ? float(i == 15) : float(i % 5 == 0) + 0.2f * even(random));
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, 5126, "MAT4", kJoints);
+
+    Json samplers = Json::array(), channels = Json::array();
+    std::vector<float> times;
+    for (std::size_t key = 0; key < kKeys; ++key) times.push_back(0.3f * float(key) + 0.1f * float(key * key));
+    const int input = builder.add(times, 5126, "SCALAR", kKeys);
+    const auto animate = [&](int node, const char* path, std::size_t width, const char* way) {
+        const std::size_t values = kKeys * (std::string(way) == "CUBICSPLINE" ? 3 : 1);
+        const bool isWeights = std::string(path) == "weights";
+        const char* const type = isWeights ? "SCALAR" : width == 4 ? "VEC4" : "VEC3";
+        const int output = builder.add(numbers(values * width), 5126, type, isWeights ? values * width : values);
+        channels.push_back(
+            Json::object({{"sampler", samplers.size()}, {"target", Json::object({{"node", node}, {"path", path}})}}));
+        samplers.push_back(Json::object({{"input", input}, {"output", output}, {"interpolation", way}}));
+    };
+    animate(1, "rotation", 4, "LINEAR");
+    animate(2, "rotation", 4, "CUBICSPLINE");
+    animate(3, "rotation", 4, "STEP");
+    animate(4, "translation", 3, "CUBICSPLINE");
+    animate(5, "scale", 3, "LINEAR");
+    animate(0, "weights", 2, "CUBICSPLINE");
+    builder.json["animations"] = Json::array({Json::object({{"samplers", samplers}, {"channels", channels}})});
+    return builder;
+}
+
+TEST(AnimationTruth, randomSkinsAndTargetsAreWhereASecondComputationPutsThem) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        const Builder builder = randomModel(seed);
+        const std::filesystem::path file = builder.folder.write("model.gltf", builder.json.dump());
+        Scene scene = underLedger(importGltf, file);
+        TruthOfAnimation truth(file);
+        for (const double time : {-1e9, 0.0, 0.1, 0.41, 1.0, 1.7, 2.79, 1e9})
+            EXPECT_LT(differenceAt(scene, truth, 0, time).place, 1e-5) << time;
+        EXPECT_LT(differenceAt(scene, truth, -1, 0.0).place, 1e-5);
+    }
+}
+
+TEST(AnimationTruth, modelsOfTheAssetsFolderAreWhereASecondComputationPutsThem) {
+    const char* named = std::getenv("TESSERA_ASSETS");
+    const std::filesystem::path folder = named != nullptr && *named != '\0'
+                                             ? std::filesystem::path(named)
+                                             : std::filesystem::path(TESSERA_SOURCE_DIR) / ".." / "shared" / "assets";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "there is no folder of third-party models";
+    std::vector<std::string> models{"Fox/Fox.glb",
+                                    "SimpleSkin/SimpleSkin.gltf",
+                                    "RiggedSimple/RiggedSimple.glb",
+                                    "RiggedFigure/RiggedFigure.glb",
+                                    "CesiumMan/CesiumMan.glb",
+                                    "BrainStem/BrainStem.glb",
+                                    "InterpolationTest/InterpolationTest.glb",
+                                    "SimpleMorph/SimpleMorph.gltf",
+                                    "AnimatedMorphCube/AnimatedMorphCube.glb",
+                                    "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf",
+                                    "AnimatedMorphSphere/AnimatedMorphSphere.glb",
+                                    "MorphStressTest/MorphStressTest.glb",
+                                    "AnimatedTriangle/AnimatedTriangle.gltf",
+                                    "AnimatedCube/AnimatedCube.gltf",
+                                    "AnimatedColorsCube/AnimatedColorsCube.glb",
+                                    "BoxAnimated/BoxAnimated.glb"};
+    for (int i = 0; i < 12; ++i) {
+        const std::string two = (i < 10 ? "0" : "") + std::to_string(i);
+        models.push_back("AssetGenerator/Positive/Animation_Skin/Animation_Skin_" + two + ".gltf");
+        models.push_back("AssetGenerator/Positive/Instancing/Instancing_" + two + ".gltf");
+    }
+    int compared = 0;
+    for (const std::string& model : models) {
+        if (!std::filesystem::exists(folder / model)) continue;
+        expectTrue(folder / model);
+        ++compared;
+    }
+    if (compared == 0) GTEST_SKIP() << folder << " has none of the animated models";
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
