@@ -303,6 +303,13 @@ void keepLights(Scene& scene, std::size_t count) {
             rest.element = kNone;
 }
 
+void leaveLightsAndCameras(Scene& scene) {
+    scene.rig.lights.clear();
+    scene.rig.cameras.clear();
+    for (RestNumber& rest : scene.rig.numbers)
+        if (infoOf(rest.property).owner == AnimatedOwner::Light) rest.element = kNone;
+}
+
 void dropCameras(Scene& scene) {
     scene.cameras.clear();
     scene.rig.cameras.clear();

@@ -51,4 +51,7 @@ void keepLights(Scene& scene, std::size_t count);
 /// Takes away all cameras, and what the rig knows of them.
 void dropCameras(Scene& scene);
 
+/// Lets lights and cameras stay as they are whatever clips play: who edits them may then add and take away some.
+void leaveLightsAndCameras(Scene& scene);
+
 } // namespace tessera::scenes

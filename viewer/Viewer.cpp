@@ -13,6 +13,7 @@
 #include "base/Extension.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
+#include "scenes/Pose.h"
 #include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Saver.h"
@@ -73,7 +74,8 @@ private:
         if (!state_.open) return false;
         const std::vector<scenes::Light>& lights = state_.open->scene().lights;
         const auto moves = [](const scenes::Light& light) { return light.animation.has_value(); };
-        return !state_.open->rig().isAtRest() || (state_.isPlaying && std::any_of(lights.begin(), lights.end(), moves));
+        return !state_.open->rig().isAtRest() ||
+               (state_.isPlaying && (scenes::isPlaying(state_.open->scene()) || std::ranges::any_of(lights, moves)));
     }
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
@@ -331,6 +333,9 @@ private:
         }
         if (state_.isPlaying) state_.active().settings.timeSeconds += step;
         state_.shareSettings();
+        attempt([this] {
+            if (state_.open->showTime(state_.active().settings.timeSeconds)) screen_.takeEdits();
+        });
     }
 
     /// Messages disappear after a while, errors when they are dismissed.

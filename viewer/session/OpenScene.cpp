@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scenes/Defaults.h"
+#include "scenes/Pose.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
@@ -12,7 +13,18 @@ OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
       boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
-      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), filtered_(std::move(filtered)) {}
+      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), filtered_(std::move(filtered)) {
+    scenes::leaveLightsAndCameras(scene_);
+}
+
+bool OpenScene::showTime(double timeSeconds) {
+    if (!scenes::isPlaying(scene_) || timeSeconds == shownSeconds_) return false;
+    shownSeconds_ = timeSeconds;
+    ++revision_;
+    ++geometryRevision_;
+    scenes::poseScene(scene_, timeSeconds);
+    return true;
+}
 
 CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
     constexpr int kSidePixels = 3; // the middle one looks along the axis

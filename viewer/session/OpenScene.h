@@ -37,6 +37,11 @@ public:
         touch();
         ++materialRevision_;
     }
+    /// Shows the scene at a time of the clip that plays, but its lights and cameras, which are edited here. True where
+    /// something may have moved. Throws InputError where something then lies too far away; the next time is tried anew.
+    bool showTime(double timeSeconds);
+    /// Counts changes of what clips move.
+    std::uint64_t geometryRevision() const { return geometryRevision_; }
     /// Takes another environment in the place of the scene's own, as an edit.
     void takeEnvironment(ChosenEnvironment chosen);
     std::uint64_t environmentRevision() const { return environmentRevision_; }
@@ -84,7 +89,8 @@ private:
     CameraRig rig_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, savedEdits_ = 0;
-    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0;
+    double shownSeconds_ = 0.0; ///< of the clip
+    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;
     std::vector<std::string> environmentWarnings_; ///< of the latest that was taken
 };

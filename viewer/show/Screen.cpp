@@ -45,6 +45,7 @@ void Screen::open(const OpenScene& scene) {
     scene_ = &scene;
     // Without it a software rasteriser's passes have no times (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);
+    geometryRevision_ = scene.geometryRevision();
     materialRevision_ = scene.materialRevision();
     environmentRevision_ = scene.environmentRevision();
     forget();
@@ -69,9 +70,11 @@ void Screen::tellSpreadLight(const Wanted& drawn) {
 
 void Screen::takeEdits() {
     if (scene_ == nullptr) return;
+    if (scene_->geometryRevision() != geometryRevision_) renderer_->geometryChanged();
     if (scene_->materialRevision() != materialRevision_) renderer_->materialsChanged();
     if (scene_->environmentRevision() != environmentRevision_)
         renderer_->environmentChanged(scene_->filteredEnvironment());
+    geometryRevision_ = scene_->geometryRevision();
     materialRevision_ = scene_->materialRevision();
     environmentRevision_ = scene_->environmentRevision();
 }

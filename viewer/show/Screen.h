@@ -96,7 +96,7 @@ private:
     gpu::Context& context_;
     const OpenScene* scene_ = nullptr;
     std::unique_ptr<engine::Renderer> renderer_;
-    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0;
+    std::uint64_t geometryRevision_ = 0, materialRevision_ = 0, environmentRevision_ = 0;
     std::array<DrawnPicture, 2> pictures_;
     Difference difference_;
     bool differenceIsStale_ = true;

@@ -1,6 +1,7 @@
 #include "viewer/session/OpenScene.h"
 
 #include "base/Error.h"
+#include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/CameraTest.h"
 
 namespace tessera::viewer {
@@ -168,6 +169,24 @@ TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     }
     EXPECT_EQ(opened.shown(), other.shown());
     EXPECT_EQ(scenes::changedCamera(saved, opened.open.cameraChange()), opened.shown());
+}
+
+TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
+    scenes::Scene scene = scenes::riggedScene();
+    scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
+    OpenScene open("rigged.gltf", {}, scene, {});
+    open.edit().lights.clear();
+    const std::uint64_t revision = open.revision();
+    EXPECT_FALSE(open.showTime(0.0)) << "it is shown already";
+    EXPECT_TRUE(open.showTime(1.0));
+    EXPECT_EQ(open.geometryRevision(), 1u);
+    EXPECT_GT(open.revision(), revision);
+    EXPECT_FALSE(open.showTime(1.0));
+    EXPECT_FALSE(open.isEdited());
+    EXPECT_NE(open.scene().meshes[0].positionsOS, scene.meshes[0].positionsOS);
+    EXPECT_EQ(open.scene().cameras[0].worldFromCamera, scene.cameras[0].worldFromCamera);
+    Opened still;
+    EXPECT_FALSE(still.open.showTime(1.0)) << "it has no clip";
 }
 
 } // namespace
