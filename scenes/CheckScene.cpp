@@ -341,7 +341,7 @@ void checkPlaces(const Scene& scene) {
                                                    kFarthestMetres));
         }
     }
-    // Checked here only where nodes carry them; else checkLight() and checkCamera() do.
+    // Checked here only where nodes carry them; else checkLight() and checkCamera() do. Far scales leave no direction.
     const auto requireNear = [&](bool isNear, std::string_view kind, int index, const std::string& name) {
         if (!isNear)
             Element(scene, kind, std::size_t(index), name)
@@ -350,11 +350,13 @@ void checkPlaces(const Scene& scene) {
     };
     for (const Carried& carried : scene.rig.lights) {
         const Light& light = scene.lights[std::size_t(carried.element)];
-        requireNear(isNearEnough(light.positionWS), "light", carried.element, light.name);
+        requireNear(isNearEnough(light.positionWS) && allFinite(light.directionWS), "light", carried.element,
+                    light.name);
     }
     for (const Carried& carried : scene.rig.cameras) {
         const Camera& camera = scene.cameras[std::size_t(carried.element)];
-        requireNear(isNearEnough(glm::dvec3(camera.worldFromCamera[3])), "camera", carried.element, camera.name);
+        requireNear(isNearEnough(glm::dvec3(camera.worldFromCamera[3])) && allFinite(camera.worldFromCamera), "camera",
+                    carried.element, camera.name);
     }
 }
 

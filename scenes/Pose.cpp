@@ -108,8 +108,15 @@ void deformAll(Scene& scene, const Pose& pose) {
         std::span<const double> weights;
         if (deformed.weights != kNone) weights = pose.weights[std::size_t(deformed.weights)];
         const auto requireFinite = [&](const glm::dmat4& matrix) {
-            const auto isFinite = [](const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); };
-            if (!std::isfinite(matrix[3].x) || !std::ranges::all_of(mesh.positionsOS, isFinite))
+            const auto areFinite = [](const auto& vectors) {
+                return std::ranges::all_of(vectors, [](const auto& vector) {
+                    for (glm::length_t i = 0; i < vector.length(); ++i)
+                        if (!std::isfinite(vector[i])) return false;
+                    return true;
+                });
+            };
+            if (!std::isfinite(matrix[3].x) || !areFinite(mesh.positionsOS) ||
+                !std::ranges::all_of(mesh.texCoords, areFinite))
                 throw InputError(fmt::format("scene '{}': the pose of mesh '{}' is not finite; choose another time or "
                                              "clip",
                                              scene.name, mesh.name));

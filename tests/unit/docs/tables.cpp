@@ -9,6 +9,7 @@
 
 #include "engine/Settings.h"
 #include "renderer/frame/GBufferBounds.h"
+#include "scenes/Animation.h"
 #include "scenes/Light.h"
 
 namespace tessera {
@@ -89,6 +90,19 @@ std::string namesIn(const Table& table) {
     std::string names;
     for (const auto& row : table) names += (names.empty() ? "" : ", ") + code(row.name);
     return names;
+}
+
+TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
+    using scenes::AnimatedOwner;
+    const std::map<AnimatedOwner, std::string> owners{{AnimatedOwner::Node, "a node"},
+                                                      {AnimatedOwner::Weights, "a node's mesh"},
+                                                      {AnimatedOwner::Light, "a light"},
+                                                      {AnimatedOwner::Material, "a material"}};
+    Rows rows;
+    for (const scenes::AnimatedPropertyInfo& info : scenes::animatedProperties())
+        rows.push_back({code(info.path), owners.at(info.owner),
+                        info.width > 0 ? std::to_string(info.width) : "one a morph target"});
+    expectTable("docs/animation.md", {"path", "of", "numbers"}, rows);
 }
 
 TEST(Documentation, everySettingHasARow) {

@@ -4,6 +4,7 @@
 #include <meshoptimizer.h>
 
 #include "GltfBuilder.h"
+#include "scenes/Pose.h"
 #include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
@@ -47,10 +48,57 @@ Json richDocument() {
     return builder.json;
 }
 
-/// Imported, or refused as input: anything else escapes and fails the test.
+/// The same of what moves and is deformed.
+Json richRig() {
+    Builder builder;
+    builder.material();
+    builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0, "weights": [0.5]}, {"children": [2], "camera": 0},
+                                {"translation": [1, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                                {"scale": [1, 2, 1]}],
+        "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2, 3], "skeleton": 1}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
+    Json& primitive = builder.primitive();
+    primitive["attributes"]["JOINTS_0"] =
+        builder.add(std::vector<std::uint8_t>{0, 1, 2, 0, 0, 1, 2, 0, 0, 1, 2, 0}, 5121, "VEC4", 3);
+    primitive["attributes"]["WEIGHTS_0"] = builder.add(std::vector<float>(12, 0.25f), 5126, "VEC4", 3);
+    const int added = builder.add(std::vector<float>(9, 0.5f), 5126, "VEC3", 3);
+    primitive["targets"] = Json::array({Json::object({{"POSITION", added}, {"NORMAL", added}})});
+    builder.json["meshes"][0]["weights"] = Json::array({1});
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(std::vector<float>(48, 1.0f), 5126, "MAT4", 3);
+    const int input = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const int threes = builder.add(std::vector<float>{0, 0, 1, 1, 0, 0}, 5126, "VEC3", 2);
+    const int fours = builder.add(std::vector<float>(24, 0.5f), 5126, "VEC4", 6);
+    const int ones = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    Json& animation = builder.json["animations"][0];
+    animation = Json::parse(R"({"name": "a", "samplers": [{}, {"interpolation": "CUBICSPLINE"},
+                                                           {"interpolation": "STEP"}],
+        "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}},
+                     {"sampler": 1, "target": {"node": 2, "path": "rotation"}},
+                     {"sampler": 2, "target": {"node": 0, "path": "weights"}},
+                     {"sampler": 2, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer":
+                         {"pointer": "/extensions/KHR_lights_punctual/lights/0/intensity"}}}},
+                     {"sampler": 2, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer":
+                         {"pointer": "/materials/0/pbrMetallicRoughness/metallicFactor"}}}}]})");
+    const int outputs[] = {threes, fours, ones};
+    for (std::size_t i = 0; i < 3; ++i) {
+        animation["samplers"][i]["input"] = input;
+        animation["samplers"][i]["output"] = outputs[i];
+    }
+    return builder.json;
+}
+
+std::vector<Json> richDocuments() {
+    return {richDocument(), richRig()};
+}
+
+/// Imported and posed, or refused as input: anything else escapes and fails the test.
 bool isImported(const std::filesystem::path& file) {
     try {
-        underLedger(importGltf, file);
+        Scene scene = underLedger(importGltf, file);
+        checkScene(scene);
+        for (const double time : {0.0, 0.5}) poseScene(scene, time);
+        checkScene(scene);
         return true;
     } catch (const InputError& error) {
         EXPECT_STRNE(error.what(), "");
@@ -60,13 +108,12 @@ bool isImported(const std::filesystem::path& file) {
 
 TEST(GltfFuzz, unharmedDocumentIsImported) {
     const Folder folder;
-    EXPECT_TRUE(isImported(folder.write("model.gltf", richDocument().dump())));
+    for (const Json& document : richDocuments())
+        EXPECT_TRUE(isImported(folder.write("model.gltf", document.dump()))) << document.dump();
 }
 
 TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
     const Folder folder;
-    const Json document = richDocument();
-    const Json leaves = document.flatten();
     const char* evil[] = {"-1",
                           "0",
                           "1",
@@ -93,42 +140,46 @@ TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
                           "18446744073709551615",
                           "-9223372036854775808"};
     std::size_t importedCount = 0, triedCount = 0;
-    for (const auto& [pointer, leaf] : leaves.items())
-        for (const char* value : evil) {
-            Json harmed = document;
-            harmed[Json::json_pointer(pointer)] = Json::parse(value);
-            SCOPED_TRACE(pointer + " = " + value);
-            importedCount += isImported(folder.write("model.gltf", harmed.dump())) ? 1 : 0;
-            ++triedCount;
-        }
+    for (const Json& document : richDocuments()) {
+        const Json leaves = document.flatten();
+        for (const auto& [pointer, leaf] : leaves.items())
+            for (const char* value : evil) {
+                Json harmed = document;
+                harmed[Json::json_pointer(pointer)] = Json::parse(value);
+                SCOPED_TRACE(pointer + " = " + value);
+                importedCount += isImported(folder.write("model.gltf", harmed.dump())) ? 1 : 0;
+                ++triedCount;
+            }
+    }
     EXPECT_GT(importedCount, 0u);
     EXPECT_LT(importedCount, triedCount);
 }
 
 TEST(GltfFuzz, anyOneValueRemovedIsImportedOrRefused) {
     const Folder folder;
-    const Json document = richDocument();
-    const Json leaves = document.flatten();
-    for (const auto& [pointer, leaf] : leaves.items())
-        for (Json::json_pointer place(pointer); !place.empty(); place.pop_back()) {
-            Json harmed = document;
-            Json& parent = harmed[place.parent_pointer()];
-            if (parent.is_array())
-                parent.erase(static_cast<std::size_t>(std::stoul(place.back())));
-            else
-                parent.erase(place.back());
-            SCOPED_TRACE("without " + place.to_string());
-            isImported(folder.write("model.gltf", harmed.dump()));
-        }
+    for (const Json& document : richDocuments()) {
+        const Json leaves = document.flatten();
+        for (const auto& [pointer, leaf] : leaves.items())
+            for (Json::json_pointer place(pointer); !place.empty(); place.pop_back()) {
+                Json harmed = document;
+                Json& parent = harmed[place.parent_pointer()];
+                if (parent.is_array())
+                    parent.erase(static_cast<std::size_t>(std::stoul(place.back())));
+                else
+                    parent.erase(place.back());
+                SCOPED_TRACE("without " + place.to_string());
+                isImported(folder.write("model.gltf", harmed.dump()));
+            }
+    }
 }
 
 TEST(GltfFuzz, randomBytesChangedAreImportedOrRefused) {
     const Folder folder;
-    const std::string text = richDocument().dump();
+    const std::string texts[] = {richDocument().dump(), richRig().dump()};
     std::mt19937 random(1); // the same changes in every run
-    for (int round = 0; round < 2000; ++round) {
-        std::string harmed = text;
-        for (int change = 0; change <= round % 4; ++change)
+    for (int round = 0; round < 4000; ++round) {
+        std::string harmed = texts[round % 2];
+        for (int change = 0; change <= round / 2 % 4; ++change)
             harmed[random() % harmed.size()] = static_cast<char>(random() % 256);
         SCOPED_TRACE(round);
         isImported(folder.write("model.gltf", harmed));
