@@ -1,6 +1,7 @@
 #include "tests/fuzz/Targets.h"
 
 #include "renderer/shader/Preprocess.h"
+#include "scenes/Pose.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::fuzz {
@@ -10,7 +11,9 @@ using std::filesystem::path;
 
 void readGltf(const path& file) {
     scenes::LoadLedger ledger(kMemoryLimitBytes);
-    const scenes::Scene scene = scenes::importGltf(file, ledger);
+    scenes::Scene scene = scenes::importGltf(file, ledger);
+    scenes::checkScene(scene);
+    scenes::poseScene(scene, 0.5);
     scenes::checkScene(scene);
 }
 

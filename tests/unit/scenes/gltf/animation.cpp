@@ -354,6 +354,53 @@ TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsAskedFor) {
     EXPECT_THROW(placeWith("2"), InputError);
 }
 
+TEST(GltfAnimation, clipsOfModelsThatASceneFileIncludesPlayTogetherAndFindTheirMaterials) {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0, "name": "first"}, {"mesh": 1, "name": "second"}],
+                      "scenes": [{"nodes": [0, 1]}], "materials": [{"name": "a"}, {"name": "b"}],
+                      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]},
+                                 {"primitives": [{"attributes": {"POSITION": 0}, "material": 1}]}]})");
+    const int output = builder.add(std::vector<float>{0.25f, 0.75f}, kFloatType, "SCALAR", 2);
+    addClip(builder, {0, 1}, output,
+            {{"path", "pointer"},
+             {"extensions",
+              {{"KHR_animation_pointer", {{"pointer", "/materials/1/pbrMetallicRoughness/metallicFactor"}}}}}});
+    builder.folder.write("model.gltf", builder.json.dump());
+    const std::string file = builder.folder
+                                 .write("scene.json", std::string(R"({"tessera": 1,
+        "include": [{"file": "model.gltf"}, {"file": "model.gltf", "name": "other"}],
+        "materials": [{"name": "paint", "model": "lambert"}],
+        "overrides": [{"node": "first", "material": "paint"}]})"))
+                                 .string();
+    Scene scene = loadScene(file);
+    ASSERT_EQ(scene.rig.playing.size(), 2u);
+    poseScene(scene, 1.0);
+    int changed = 0;
+    for (const Material& material : scene.materials) {
+        EXPECT_FLOAT_EQ(material.metallic, material.name == "b" ? 0.75f : 1.0f) << material.name;
+        changed += material.name == "b";
+    }
+    EXPECT_EQ(changed, 2);
+}
+
+TEST(GltfAnimation, aSceneFileThatReplacesLightsAndCamerasLeavesTheOldOnesToNoClip) {
+    Builder builder = movingTriangle();
+    builder.merge(R"({"nodes": [{"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+                      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
+    builder.folder.write("model.gltf", builder.json.dump());
+    const std::string file = builder.folder
+                                 .write("scene.json", std::string(R"({"tessera": 1, "base": {"file": "model.gltf"},
+        "lights": [{"type": "point", "position": [0, 3, 0]}],
+        "cameras": [{"name": "own", "position": [0, 0, 9], "target": [0, 0, 0]}]})"))
+                                 .string();
+    Scene scene = loadScene(file);
+    poseScene(scene, 1.0);
+    expectPlace(scene.lights.at(0).positionWS, {0.0, 3.0, 0.0});
+    expectPlace(glm::dvec3(scene.cameras.at(0).worldFromCamera[3]), {0.0, 0.0, 9.0});
+    expectPlace(glm::dvec3(scene.nodes.at(0).parentFromNode[3]), {2.0, 0.0, 0.0});
+}
+
 TEST(GltfAnimation, deformedInstancesAreChargedBeforeTheyAreCopied) {
     const auto errorWith = [](int instances) {
         constexpr std::size_t kVertices = 3000;
