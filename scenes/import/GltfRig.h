@@ -1,6 +1,9 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenes/import/GltfContext.h"
@@ -9,7 +12,7 @@
 
 namespace tessera::scenes::gltf {
 
-/// Builds the scene's rig: what deforms meshes, and clips.
+/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), and clips (GltfClips.cpp).
 class Rigging {
 public:
     /// `sceneNodes` is by node of the document the scene's, kNone where the scene does not have it.

@@ -88,7 +88,7 @@ constexpr KeyBinding kBindings[] = {
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
     {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelectedLight},
-    {GLFW_KEY_SPACE, kNone, "Space", "lights and clips move, or stand still", [](State& s) { s.isPlaying = !s.isPlaying; }},
+    {GLFW_KEY_SPACE, kNone, "Space", "lights and clips move, or stop", [](State& s) { s.isPlaying = !s.isPlaying; }},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",
      [](State& s) { s.requests.savePng = true; }},
