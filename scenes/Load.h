@@ -17,11 +17,12 @@ class LoadLedger;
 
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
-    std::optional<std::string>
-        clip;                 ///< plays those of this name, or the one of this number, or kNoClip; none: the first
-    bool defaultLight = true; ///< light a scene without lights by the studio, unless all is unlit
+    bool defaultLight = true;  ///< light a scene without lights by the studio, unless all is unlit
     /// Takes the place of the scene's own: a built-in one's name, a picture file, or kNoEnvironment.
     std::optional<std::string> environment;
+    /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it the first of each
+    /// model.
+    std::optional<std::string> clip;
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;
     /// Where it is given, the names of the files that are read are added to it.

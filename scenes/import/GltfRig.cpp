@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 namespace tessera::scenes::gltf {
+
 // ---- Deformed meshes -----------------------------------------------------------------------------------------------
 
 std::vector<float> Rigging::restWeights(int index) const {
