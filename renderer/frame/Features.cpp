@@ -106,7 +106,7 @@ constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
 /// By how much light that passes is spread less than light that is reflected: factor of alpha.
 /// setPassing() of shaders/lib/material/material.glsl.
 double passingScale(float ior) {
-    const double scale = std::clamp(2.0 * double(ior) - 2.0, 0.0, 1.0);
+    const double scale = ior > 0.0f ? std::clamp(2.0 * double(ior) - 2.0, 0.0, 1.0) : 1.0;
     return scale * scale;
 }
 

@@ -72,8 +72,9 @@ void setTransmission(const scenes::Material& material, SurfacePoint& point) {
             const double absorptionPerMetre = -std::log(double(material.attenuationColor[c])) / distance;
             point.leftByBody[c] = std::exp(-absorptionPerMetre * thickness);
         }
-    // A roughness is scaled before it is squared, as the Khronos sample viewer does.
-    point.passingAlpha = squaredRoughness(point.roughness * std::clamp(2.0 * (point.ior - 1.0), 0.0, 1.0));
+    // A roughness is scaled before it is squared, as the Khronos sample viewer does. An index of 0 stands for infinity.
+    const double bending = point.ior == 0.0 ? 1.0 : std::clamp(2.0 * (point.ior - 1.0), 0.0, 1.0);
+    point.passingAlpha = squaredRoughness(point.roughness * bending);
 }
 
 } // namespace

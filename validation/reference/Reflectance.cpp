@@ -271,7 +271,8 @@ std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3&
     const double cosView = glm::dot(point.normal, toViewer);
     const glm::dvec3 outward = cosView < 0.0 ? -point.normal : point.normal;
     const glm::dvec3 across = toViewer - glm::dot(toViewer, outward) * outward;
-    const double sine = glm::length(across), bentSine = sine / point.ior;
+    // KHR_materials_ior: 0 is an index without bound.
+    const double sine = glm::length(across), bentSine = point.ior > 0.0 ? sine / point.ior : 0.0;
     if (!(bentSine <= 1.0)) return std::nullopt;
     const glm::dvec3 along = sine > 0.0 ? across / sine : glm::dvec3(0.0);
     const double angle = std::asin(bentSine);

@@ -21,13 +21,14 @@ vec3 passedShare(SeenSurface seen)
 
 #if HAS_ENVIRONMENT && HAS_VOLUME
 // Along which the light came that leaves towards the viewer, bent once, by Snell's law; 0 where the surface lets none
-// out. Source: GLSL 4.50, refract(), which does not say how it rounds.
+// out. An index of 0 is one without bound, which bends all light onto the normal. Source: KHR_materials_ior; GLSL 4.50,
+// refract(), which does not say how it rounds.
 vec3 refractedDirection(vec3 normal, vec3 toViewer, float ior)
 {
     precise float along = dot(normal, toViewer);
     vec3 outward = along < 0.0 ? -normal : normal;
     precise float cosine = min(abs(along), 1.0);
-    precise float inverse = 1.0 / ior;
+    precise float inverse = ior > 0.0 ? 1.0 / ior : 0.0;
     precise float cosine2 = 1.0 - inverse * inverse * (1.0 - cosine * cosine);
     if (!(cosine2 >= 0.0)) return vec3(0.0);
     precise vec3 direction = (inverse * cosine - sqrt(cosine2)) * outward - inverse * toViewer;

@@ -7,12 +7,13 @@
 
 #if HAS_PASSING_LIGHT
 // Source: KHR_materials_transmission and _volume. The alpha is that of the Khronos sample viewer, applyIorToRoughness():
-// the less the index of refraction bends light, the less a rough surface spreads it.
+// the less the index of refraction bends light, the less a rough surface spreads it. An index of 0 is one without
+// bound.
 void setPassing(vec3 baseColor, float metallic, float ior, inout Surface surface)
 {
     precise float share = material.transmission.x * (1.0 - metallic);
     precise vec3 passing = baseColor * material.attenuation.rgb * share;
-    precise float scale = clamp(2.0 * ior - 2.0, 0.0, 1.0);
+    precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;
     precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
     surface.transmission = material.transmission.x;
     surface.passing = passing;
