@@ -11,5 +11,5 @@
 #define LIGHT_STORE_STORAGE 2
 
 // Lights of a uniform block, which stays below the 16 KiB that OpenGL 4.5 guarantees; shapes with the corners of
-// polygons take 36 KiB, of the 64 that drivers have.
+// polygons take 36 KiB, and drivers without that much have no such store (lightStores()).
 #define LIGHT_UNIFORM_LIGHTS 256

@@ -17,6 +17,11 @@ constexpr LightStoreInfo kStores[] = {
     {LIGHT_STORE_UNIFORM, "uniform buffer", "LIGHT_STORE_UNIFORM"},
 };
 
+/// Of the uniform block of shapes, with the corners of polygons; that of LightTexels is smaller.
+constexpr std::size_t kMostShapeBytes =
+    LIGHT_UNIFORM_LIGHTS * (sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels));
+static_assert(sizeof(shared::LightTexels) <= sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels));
+
 } // namespace
 
 std::span<const LightStoreInfo> lightStoreTable() {
@@ -25,7 +30,8 @@ std::span<const LightStoreInfo> lightStoreTable() {
 
 std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
     static_assert(std::rbegin(kStores)->store == LIGHT_STORE_UNIFORM);
-    return std::span(kStores).first(std::size(kStores) - (gl.indexesUniformBlocks ? 0 : 1));
+    const bool readsUniforms = gl.indexesUniformBlocks && gl.maxUniformBlockBytes >= kMostShapeBytes;
+    return std::span(kStores).first(std::size(kStores) - (readsUniforms ? 0 : 1));
 }
 
 namespace {
@@ -50,9 +56,7 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
     : programs_(programs), spec_(withoutShadows(spec)), view_("lower bound view", sizeof(shared::ViewConstants)),
       constants_("lower bound lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
       lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
-      shapes_("lower bound light shapes",
-              LIGHT_UNIFORM_LIGHTS * (sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels)),
-              gpu::BufferUse::Dynamic),
+      shapes_("lower bound light shapes", kMostShapeBytes, gpu::BufferUse::Dynamic),
       texels_("lower bound light texels", frame::lightBytes(spec_.features, LIGHT_UNIFORM_LIGHTS),
               gpu::BufferUse::Dynamic),
       radiance_("lower bound radiance", spec.texture(graph::Format::Rgba32Float)),

@@ -18,7 +18,7 @@ struct LightStoreInfo {
     std::string_view define;
 };
 std::span<const LightStoreInfo> lightStoreTable();
-/// Those that a driver can read.
+/// Those that a driver can read: a uniform block only where it may be as large as lights of every type need.
 std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl);
 
 /// Lights a synthetic surface at every pixel: nothing but the product's light evaluation, in its loop over all lights.

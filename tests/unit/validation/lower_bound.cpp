@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,26 @@ std::map<int, int> countsOf(const frame::PackedLights& lights) {
     std::map<int, int> counts;
     for (const shared::LightTexels& light : lights.texels) ++counts[int(light.color.w)];
     return counts;
+}
+
+TEST(LightStores, aUniformBlockIsOneOnlyWhereItMayHoldTheCornersOfPolygons) {
+    gpu::Capabilities gl;
+    const auto hasUniforms = [&] {
+        return std::ranges::count(lightStores(gl), LIGHT_STORE_UNIFORM, &LightStoreInfo::store) == 1;
+    };
+    gl.maxUniformBlockBytes = 65536;
+    EXPECT_TRUE(hasUniforms());
+    EXPECT_EQ(lightStores(gl).size(), lightStoreTable().size());
+    gl.indexesUniformBlocks = false;
+    EXPECT_FALSE(hasUniforms());
+    gl.indexesUniformBlocks = true;
+    gl.maxUniformBlockBytes = 36 * 1024;
+    EXPECT_TRUE(hasUniforms());
+    --gl.maxUniformBlockBytes;
+    EXPECT_FALSE(hasUniforms());
+    gl.maxUniformBlockBytes = 16 * 1024; // what OpenGL 4.5 guarantees
+    EXPECT_FALSE(hasUniforms());
+    EXPECT_EQ(lightStores(gl).size(), lightStoreTable().size() - 1);
 }
 
 TEST(LowerBoundLights, kindsComeInTheSharesOfTheScene) {
