@@ -168,7 +168,11 @@ public:
                                                                                         : glm::dvec3(0.0, 1.0, 0.0)));
         y_ = glm::cross(axis_, x_);
         sidesMetres_ = {light.widthMetres, light.heightMetres};
-        if (info.hasCorners()) triangles_ = trianglesWithin(light.corners);
+        if (!info.hasCorners()) return;
+        triangles_ = trianglesWithin(light.corners);
+        // The sum of these, not scenes::signedArea(), by which the product finds what is judged here.
+        area_ = 0.0;
+        for (const Triangle& triangle : triangles_) area_ += areaOf(triangle);
     }
 
     /// In a ring, or of what is not round a column, of so many of equal area, by the share of the way round or up and a
@@ -192,12 +196,19 @@ public:
     }
 
 private:
+    using Triangle = std::array<glm::dvec2, 3>;
+
+    static double areaOf(const Triangle& triangle) {
+        return 0.5 * std::abs(glm::determinant(glm::dmat2(triangle[1] - triangle[0], triangle[2] - triangle[0])));
+    }
+
     glm::dvec3 inPlane(const glm::dvec2& place) const { return place.x * x_ + place.y * y_; }
 
     /// Where so many square metres of the triangles end.
     glm::dvec2 inTriangles(double squareMetres, double turn) const {
-        for (const auto& [a, b, c] : triangles_) {
-            const double area = 0.5 * std::abs(glm::determinant(glm::dmat2(b - a, c - a)));
+        for (const Triangle& triangle : triangles_) {
+            const auto& [a, b, c] = triangle;
+            const double area = areaOf(triangle);
             if (squareMetres < area) return a + std::sqrt(squareMetres / area) * (glm::mix(b, c, turn) - a);
             squareMetres -= area;
         }
@@ -210,7 +221,7 @@ private:
     double radius_, halfLength_ = 0.0;
     double reach_, area_; ///< the largest that it shows
     bool isFlat_ = false;
-    std::vector<std::array<glm::dvec2, 3>> triangles_; ///< of a polygon
+    std::vector<Triangle> triangles_; ///< of a polygon
 };
 
 struct Occlusion::Casters {
