@@ -144,7 +144,7 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
 
 } // namespace
 
-/// What shadows see of a light with a size (scenes/Shadows.h), from its middle.
+/// What shadows see of a light with a size (scenes/Shadows.h), from its position.
 class ShadowFace {
 public:
     /// `ahead` is the unit way to the light, `radius` that of a disk that faces the point.
@@ -172,7 +172,12 @@ public:
         triangles_ = trianglesWithin(light.corners);
         // The sum of these, not scenes::signedArea(), by which the product finds what is judged here.
         area_ = 0.0;
-        for (const Triangle& triangle : triangles_) area_ += areaOf(triangle);
+        for (const Triangle& triangle : triangles_) {
+            const double area = areaOf(triangle);
+            area_ += area;
+            middle_ += area / 3.0 * inPlane(triangle[0] + triangle[1] + triangle[2]);
+        }
+        middle_ /= area_;
     }
 
     /// In a ring, or of what is not round a column, of so many of equal area, by the share of the way round or up and a
@@ -186,6 +191,8 @@ public:
                (2.0 * third - 1.0) * halfLength_ * axis_;
     }
 
+    /// Of its area, from the light's position.
+    const glm::dvec3& middle() const { return middle_; }
     double reachMetres() const { return reach_; }
     /// The most of its area, as a share, that a strip of its plane of so many metres can hold that another plane with
     /// this normal cuts out of space.
@@ -216,7 +223,7 @@ private:
     }
 
     scenes::LightType type_;
-    glm::dvec3 x_{0.0}, y_{0.0}, axis_{0.0};
+    glm::dvec3 x_{0.0}, y_{0.0}, axis_{0.0}, middle_{0.0};
     glm::dvec2 sidesMetres_{0.0};
     double radius_, halfLength_ = 0.0;
     double reach_, area_; ///< the largest that it shows
@@ -405,8 +412,11 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
         sum.noise.fourth = spread * (1.0 - 6.0 * spread) / (rays * rays * rays);
     }
     double stray = isNoisy ? 5.0 * std::sqrt(sum.noise.variance) + 2.0 / rays : 0.0;
-    // Where rounding decides whether casters hide the middle of a light, it may decide the rest.
-    if (settings.leeway && casters.decide(toCentre, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
+    // Where rounding decides whether casters hide the middle of a light, it may decide the rest. That of a polygon may
+    // lie far from its position, in which no ray ends.
+    const Segment toMiddle{from, (toLight + face.middle()) * reach};
+    if (settings.leeway && toMiddle.along != glm::dvec3(0.0) &&
+        casters.decide(toMiddle, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
