@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -53,8 +54,19 @@ scenes::Light lampOverTheFloor(LightType type) {
 
 struct FloorShare {
     double seen;
-    double leftOfMetres; ///< x of the light's plane from which on the plate hides it
+    glm::dvec3 pointWS;
 };
+
+/// From where on a plane at the light's height is hidden from a point of the floor: x in metres.
+double hiddenFromX(const glm::dvec3& pointWS) {
+    return 2.0 * kEdgeX - pointWS.x;
+}
+
+/// Of a circle's area, the share on one side of a line, by the line's distance from the middle in radii: 1 at 1.
+double shareOfCircle(double radii) {
+    const double t = std::clamp(radii, -1.0, 1.0);
+    return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
+}
 
 class AreaShadows : public test::ShadowTest {
 protected:
@@ -71,21 +83,27 @@ protected:
         for (int y = 0; y < kFloorPixels.y; ++y)
             for (int x = 0; x < kFloorPixels.x; ++x) {
                 const double metresAPixel = 2.0 * kFloorHalfHeight / kFloorPixels.y;
-                const double floorX = (x + 0.5 - 0.5 * kFloorPixels.x) * metresAPixel;
+                const glm::dvec2 floor = (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(kFloorPixels)) * metresAPixel;
                 shares.push_back({double(shown.radiance[4 * (std::size_t(y) * kFloorPixels.x + std::size_t(x))]),
-                                  2.0 * kEdgeX - floorX});
+                                  glm::dvec3(floor, 0.0)});
             }
         return shares;
     }
 
-    /// `leftOf`: the share of the light's area below an x.
+    /// `leftOf`: the share of the area of a flat light below an x.
     void expectShares(const char* name, const scenes::Light& light, const std::function<double(double)>& leftOf) {
+        expectSharesAt(name, light, [&](const glm::dvec3& pointWS) { return leftOf(hiddenFromX(pointWS)); });
+    }
+
+    /// `truthAt`: the share of the light in sight of a point of the floor.
+    void expectSharesAt(const char* name, const scenes::Light& light,
+                        const std::function<double(const glm::dvec3&)>& truthAt) {
         double before = 1.0;
         for (const int samples : {4, 16, 64}) {
             SCOPED_TRACE(fmt::format("{}, {} samples", name, samples));
             double sum = 0.0, squares = 0.0, count = 0.0;
             for (const FloorShare& share : sharesOf(light, samples)) {
-                const double truth = leftOf(share.leftOfMetres);
+                const double truth = truthAt(share.pointWS);
                 const double error = share.seen - truth;
                 if (truth <= 0.0 || truth >= 1.0) {
                     EXPECT_NEAR(error, 0.0, 1e-6);
@@ -121,10 +139,7 @@ TEST_F(AreaShadows, ofARectangleAreAsWideAlongItAndAcrossItAsItIs) {
 TEST_F(AreaShadows, ofADiskAreThoseOfItsCircle) {
     scenes::Light light = lampOverTheFloor(LightType::Disk);
     light.radiusMetres = 0.3f;
-    expectShares("disk", light, [](double x) {
-        const double t = std::min(std::max(x / 0.3, -1.0), 1.0);
-        return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / 3.14159265358979;
-    });
+    expectShares("disk", light, [](double x) { return shareOfCircle(x / 0.3); });
 }
 
 TEST_F(AreaShadows, ofAPolygonAreThoseOfItsOutline) {
@@ -169,6 +184,24 @@ TEST_F(AreaShadows, ofATubeAreWideAlongItAndNarrowAcrossIt) {
     ASSERT_GT(across, 500.0);
     EXPECT_GT(along / across, 6.0) << "an eighth as wide as long, and round across";
     EXPECT_LT(along / across, 10.0);
+}
+
+/// Its shadow is that of disks which face the point, all along its axis. Where the axis runs along the plate's edge,
+/// the plane through a point and that edge cuts all of them alike: as far from their middles as from the light's.
+TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
+    constexpr double kRadiusMetres = 0.05;
+    scenes::Light light = lampOverTheFloor(LightType::Tube);
+    light.radiusMetres = float(kRadiusMetres);
+    light.lengthMetres = 0.7f;
+    light.directionWS = {0.0, 1.0, 0.0};
+    expectSharesAt("tube", light, [&](const glm::dvec3& pointWS) {
+        const glm::dvec3 toMiddle = light.positionWS - pointWS, edgeWS(kEdgeX, 0.0, 0.5);
+        // At right angles to the edge and to what looks past it, to the side in sight, which is that of -x.
+        const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), pointWS - edgeWS));
+        const double metres = glm::dot(normal, toMiddle);
+        const double sine = std::sqrt(1.0 - metres * metres / glm::dot(toMiddle, toMiddle));
+        return shareOfCircle(metres / (kRadiusMetres * sine));
+    });
 }
 
 TEST_F(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
