@@ -170,9 +170,9 @@ double bentSkyAlong(const glm::dvec3& direction) {
 }
 
 /// A plane through the origin that fills the picture, seen from z = 3 through a wide lens.
-Scene bentPlane(const Material& material) {
+Scene bentPlane(const Material& material, double tiltRadians = kBentTiltRadians) {
     Scene scene = quadScene(material);
-    const double cosine = std::cos(kBentTiltRadians), sine = std::sin(kBentTiltRadians);
+    const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
     glm::dmat4& placed = scene.nodes[0].parentFromNode;
     placed = glm::dmat4(1.0);
     placed[0] = {90.0, 0.0, 0.0, 0.0};
@@ -185,12 +185,42 @@ Scene bentPlane(const Material& material) {
     return scene;
 }
 
-const glm::dvec3 kBentNormal(0.0, std::sin(kBentTiltRadians), std::cos(kBentTiltRadians));
+glm::dvec3 bentNormal(double tiltRadians) {
+    return {0.0, std::sin(tiltRadians), std::cos(tiltRadians)};
+}
+
+const glm::dvec3 kBentNormal = bentNormal(kBentTiltRadians);
 
 glm::dvec3 toViewerOfBent(int x, int y) {
     const double half = std::tan(0.8) / kBentPixels;
     return -glm::normalize(
         glm::dvec3((2.0 * x + 1.0 - kBentPixels) * half, (kBentPixels - 1.0 - 2.0 * y) * half, -1.0));
+}
+
+/// What a mirror reflects and what passes add up to 1 at any angle. The ball above is seen up to a cosine of 0.24.
+TEST_F(Glass, clearInEvenLightShowsThatLightAtGrazingAnglesToo) {
+    constexpr double kSteepRadians = 1.0, kLeastCosine = 0.05;
+    for (const float thickness : {0.0f, 0.1f})
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            Material glass = clearGlass();
+            glass.thicknessMetres = thickness;
+            Scene scene = bentPlane(glass, kSteepRadians);
+            scene.environment = evenEnvironment(1.0);
+            const std::vector<float> shown = drawn(scene, ofSide(kBentPixels, light));
+            int judged = 0, grazing = 0;
+            for (int y = 0; y < kBentPixels; ++y)
+                for (int x = 0; x < kBentPixels; ++x) {
+                    const double cosView = glm::dot(bentNormal(kSteepRadians), toViewerOfBent(x, y));
+                    if (cosView < kLeastCosine) continue;
+                    for (int c = 0; c < 3; ++c)
+                        ASSERT_NEAR(shown[std::size_t(4 * (y * kBentPixels + x) + c)], 1.0f, 1e-3f)
+                            << thickness << ", " << infoOf(light).name << ", cosine " << cosView;
+                    ++judged;
+                    grazing += cosView < 0.15 ? 1 : 0;
+                }
+            EXPECT_GT(judged, kBentPixels * kBentPixels / 2);
+            EXPECT_GT(grazing, 2 * kBentPixels);
+        }
 }
 
 /// Snell's law by angles; nothing where all is reflected. An index of 0 is one without bound.
