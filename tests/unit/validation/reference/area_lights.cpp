@@ -218,7 +218,10 @@ TEST(ReferenceAreaLights, flatLightsShineForwardUnlessTheyHaveTwoSides) {
         EXPECT_EQ(factorOf(light), 0.0);
         EXPECT_EQ(incidentAt(light, glm::dvec3(0.0)).irradiance, glm::dvec3(0.0));
         light.light.isTwoSided = true;
-        EXPECT_NEAR(factorOf(light), front, 1e-12);
+        // The same squares of a rectangle and a disk, but turning mirrors a polygon's outline, and its triangles are
+        // cut by the other diagonal. The integrator promises Settings::areaTolerance alone; where no lobe and no
+        // horizon cuts a light, its rule of seven points a side leaves 1e-11 of the integral, whatever the triangles.
+        EXPECT_NEAR(factorOf(light), front, 1e-10 * front);
         EXPECT_GT(incidentAt(light, glm::dvec3(0.0)).irradiance.g, 0.0);
         light.positionRWS.z = 0.0;
         EXPECT_EQ(factorOf(light, {0.6, 0.0, 0.8}), 0.0) << "edge-on nothing is seen";
