@@ -282,10 +282,13 @@ TEST(Lamps, whatIsSeenToShineNeverGetsItsOwnLight) {
     }
 }
 
-TEST(Studio, showsEveryLayerUnderLightsOfEveryShape) {
+TEST(Studio, showsEveryLayerUnderLightsOfEveryShapeButPolygons) {
     const Scene scene = underLedger(builtin::makeProductStudio, withoutAssets());
+    // No lamp of a studio is a polygon, and one would give every light 112 bytes of corners (shaders/shared/light.h).
     for (const LightTypeInfo& type : lightTypes())
-        EXPECT_EQ(type.isArea, std::ranges::count(scene.lights, type.type, &Light::type) > 0) << type.name;
+        EXPECT_EQ(type.isArea && type.type != LightType::Polygon,
+                  std::ranges::count(scene.lights, type.type, &Light::type) > 0)
+            << type.name;
     const auto key = std::ranges::find(scene.lights, "key", &Light::name);
     ASSERT_NE(key, scene.lights.end());
     EXPECT_TRUE(key->castsShadow);
