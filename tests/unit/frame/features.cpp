@@ -234,6 +234,7 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
         // Bodies that hardly bend light hardly spread it.
         {true, also(metal(0.5f), body(0.1f, 1.02f))},
         {false, also(metal(0.5f), body(0.1f, 1.5f))},
+        {false, also(metal(0.5f), body(0.1f, 0.0f))},  // an index without bound
         {false, also(metal(0.5f), body(0.0f, 1.02f))}, // a sheet
         {true, also(also(metal(0.5f), body(0.1f, 1.5f)), textured(TextureSlot::Ior))},
         {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has none
