@@ -285,6 +285,20 @@ TEST(ReferenceReflectance, lightIsBentBySnellsLawAndNotBeyondTheCriticalAngle) {
     EXPECT_GT(total, 100);
 }
 
+TEST(ReferenceReflectance, anIndexOf0BendsLightOntoTheNormalAsOneWithoutBound) {
+    test::Random random(25);
+    for (int i = 0; i < 1000; ++i) {
+        SurfacePoint point;
+        point.normal = random.direction();
+        point.ior = 0.0;
+        const glm::dvec3 toViewer = random.direction();
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        ASSERT_TRUE(bent);
+        const glm::dvec3 outward = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
+        EXPECT_LE(glm::distance(*bent, -outward), 1e-12);
+    }
+}
+
 TEST(ReferenceReflectance, atBrewstersAngleLightIsBentAtRightAnglesToItsMirrorImage) {
     for (const double ior : {0.75, 1.33, 1.5, 2.4}) {
         SurfacePoint point;
