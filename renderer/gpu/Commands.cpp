@@ -47,7 +47,9 @@ void setBlend(Blend blend) {
     glBlendEquation(blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
     switch (blend) {
     case Blend::None:
-    case Blend::Max: // takes no factors
+    case Blend::Max:
+        // Takes no factors. Those of a second output would keep Mesa from drawing into several targets all the same.
+        glBlendFunc(GL_ONE, GL_ZERO);
         break;
     case Blend::Additive:
         glBlendFunc(GL_ONE, GL_ONE);

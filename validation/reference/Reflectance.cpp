@@ -263,8 +263,9 @@ glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     if (strongest > 0.0)
         share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
     if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
-    const glm::dvec3 entering = glm::max(1.0 - fresnelOf(point, std::abs(cosView)), glm::dvec3(0.0));
-    return share * point.color * point.leftByBody * entering;
+    // A normal that points away from the viewer reflects nothing.
+    const glm::dvec3 reflected = cosView > 0.0 ? fresnelOf(point, cosView) : glm::dvec3(0.0);
+    return share * point.color * point.leftByBody * glm::max(1.0 - reflected, glm::dvec3(0.0));
 }
 
 std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer) {

@@ -8,7 +8,9 @@
 // By channel, of a radiance from behind: what the surface and its layers do not reflect, tinted.
 vec3 passedShare(SeenSurface seen)
 {
-    precise vec3 reflected = fresnelSchlick(seen.f0, seen.fresnelRise, min(abs(seen.nv), 1.0));
+    // Where the shading normal points away from the viewer nothing is reflected, so that all of it passes.
+    precise vec3 reflected = vec3(0.0);
+    if (seen.nv > 0.0) reflected = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
     precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflected, vec3(0.0));
 #if HAS_SHEEN
     if (strongestSheen(seen.surface) > 0.0) share *= viewerShareUnderSheen(seen);
