@@ -40,16 +40,17 @@ glm::dmat4x3 blended(const Shape& shape, const VertexMatrices& matrices, std::si
     return weights > 0.0 ? sum / weights : matrices.ofOwn;
 }
 
+/// -1 where a matrix mirrors, 0 where it flattens.
+double sideOf(const glm::dmat4x3& matrix) {
+    const double determinant = glm::determinant(glm::dmat3(matrix));
+    return determinant < 0.0 ? -1.0 : determinant > 0.0 ? 1.0 : 0.0;
+}
+
 /// Whether the joints mirror more of what follows them than they do not.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
-    std::vector<double> signs;
-    for (const glm::dmat4x3& matrix : matrices.fromBind) {
-        const double determinant = glm::determinant(glm::dmat3(matrix));
-        signs.push_back(determinant < 0.0 ? -1.0 : determinant > 0.0 ? 1.0 : 0.0);
-    }
     double sum = 0.0;
     for (std::size_t i = 0; i < shape.joints.size(); ++i)
-        if (shape.weights[i] > 0.0f) sum += double(shape.weights[i]) * signs[shape.joints[i]];
+        if (shape.weights[i] > 0.0f) sum += double(shape.weights[i]) * sideOf(matrices.fromBind[shape.joints[i]]);
     return sum < 0.0;
 }
 

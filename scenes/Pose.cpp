@@ -101,7 +101,7 @@ std::vector<glm::dmat4x3> modelFromNodes(const Scene& scene) {
 void deformAll(Scene& scene, const Pose& pose) {
     if (scene.rig.deformed.empty()) return;
     const std::vector<glm::dmat4x3> modelFromNode = modelFromNodes(scene);
-    std::vector<glm::dmat4x3> fromBind;
+    std::vector<std::vector<glm::dmat4x3>> fromBind(scene.rig.skins.size()); // by skin and joint, where one was needed
     for (const Deformed& deformed : scene.rig.deformed) {
         const Shape& shape = scene.rig.shapes[std::size_t(deformed.shape)];
         Mesh& mesh = scene.meshes[std::size_t(deformed.mesh)];
@@ -126,10 +126,10 @@ void deformAll(Scene& scene, const Pose& pose) {
             continue;
         }
         const Skin& skin = scene.rig.skins[std::size_t(deformed.skin)];
-        fromBind.clear();
-        for (std::size_t i = 0; i < skin.joints.size(); ++i)
-            fromBind.emplace_back(modelFromNode[std::size_t(skin.joints[i])] * skin.jointFromBind[i]);
-        const VertexMatrices matrices{fromBind, modelFromNode[std::size_t(deformed.node)]};
+        std::vector<glm::dmat4x3>& ofSkin = fromBind[std::size_t(deformed.skin)];
+        for (std::size_t i = ofSkin.size(); i < skin.joints.size(); ++i)
+            ofSkin.emplace_back(modelFromNode[std::size_t(skin.joints[i])] * skin.jointFromBind[i]);
+        const VertexMatrices matrices{ofSkin, modelFromNode[std::size_t(deformed.node)]};
         glm::dmat4& parentFromNode = scene.nodes[std::size_t(deformed.standsAt)].parentFromNode;
         parentFromNode = deform(shape, weights, &matrices, mesh);
         requireFinite(parentFromNode);

@@ -224,6 +224,19 @@ TEST(Poses, aPoseThatIsNowhereIsRefusedByName) {
     }
 }
 
+TEST(Poses, aSkinOfManyJointsIsComputedOnceForAllItsMeshes) {
+    constexpr std::size_t kMany = 40'000;
+    Scene scene = riggedScene();
+    scene.rig.skins[0].joints.resize(kMany, 1);
+    scene.rig.skins[0].jointFromBind.resize(kMany, glm::dmat4(1.0));
+    scene.rig.deformed.resize(kMany, scene.rig.deformed[0]);
+    const auto start = std::chrono::steady_clock::now();
+    poseScene(scene, 1.0);
+    expectAt(positionsWS(scene, kSkinned)[1], {1.0, 1.0, 0.0});
+    // Some 50 ms, and half a minute where every mesh asks for all joints.
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
+}
+
 // ---- What moves along ----------------------------------------------------------------------------------------------
 
 TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
