@@ -209,7 +209,8 @@ Clip Rigging::clip(int index) {
     const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);
-    std::map<int, int> samplers; // of the clip, by those of the document
+    std::map<int, int> samplers;                                      // of the clip, by those of the document
+    std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // of the clip, by what they change
     for (std::size_t i = 0; i < stored.channels.size(); ++i) {
         const model::AnimationChannel& channel = stored.channels[i];
         const std::optional<Animated> what = animated(channel);
@@ -218,8 +219,9 @@ Clip Rigging::clip(int index) {
             continue;
         }
         if (what->targets.empty()) continue;
-        document.charge(2 * what->targets.size() * sizeof(AnimationChannel) + sizeof(AnimationSampler), "animations",
-                        index);
+        constexpr std::size_t kEntryBytes = 96; // of the map
+        document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
+                        "animations", index);
         const auto [entry, isNew] = samplers.try_emplace(channel.sampler, static_cast<int>(clip.samplers.size()));
         if (isNew) clip.samplers.push_back(sampler(index, channel.sampler, *what));
         if (static_cast<std::size_t>(clip.samplers[static_cast<std::size_t>(entry->second)].width) != what->width)
@@ -228,7 +230,14 @@ Clip Rigging::clip(int index) {
                 fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
                             what->width, channel.sampler,
                             clip.samplers[static_cast<std::size_t>(entry->second)].width));
-        for (const int target : what->targets) clip.channels.push_back({what->property, target, entry->second});
+        // Of channels that change the same thing, which the specification forbids, the last counts.
+        for (const int target : what->targets) {
+            const auto [same, isFirst] = channels.try_emplace({what->property, target}, clip.channels.size());
+            if (isFirst)
+                clip.channels.push_back({what->property, target, entry->second});
+            else
+                clip.channels[same->second].sampler = entry->second;
+        }
     }
     document.ledger.settle(mark, context_.buffers.heldBytes() + bytesOf(clip));
     return clip;

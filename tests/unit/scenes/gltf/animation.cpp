@@ -79,6 +79,20 @@ TEST(GltfAnimation, aNodeMovesAsItsChannelsSay) {
     EXPECT_EQ(clipText(scene), "clip 'clip' (1 of 1), 1 s");
 }
 
+TEST(GltfAnimation, ofChannelsThatChangeTheSameThingTheLastIsKept) {
+    Builder builder = movingTriangle();
+    Json& clip = builder.json["animations"][0];
+    const Json channel = clip["channels"][0];
+    clip["samplers"].push_back(clip["samplers"][0]);
+    clip["samplers"][1]["output"] = builder.add(std::vector<float>{0, 0, 0, 0, 8, 0}, kFloatType, "VEC3", 2);
+    for (int i = 0; i < 99; ++i) clip["channels"].push_back(channel);
+    clip["channels"].push_back(channel);
+    clip["channels"].back()["sampler"] = 1;
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.rig.clips.at(0).channels.size(), 1u);
+    expectPlace(drawnAt(scene, 0.5)[0], {0.0, 4.0, 0.0});
+}
+
 TEST(GltfAnimation, normalizedIntegersAreFractions) {
     Builder builder;
     const int output =
