@@ -39,6 +39,8 @@ public:
     }
 
     void fillTargets(std::vector<MorphTarget>& targets) {
+        context_.document.ledger.charge(2 * primitive_.targets.size() * sizeof(MorphTarget),
+                                        [&] { return placeInFile(); });
         for (std::size_t i = 0; i < primitive_.targets.size(); ++i) {
             attributes_ = &primitive_.targets[i];
             inPlace_ = fmt::format("targets/{}", i);

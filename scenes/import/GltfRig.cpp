@@ -91,8 +91,11 @@ void Rigging::addDeformed(int index) {
     Deformed deformed;
     deformed.node = deformed.standsAt = sceneNodes_[static_cast<std::size_t>(index)];
     if (deforms.byTargets) {
+        std::vector<float> rest = restWeights(index);
+        // A pose has them too, in double precision.
+        document.charge(2 * sizeof(RestWeights) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
         deformed.weights = weights_[index] = static_cast<int>(scene.rig.weights.size());
-        scene.rig.weights.push_back({deformed.node, restWeights(index)});
+        scene.rig.weights.push_back({deformed.node, std::move(rest)});
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
     for (const Drawn& drawn : shapesOf(node.mesh, deforms)) {

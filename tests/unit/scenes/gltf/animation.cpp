@@ -442,5 +442,31 @@ TEST(GltfAnimation, deformedInstancesAreChargedBeforeTheyAreCopied) {
     EXPECT_THAT(errorWith(2000), HasSubstr("/nodes/"));
 }
 
+TEST(GltfAnimation, weightsOfNodesAreChargedByTargetsAndNodes) {
+    const auto errorWith = [](int targets, int nodes) {
+        Builder builder;
+        const int moved = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
+        builder.primitive()["targets"] = Json::array();
+        for (int i = 0; i < targets; ++i) builder.primitive()["targets"].push_back(Json::object({{"POSITION", moved}}));
+        builder.json["meshes"][0]["weights"] = Json::array({1});
+        builder.json["nodes"] = Json::array();
+        builder.json["scenes"][0]["nodes"] = Json::array();
+        for (int i = 0; i < nodes; ++i) {
+            builder.json["nodes"].push_back(Json::object({{"mesh", 0}}));
+            builder.json["scenes"][0]["nodes"].push_back(i);
+        }
+        try {
+            underLedger(importGltf, builder.folder.write("many.gltf", builder.json.dump()), 64 * kMiB);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(errorWith(3000, 30), "");
+    EXPECT_EQ(errorWith(30, 3000), "");
+    // 108 MB beside what either takes: 36 KB a node
+    EXPECT_THAT(errorWith(3000, 3000), HasSubstr("/nodes/"));
+}
+
 } // namespace
 } // namespace tessera::scenes::gltf::test
