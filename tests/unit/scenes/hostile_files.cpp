@@ -273,7 +273,9 @@ TEST(Memory, whatIsKeptOfAGltfFileNeverTakesMoreThanItIsChargedFor) {
         {R"("nodes": [)", R"({"children": [0]})", "]"},
         {R"("scenes": [)", R"({"nodes": [0]})", R"(], "nodes": [{}])"},
         {R"("meshes": [)", R"({"primitives": [{"attributes": {}}]})", "]"},
-        {R"("meshes": [{"primitives": [{"attributes": {}, "targets": [)", "0", "]}]}]"},
+        {R"("meshes": [{"primitives": [{"attributes": {}, "targets": [)", "{}", "]}]}]"},
+        {R"("meshes": [{"primitives": [{"attributes": {}, "targets": [)", R"({"A": 0, "B": 0})",
+         R"(]}]}], "accessors": [{"componentType": 5121, "count": 1, "type": "SCALAR"}])"},
         {R"("meshes": [)", R"({"primitives": [{"attributes": {"A": 0, "B": 0}}]})",
          R"(], "accessors": [{"componentType": 5121, "count": 1, "type": "SCALAR"}])"},
         {R"("accessors": [)", R"({"componentType": 5121, "count": 1, "type": "SCALAR"})", "]"},
@@ -285,7 +287,13 @@ TEST(Memory, whatIsKeptOfAGltfFileNeverTakesMoreThanItIsChargedFor) {
         {R"("materials": [)", "{}", "]"},
         {R"("cameras": [)", R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}})", "]"},
         {R"("extensions": {"KHR_lights_punctual": {"lights": [)", R"({"type": "point"})", "]}}"},
-        {R"("skins": [)", "{}", "]"},
+        {R"("skins": [)", R"({"joints": [0]})", R"(], "nodes": [{}])"},
+        {R"("animations": [)", R"({"samplers": [], "channels": []})", "]"},
+        {R"("animations": [{"channels": [], "samplers": [)", R"({"input": 0, "output": 0})",
+         R"(]}], "accessors": [{"componentType": 5121, "count": 1, "type": "SCALAR"}])"},
+        {R"("animations": [{"samplers": [{"input": 0, "output": 0}], "channels": [)",
+         R"({"sampler": 0, "target": {"node": 0, "path": "rotation"}})",
+         R"(]}], "nodes": [{}], "accessors": [{"componentType": 5121, "count": 1, "type": "SCALAR"}])"},
         {R"("extensionsUsed": [)", R"("A")", "]"}};
     const TempFolder folder;
     for (const auto& [before, element, after] : kCases) {
