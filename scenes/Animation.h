@@ -140,7 +140,7 @@ struct RestWeights {
     std::vector<float> weights; ///< by target
 };
 
-/// A member of a light or a material, and what it is by itself.
+/// A member of a light or a material, and what it is by itself (takeRest()).
 struct RestNumber {
     AnimatedProperty property = AnimatedProperty::LightColor;
     int element = kNone; ///< light or material of the scene; kNone: it is gone

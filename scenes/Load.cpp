@@ -133,6 +133,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     try {
         checkScene(scene);
+        takeRest(scene);
         if (options.clip) playClip(scene, *options.clip);
         poseScene(scene, 0.0);
     } catch (const InputError& error) {

@@ -163,6 +163,35 @@ void setNumber(Owner& owner, const AnimatedMember& member, const glm::dvec4& num
         member);
 }
 
+glm::vec4 numberOf(const auto& owner, const AnimatedMember& member) {
+    glm::vec4 number(0.0f);
+    std::visit(
+        [&](auto memberOfAny) {
+            if constexpr (requires { owner.*memberOfAny; }) {
+                const auto& value = owner.*memberOfAny;
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
+                    number.x = value;
+                else
+                    for (glm::length_t i = 0; i < value.length(); ++i) number[i] = value[i];
+            }
+        },
+        member);
+    return number;
+}
+
+/// Calls `use` for each number at rest that a clip which plays changes, where its light or material is still there.
+void forEachPlayed(const Rig& rig, const auto& use) {
+    std::vector<bool> isPlayed(rig.numbers.size());
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels) {
+            const AnimatedOwner owner = infoOf(channel.property).owner;
+            if (owner == AnimatedOwner::Light || owner == AnimatedOwner::Material)
+                isPlayed[std::size_t(channel.target)] = true;
+        }
+    for (std::size_t i = 0; i < isPlayed.size(); ++i)
+        if (isPlayed[i] && rig.numbers[i].element != kNone) use(rig.numbers[i]);
+}
+
 } // namespace
 
 double lengthSeconds(const Clip& clip) {
@@ -198,7 +227,7 @@ Pose poseAt(const Rig& rig, double timeSeconds) {
     Pose pose;
     std::vector<RestNode> nodes = rig.nodes;
     for (const RestWeights& rest : rig.weights) pose.weights.emplace_back(rest.weights.begin(), rest.weights.end());
-    for (const RestNumber& rest : rig.numbers) pose.numbers.emplace_back(rest.number);
+    pose.numbers.resize(rig.numbers.size());
     std::vector<double> value;
     for (const int number : rig.playing) {
         const Clip& clip = rig.clips[std::size_t(number)];
@@ -221,7 +250,8 @@ Pose poseAt(const Rig& rig, double timeSeconds) {
                 pose.weights[target] = value;
                 break;
             default:
-                for (std::size_t i = 0; i < value.size(); ++i) pose.numbers[target][glm::length_t(i)] = value[i];
+                glm::dvec4& changed = pose.numbers[target].emplace(0.0);
+                for (std::size_t i = 0; i < value.size(); ++i) changed[glm::length_t(i)] = value[i];
             }
         }
     }
@@ -236,12 +266,13 @@ void applyPose(Scene& scene, const Pose& pose) {
         scene.nodes[std::size_t(rig.nodes[i].node)].parentFromNode = pose.parentFromNode[i];
     for (std::size_t i = 0; i < rig.numbers.size(); ++i) {
         const RestNumber& rest = rig.numbers[i];
-        if (rest.element == kNone) continue;
+        const std::optional<glm::dvec4>& number = pose.numbers[i];
+        if (rest.element == kNone || !number) continue;
         const AnimatedPropertyInfo& info = infoOf(rest.property);
         if (info.owner == AnimatedOwner::Light)
-            setNumber(scene.lights[std::size_t(rest.element)], info.member, pose.numbers[i]);
+            setNumber(scene.lights[std::size_t(rest.element)], info.member, *number);
         else
-            setNumber(scene.materials[std::size_t(rest.element)], info.member, pose.numbers[i]);
+            setNumber(scene.materials[std::size_t(rest.element)], info.member, *number);
     }
     deformAll(scene, pose);
     if (!rig.lights.empty() || !rig.cameras.empty()) {
@@ -255,6 +286,26 @@ void applyPose(Scene& scene, const Pose& pose) {
         }
     }
     checkPlaces(scene);
+}
+
+void takeRest(Scene& scene) {
+    for (RestNumber& rest : scene.rig.numbers) {
+        if (rest.element == kNone) continue;
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        const auto element = std::size_t(rest.element);
+        rest.number = info.owner == AnimatedOwner::Light ? numberOf(scene.lights[element], info.member)
+                                                         : numberOf(scene.materials[element], info.member);
+    }
+}
+
+std::vector<Material> restingMaterials(const Scene& scene) {
+    std::vector<Material> materials = scene.materials;
+    forEachPlayed(scene.rig, [&](const RestNumber& rest) {
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        if (info.owner == AnimatedOwner::Material)
+            setNumber(materials[std::size_t(rest.element)], info.member, rest.number);
+    });
+    return materials;
 }
 
 bool hasPoses(const Scene& scene) {
@@ -271,6 +322,12 @@ void poseScene(Scene& scene, double timeSeconds) {
 
 void playClip(Scene& scene, const std::string& nameOrNumber) {
     Rig& rig = scene.rig;
+    scene.materials = restingMaterials(scene);
+    forEachPlayed(rig, [&](const RestNumber& rest) {
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        if (info.owner == AnimatedOwner::Light)
+            setNumber(scene.lights[std::size_t(rest.element)], info.member, rest.number);
+    });
     rig.playing.clear();
     for (std::size_t i = 0; i < rig.clips.size(); ++i)
         if (rig.clips[i].name == nameOrNumber) rig.playing.push_back(int(i));

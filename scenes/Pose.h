@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +16,8 @@ namespace tessera::scenes {
 struct Pose {
     std::vector<glm::dmat4> parentFromNode;   ///< by Rig::nodes
     std::vector<std::vector<double>> weights; ///< by Rig::weights
-    std::vector<glm::dvec4> numbers;          ///< by Rig::numbers
+    /// By Rig::numbers; none where no clip that plays changes the number.
+    std::vector<std::optional<glm::dvec4>> numbers;
 };
 
 /// The value of a curve at a time, `width` numbers. A rotation is a unit quaternion.
@@ -25,9 +27,16 @@ void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSecond
 Pose poseAt(const Rig& rig, double timeSeconds);
 
 /// Writes a pose of the scene's rig into the scene: transforms of nodes, deformed meshes, lights and cameras that nodes
-/// carry, and numbers of lights and materials. It depends on the pose alone, not on earlier ones. Throws InputError
-/// where something then lies too far away or nowhere.
+/// carry, and numbers of lights and materials that a clip which plays changes. It depends on the pose alone, not on
+/// earlier ones. Throws InputError where something then lies too far away or nowhere.
 void applyPose(Scene& scene, const Pose& pose);
+
+/// Takes the numbers of lights and materials as they are now for those at rest. To be called before a clip is posed: a
+/// scene file may say other numbers than the model that its clips come from.
+void takeRest(Scene& scene);
+
+/// The scene's materials, with the numbers at rest that clips which play change.
+std::vector<Material> restingMaterials(const Scene& scene);
 
 /// Whether a pose changes anything of the scene.
 bool hasPoses(const Scene& scene);
@@ -39,8 +48,8 @@ void poseScene(Scene& scene, double timeSeconds);
 
 inline constexpr std::string_view kNoClip = "none";
 
-/// Lets the clips of a name play, else the one of that number from 0, or none (kNoClip). Throws InputError that lists
-/// the names.
+/// Lets the clips of a name play, else the one of that number from 0, or none (kNoClip), and puts numbers that others
+/// changed to rest. Throws InputError that lists the names.
 void playClip(Scene& scene, const std::string& nameOrNumber);
 
 /// "clip 'Walk' (1 of 3), 1.04 s"; empty where the scene has no clips.

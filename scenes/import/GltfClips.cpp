@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -33,22 +32,6 @@ const AnimatedPropertyInfo* propertyAt(std::string_view path, auto isOwner) {
     const auto found = std::ranges::find_if(
         rows, [&](const AnimatedPropertyInfo& row) { return row.path == path && isOwner(row.owner); });
     return found == rows.end() ? nullptr : &*found;
-}
-
-glm::vec4 numberOf(const auto& owner, const AnimatedMember& member) {
-    glm::vec4 number(0.0f);
-    std::visit(
-        [&](auto memberOfAny) {
-            if constexpr (requires { owner.*memberOfAny; }) {
-                const auto& value = owner.*memberOfAny;
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
-                    number.x = value;
-                else
-                    for (glm::length_t i = 0; i < value.length(); ++i) number[i] = value[i];
-            }
-        },
-        member);
-    return number;
 }
 
 } // namespace
@@ -80,15 +63,9 @@ int Rigging::restNode(int index) {
 }
 
 int Rigging::restNumber(AnimatedProperty property, int element) {
-    Scene& scene = context_.scene;
-    const auto [entry, isNew] = numbers_.try_emplace({property, element}, static_cast<int>(scene.rig.numbers.size()));
-    if (isNew) {
-        const AnimatedPropertyInfo& info = infoOf(property);
-        const auto at = static_cast<std::size_t>(element);
-        scene.rig.numbers.push_back({property, element,
-                                     info.owner == AnimatedOwner::Light ? numberOf(scene.lights[at], info.member)
-                                                                        : numberOf(scene.materials[at], info.member)});
-    }
+    std::vector<RestNumber>& numbers = context_.scene.rig.numbers;
+    const auto [entry, isNew] = numbers_.try_emplace({property, element}, static_cast<int>(numbers.size()));
+    if (isNew) numbers.push_back({property, element});
     return entry->second;
 }
 

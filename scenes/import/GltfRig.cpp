@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Pose.h"
+
 namespace tessera::scenes::gltf {
 
 // ---- Deformed meshes -----------------------------------------------------------------------------------------------
@@ -167,6 +169,7 @@ void Rigging::finish() {
     Rig& rig = context_.scene.rig;
     for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i)
         rig.clips.push_back(clip(static_cast<int>(i)));
+    takeRest(context_.scene);
     if (!rig.clips.empty()) rig.playing.push_back(0);
     if (leftOut_ > 0)
         context_.warn(fmt::format("/animations: {} {} that cannot be animated, such as {}, and {} left out", leftOut_,

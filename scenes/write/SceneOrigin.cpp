@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/Extension.h"
+#include "scenes/Pose.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
 #include "scenes/import/SceneJsonFiles.h"
@@ -103,7 +104,7 @@ void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
 
 SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded) {
     SceneOrigin origin;
-    origin.materials = loaded.materials;
+    origin.materials = restingMaterials(loaded);
     origin.images = loaded.images.size();
     origin.meshes = loaded.meshes.size();
     origin.nodes = loaded.nodes.size();

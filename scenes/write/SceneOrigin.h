@@ -14,7 +14,7 @@ struct SceneOrigin {
     /// any more for what is edited further.
     std::map<std::size_t, std::string> replacedMaterials;
     std::vector<std::filesystem::path> documents; ///< .json files that the base is made of: not to be written over
-    std::vector<Material> materials;              ///< as they were loaded
+    std::vector<Material> materials;              ///< as they were loaded, at rest
     std::size_t images = 0, meshes = 0, nodes = 0;
 };
 

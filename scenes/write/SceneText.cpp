@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "scenes/Load.h"
+#include "scenes/Pose.h"
 #include "scenes/write/ElementJson.h"
 
 namespace tessera::scenes {
@@ -52,12 +53,13 @@ Json baseJson(const SceneOrigin& origin, const fs::path& file) {
 }
 
 Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
+    const std::vector<Material> now = restingMaterials(scene); // a pose is no edit
     Json materials = Json::array();
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    for (std::size_t i = 0; i < now.size(); ++i) {
         const auto replaced = origin.replacedMaterials.find(i);
-        if (scene.materials[i] != origin.materials[i]) {
+        if (now[i] != origin.materials[i]) {
             Json material = {{"replaces", i}};
-            material.update(write::materialJson(scene.materials[i], origin.images));
+            material.update(write::materialJson(now[i], origin.images));
             materials.push_back(std::move(material));
         } else if (replaced != origin.replacedMaterials.end()) {
             materials.push_back(Json::parse(replaced->second));

@@ -263,6 +263,30 @@ TEST(Poses, numbersStayWithinTheirBounds) {
     EXPECT_NO_THROW(checkScene(scene));
 }
 
+TEST(Poses, numbersThatNoPlayingClipChangesAreFreeAndOthersComeBackToRest) {
+    Scene scene = riggedScene();
+    scene.rig.numbers.push_back({AnimatedProperty::Metallic, 0});
+    Clip& other = scene.rig.clips.emplace_back();
+    other.name = "shine";
+    other.samplers.push_back({Interpolation::Linear, 1, {0.0f, 1.0f}, {0.5f, 1.0f}});
+    other.channels.push_back({AnimatedProperty::Metallic, 1, 0});
+    scene.materials[0].metallic = 0.125f;
+    takeRest(scene);
+    ASSERT_NO_THROW(checkScene(scene));
+    scene.materials[0].metallic = 0.25f; // edited
+    poseScene(scene, 1.0);
+    EXPECT_EQ(scene.materials[0].metallic, 0.25f);
+    EXPECT_EQ(restingMaterials(scene), scene.materials);
+    EXPECT_EQ(scene.lights[0].intensity, 2.0f);
+    playClip(scene, "shine");
+    EXPECT_EQ(scene.lights[0].intensity, 1.0f);
+    poseScene(scene, 1.0);
+    EXPECT_EQ(scene.materials[0].metallic, 1.0f);
+    EXPECT_EQ(restingMaterials(scene)[0].metallic, 0.125f);
+    playClip(scene, "none");
+    EXPECT_EQ(scene.materials[0].metallic, 0.125f);
+}
+
 TEST(Poses, anIncludedRigMovesBelowItsRoot) {
     Scene whole = riggedScene();
     glm::dmat4 worldFromPart(1.0);

@@ -6,6 +6,7 @@
 
 #include "scenes/Load.h"
 #include "scenes/Pose.h"
+#include "scenes/write/SceneText.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
 namespace tessera::scenes::gltf::test {
@@ -395,6 +396,46 @@ TEST(GltfAnimation, clipsOfModelsThatASceneFileIncludesPlayTogetherAndFindTheirM
         changed += material.name == "b";
     }
     EXPECT_EQ(changed, 2);
+}
+
+TEST(GltfAnimation, whatASceneFileSaysOfAMaterialHoldsWhereNoClipPlays) {
+    Builder builder;
+    builder.material();
+    const int output = builder.add(std::vector<float>{0.25f, 0.75f}, kFloatType, "SCALAR", 2);
+    addClip(builder, {0, 1}, output,
+            {{"path", "pointer"},
+             {"extensions",
+              {{"KHR_animation_pointer", {{"pointer", "/materials/0/pbrMetallicRoughness/metallicFactor"}}}}}});
+    builder.folder.write("model.gltf", builder.json.dump());
+    const std::string file = builder.folder
+                                 .write("scene.json", std::string(R"({"tessera": 1, "base": {"file": "model.gltf"},
+        "materials": [{"replaces": 0, "name": "gold", "model": "metallic_roughness", "metallic": 0.5}]})"))
+                                 .string();
+    EXPECT_EQ(loadScene(file).materials.at(0).metallic, 0.25f);
+    LoadOptions still;
+    still.clip = "none";
+    EXPECT_EQ(loadScene(file, still).materials.at(0).metallic, 0.5f);
+}
+
+TEST(GltfAnimation, savingAPosedSceneWritesNoMaterialUnlessItWasEdited) {
+    Builder builder;
+    builder.material();
+    const int output = builder.add(std::vector<float>{0.25f, 0.75f}, kFloatType, "SCALAR", 2);
+    addClip(builder, {0, 1}, output,
+            {{"path", "pointer"},
+             {"extensions",
+              {{"KHR_animation_pointer", {{"pointer", "/materials/0/pbrMetallicRoughness/metallicFactor"}}}}}});
+    const std::string file = builder.folder.write("model.gltf", builder.json.dump()).string();
+    const std::filesystem::path copy = std::filesystem::path(file).parent_path() / "saved.json";
+    Scene scene = loadScene(file);
+    const SceneOrigin origin = originOf(file, {}, scene);
+    poseScene(scene, 1.0);
+    EXPECT_EQ(scene.materials[0].metallic, 0.75f);
+    EXPECT_FALSE(Json::parse(sceneText(scene, origin, copy)).contains("materials"));
+    scene.materials[0].perceptualRoughness = 0.125f;
+    const Json materials = Json::parse(sceneText(scene, origin, copy)).at("materials");
+    ASSERT_EQ(materials.size(), 1u);
+    EXPECT_EQ(materials[0].value("metallic", 1.0f), 1.0f) << "at rest";
 }
 
 TEST(GltfAnimation, aSceneFileThatReplacesLightsAndCamerasLeavesTheOldOnesToNoClip) {
