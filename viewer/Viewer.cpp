@@ -13,7 +13,6 @@
 #include "base/Extension.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
-#include "scenes/Pose.h"
 #include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Saver.h"
@@ -70,13 +69,14 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    bool isMoving() const {
-        if (!state_.open) return false;
-        const std::vector<scenes::Light>& lights = state_.open->scene().lights;
+    /// Whether lights or clips move as time goes on.
+    bool plays() const {
         const auto moves = [](const scenes::Light& light) { return light.animation.has_value(); };
-        return !state_.open->rig().isAtRest() ||
-               (state_.isPlaying && (scenes::isPlaying(state_.open->scene()) || std::ranges::any_of(lights, moves)));
+        return state_.open && state_.isPlaying &&
+               (state_.open->playsAt(state_.active().settings.timeSeconds) ||
+                std::ranges::any_of(state_.open->scene().lights, moves));
     }
+    bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays()); }
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
@@ -331,7 +331,7 @@ private:
             state_.open->rig().advance(step, area_.size.y);
             state_.open->applyRig();
         }
-        if (state_.isPlaying) state_.active().settings.timeSeconds += step;
+        if (plays()) state_.active().settings.timeSeconds += step;
         state_.shareSettings();
         attempt([this] {
             if (state_.open->showTime(state_.active().settings.timeSeconds)) screen_.takeEdits();

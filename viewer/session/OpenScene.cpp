@@ -1,6 +1,7 @@
 #include "viewer/session/OpenScene.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "scenes/Defaults.h"
@@ -8,16 +9,27 @@
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
+namespace {
+
+double lastSecondsOf(const scenes::Rig& rig) {
+    double seconds = -std::numeric_limits<double>::infinity();
+    for (const int clip : rig.playing) seconds = std::max(seconds, scenes::lengthSeconds(rig.clips[std::size_t(clip)]));
+    return seconds;
+}
+
+} // namespace
 
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
       boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
-      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), filtered_(std::move(filtered)) {
+      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), lastSeconds_(lastSecondsOf(scene_.rig)),
+      filtered_(std::move(filtered)) {
     scenes::leaveLightsAndCameras(scene_);
 }
 
 bool OpenScene::showTime(double timeSeconds) {
+    timeSeconds = std::min(timeSeconds, lastSeconds_);
     if (!scenes::isPlaying(scene_) || timeSeconds == shownSeconds_) return false;
     shownSeconds_ = timeSeconds;
     ++revision_;

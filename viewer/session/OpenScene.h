@@ -40,6 +40,8 @@ public:
     /// Shows the scene at a time of the clip that plays, but its lights and cameras, which are edited here. True where
     /// something may have moved. Throws InputError where something then lies too far away; the next time is tried anew.
     bool showTime(double timeSeconds);
+    /// Whether the clip goes on at a time: after its last key it stands still.
+    bool playsAt(double timeSeconds) const { return timeSeconds < lastSeconds_; }
     /// Counts changes of what clips move.
     std::uint64_t geometryRevision() const { return geometryRevision_; }
     /// Takes another environment in the place of the scene's own, as an edit.
@@ -89,6 +91,7 @@ private:
     CameraRig rig_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, savedEdits_ = 0;
+    double lastSeconds_;        ///< when the last key of a clip that plays is; without one long ago
     double shownSeconds_ = 0.0; ///< of the clip
     std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;

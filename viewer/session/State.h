@@ -82,6 +82,7 @@ struct State {
 
     int sides() const { return compare == Compare::Off ? 1 : 2; }
     Look& active() { return looks[std::size_t(activeSide)]; }
+    const Look& active() const { return looks[std::size_t(activeSide)]; }
     /// What both sides share: where, when and how bright.
     void shareSettings();
 };

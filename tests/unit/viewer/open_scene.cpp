@@ -189,5 +189,17 @@ TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
     EXPECT_FALSE(still.open.showTime(1.0)) << "it has no clip";
 }
 
+TEST(OpenScene, aClipStandsStillAfterItsEnd) {
+    OpenScene open("rigged.gltf", {}, scenes::riggedScene(), {});
+    EXPECT_TRUE(open.playsAt(-1.0));
+    EXPECT_TRUE(open.playsAt(0.999));
+    EXPECT_FALSE(open.playsAt(1.0));
+    EXPECT_TRUE(open.showTime(5.0));
+    EXPECT_FALSE(open.showTime(6.0));
+    EXPECT_EQ(open.geometryRevision(), 1u);
+    EXPECT_TRUE(open.showTime(0.5));
+    EXPECT_FALSE(Opened().open.playsAt(-1e9)) << "it has no clip";
+}
+
 } // namespace
 } // namespace tessera::viewer
