@@ -30,11 +30,18 @@ OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes
 
 bool OpenScene::showTime(double timeSeconds) {
     timeSeconds = std::min(timeSeconds, lastSeconds_);
-    if (!scenes::isPlaying(scene_) || timeSeconds == shownSeconds_) return false;
+    if (!scenes::isPlaying(scene_) || timeSeconds == askedSeconds_) return false;
+    askedSeconds_ = timeSeconds;
+    if (timeSeconds == shownSeconds_) return false; // after one that was refused
+    try {
+        scenes::poseScene(scene_, timeSeconds);
+    } catch (...) {
+        scenes::poseScene(scene_, shownSeconds_);
+        throw;
+    }
     shownSeconds_ = timeSeconds;
     ++revision_;
     ++geometryRevision_;
-    scenes::poseScene(scene_, timeSeconds);
     return true;
 }
 

@@ -38,7 +38,8 @@ public:
         ++materialRevision_;
     }
     /// Shows the scene at a time of the clip that plays, but its lights and cameras, which are edited here. True where
-    /// something may have moved. Throws InputError where something then lies too far away; the next time is tried anew.
+    /// something may have moved. Throws InputError where something then lies too far away; the pose before then stays,
+    /// and the next time is tried anew.
     bool showTime(double timeSeconds);
     /// Whether the clip goes on at a time: after its last key it stands still.
     bool playsAt(double timeSeconds) const { return timeSeconds < lastSeconds_; }
@@ -92,6 +93,7 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, savedEdits_ = 0;
     double lastSeconds_;        ///< when the last key of a clip that plays is; without one long ago
+    double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused
     double shownSeconds_ = 0.0; ///< of the clip
     std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;

@@ -1,6 +1,7 @@
 #include "viewer/session/OpenScene.h"
 
 #include "base/Error.h"
+#include "scenes/Fingerprint.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/CameraTest.h"
 
@@ -171,9 +172,15 @@ TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     EXPECT_EQ(scenes::changedCamera(saved, opened.open.cameraChange()), opened.shown());
 }
 
-TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
+/// riggedScene(), which a camera looks at.
+scenes::Scene riggedAndSeen() {
     scenes::Scene scene = scenes::riggedScene();
     scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
+    return scene;
+}
+
+TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
+    const scenes::Scene scene = riggedAndSeen();
     OpenScene open("rigged.gltf", {}, scene, {});
     open.edit().lights.clear();
     const std::uint64_t revision = open.revision();
@@ -190,7 +197,7 @@ TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
 }
 
 TEST(OpenScene, aClipStandsStillAfterItsEnd) {
-    OpenScene open("rigged.gltf", {}, scenes::riggedScene(), {});
+    OpenScene open("rigged.gltf", {}, riggedAndSeen(), {});
     EXPECT_TRUE(open.playsAt(-1.0));
     EXPECT_TRUE(open.playsAt(0.999));
     EXPECT_FALSE(open.playsAt(1.0));
@@ -199,6 +206,23 @@ TEST(OpenScene, aClipStandsStillAfterItsEnd) {
     EXPECT_EQ(open.geometryRevision(), 1u);
     EXPECT_TRUE(open.showTime(0.5));
     EXPECT_FALSE(Opened().open.playsAt(-1e9)) << "it has no clip";
+}
+
+TEST(OpenScene, aRefusedPoseLeavesTheOneBefore) {
+    scenes::Scene scene = riggedAndSeen();
+    scenes::Clip& clip = scene.rig.clips[0];
+    clip.samplers.push_back({scenes::Interpolation::Step, 3, {0.0f, 0.75f}, {1, 0, 0, 1e16f, 0, 0}});
+    clip.channels.push_back({scenes::AnimatedProperty::Translation, 0, 3});
+    OpenScene open("rigged.gltf", {}, scene, {});
+    ASSERT_TRUE(open.showTime(0.5));
+    const std::uint64_t before = scenes::fingerprint(open.scene());
+    EXPECT_THROW(open.showTime(0.875), InputError);
+    EXPECT_EQ(scenes::fingerprint(open.scene()), before);
+    EXPECT_EQ(open.geometryRevision(), 1u);
+    EXPECT_FALSE(open.showTime(0.875)) << "it was said already";
+    EXPECT_FALSE(open.showTime(0.5)) << "it is shown still";
+    EXPECT_THROW(open.showTime(0.875), InputError);
+    EXPECT_TRUE(open.showTime(0.25));
 }
 
 } // namespace
