@@ -78,7 +78,9 @@ void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
 
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
-    load_ = {};
+    scenes::LoadOptions load; // the file says the rest
+    load.clip = std::move(load_.clip);
+    load_ = std::move(load);
     savedEdits_ = edits_;
     cameras_ = scene_.cameras;
     placed_ = {};

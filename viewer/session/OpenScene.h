@@ -23,7 +23,8 @@ public:
     bool isEdited() const { return edits_ != savedEdits_; }
     /// Counts edits of lights and materials.
     std::uint64_t edits() const { return edits_; }
-    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
+    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays,
+    /// and the clip that was asked for, which a scene file cannot choose.
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }

@@ -196,6 +196,16 @@ TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
     EXPECT_FALSE(still.open.showTime(1.0)) << "it has no clip";
 }
 
+TEST(OpenScene, savingKeepsTheClipThatWasAskedFor) {
+    scenes::LoadOptions load;
+    load.clip = "bend";
+    load.lights = 1;
+    OpenScene open("rigged.gltf", load, riggedAndSeen(), {});
+    open.becomes("/saved.json");
+    EXPECT_EQ(open.load().clip, "bend");
+    EXPECT_FALSE(open.load().lights) << "the file has its lights";
+}
+
 TEST(OpenScene, aClipStandsStillAfterItsEnd) {
     OpenScene open("rigged.gltf", {}, riggedAndSeen(), {});
     EXPECT_TRUE(open.playsAt(-1.0));
