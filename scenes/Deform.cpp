@@ -46,11 +46,21 @@ double sideOf(const glm::dmat4x3& matrix) {
     return determinant < 0.0 ? -1.0 : determinant > 0.0 ? 1.0 : 0.0;
 }
 
-/// Whether the joints mirror more of what follows them than they do not.
+/// Whether more vertices are mirrored than not, each by what it follows.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
+    const double ofOwn = sideOf(matrices.ofOwn);
+    const std::size_t vertices = shape.rest.positionsOS.size();
     double sum = 0.0;
-    for (std::size_t i = 0; i < shape.joints.size(); ++i)
-        if (shape.weights[i] > 0.0f) sum += double(shape.weights[i]) * sideOf(matrices.fromBind[shape.joints[i]]);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        double sides = 0.0, weights = 0.0;
+        for (std::size_t i = v * shape.influences; i < (v + 1) * shape.influences; ++i) {
+            const double weight = double(shape.weights[i]);
+            if (weight == 0.0) continue;
+            sides += weight * sideOf(matrices.fromBind[shape.joints[i]]);
+            weights += weight;
+        }
+        sum += weights > 0.0 ? sides / weights : ofOwn;
+    }
     return sum < 0.0;
 }
 

@@ -15,7 +15,7 @@ struct VertexMatrices {
 /// Deforms a shape: morph targets by their weights, then joints by theirs. Computes in double precision and rounds
 /// once. `mesh` is of the shape's lengths and keeps its name and indices. Without `matrices` its vertices stay in the
 /// shape's own space, and the identity is returned; with them they are stored around their middle, mirrored where most
-/// joints mirror, and what is returned brings them back. Entries of the result are not finite where a vertex is not.
+/// of them are, and what is returned brings them back. Entries of the result are not finite where a vertex is not.
 glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const VertexMatrices* matrices, Mesh& mesh);
 
 } // namespace tessera::scenes

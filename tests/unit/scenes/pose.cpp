@@ -195,6 +195,21 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
     }
 }
 
+TEST(Poses, verticesWithoutWeightAreMirroredWithTheirNode) {
+    for (const double mirror : {1.0, -1.0}) {
+        Scene scene = riggedScene();
+        scene.nodes[0].parentFromNode[0][0] = mirror;
+        scene.rig.shapes[0].weights.assign(12, 0.0f);
+        poseScene(scene, 0.0);
+        EXPECT_EQ(glm::determinant(glm::dmat3(worldFromNodes(scene)[kSkinned])), mirror);
+        expectAt(positionsWS(scene, kSkinned)[1], {2.0 * mirror, 0.0, 0.0});
+        // A third of the mesh follows its node, so the other two say how it is seen.
+        scene.rig.shapes[0].weights = {1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+        poseScene(scene, 0.0);
+        EXPECT_EQ(glm::determinant(glm::dmat3(worldFromNodes(scene)[kSkinned])), 1.0);
+    }
+}
+
 TEST(Poses, singularJointsLeaveUnitNormals) {
     Scene scene = riggedScene();
     scene.nodes[1].parentFromNode = glm::dmat4(0.0);
