@@ -352,7 +352,7 @@ std::string clipText(const Scene& scene) {
     std::string text;
     for (const int playing : rig.playing) {
         const Clip& clip = rig.clips[std::size_t(playing)];
-        text += fmt::format("{}clip '{}' ({} of {}), {:.3g} s", text.empty() ? "" : "; ", clip.name, playing + 1,
+        text += fmt::format("{}clip {} '{}' of {}, {:.3g} s", text.empty() ? "" : "; ", playing, clip.name,
                             rig.clips.size(), lengthSeconds(clip));
     }
     return text;

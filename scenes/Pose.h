@@ -52,7 +52,7 @@ inline constexpr std::string_view kNoClip = "none";
 /// changed to rest. Throws InputError that lists the names.
 void playClip(Scene& scene, const std::string& nameOrNumber);
 
-/// "clip 'Walk' (1 of 3), 1.04 s"; empty where the scene has no clips.
+/// "clip 0 'Walk' of 3, 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
 std::string clipText(const Scene& scene);
 
 /// Takes away lights from number `count` on, and what the rig knows of them.

@@ -337,7 +337,7 @@ TEST(Clips, areChosenByNameThenByNumber) {
     scene.rig.clips[1].name = "0";
     playClip(scene, "0");
     EXPECT_EQ(scene.rig.playing, std::vector{1});
-    EXPECT_EQ(clipText(scene), "clip '0' (2 of 2), 1 s");
+    EXPECT_EQ(clipText(scene), "clip 1 '0' of 2, 1 s");
     playClip(scene, "bend");
     EXPECT_EQ(scene.rig.playing, std::vector{0});
     playClip(scene, "1");
