@@ -104,7 +104,8 @@ public:
 
     /// To be called after vertices of the scene's meshes, transforms of its nodes or factors of its materials were
     /// changed (scenes::applyPose()), but not which instances there are nor their attributes, triangles and textures:
-    /// the next draw() uploads them. No program is compiled anew. The latest frame is gone.
+    /// the next draw() uploads them. Programs and textures stay, unless an emission begins or ends at 0 or other lights
+    /// reach the view. The latest frame is gone.
     void geometryChanged();
 
     /// To be called after the scene got another map of its environment; how that lies and shines may change without
