@@ -50,7 +50,8 @@ int Rigging::skinOf(int index) {
     if (!isNew) return entry->second;
     const Document& document = context_.document;
     const model::Skin& stored = document.model.skins[static_cast<std::size_t>(index)];
-    document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4)), "skins", index);
+    // A pose has a matrix for each, too.
+    document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4) + sizeof(glm::dmat4x3)), "skins", index);
     Skin skin;
     skin.name = nameOr(stored.name, "skin", index);
     for (const int joint : stored.joints) skin.joints.push_back(sceneNodes_[static_cast<std::size_t>(joint)]);
