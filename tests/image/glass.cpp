@@ -280,8 +280,9 @@ TEST_F(Glass, aRoughBodyAgreesWithTheReference) {
                 worst = std::max(worst, double(std::abs(shown[i] - truth.picture.rgba[i])));
             }
             EXPECT_GT(other, 100.0);
-            // At 0 all pixels look one way, so that what the filtered map's texels round there does not average out.
-            EXPECT_NEAR(own, other, (ior > 0.0 ? 0.01 : 0.03) * other) << ior << ", " << infoOf(light).name;
+            // At 0 all pixels look one way, so that what the filtered map's texels round there, 3.3 %, does not average
+            // out.
+            EXPECT_NEAR(own, other, (ior > 0.0 ? 0.01 : 0.05) * other) << ior << ", " << infoOf(light).name;
             EXPECT_LE(worst, 0.1) << ior << ", " << infoOf(light).name; // noise of both; levels between alphas
         }
     }
@@ -355,7 +356,7 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
         fmt::print("{}: {} of {} pixels differ\n", all.materials[material].name, wrong, glass);
         EXPECT_GT(glass, 40);
         // At edges, of masks too, rasterisers show another triangle or texel than rays hit.
-        EXPECT_LE(wrong, glass / 5);
+        EXPECT_LE(wrong, glass / 20);
     }
 }
 
