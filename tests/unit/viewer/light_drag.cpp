@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "scenes/AreaLight.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/unit/viewer/HandleTest.h"
 #include "viewer/edit/LightDrag.h"
 
 namespace tessera::viewer {
@@ -9,24 +9,13 @@ namespace {
 
 constexpr glm::dvec2 kDragPicture{1000.0, test::kHeightPixels};
 
-/// Of a type, away from the origin.
+/// Away from the origin.
 scenes::Light draggedLight(scenes::LightType type) {
-    scenes::Light light;
-    light.type = type;
-    light.positionWS = {0.4, 1.2, -0.3};
-    light.directionWS = glm::normalize(glm::dvec3(0.3, -0.8, 0.4));
-    light.alongWS = scenes::usualAlong(light.directionWS);
-    light.widthMetres = 0.8f;
-    light.heightMetres = 0.5f;
-    light.lengthMetres = 1.1f;
-    light.radiusMetres = 0.3f;
-    return light;
+    return test::askewLight(type, {0.4, 1.2, -0.3});
 }
 
 std::vector<PictureView> dragViews() {
-    const glm::dvec3 eyeWS(1.0, 1.9, 4.0), targetWS(0.3, 1.0, 0.0);
-    return {{test::perspective(eyeWS, targetWS), kDragPicture},
-            {test::orthographic(eyeWS, targetWS, 1.5), kDragPicture}};
+    return test::twoViews({1.0, 1.9, 4.0}, {0.3, 1.0, 0.0});
 }
 
 /// A light whose handle was dragged with the pointer a little beside it.

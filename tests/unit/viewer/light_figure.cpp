@@ -7,7 +7,7 @@
 
 #include "scenes/AreaLight.h"
 #include "tests/unit/docs/Tables.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/unit/viewer/HandleTest.h"
 #include "viewer/edit/LightFigure.h"
 
 namespace tessera::viewer {
@@ -15,23 +15,10 @@ namespace {
 
 constexpr glm::dvec2 kFigurePicture{1000.0, test::kHeightPixels};
 
-/// A light at the origin that shines askew.
-scenes::Light askewLight(scenes::LightType type) {
-    scenes::Light light;
-    light.type = type;
-    light.directionWS = glm::normalize(glm::dvec3(0.3, -0.8, 0.4));
-    light.alongWS = scenes::usualAlong(light.directionWS);
-    light.widthMetres = 0.8f;
-    light.heightMetres = 0.5f;
-    light.lengthMetres = 1.1f;
-    light.radiusMetres = 0.3f;
-    return light;
-}
+using test::askewLight;
 
 std::vector<PictureView> twoViews() {
-    const glm::dvec3 eyeWS(1.0, 0.7, 4.0), targetWS(0.1, 0.2, 0.0);
-    return {{test::perspective(eyeWS, targetWS), kFigurePicture},
-            {test::orthographic(eyeWS, targetWS, 1.5), kFigurePicture}};
+    return test::twoViews({1.0, 0.7, 4.0}, {0.1, 0.2, 0.0});
 }
 
 TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
