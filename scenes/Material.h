@@ -69,11 +69,12 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
-    /// KHR_materials_transmission and _volume, metallic_roughness only (docs/glass.md).
+    /// KHR_materials_transmission, _volume and _dispersion, metallic_roughness only (docs/glass.md).
     float transmission = 0.0f;              ///< 0..1, the share of what enters that passes
     float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: a sheet, which bends no light
     glm::vec3 attenuationColor{1.0f};       ///< 0..1, what is left of white light after the distance
     float attenuationDistanceMetres = 0.0f; ///< 0: the body absorbs nothing
+    float dispersion = 0.0f;                ///< 20 over the body's Abbe number; 0: all colours bend alike
     float normalScale = 1.0f;               ///< scales x and y of a tangent-space normal texel
     float occlusionStrength = 1.0f;         ///< 0..1, of the occlusion texture: 0 leaves it out
     NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
@@ -128,6 +129,7 @@ inline constexpr std::tuple kMaterialFields{
     Field{"attenuationColor", &Material::attenuationColor, "the attenuation's colour", 0.0, 1.0},
     Field{"attenuationDistanceMetres", &Material::attenuationDistanceMetres, "the attenuation's distance", 0.0,
           kAnyNumber},
+    Field{"dispersion", &Material::dispersion, "the dispersion", 0.0, kAnyNumber},
     Field{"normalScale", &Material::normalScale, "the normal map's scale", -kAnyNumber, kAnyNumber},
     Field{"occlusionStrength", &Material::occlusionStrength, "the occlusion's strength", 0.0, 1.0},
     Field{"normalMapSpace", &Material::normalMapSpace},
@@ -270,6 +272,16 @@ constexpr bool takesMasking(MaterialModel model, Masking masking) {
 /// Whether light passes through surfaces with the material.
 constexpr bool isTransmissive(const Material& material) {
     return infoOf(material.model).hasLayers && material.transmission > 0.0f;
+}
+
+/// Whether it has a body below that bends it.
+constexpr bool hasBody(const Material& material) {
+    return isTransmissive(material) && material.thicknessMetres > 0.0f;
+}
+
+/// Whether the body bends each colour by another angle.
+constexpr bool disperses(const Material& material) {
+    return hasBody(material) && material.dispersion > 0.0f;
 }
 
 /// Whether they are drawn on top of what lies behind them, from far to near.

@@ -59,6 +59,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
             {Feature::Transmission, "TRANSMISSION", "transmission", "no material has any"},
             {Feature::Volume, "VOLUME", "bodies of what transmits", "no material that transmits has a thickness"},
+            {Feature::Dispersion, "DISPERSION", "dispersion", "no body that transmits has any"},
             {Feature::Mirrors, "MIRRORS", "mirrors of the environment", "every highlight is broader than those"},
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
             {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended or transmits"},
@@ -125,7 +126,7 @@ bool mayMirror(const scenes::Material& material) {
         (double(material.alphaY) < kSharpAlpha || isTextured(TextureSlot::Anisotropy)))
         return true;
     const float roughness = material.*model.roughness;
-    if (scenes::isTransmissive(material) && material.thicknessMetres > 0.0f &&
+    if (scenes::hasBody(material) &&
         (isTextured(TextureSlot::Ior) || squared(roughness) * passingScale(material.ior) < kSharpAlpha))
         return true;
     switch (model.microsurface) {
@@ -156,7 +157,8 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     set.add(Feature::Clearcoat, model.hasLayers && material.clearcoat > 0.0f);
     set.add(Feature::Sheen, model.hasLayers && material.sheenColor != glm::vec3(0.0f));
     set.add(Feature::Transmission, scenes::isTransmissive(material));
-    set.add(Feature::Volume, scenes::isTransmissive(material) && material.thicknessMetres > 0.0f);
+    set.add(Feature::Volume, scenes::hasBody(material));
+    set.add(Feature::Dispersion, scenes::disperses(material));
     set.add(Feature::Mirrors, mayMirror(material));
     for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
         const scenes::TextureUse& use = material.textures[slot];

@@ -34,6 +34,7 @@ enum class Feature : std::uint8_t {
     Sheen,
     Transmission, // light passes through surfaces
     Volume,       // of which some have a body that bends and absorbs it
+    Dispersion,   // of which some bend each colour by another angle
     Mirrors,      // lobes that may be narrower than those an environment is filtered by; only where one lights surfaces
     AlphaMask,
     Blend,

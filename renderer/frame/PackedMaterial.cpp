@@ -88,6 +88,13 @@ glm::vec3 leftByBody(const scenes::Material& material) {
     return glm::vec3(glm::pow(glm::dvec3(material.attenuationColor), glm::dvec3(distances)));
 }
 
+/// Half of (n_F - n_C) / (n_d - 1), the inverse of the Abbe number, which is 20 over the dispersion. Source:
+/// KHR_materials_dispersion.
+float halfSpread(const scenes::Material& material) {
+    constexpr double kAbbeNumberAtOne = 20.0;
+    return scenes::disperses(material) ? float(0.5 * double(material.dispersion) / kAbbeNumberAtOne) : 0.0f;
+}
+
 /// Half the smallest side of the box around what has the material.
 double bodyRadiusMetres(const scenes::Scene& scene, int material) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
@@ -160,7 +167,7 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
     packed.transmission = glm::vec4(scenes::isTransmissive(material) ? material.transmission : 0.0f,
                                     material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f,
                                     material.thicknessMetres > 0.0f ? 1.0f : 0.0f, 0.0f);
-    packed.attenuation = glm::vec4(leftByBody(material), 0.0f);
+    packed.attenuation = glm::vec4(leftByBody(material), halfSpread(material));
     return packed;
 }
 

@@ -198,8 +198,6 @@ void warnOfIgnoredFeatures(Context& context) {
     for (const std::string& extension : ignoredExtensions(context.document))
         context.warn(
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
-    if (std::ranges::find(model.extensionsUsed, "KHR_materials_dispersion") != model.extensionsUsed.end())
-        context.warn("KHR_materials_dispersion is approximated: its materials bend all colours alike");
     for (std::size_t i = 0; i < model.materials.size(); ++i)
         if (model.materials[i].hasUnreadTexture)
             context.warn(fmt::format("textures of transmission and thickness are not supported; those of material {} "

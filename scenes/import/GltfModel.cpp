@@ -215,6 +215,7 @@ void Material::read(Object& object) {
     object.optional("extensions/KHR_materials_transmission/transmissionFactor", layers.transmission, kFraction);
     object.optional("extensions/KHR_materials_volume/thicknessFactor", layers.thicknessMetres, kFromZero);
     object.optional("extensions/KHR_materials_volume/attenuationColor", layers.attenuationColor, kFraction);
+    object.optional("extensions/KHR_materials_dispersion/dispersion", layers.dispersion, kFromZero);
     constexpr std::string_view kDistance = "extensions/KHR_materials_volume/attenuationDistance";
     std::optional<float> distance; // infinity, which 0 stands for in a scene
     object.optional(kDistance, distance, kFromZero);

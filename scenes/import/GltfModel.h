@@ -163,7 +163,7 @@ inline constexpr TexturePlace kTexturePlaces[] = {
 };
 
 /// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
-/// _sheen, _transmission, _volume.
+/// _sheen, _transmission, _volume, _dispersion.
 struct Material {
     scenes::Material surface;                                    ///< but its textures and index of refraction
     std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces

@@ -107,6 +107,7 @@ public:
                 material_.attenuationColor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
         }
         single("attenuationDistanceMetres", &Material::attenuationDistanceMetres);
+        single("dispersion", &Material::dispersion);
     }
 
     void normalMap() {

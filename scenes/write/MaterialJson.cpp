@@ -97,6 +97,7 @@ public:
             factor("thicknessMetres", material_.thicknessMetres);
             json_["attenuationColor"] = numbers(material_.attenuationColor);
             factor("attenuationDistanceMetres", material_.attenuationDistanceMetres);
+            factor("dispersion", material_.dispersion);
         }
     }
 

@@ -47,7 +47,8 @@ struct MaterialConstants {
     vec4 clearcoatTurn;              // x y z: of the coat's normal map, as y z w of anisotropy
     vec4 transmission;               // x share of what enters that passes, 0 where the model lets none through; y 1
                                      // where opacity covers, as of alpha-blended ones; z 1 where there is a body below
-    vec4 attenuation;                // rgb what the body leaves of white light
+    vec4 attenuation;                // rgb what the body leaves of white light; a half the spread of its indices of
+                                     // refraction over what they are above 1, 0 where all colours bend alike
 };
 
 SHARED_END

@@ -256,10 +256,55 @@ TEST_F(Glass, aBodyShowsTheEnvironmentWhereSnellsLawSays) {
         }
 }
 
+/// KHR_materials_dispersion, by the Abbe number: n_F - n_C = (n_d - 1) / V.
+TEST_F(Glass, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
+    struct Body {
+        double ior, abbeNumber;
+        glm::dvec3 wanted;
+    };
+    const Body bodies[] = {{1.5, 20.0, {1.4875, 1.5, 1.5125}},
+                           {2.0, 5.0, {1.9, 2.0, 2.1}},
+                           {1.5, 0.25, {1.0, 1.5, 2.5}}, // held to 1, as by KHR_materials_dispersion
+                           {0.0, 5.0, {0.0, 0.0, 0.0}}};
+    for (const auto& [ior, abbeNumber, wanted] : bodies)
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            Material glass = bareGlass(ior);
+            glass.dispersion = float(20.0 / abbeNumber);
+            const std::vector<float> shown = drawn(bentPlane(glass), ofSide(kBentPixels, light));
+            double apart = 0.0;
+            for (int y = 0; y < kBentPixels; ++y)
+                for (int x = 0; x < kBentPixels; ++x) {
+                    const float* const pixel = &shown[std::size_t(4 * (y * kBentPixels + x))];
+                    const glm::dvec3 toViewer = toViewerOfBent(x, y);
+                    if (glm::dot(kBentNormal, toViewer) < 0.05) continue;
+                    for (int c = 0; c < 3; ++c)
+                        // As without dispersion.
+                        ASSERT_NEAR(pixel[c], bentSkyAlong(*bentDirection(toViewer, wanted[c])), 1e-3)
+                            << ior << ", " << abbeNumber << ", " << infoOf(light).name << " at " << x << ", " << y;
+                    apart = std::max(apart, double(std::abs(pixel[0] - pixel[2])));
+                }
+            EXPECT_EQ(apart > 5e-3, ior > 0.0) << apart;
+        }
+}
+
+/// Bodies that bend all colours alike take other code beside one that does not, and the same bits.
+TEST_F(Glass, dispersionElsewhereInASceneChangesNoBit) {
+    Scene scene = bentPlane(bareGlass(1.5, 0.3));
+    const std::vector<float> alone = drawn(scene, ofSide(kBentPixels));
+    Material dispersing = bareGlass(1.5, 0.3);
+    dispersing.dispersion = 1.0f;
+    scene.materials.push_back(dispersing);
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes.back().instances[0].material = 1;
+    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 500.0, 1.0}; // behind the camera
+    EXPECT_EQ(drawn(scene, ofSide(kBentPixels)), alone);
+}
+
 /// Roughness spreads light by the index of refraction: none at 1, all from 1.5 on and at 0, which has no bound.
 TEST_F(Glass, aRoughBodyAgreesWithTheReference) {
-    for (const double ior : {1.0, 1.25, 1.5, 0.0}) {
+    for (const double ior : {1.0, 1.25, 1.5, 2.0, 0.0}) {
         Material rough = bareGlass(ior, 0.6);
+        if (ior == 2.0) rough.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
         rough.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
         rough.attenuationDistanceMetres = 0.2f;
         rough.attenuationColor = {0.25f, 0.5f, 0.75f};
@@ -301,6 +346,7 @@ Scene sceneWithGlass() {
     coated.thicknessMetres = 0.1f;
     coated.attenuationDistanceMetres = 0.2f;
     coated.attenuationColor = {0.9f, 0.4f, 0.2f};
+    coated.dispersion = 1.0f;
     return scene;
 }
 
@@ -408,8 +454,12 @@ TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
     EXPECT_THAT(planText(engine::planFrame(scene, Technique::Deferred, {})), ::testing::HasSubstr("transmission"))
         << "told as left out";
     scene.materials[0].transmission = 0.5f;
+    scene.materials[0].dispersion = 1.0f;
     EXPECT_THAT(valuesOf(scene, "HAS_TRANSMISSION"), ::testing::Contains("1"));
     EXPECT_THAT(valuesOf(scene, "HAS_VOLUME"), Each("0"));
+    EXPECT_THAT(valuesOf(scene, "HAS_DISPERSION"), Each("0")) << "a sheet bends no light";
+    scene.materials[0].thicknessMetres = 0.1f;
+    EXPECT_THAT(valuesOf(scene, "HAS_DISPERSION"), ::testing::Contains("1"));
 }
 
 } // namespace

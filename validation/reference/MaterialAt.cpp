@@ -67,6 +67,7 @@ void setTransmission(const scenes::Material& material, SurfacePoint& point) {
     point.transmission = double(material.transmission);
     const double thickness = double(material.thicknessMetres), distance = double(material.attenuationDistanceMetres);
     point.hasBody = thickness > 0.0;
+    if (point.hasBody) point.dispersion = double(material.dispersion);
     if (point.hasBody && distance > 0.0)
         for (int c = 0; c < 3; ++c) {
             const double absorptionPerMetre = -std::log(double(material.attenuationColor[c])) / distance;

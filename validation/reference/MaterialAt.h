@@ -36,6 +36,7 @@ struct SurfacePoint {
     double transmission = 0.0;        ///< 0..1, KHR_materials_transmission
     bool hasBody = false;             ///< that bends and absorbs what passes, KHR_materials_volume
     glm::dvec3 leftByBody{1.0};       ///< of what passes, by channel
+    double dispersion = 0.0;          ///< 20 over the Abbe number, KHR_materials_dispersion
     double passingAlpha = 1.0;        ///< of GGX, by which a body spreads it
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that it goes round

@@ -268,16 +268,23 @@ glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return share * point.color * point.leftByBody * glm::max(1.0 - reflected, glm::dvec3(0.0));
 }
 
-std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer, double ior) {
     const double cosView = glm::dot(point.normal, toViewer);
     const glm::dvec3 outward = cosView < 0.0 ? -point.normal : point.normal;
     const glm::dvec3 across = toViewer - glm::dot(toViewer, outward) * outward;
     // KHR_materials_ior: 0 is an index without bound.
-    const double sine = glm::length(across), bentSine = point.ior > 0.0 ? sine / point.ior : 0.0;
+    const double sine = glm::length(across), bentSine = ior > 0.0 ? sine / ior : 0.0;
     if (!(bentSine <= 1.0)) return std::nullopt;
     const glm::dvec3 along = sine > 0.0 ? across / sine : glm::dvec3(0.0);
     const double angle = std::asin(bentSine);
     return -std::cos(angle) * outward - std::sin(angle) * along;
+}
+
+glm::dvec3 iorsOf(const SurfacePoint& point) {
+    if (!(point.dispersion > 0.0) || point.ior <= 1.0) return glm::dvec3(point.ior);
+    const double abbeNumber = 20.0 / point.dispersion; // (n_d - 1) / (n_F - n_C)
+    const double fromRedToBlue = (point.ior - 1.0) / abbeNumber;
+    return {std::max(point.ior - fromRedToBlue / 2.0, 1.0), point.ior, point.ior + fromRedToBlue / 2.0};
 }
 
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare) {

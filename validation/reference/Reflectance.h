@@ -53,8 +53,12 @@ glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const 
 /// What shows through a surface that transmits of a radiance behind it, by channel.
 glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer);
 
-/// Along which the light came, unit, that leaves a body towards the viewer; nothing where none gets out.
-std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer);
+/// Along which the light came, unit, that leaves a body towards the viewer; nothing where none gets out. By Snell's law
+/// for an index of refraction, 0 of which stands for infinity.
+std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer, double ior);
+
+/// The body's index of refraction for red, green and blue. Source: KHR_materials_dispersion.
+glm::dvec3 iorsOf(const SurfacePoint& point);
 
 /// What leaves towards the viewer of light that has spread below the surface.
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare);

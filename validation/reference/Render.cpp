@@ -373,12 +373,20 @@ private:
             lit.passed = share;
             return;
         }
-        const std::optional<glm::dvec3> direction = refracted(point, toViewer);
-        if (!direction) return;
         if (seen.throughBodies.size() <= surface) seen.throughBodies.resize(surface + 1);
         std::optional<glm::dvec3>& light = seen.throughBodies[surface];
-        if (!light) light = surroundings_.around(*direction, point.passingAlpha, seen.seed);
+        if (!light) light = throughBody(point, toViewer, seen.seed);
         lit.radiance += share * *light;
+    }
+
+    glm::dvec3 throughBody(const SurfacePoint& point, const glm::dvec3& toViewer, std::uint32_t seed) const {
+        const auto along = [&](double ior) {
+            const std::optional<glm::dvec3> direction = refracted(point, toViewer, ior);
+            return direction ? surroundings_.around(*direction, point.passingAlpha, seed) : glm::dvec3(0.0);
+        };
+        const glm::dvec3 iors = iorsOf(point);
+        if (iors.r == iors.b) return along(iors.g);
+        return {along(iors.r).r, along(iors.g).g, along(iors.b).b};
     }
 
     /// What all lights below the horizon give.

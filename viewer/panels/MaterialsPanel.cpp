@@ -32,6 +32,8 @@ bool transmissionRows(Material& material) {
     changed |= logarithmicSlider("Absorbs in", material.attenuationDistanceMetres, 0.0f, kMostThicknessShown,
                                  material.attenuationDistanceMetres == 0.0f ? "never" : "%.3g m");
     if (material.attenuationDistanceMetres > 0.0f) changed |= colorRow("Down to", material.attenuationColor);
+    changed |= slider("Dispersion", material.dispersion, 0.0f, kMostDispersionShown);
+    tip("20 over the Abbe number: 0.3 for crown glass, 0.6 for flint glass");
     return changed;
 }
 

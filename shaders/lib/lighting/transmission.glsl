@@ -1,4 +1,5 @@
-// Light that passes through a surface towards the viewer (docs/glass.md). Source: KHR_materials_transmission and _volume.
+// Light that passes through a surface towards the viewer (docs/glass.md). Source: KHR_materials_transmission, _volume and
+// _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
 #if HAS_ENVIRONMENT && ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
@@ -37,6 +38,18 @@ vec3 refractedDirection(vec3 normal, vec3 toViewer, float ior)
     return safeNormalize(direction, -outward);
 }
 
+#if HAS_DISPERSION
+// The index of refraction of red, green and blue: that of the material is green's, and none falls below 1 from above it.
+// An index of 0, which has no bound, has no spread. Source: KHR_materials_dispersion.
+vec3 iorByChannel(float ior)
+{
+    precise float spread = max(ior - 1.0, 0.0) * material.attenuation.a;
+    precise float red = max(ior - spread, min(ior, 1.0));
+    precise float blue = ior + spread;
+    return vec3(red, ior, blue);
+}
+#endif
+
 // The environment around a direction, as its filtered map averages it: by a GGX lobe seen from its own axis, weighted by
 // the cosine.
 vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
@@ -61,6 +74,27 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 }
 #endif
 
+#if HAS_ENVIRONMENT && HAS_VOLUME
+// The environment that a body shows; black in channels of which it lets nothing out.
+vec3 surroundingsThrough(Surface surface, vec3 toViewerLS, vec2 pixel)
+{
+    vec3 light = vec3(0.0);
+#if HAS_DISPERSION
+    if (material.attenuation.a > 0.0) {
+        vec3 iors = iorByChannel(surface.passingIor);
+        for (int c = 0; c < 3; ++c) {
+            vec3 bent = refractedDirection(surface.normalLS, toViewerLS, iors[c]);
+            if (bent != vec3(0.0)) light[c] = surroundingsAlong(bent, surface.passingAlpha, pixel)[c];
+        }
+        return light;
+    }
+#endif
+    vec3 direction = refractedDirection(surface.normalLS, toViewerLS, surface.passingIor);
+    if (direction != vec3(0.0)) light = surroundingsAlong(direction, surface.passingAlpha, pixel);
+    return light;
+}
+#endif
+
 // What comes through a surface: radiance of its own, and what it keeps of the radiance behind it, by channel.
 struct ThroughSurface {
     vec3 radiance;
@@ -73,12 +107,9 @@ ThroughSurface lightThrough(Surface surface, Viewpoint viewpoint, vec2 pixel)
     ThroughSurface through = ThroughSurface(vec3(0.0), passedShare(seen));
 #if HAS_ENVIRONMENT && HAS_VOLUME
     if (material.transmission.z > 0.0) {
-        vec3 direction = refractedDirection(surface.normalLS, viewpoint.toViewerLS, surface.passingIor);
-        if (direction != vec3(0.0)) {
-            vec3 light = surroundingsAlong(direction, surface.passingAlpha, pixel);
-            precise vec3 radiance = through.kept * light * environment.light.x;
-            through.radiance = radiance;
-        }
+        vec3 light = surroundingsThrough(surface, viewpoint.toViewerLS, pixel);
+        precise vec3 radiance = through.kept * light * environment.light.x;
+        through.radiance = radiance;
         through.kept = vec3(0.0);
     }
 #endif

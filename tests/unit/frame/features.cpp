@@ -113,6 +113,12 @@ std::vector<Change> changes() {
              m.transmission = 0.1f;
              m.thicknessMetres = 0.1f;
          })},
+        {Feature::Dispersion, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.transmission = 0.1f;
+             m.thicknessMetres = 0.1f;
+             m.dispersion = 0.1f;
+         })},
         {Feature::Mirrors, material([](Material& m) {
              m.model = MaterialModel::MetallicRoughness;
              m.perceptualRoughness = 0.1f;

@@ -96,6 +96,19 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     EXPECT_EQ(packMaterial(material).transmission.x, 0.0f);
 }
 
+TEST(PackedMaterial, onlyABodyOfWhatTransmitsDisperses) {
+    Material material;
+    material.dispersion = 0.5f; // an Abbe number of 40
+    const auto spread = [&] { return packMaterial(material).attenuation.a; };
+    EXPECT_EQ(spread(), 0.0f);
+    material.transmission = 1.0f;
+    EXPECT_EQ(spread(), 0.0f) << "a sheet";
+    material.thicknessMetres = 0.1f;
+    EXPECT_EQ(spread(), 0.0125f);
+    material.model = MaterialModel::Lambert;
+    EXPECT_EQ(spread(), 0.0f);
+}
+
 TEST(PackedMaterial, transformsOfTexturesWithVectorsRotateTheVectors) {
     Material material;
     material.clearcoat = 1.0f;

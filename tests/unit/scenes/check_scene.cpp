@@ -113,6 +113,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"thickness must", [](Scene& s) { s.materials[0].thicknessMetres = -0.1f; }},
         {"attenuation's colour", [](Scene& s) { s.materials[0].attenuationColor.y = 1.5f; }},
         {"attenuation's distance", [](Scene& s) { s.materials[0].attenuationDistanceMetres = kNaN; }},
+        {"dispersion must", [](Scene& s) { s.materials[0].dispersion = -0.1f; }},
         {"specular colour", [](Scene& s) { s.materials[0].specularColor.x = kInfinity; }},
         {"metalness", [](Scene& s) { s.materials[0].metallic = 1.5f; }},
         {"roughness", [](Scene& s) { s.materials[0].perceptualRoughness = kNaN; }},

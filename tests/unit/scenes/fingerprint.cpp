@@ -80,6 +80,7 @@ const std::vector<Change>& changes() {
         {"material.thickness", [](Scene& s) { s.materials[0].thicknessMetres = 0.5f; }},
         {"material.attenuationColor", [](Scene& s) { s.materials[0].attenuationColor.z = 0.5f; }},
         {"material.attenuationDistance", [](Scene& s) { s.materials[0].attenuationDistanceMetres = 0.5f; }},
+        {"material.dispersion", [](Scene& s) { s.materials[0].dispersion = 0.5f; }},
         {"material.normalScale", [](Scene& s) { s.materials[0].normalScale = 0.5f; }},
         {"material.occlusionStrength", [](Scene& s) { s.materials[0].occlusionStrength = 0.5f; }},
         {"material.normalMapSpace", [](Scene& s) { s.materials[0].normalMapSpace = NormalMapSpace::Object; }},

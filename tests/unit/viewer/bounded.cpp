@@ -40,6 +40,7 @@ scenes::Material materialAtBounds(bool isMost) {
     material.transmission = share;
     material.attenuationColor = glm::vec3(share);
     material.thicknessMetres = material.attenuationDistanceMetres = isMost ? kMostThicknessShown : 0.0f;
+    material.dispersion = isMost ? kMostDispersionShown : 0.0f;
     material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
     for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {
         for (const scenes::MaterialParameter& parameter : model.parameters) {

@@ -41,17 +41,21 @@ TEST(GltfMaterials, transmissionAndVolumeAreImportedExactly) {
     const Material material = importedMaterial(R"({"extensions": {
         "KHR_materials_transmission": {"transmissionFactor": 0.75},
         "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2,
-                                 "attenuationColor": [0.25, 0.5, 1]}}})");
+                                 "attenuationColor": [0.25, 0.5, 1]},
+        "KHR_materials_dispersion": {"dispersion": 0.375}}})");
     EXPECT_EQ(material.transmission, 0.75f);
     EXPECT_EQ(material.thicknessMetres, 0.5f);
     EXPECT_EQ(material.attenuationDistanceMetres, 2.0f);
     EXPECT_EQ(material.attenuationColor, glm::vec3(0.25f, 0.5f, 1.0f));
+    EXPECT_EQ(material.dispersion, 0.375f);
     const Material plain = importedMaterial(R"({"extensions": {"KHR_materials_transmission": {},
-                                               "KHR_materials_volume": {}}})");
+                                               "KHR_materials_volume": {},
+                                               "KHR_materials_dispersion": {}}})");
     EXPECT_EQ(plain.transmission, 0.0f);
     EXPECT_EQ(plain.thicknessMetres, 0.0f);
     EXPECT_EQ(plain.attenuationDistanceMetres, 0.0f) << "nothing is absorbed";
     EXPECT_EQ(plain.attenuationColor, glm::vec3(1.0f));
+    EXPECT_EQ(plain.dispersion, 0.0f);
 }
 
 TEST(GltfMaterials, texturesOfTransmissionAndThicknessAreWarnedOf) {

@@ -255,18 +255,22 @@ TEST(SceneJsonMaterials, layersOfMetallicRoughnessHaveTheirParametersAndTextures
 TEST(SceneJsonMaterials, glassHasItsTransmissionThicknessAndAttenuation) {
     const SceneFolder folder;
     const Material material = sceneOf(folder, R"("model": "metallic_roughness", "transmission": 0.75,
-        "thicknessMetres": 0.02, "attenuationColor": [0.1, 0.5, 1], "attenuationDistanceMetres": 0.125)")
+        "thicknessMetres": 0.02, "attenuationColor": [0.1, 0.5, 1], "attenuationDistanceMetres": 0.125,
+        "dispersion": 0.25)")
                                   .materials[0];
     EXPECT_EQ(material.transmission, 0.75f);
     EXPECT_EQ(material.thicknessMetres, 0.02f);
     EXPECT_EQ(material.attenuationColor, glm::vec3(0.1f, 0.5f, 1.0f));
     EXPECT_EQ(material.attenuationDistanceMetres, 0.125f);
+    EXPECT_EQ(material.dispersion, 0.25f);
     EXPECT_TRUE(isTransparent(material)) << "whatever its alpha mode";
     EXPECT_EQ(material.alphaMode, AlphaMode::Opaque);
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "transmission": 2)"),
               "/materials/0/transmission: is 2; at most 1 is allowed");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "thicknessMetres": -1)"),
               "/materials/0/thicknessMetres: is -1; at least 0 is needed");
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "dispersion": -1)"),
+              "/materials/0/dispersion: is -1; at least 0 is needed");
     EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "attenuationColor": [0, 2, 0])"),
               "/materials/0/attenuationColor/1: is 2; at most 1 is allowed");
 }

@@ -143,7 +143,7 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
         "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, transmission, "
-        "thicknessMetres, attenuationColor, attenuationDistanceMetres, normalMap, occlusionMap, tangents, "
+        "thicknessMetres, attenuationColor, attenuationDistanceMetres, dispersion, normalMap, occlusionMap, tangents, "
         "subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),
               "/overrides/0/node: is overridden by nothing; add a 'material' or 'castsShadow'");

@@ -65,12 +65,12 @@ public:
         material.model = model;
         material.baseColor = glm::vec4(color(), share());
         material.emissive = 5.0f * color();
-        for (float* member :
-             {&material.metallic, &material.perceptualRoughness, &material.alpha, &material.alphaY,
-              &material.specularFactor, &material.anisotropyStrength, &material.clearcoat,
-              &material.clearcoatPerceptualRoughness, &material.sheenPerceptualRoughness, &material.normalScale,
-              &material.clearcoatNormalScale, &material.alphaCutoff, &material.anisotropyRotationRadians,
-              &material.transmission, &material.thicknessMetres, &material.attenuationDistanceMetres})
+        for (float* member : {&material.metallic, &material.perceptualRoughness, &material.alpha, &material.alphaY,
+                              &material.specularFactor, &material.anisotropyStrength, &material.clearcoat,
+                              &material.clearcoatPerceptualRoughness, &material.sheenPerceptualRoughness,
+                              &material.normalScale, &material.clearcoatNormalScale, &material.alphaCutoff,
+                              &material.anisotropyRotationRadians, &material.transmission, &material.thicknessMetres,
+                              &material.attenuationDistanceMetres, &material.dispersion})
             *member = share();
         material.masking = Masking::HalfVector;
         material.exponent = 50.0f * share();

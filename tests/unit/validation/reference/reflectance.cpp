@@ -272,7 +272,7 @@ TEST(ReferenceReflectance, lightIsBentBySnellsLawAndNotBeyondTheCriticalAngle) {
         const glm::dvec3 toViewer = random.direction();
         const glm::dvec3 outward = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
         const double sine = glm::length(glm::cross(outward, toViewer));
-        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer, point.ior);
         ASSERT_EQ(bent.has_value(), sine <= point.ior);
         total += bent ? 0 : 1;
         if (!bent) continue;
@@ -292,7 +292,7 @@ TEST(ReferenceReflectance, anIndexOf0BendsLightOntoTheNormalAsOneWithoutBound) {
         point.normal = random.direction();
         point.ior = 0.0;
         const glm::dvec3 toViewer = random.direction();
-        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer, point.ior);
         ASSERT_TRUE(bent);
         const glm::dvec3 outward = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
         EXPECT_LE(glm::distance(*bent, -outward), 1e-12);
@@ -306,9 +306,27 @@ TEST(ReferenceReflectance, atBrewstersAngleLightIsBentAtRightAnglesToItsMirrorIm
         point.ior = ior;
         const double angle = std::atan(ior);
         const glm::dvec3 toViewer(std::sin(angle), 0.0, std::cos(angle));
-        const std::optional<glm::dvec3> bent = refracted(point, toViewer);
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer, point.ior);
         ASSERT_TRUE(bent);
         EXPECT_NEAR(glm::dot(*bent, glm::dvec3(-toViewer.x, 0.0, toViewer.z)), 0.0, 1e-12) << ior;
+    }
+}
+
+/// An Abbe number of 20: the indices of blue and red are a twentieth of n_d - 1 apart, and none is below 1.
+TEST(ReferenceReflectance, colorsAreBentByTheirOwnIndicesOfRefraction) {
+    SurfacePoint point;
+    point.ior = 1.5;
+    EXPECT_EQ(iorsOf(point), glm::dvec3(1.5));
+    point.dispersion = 1.0;
+    const glm::dvec3 iors = iorsOf(point);
+    EXPECT_NEAR(iors.b - iors.r, 0.025, 1e-15);
+    EXPECT_EQ(iors.g, 1.5);
+    EXPECT_NEAR(0.5 * (iors.r + iors.b), 1.5, 1e-15);
+    point.dispersion = 100.0;
+    EXPECT_EQ(iorsOf(point).r, 1.0);
+    for (const double ior : {0.0, 0.5, 1.0}) {
+        point.ior = ior;
+        EXPECT_EQ(iorsOf(point), glm::dvec3(ior));
     }
 }
 
