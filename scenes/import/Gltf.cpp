@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -186,6 +187,52 @@ private:
     std::map<int, std::vector<MeshInstance>> imported_;
 };
 
+/// Of lengths and squares of them, relative: far above the rounding of matrices, and far below what shows.
+constexpr double kSameScale = 1e-4;
+
+/// By which a matrix scales lengths in all directions; nothing where that depends on the direction.
+std::optional<double> uniformScale(const glm::dmat4& matrix) {
+    const double scale = glm::length(glm::dvec3(matrix[0])), square = scale * scale;
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) {
+            const double wanted = i == j ? square : 0.0;
+            if (std::abs(glm::dot(glm::dvec3(matrix[i]), glm::dvec3(matrix[j])) - wanted) > kSameScale * square)
+                return std::nullopt;
+        }
+    return scale;
+}
+
+/// A document states thicknesses in the space of each mesh, the scene in metres of the world. Source:
+/// KHR_materials_volume, "Properties". What a skin moves is taken to be as large as its mesh.
+void placeThicknesses(Context& context, const Materials& materials, const std::vector<PlacedNode>& allPlaced) {
+    const model::Model& model = context.document.model;
+    std::map<int, std::optional<double>> scales; // that all nodes share, by the document's material
+    for (const PlacedNode& placed : allPlaced) {
+        const model::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
+        if (!placed.isDrawn || node.mesh == kNone) continue;
+        const std::optional<double> scale = node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0;
+        if (scale == 0.0) continue; // nothing is seen
+        for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+            const auto [entry, isNew] = scales.try_emplace(primitive.material, scale);
+            std::optional<double>& shared = entry->second;
+            if (!isNew && shared && !(scale && std::abs(*scale - *shared) <= kSameScale * *shared)) shared.reset();
+        }
+    }
+    for (const auto& [material, scale] : scales) {
+        const std::optional<int> imported = materials.imported(material);
+        if (!imported) continue;
+        Material& placed = context.scene.materials[static_cast<std::size_t>(*imported)];
+        if (scale) {
+            const double most = fieldOf(kMaterialFields, &Material::thicknessMetres).most;
+            placed.thicknessMetres = static_cast<float>(std::min(double(placed.thicknessMetres) * *scale, most));
+        } else if (hasBody(placed)) {
+            context.warn(fmt::format("the thickness of material {} is taken in metres, since the nodes that show it do "
+                                     "not share one scale that is the same in all directions",
+                                     material));
+        }
+    }
+}
+
 /// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
 std::string_view drawnInstead(std::string_view extension) {
     return extension == "KHR_materials_diffuse_transmission" ? "; its materials let through only what their alpha does"
@@ -248,6 +295,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         rigging.addCarried(placed.node);
     }
     rigging.finish();
+    placeThicknesses(context, materials, allPlaced);
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }

@@ -58,6 +58,49 @@ TEST(GltfMaterials, transmissionAndVolumeAreImportedExactly) {
     EXPECT_EQ(plain.dispersion, 0.0f);
 }
 
+/// A pane 0.5 thick in its mesh's space, and what is imported of it.
+Scene paneOf(const char* nodes, const char* roots = "[0]") {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"extensions": {
+        "KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2}}})"));
+    builder.json["nodes"] = Json::parse(nodes);
+    builder.json["scenes"][0]["nodes"] = Json::parse(roots);
+    return builder.import();
+}
+
+constexpr const char* kNoOneScale = "the thickness of material 0 is taken in metres";
+
+TEST(GltfMaterials, aThicknessIsScaledAsTheNodesThatShowIt) {
+    const auto expectThickness = [](const Scene& scene, float wantedMetres) {
+        EXPECT_FLOAT_EQ(scene.materials.at(0).thicknessMetres, wantedMetres);
+        EXPECT_EQ(scene.materials.at(0).attenuationDistanceMetres, 2.0f) << "which is one of the world";
+        EXPECT_FALSE(hasWarning(scene, kNoOneScale));
+    };
+    expectThickness(paneOf(R"([{"mesh": 0}])"), 0.5f);
+    expectThickness(paneOf(R"([{"mesh": 0, "scale": [3, 3, 3]}])"), 1.5f);
+    expectThickness(paneOf(R"([{"mesh": 0, "scale": [-2, 2, 2]}])"), 1.0f);
+    // Turned, below a parent, and twice alike.
+    expectThickness(paneOf(R"([{"children": [1, 2], "scale": [0.5, 0.5, 0.5]},
+                               {"mesh": 0, "scale": [4, 4, 4], "rotation": [0.6, 0, 0, 0.8]},
+                               {"mesh": 0, "scale": [4, 4, 4], "translation": [1, 2, 3]}])"),
+                    1.0f);
+    // Nothing is seen of the second, and the third is no part of the scene.
+    expectThickness(
+        paneOf(R"([{"mesh": 0, "scale": [3, 3, 3]}, {"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 0}])", "[0, 1]"), 1.5f);
+}
+
+TEST(GltfMaterials, aThicknessWithoutOneScaleStaysAsItIsWithAWarning) {
+    for (const char* nodes :
+         {R"([{"mesh": 0, "scale": [1, 1, 2]}])",
+          R"([{"mesh": 0, "matrix": [1,0,0,0, 0.6,0.8,0,0, 0,0,1,0, 0,0,0,1]}])", // sheared
+          R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [2, 2, 2]}])"}) {
+        const Scene scene = paneOf(nodes);
+        EXPECT_EQ(scene.materials.at(0).thicknessMetres, 0.5f) << nodes;
+        EXPECT_TRUE(hasWarning(scene, kNoOneScale)) << nodes;
+    }
+}
+
 TEST(GltfMaterials, texturesOfTransmissionAndThicknessAreWarnedOf) {
     Builder builder;
     builder.material().merge_patch(Json::parse(R"({"extensions": {
