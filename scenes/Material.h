@@ -69,6 +69,10 @@ struct Material {
     float clearcoatNormalScale = 1.0f;
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
+    /// KHR_materials_iridescence, metallic_roughness only: a thin film on the surface (docs/iridescence.md).
+    float iridescence = 0.0f;              ///< 0..1, the film's share
+    float iridescenceIor = 1.3f;           ///< at least 1
+    float iridescenceThicknessNm = 400.0f; ///< nanometres; 0: no film
     /// KHR_materials_transmission, _volume and _dispersion, metallic_roughness only (docs/glass.md).
     float transmission = 0.0f;              ///< 0..1, the share of what enters that passes
     float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: a sheet, which bends no light
@@ -124,6 +128,9 @@ inline constexpr std::tuple kMaterialFields{
           kAnyNumber},
     Field{"sheenColor", &Material::sheenColor, "the sheen's colour", 0.0, 1.0},
     Field{"sheenPerceptualRoughness", &Material::sheenPerceptualRoughness, "the sheen's roughness", 0.0, 1.0},
+    Field{"iridescence", &Material::iridescence, "the iridescence", 0.0, 1.0},
+    Field{"iridescenceIor", &Material::iridescenceIor, "the film's index of refraction", 1.0, kMostIor},
+    Field{"iridescenceThicknessNm", &Material::iridescenceThicknessNm, "the film's thickness", 0.0, kAnyNumber},
     Field{"transmission", &Material::transmission, "the transmission", 0.0, 1.0},
     Field{"thicknessMetres", &Material::thicknessMetres, "the thickness", 0.0, kAnyNumber},
     Field{"attenuationColor", &Material::attenuationColor, "the attenuation's colour", 0.0, 1.0},
@@ -201,7 +208,8 @@ struct MaterialModelInfo {
     float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
     Anisotropy anisotropy = Anisotropy::None;
-    bool hasLayers = false; ///< emission, clearcoat, sheen and transmission, which scene files and the viewer spell out
+    bool hasLayers =
+        false; ///< emission, clearcoat, sheen, a film and transmission, which scene files and the viewer spell out
     bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
 };
 
@@ -269,6 +277,11 @@ constexpr bool takesMasking(MaterialModel model, Masking masking) {
            info.anisotropy == Anisotropy::Alphas;
 }
 
+/// Whether a film covers surfaces with the material.
+constexpr bool isIridescent(const Material& material) {
+    return infoOf(material.model).hasLayers && material.iridescence > 0.0f && material.iridescenceThicknessNm > 0.0f;
+}
+
 /// Whether light passes through surfaces with the material.
 constexpr bool isTransmissive(const Material& material) {
     return infoOf(material.model).hasLayers && material.transmission > 0.0f;
@@ -290,10 +303,11 @@ constexpr bool isTransparent(const Material& material) {
 }
 
 /// How light that enters a surface with the material leaves it elsewhere. A method that would change nothing is none,
-/// and so is any where light passes through.
+/// and so is any where light passes through or a film covers the surface.
 inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest request) {
     const Subsurface& subsurface = material.subsurface;
-    if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None || isTransmissive(material))
+    if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None || isTransmissive(material) ||
+        isIridescent(material))
         return SubsurfaceMethod::None;
     const SubsurfaceMethod method = request.value_or(subsurface.method);
     const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);

@@ -57,6 +57,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Anisotropy, "ANISOTROPY", "anisotropy by strength", "no material has any"},
             {Feature::Clearcoat, "CLEARCOAT", "clearcoat", "no material has any"},
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
+            {Feature::Iridescence, "IRIDESCENCE", "thin films", "no material has any"},
             {Feature::Transmission, "TRANSMISSION", "transmission", "no material has any"},
             {Feature::Volume, "VOLUME", "bodies of what transmits", "no material that transmits has a thickness"},
             {Feature::Dispersion, "DISPERSION", "dispersion", "no body that transmits has any"},
@@ -65,7 +66,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended or transmits"},
             {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
             {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
-             "no texture but normal maps, no vertex colour and no anisotropy changes one"},
+             "no texture but normal maps, no vertex colour, no anisotropy and no thin film changes one"},
             {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
             {Feature::Environment, "ENVIRONMENT", "light of the environment", "the scene has no environment"},
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
@@ -87,17 +88,17 @@ bool changesSpecular(const scenes::Material& material) {
     const scenes::Highlight highlight = scenes::infoOf(material.model).highlight;
     if (highlight == scenes::Highlight::Tinted) return tinted;
     return highlight == scenes::Highlight::Dielectric &&
-           (tinted || material.ior != 1.5f || material.texture(scenes::TextureSlot::Ior).image != scenes::kNone ||
-            material.specularFactor != 1.0f ||
+           (tinted || scenes::isIridescent(material) || material.ior != 1.5f ||
+            material.texture(scenes::TextureSlot::Ior).image != scenes::kNone || material.specularFactor != 1.0f ||
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
 }
 
 /// Whether pixels of a material may differ in more than directions: by any texture that is no normal map, whether its
-/// model uses it or not, and by anisotropy, which turns its alphas with the tangent.
+/// model uses it or not, by anisotropy, which turns its alphas with the tangent, and by a film.
 bool varies(const scenes::Material& material) {
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
         if (!slot.isNormal && material.texture(slot.slot).image != scenes::kNone) return true;
-    return scenes::isAnisotropic(material);
+    return scenes::isAnisotropic(material) || scenes::isIridescent(material);
 }
 
 /// Below it the light of an environment is not its filtered map's alone (shaders/lib/reflectance/mirrors.glsl). A tenth
@@ -156,6 +157,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
             model.anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f);
     set.add(Feature::Clearcoat, model.hasLayers && material.clearcoat > 0.0f);
     set.add(Feature::Sheen, model.hasLayers && material.sheenColor != glm::vec3(0.0f));
+    set.add(Feature::Iridescence, scenes::isIridescent(material));
     set.add(Feature::Transmission, scenes::isTransmissive(material));
     set.add(Feature::Volume, scenes::hasBody(material));
     set.add(Feature::Dispersion, scenes::disperses(material));

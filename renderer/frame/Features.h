@@ -32,6 +32,7 @@ enum class Feature : std::uint8_t {
     Anisotropy,
     Clearcoat,
     Sheen,
+    Iridescence,  // thin films on surfaces, which change what they reflect by the angle to the viewer
     Transmission, // light passes through surfaces
     Volume,       // of which some have a body that bends and absorbs it
     Dispersion,   // of which some bend each colour by another angle

@@ -168,6 +168,9 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
                                     material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f,
                                     material.thicknessMetres > 0.0f ? 1.0f : 0.0f, 0.0f);
     packed.attenuation = glm::vec4(leftByBody(material), halfSpread(material));
+    constexpr double kMicrometresPerNanometre = 1e-3;
+    packed.film = glm::vec4(scenes::isIridescent(material) ? material.iridescence : 0.0f, material.iridescenceIor,
+                            float(kMicrometresPerNanometre * double(material.iridescenceThicknessNm)), 0.0f);
     return packed;
 }
 

@@ -247,9 +247,10 @@ void warnOfIgnoredFeatures(Context& context) {
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
     for (std::size_t i = 0; i < model.materials.size(); ++i)
         if (model.materials[i].hasUnreadTexture)
-            context.warn(fmt::format("textures of transmission and thickness are not supported; those of material {} "
-                                     "were ignored, and its factors hold everywhere",
-                                     i));
+            context.warn(fmt::format(
+                "textures of transmission, thickness and iridescence are not supported; those of material {} "
+                "were ignored, and its factors hold everywhere",
+                i));
 }
 
 } // namespace

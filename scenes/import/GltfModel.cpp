@@ -36,7 +36,9 @@ constexpr Choice<std::string_view, LightType> kLightTypes[] = {
     {"directional", LightType::Directional}, {"point", LightType::Point}, {"spot", LightType::Spot}};
 
 /// Shaders have no units left for them.
-constexpr std::string_view kUnreadTextures[] = {"extensions/KHR_materials_transmission/transmissionTexture",
+constexpr std::string_view kUnreadTextures[] = {"extensions/KHR_materials_iridescence/iridescenceTexture",
+                                                "extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
+                                                "extensions/KHR_materials_transmission/transmissionTexture",
                                                 "extensions/KHR_materials_volume/thicknessTexture"};
 
 } // namespace
@@ -212,6 +214,11 @@ void Material::read(Object& object) {
     object.optional("extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", layers.clearcoatNormalScale);
     object.optional("extensions/KHR_materials_sheen/sheenColorFactor", layers.sheenColor, kFraction);
     object.optional("extensions/KHR_materials_sheen/sheenRoughnessFactor", layers.sheenPerceptualRoughness, kFraction);
+    object.optional("extensions/KHR_materials_iridescence/iridescenceFactor", layers.iridescence, kFraction);
+    object.optional("extensions/KHR_materials_iridescence/iridescenceIor", layers.iridescenceIor, kFromOne);
+    // The minimum is for where a texture says 0.
+    object.optional("extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", layers.iridescenceThicknessNm,
+                    kFromZero);
     object.optional("extensions/KHR_materials_transmission/transmissionFactor", layers.transmission, kFraction);
     object.optional("extensions/KHR_materials_volume/thicknessFactor", layers.thicknessMetres, kFromZero);
     object.optional("extensions/KHR_materials_volume/attenuationColor", layers.attenuationColor, kFraction);

@@ -163,12 +163,12 @@ inline constexpr TexturePlace kTexturePlaces[] = {
 };
 
 /// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
-/// _sheen, _transmission, _volume, _dispersion.
+/// _sheen, _iridescence, _transmission, _volume, _dispersion.
 struct Material {
     scenes::Material surface;                                    ///< but its textures and index of refraction
     std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
     double ior = 1.5;
-    bool hasUnreadTexture = false; ///< of transmission or thickness
+    bool hasUnreadTexture = false; ///< of transmission, thickness or iridescence
     float emissiveStrength = 1.0f; ///< in surface.emissive
 
     void read(Object& object);

@@ -29,6 +29,7 @@ struct Range {
     double most = std::numeric_limits<double>::max();
 };
 inline constexpr Range kFromZero{0.0};
+inline constexpr Range kFromOne{1.0};
 inline constexpr Range kFraction{0.0, 1.0};
 inline constexpr Range kBytes{0.0, kMaxInteger}; ///< offsets
 inline constexpr Range kCount{1.0, kMaxInteger};

@@ -93,12 +93,20 @@ public:
         number("sheenPerceptualRoughness", TextureSlot::SheenRoughness, material_.sheenPerceptualRoughness, 0.0, 1.0);
     }
 
-    /// Without textures: shaders have no units left for them.
+    // Without textures: shaders have no units left for them.
+
+    void single(const char* key, float Material::*member) {
+        const auto& field = fieldOf(kMaterialFields, member);
+        if (const auto value = object_.find(key)) material_.*member = value->single(field.least, field.most);
+    }
+
+    void iridescence() {
+        single("iridescence", &Material::iridescence);
+        single("iridescenceIor", &Material::iridescenceIor);
+        single("iridescenceThicknessNm", &Material::iridescenceThicknessNm);
+    }
+
     void transmission() {
-        const auto single = [&](const char* key, float Material::*member) {
-            const auto& field = fieldOf(kMaterialFields, member);
-            if (const auto value = object_.find(key)) material_.*member = value->single(field.least, field.most);
-        };
         single("transmission", &Material::transmission);
         single("thicknessMetres", &Material::thicknessMetres);
         if (const auto value = object_.find("attenuationColor")) {
@@ -171,6 +179,7 @@ public:
         emission();
         clearcoat();
         sheen();
+        iridescence();
         transmission();
     }
 

@@ -92,6 +92,11 @@ public:
             parameter("sheenColor", numbers(material_.sheenColor), TextureSlot::SheenColor);
             parameter("sheenPerceptualRoughness", material_.sheenPerceptualRoughness, TextureSlot::SheenRoughness);
         }
+        if (material_.iridescence != 0.0f) {
+            factor("iridescence", material_.iridescence);
+            factor("iridescenceIor", material_.iridescenceIor);
+            factor("iridescenceThicknessNm", material_.iridescenceThicknessNm);
+        }
         if (material_.transmission != 0.0f) {
             factor("transmission", material_.transmission);
             factor("thicknessMetres", material_.thicknessMetres);

@@ -1,6 +1,7 @@
 // Shades surfaces as they are rasterised.
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/diffused.glsl"
+#include "lib/raster/filmed.glsl"
 #include "lib/raster/coverage.glsl"
 #include "lib/raster/shading_depth.glsl"
 #include "lib/lighting/views.glsl"
@@ -20,6 +21,7 @@ void main()
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
     takeDiffusedLight(fragment, surface);
+    coverWithFilm(surface);
     float depth = shadingDepth();
     if (coversNothing(baseColor)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);

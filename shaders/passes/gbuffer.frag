@@ -2,6 +2,7 @@
 #define GBUFFER_WRITE
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/diffused.glsl"
+#include "lib/raster/filmed.glsl"
 #include "lib/gbuffer/gbuffer.glsl"
 
 void main()
@@ -10,6 +11,7 @@ void main()
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
     takeDiffusedLight(fragment, surface);
+    coverWithFilm(surface);
     if (materialCutOut(baseColor)) discard;
     writeGBuffer(surface);
 }

@@ -187,6 +187,7 @@ TEST_F(Features, everyMaterialParameterChangesThePicture) {
         material("sheen colour", kCloth, [](Material& m) { m.sheenColor.g = 0.1f; }),
         material("no sheen", kCloth, [](Material& m) { m.sheenColor = glm::vec3(0.0f); }),
         material("sheen roughness", kCloth, [](Material& m) { m.sheenPerceptualRoughness = 0.3f; }),
+        material("iridescence", kMetal, [](Material& m) { m.iridescence = 1.0f; }),
         material("normal scale", kMetal, [](Material& m) { m.normalScale = 0.2f; }),
         material("normal-map space", kMetal, [](Material& m) { m.normalMapSpace = scenes::NormalMapSpace::Object; }),
         material("alpha cutoff", kMasked, [](Material& m) { m.alphaCutoff = 0.1f; }),

@@ -55,6 +55,9 @@ void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     point.coat = double(material.clearcoat) * texel(TextureSlot::Clearcoat).r;
     point.coatAlpha =
         squaredRoughness(double(material.clearcoatPerceptualRoughness) * texel(TextureSlot::ClearcoatRoughness).g);
+    if (scenes::isIridescent(material)) point.film = double(material.iridescence);
+    point.filmIor = double(material.iridescenceIor);
+    point.filmThicknessNm = double(material.iridescenceThicknessNm);
     if (point.coat > 0.0) point.coatNormal = coatNormalAt(hit, textures);
     point.sheenColor = glm::dvec3(material.sheenColor) * glm::dvec3(texel(TextureSlot::SheenColor));
     point.sheenAlpha =

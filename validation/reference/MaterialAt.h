@@ -33,6 +33,9 @@ struct SurfacePoint {
     glm::dvec3 coatNormal{0.0};   ///< unit, where there is a coat
     glm::dvec3 sheenColor{0.0};   ///< 0..1, KHR_materials_sheen
     double sheenAlpha = 1.0;
+    double film = 0.0;                ///< 0..1, KHR_materials_iridescence
+    double filmIor = 1.3;             ///< at least 1
+    double filmThicknessNm = 0.0;     ///< nanometres
     double transmission = 0.0;        ///< 0..1, KHR_materials_transmission
     bool hasBody = false;             ///< that bends and absorbs what passes, KHR_materials_volume
     glm::dvec3 leftByBody{1.0};       ///< of what passes, by channel

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "validation/reference/Film.h"
 #include "validation/reference/Lobes.h"
 #include "validation/reference/Microfacet.h"
 
@@ -119,16 +120,11 @@ glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const g
     return below * (1.0 - weight) + glm::dvec3(weight * lobe);
 }
 
-/// Of metallic_roughness, with the reflectances of KHR_materials_ior and KHR_materials_specular.
-glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence) {
-    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
-    const double grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
+/// Of metallic_roughness, for a viewer.
+glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence, double cosView) {
+    const ReflectanceRange range = reflectanceRange(point, cosView);
     glm::dvec3 f;
-    for (int c = 0; c < 3; ++c) {
-        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
-        const double normalIncidence = dielectric + (point.color[c] - dielectric) * point.metallic;
-        f[c] = fresnelSchlick(normalIncidence, grazing, cosIncidence);
-    }
+    for (int c = 0; c < 3; ++c) f[c] = fresnelSchlick(range.straight[c], range.grazing, cosIncidence);
     return f;
 }
 
@@ -137,7 +133,7 @@ glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence) {
 glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& directions, bool specular) {
     const bool hasLobe = specular && point.reflectsLobe && directions.hasLobe();
     const double lobe = hasLobe ? glossyLobe(point, directions) : 0.0;
-    const glm::dvec3 f = fresnelOf(point, directions.cosIncidence);
+    const glm::dvec3 f = fresnelOf(point, directions.cosIncidence, directions.cosView);
     const double reflecting = (1.0 - point.metallic) * (1.0 - point.transmission);
     const glm::dvec3 diffuse = (1.0 - f) * (reflecting / std::numbers::pi) * point.color;
     return underSheen(point, directions, diffuse + f * lobe, specular) * directions.cosLight;
@@ -152,7 +148,7 @@ glm::dvec3 colorOf(const SurfacePoint& point, const Directions&) {
 glm::dvec3 belowGloss(const SurfacePoint& point, const Directions& directions) {
     Directions lit = directions;
     lit.cosLight = std::max(directions.cosLight, 0.0);
-    const glm::dvec3 entering = 1.0 - fresnelOf(point, lit.cosIncidence);
+    const glm::dvec3 entering = 1.0 - fresnelOf(point, lit.cosIncidence, lit.cosView);
     const glm::dvec3 brdf = entering * ((1.0 - point.metallic) / std::numbers::pi) * point.color;
     return underSheen(point, lit, brdf, false);
 }
@@ -174,7 +170,7 @@ glm::dvec3 mirroredByMicrofacet(const SurfacePoint& point, double cosView) {
 glm::dvec3 mirroredByMetallicRoughness(const SurfacePoint& point, double cosView) {
     const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
     const double covered = strongest > 0.0 ? strongest * sheenAlbedo(point.sheenAlpha, cosView) : 0.0;
-    return fresnelOf(point, cosView) * std::max(1.0 - covered, 0.0);
+    return fresnelOf(point, cosView, cosView) * std::max(1.0 - covered, 0.0);
 }
 
 bool isMirror(const SurfacePoint& point) {
@@ -214,6 +210,26 @@ const Model& modelOf(MaterialModel model) {
                                    [model](const Model& candidate) { return candidate.model == model; });
     if (row == std::end(kModels)) throw std::logic_error("the reference renderer's table lacks a material model");
     return *row;
+}
+
+ReflectanceRange reflectanceRange(const SurfacePoint& point, double cosView) {
+    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
+    ReflectanceRange range;
+    range.grazing = point.specularFactor + (1.0 - point.specularFactor) * point.metallic;
+    for (int c = 0; c < 3; ++c) {
+        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
+        range.straight[c] = dielectric + (point.color[c] - dielectric) * point.metallic;
+    }
+    if (!(point.film > 0.0)) return range;
+    const double cosine = std::clamp(cosView, 0.1, 1.0); // by definition, as Schlick's curve leaves no choice below
+    const glm::dvec3 film = filmReflectance(range.straight, cosine, point.filmIor, point.filmThicknessNm);
+    for (int c = 0; c < 3; ++c) {
+        const double shown = std::lerp(fresnelSchlick(range.straight[c], range.grazing, cosine), film[c], point.film);
+        // The straight reflectance that shown = straight + (grazing - straight) (1 - cosine)^5 needs.
+        const double ofGrazing = std::pow(1.0 - cosine, 5);
+        range.straight[c] = std::clamp((shown - range.grazing * ofGrazing) / (1.0 - ofGrazing), 0.0, 1.0);
+    }
+    return range;
 }
 
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular) {
@@ -264,7 +280,7 @@ glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
         share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
     if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
     // A normal that points away from the viewer reflects nothing.
-    const glm::dvec3 reflected = cosView > 0.0 ? fresnelOf(point, cosView) : glm::dvec3(0.0);
+    const glm::dvec3 reflected = cosView > 0.0 ? fresnelOf(point, cosView, cosView) : glm::dvec3(0.0);
     return share * point.color * point.leftByBody * glm::max(1.0 - reflected, glm::dvec3(0.0));
 }
 

@@ -33,6 +33,16 @@ std::span<const Model> modelTable();
 /// The table's row. Throws std::logic_error when there is none.
 const Model& modelOf(scenes::MaterialModel model);
 
+/// What metallic_roughness reflects of light at its own incidence: Schlick's curve from `straight` at normal incidence
+/// to `grazing`, with the reflectances of KHR_materials_ior and KHR_materials_specular. A film
+/// (KHR_materials_iridescence) bends the curve so that it goes through what the film reflects towards a viewer at a
+/// cosine.
+struct ReflectanceRange {
+    glm::dvec3 straight{0.0};
+    double grazing = 1.0;
+};
+ReflectanceRange reflectanceRange(const SurfacePoint& point, double cosView);
+
 /// BRDF times cosine: radiance towards the viewer per irradiance at normal incidence; 0 for light from below the
 /// horizon of each layer.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);

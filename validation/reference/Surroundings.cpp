@@ -137,6 +137,7 @@ glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
     white = bare;
     white.color = glm::dvec3(1.0);
     white.metallic = 1.0;
+    white.film = 0.0;
     const ByMicrofacets lobe(glm::dvec2(point.alpha, point.alphaAcross), point.normal, point.tangent, toViewer);
     constexpr int kSide = 48;
     glm::dvec3 once(0.0), whole(0.0);
@@ -149,14 +150,13 @@ glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
                 (reflected(bare, direction, toViewer, true) - reflected(bare, direction, toViewer, false)) / density;
             whole += reflected(white, direction, toViewer, true) / density;
         }
-    const double contrast = (point.ior - 1.0) / (point.ior + 1.0);
-    const double grazing = std::lerp(point.specularFactor, 1.0, point.metallic);
+    const ReflectanceRange range = reflectanceRange(point, glm::dot(point.normal, toViewer));
     const double lost = std::max(1.0 - whole.r, 0.0);
     glm::dvec3 bounces(0.0);
     for (int c = 0; c < 3; ++c) {
-        const double dielectric = std::min(contrast * contrast * point.specularColor[c], 1.0) * point.specularFactor;
-        const double straight = std::lerp(dielectric, point.color[c], point.metallic);
-        const double mean = std::min(straight + (grazing - straight) / 21.0, 1.0); // of Schlick's factor by the cosine
+        const double straight = range.straight[c];
+        const double mean =
+            std::min(straight + (range.grazing - straight) / 21.0, 1.0); // of Schlick's factor by the cosine
         bounces[c] = once[c] * mean * lost / (1.0 - mean * lost) / pi;
     }
     const double sheen = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});

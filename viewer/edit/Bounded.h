@@ -22,8 +22,10 @@ inline constexpr double kMostDirection = 1e9; ///< of its components, either way
 /// the round number below.
 inline constexpr float kMostRadiance = 1e29f;
 inline constexpr float kMostNormalScale = 4.0f;
-inline constexpr float kMostThicknessShown = 10.0f; ///< metres, of glass and of what absorbs in it
-inline constexpr float kMostDispersionShown = 2.0f; ///< an Abbe number of 10, below that of any glass
+inline constexpr float kMostFilmIorShown = 3.0f;
+inline constexpr float kMostFilmThicknessShown = 2000.0f; ///< nanometres; thicker films are grey
+inline constexpr float kMostThicknessShown = 10.0f;       ///< metres, of glass and of what absorbs in it
+inline constexpr float kMostDispersionShown = 2.0f;       ///< an Abbe number of 10, below that of any glass
 
 /// A number as it was edited, inside its bounds; as it was before where it is none. What was not edited stays, also
 /// where a file has it beyond the bounds.

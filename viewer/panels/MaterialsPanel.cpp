@@ -37,12 +37,22 @@ bool transmissionRows(Material& material) {
     return changed;
 }
 
+bool iridescenceRows(Material& material) {
+    bool changed = slider("Iridescence", material.iridescence, 0.0f, 1.0f);
+    if (material.iridescence == 0.0f) return changed;
+    changed |= slider("Film index", material.iridescenceIor, 1.0f, kMostFilmIorShown);
+    changed |= slider("Film nm", material.iridescenceThicknessNm, 0.0f, kMostFilmThicknessShown, "%.0f");
+    tip("Thickness of the film in nanometres");
+    return changed;
+}
+
 bool layerRows(Material& material) {
     bool changed = slider("Clearcoat", material.clearcoat, 0.0f, 1.0f);
     if (material.clearcoat > 0.0f) changed |= slider("Coat rough", material.clearcoatPerceptualRoughness, 0.0f, 1.0f);
     changed |= colorRow("Sheen", material.sheenColor);
     if (material.sheenColor != glm::vec3(0.0f))
         changed |= slider("Sheen rough", material.sheenPerceptualRoughness, 0.0f, 1.0f);
+    changed |= iridescenceRows(material);
     return changed | transmissionRows(material);
 }
 
@@ -135,8 +145,8 @@ bool materialRows(Material& material) {
         changed = true;
     }
     changed |= modelRows(material);
-    // Of what transmits it is ignored.
-    if (scenes::infoOf(material.model).isLit && !scenes::isTransmissive(material))
+    // Of what transmits or has a film it is ignored.
+    if (scenes::infoOf(material.model).isLit && !scenes::isTransmissive(material) && !scenes::isIridescent(material))
         changed |= subsurfaceRows(material.subsurface);
     changed |= colorRow("Emission", material.emissive, kMostRadiance);
     changed |= surfaceRows(material);

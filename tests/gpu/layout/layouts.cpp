@@ -78,7 +78,8 @@ TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("material.uvRow1[0]", offsetof(MaterialConstants, uvRow1), sizeof(glm::vec4)),
                             Place("material.clearcoatTurn", offsetof(MaterialConstants, clearcoatTurn), 0),
                             Place("material.transmission", offsetof(MaterialConstants, transmission), 0),
-                            Place("material.attenuation", offsetof(MaterialConstants, attenuation), 0)));
+                            Place("material.attenuation", offsetof(MaterialConstants, attenuation), 0),
+                            Place("material.film", offsetof(MaterialConstants, film), 0)));
 }
 
 TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {

@@ -104,6 +104,10 @@ std::vector<Change> changes() {
              m.model = MaterialModel::MetallicRoughness;
              m.sheenColor.z = 0.1f;
          })},
+        {Feature::Iridescence, material([](Material& m) {
+             m.model = MaterialModel::MetallicRoughness;
+             m.iridescence = 0.1f;
+         })},
         {Feature::Transmission, material([](Material& m) {
              m.model = MaterialModel::MetallicRoughness;
              m.transmission = 0.1f;
@@ -144,6 +148,17 @@ TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
         change.apply(scene);
         EXPECT_TRUE(materialFeatures(scene)[change.feature]) << featureTable()[std::size_t(change.feature)].define;
     }
+}
+
+TEST(Features, aFilmChangesF0FromPixelToPixel) {
+    scenes::Scene scene = plainScene();
+    scene.materials[0].model = MaterialModel::MetallicRoughness;
+    scene.materials[0].iridescence = 0.5f;
+    const FeatureSet covered = materialFeatures(scene);
+    EXPECT_TRUE(covered[Feature::Iridescence] && covered[Feature::Specular] && covered[Feature::VaryingMaterials]);
+    scene.materials[0].iridescenceThicknessNm = 0.0f;
+    const FeatureSet bare = materialFeatures(scene);
+    EXPECT_FALSE(bare[Feature::Iridescence] || bare[Feature::Specular] || bare[Feature::VaryingMaterials]);
 }
 
 TEST(Features, whatTransmitsIsDrawnWithTheTransparentSurfacesAndHasABodyOnlyByItsThickness) {

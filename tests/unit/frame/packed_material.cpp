@@ -96,6 +96,16 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     EXPECT_EQ(packMaterial(material).transmission.x, 0.0f);
 }
 
+TEST(PackedMaterial, aFilmIsStatedInMicrometres) {
+    Material material;
+    material.iridescence = 0.5f;
+    material.iridescenceIor = 1.5f;
+    material.iridescenceThicknessNm = 250.0f;
+    EXPECT_EQ(packMaterial(material).film, glm::vec4(0.5f, 1.5f, 0.25f, 0.0f));
+    material.model = MaterialModel::Lambert;
+    EXPECT_EQ(packMaterial(material).film.x, 0.0f);
+}
+
 TEST(PackedMaterial, onlyABodyOfWhatTransmitsDisperses) {
     Material material;
     material.dispersion = 0.5f; // an Abbe number of 40

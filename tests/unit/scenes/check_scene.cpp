@@ -109,6 +109,9 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"clearcoat normal map's scale", [](Scene& s) { s.materials[0].clearcoatNormalScale = kNaN; }},
         {"sheen's colour", [](Scene& s) { s.materials[0].sheenColor.y = 1.5f; }},
         {"sheen's roughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 2.0f; }},
+        {"iridescence must", [](Scene& s) { s.materials[0].iridescence = 1.1f; }},
+        {"film's index of refraction", [](Scene& s) { s.materials[0].iridescenceIor = 0.9f; }},
+        {"film's thickness", [](Scene& s) { s.materials[0].iridescenceThicknessNm = kNaN; }},
         {"transmission must", [](Scene& s) { s.materials[0].transmission = 1.1f; }},
         {"thickness must", [](Scene& s) { s.materials[0].thicknessMetres = -0.1f; }},
         {"attenuation's colour", [](Scene& s) { s.materials[0].attenuationColor.y = 1.5f; }},
@@ -244,9 +247,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"its brightest texel times its intensity is 2e+30, and at most 1e+30 can be shown; lower its intensity",
          [](Scene& s) { s.environment = sky(2e20f, 1e10f, 0.0f); }},
         {"the option size is not finite",
-         [](Scene& s) {
-             s.options.wishes["size"] = std::vector<double>{double(kNaN), 5.0};
-         }},
+         [](Scene& s) { s.options.wishes["size"] = std::vector<double>{double(kNaN), 5.0}; }},
     };
     for (const auto& [text, spoil] : cases) EXPECT_THAT(verdict(spoil), HasSubstr(text));
 }

@@ -112,9 +112,9 @@ TEST(GltfDocument, requiredExtensionThatIsNotSupportedIsRefused) {
 
 TEST(GltfDocument, optionalExtensionThatIsNotSupportedIsWarnedOf) {
     Builder builder;
-    builder.merge(R"({"extensionsUsed": ["KHR_materials_iridescence", "KHR_materials_unlit"]})");
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_diffuse_transmission", "KHR_materials_unlit"]})");
     const Scene scene = builder.import();
-    EXPECT_TRUE(hasWarning(scene, "the extension KHR_materials_iridescence is not supported and was ignored"));
+    EXPECT_TRUE(hasWarning(scene, "the extension KHR_materials_diffuse_transmission is not supported and was ignored"));
     EXPECT_FALSE(hasWarning(scene, "unlit"));
 }
 

@@ -58,6 +58,27 @@ TEST(GltfMaterials, transmissionAndVolumeAreImportedExactly) {
     EXPECT_EQ(plain.dispersion, 0.0f);
 }
 
+TEST(GltfMaterials, iridescenceIsImportedExactlyWithItsGreatestThickness) {
+    const Material material = importedMaterial(R"({"extensions": {"KHR_materials_iridescence": {
+        "iridescenceFactor": 0.75, "iridescenceIor": 1.5, "iridescenceThicknessMinimum": 50,
+        "iridescenceThicknessMaximum": 250}}})");
+    EXPECT_EQ(material.iridescence, 0.75f);
+    EXPECT_EQ(material.iridescenceIor, 1.5f);
+    EXPECT_EQ(material.iridescenceThicknessNm, 250.0f);
+    const Material plain = importedMaterial(R"({"extensions": {"KHR_materials_iridescence": {}}})");
+    EXPECT_EQ(plain.iridescence, 0.0f);
+    EXPECT_EQ(plain.iridescenceIor, 1.3f);
+    EXPECT_EQ(plain.iridescenceThicknessNm, 400.0f);
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_iridescence": {
+        "iridescenceThicknessTexture": {"index": 0}}}})"));
+    builder.addTexture();
+    EXPECT_TRUE(hasWarning(builder.import(), "textures of transmission, thickness and iridescence are not"));
+    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_iridescence": {
+        "iridescenceIor": 0.5}}})"));
+    EXPECT_NE(builder.error().find("iridescenceIor: is 0.5"), std::string::npos) << builder.error();
+}
+
 /// A pane 0.5 thick in its mesh's space, and what is imported of it.
 Scene paneOf(const char* nodes, const char* roots = "[0]") {
     Builder builder;
@@ -106,7 +127,7 @@ TEST(GltfMaterials, texturesOfTransmissionAndThicknessAreWarnedOf) {
     builder.material().merge_patch(Json::parse(R"({"extensions": {
         "KHR_materials_volume": {"thicknessFactor": 1, "thicknessTexture": {"index": 0}}}})"));
     builder.addTexture();
-    EXPECT_TRUE(hasWarning(builder.import(), "textures of transmission and thickness are not supported"));
+    EXPECT_TRUE(hasWarning(builder.import(), "textures of transmission, thickness and iridescence are not"));
 }
 
 TEST(GltfMaterials, anAttenuationDistanceOf0IsRefused) {

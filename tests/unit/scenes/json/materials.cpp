@@ -275,6 +275,33 @@ TEST(SceneJsonMaterials, glassHasItsTransmissionThicknessAndAttenuation) {
               "/materials/0/attenuationColor/1: is 2; at most 1 is allowed");
 }
 
+TEST(SceneJsonMaterials, aFilmHasItsShareIndexAndThickness) {
+    const SceneFolder folder;
+    const Material material = sceneOf(folder, R"("model": "metallic_roughness", "iridescence": 0.75,
+        "iridescenceIor": 1.5, "iridescenceThicknessNm": 250)")
+                                  .materials.at(0);
+    EXPECT_EQ(material.iridescence, 0.75f);
+    EXPECT_EQ(material.iridescenceIor, 1.5f);
+    EXPECT_EQ(material.iridescenceThicknessNm, 250.0f);
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "iridescenceIor": 0.5)"),
+              "/materials/0/iridescenceIor: is 0.5; at least 1 is needed");
+}
+
+TEST(SceneJsonMaterials, onlyMetallicRoughnessHasAFilmAndNoSubsurfaceBelowIt) {
+    Material material;
+    material.subsurface.method = SubsurfaceMethod::DepthMap;
+    material.iridescence = 0.5f;
+    for (const MaterialModelInfo& model : materialModels()) {
+        material.model = model.model;
+        EXPECT_EQ(isIridescent(material), model.model == MaterialModel::MetallicRoughness) << model.name;
+    }
+    material.model = MaterialModel::MetallicRoughness;
+    EXPECT_EQ(subsurfaceOf(material, {}), SubsurfaceMethod::None);
+    material.iridescenceThicknessNm = 0.0f;
+    EXPECT_FALSE(isIridescent(material));
+    EXPECT_EQ(subsurfaceOf(material, {}), SubsurfaceMethod::DepthMap);
+}
+
 TEST(SceneJsonMaterials, onlyMetallicRoughnessTransmits) {
     Material material;
     material.transmission = 1.0f;

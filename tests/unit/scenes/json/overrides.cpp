@@ -142,7 +142,8 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "/overrides/0: a metallic_roughness material has no key 'k_d'; valid are material, model, baseColor, "
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
-        "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, transmission, "
+        "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, iridescence, "
+        "iridescenceIor, iridescenceThicknessNm, transmission, "
         "thicknessMetres, attenuationColor, attenuationDistanceMetres, dispersion, normalMap, occlusionMap, tangents, "
         "subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),

@@ -70,11 +70,13 @@ public:
                               &material.clearcoatPerceptualRoughness, &material.sheenPerceptualRoughness,
                               &material.normalScale, &material.clearcoatNormalScale, &material.alphaCutoff,
                               &material.anisotropyRotationRadians, &material.transmission, &material.thicknessMetres,
-                              &material.attenuationDistanceMetres, &material.dispersion})
+                              &material.attenuationDistanceMetres, &material.dispersion, &material.iridescence})
             *member = share();
         material.masking = Masking::HalfVector;
         material.exponent = 50.0f * share();
         material.ior = 1.0f + share();
+        material.iridescenceIor = 1.0f + share();
+        material.iridescenceThicknessNm = 1000.0f * share();
         material.specularColor = color();
         material.sheenColor = color();
         material.attenuationColor = color();

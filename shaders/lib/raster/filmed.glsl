@@ -1,0 +1,35 @@
+// A thin film on a surface as it is rasterised (docs/iridescence.md): the surface gets the reflectance f0 whose Schlick curve
+// goes through what the film reflects towards the viewer, so that lighting and the G-buffer know of no film.
+#pragma once
+#include "lib/surface/camera.glsl"
+#include "lib/surface/surface.glsl"
+#if HAS_IRIDESCENCE
+#include "lib/material/material.glsl"
+#include "lib/reflectance/film.glsl"
+#include "lib/reflectance/reflectance.glsl"
+
+// Nearer to the horizon Schlick's curve is nearly 1 whatever f0 is, so that none would go through.
+const float kFilmLeastCosine = 0.1;
+
+void coverWithFilm(inout Surface surface)
+{
+    if (!(material.film.x > 0.0) || !HAS_METALLIC(surface.model)) return;
+    SeenSurface seen = seenSurface(surface, viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS);
+    float cosine = clamp(seen.nv, kFilmLeastCosine, 1.0);
+    vec3 bare = fresnelSchlick(seen.f0, seen.fresnelRise, cosine);
+    vec3 film = filmReflectance(seen.f0, cosine, material.film.y, material.film.z);
+    precise vec3 covered = bare + material.film.x * (film - bare);
+    float rise = fresnelSchlick(vec3(0.0), vec3(1.0), cosine).x;
+    precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
+    precise vec3 f0 = clamp((covered - f90 * rise) / (1.0 - rise), vec3(0.0), vec3(1.0));
+    precise vec3 albedo = surface.albedo * (1.0 - surface.metallic);
+    surface.specular = f0;
+    surface.iorOrF90 = f90;
+    surface.albedo = albedo;
+    surface.metallic = 0.0; // it is in f0 and albedo
+}
+#else
+void coverWithFilm(inout Surface surface)
+{
+}
+#endif

@@ -1,0 +1,244 @@
+// Thin films on surfaces: against closed forms, between techniques, and against the reference.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/image/EnvironmentTest.h"
+#include "tests/image/FlatTest.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::Material;
+using scenes::Scene;
+using namespace test;
+
+/// Black below its reflection.
+Material filmOnGlass(float thicknessNm, float ior = 1.3f, float roughness = 0.0f) {
+    Material material;
+    material.name = "film on glass";
+    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    material.metallic = 0.0f;
+    material.perceptualRoughness = roughness;
+    material.iridescence = 1.0f;
+    material.iridescenceIor = ior;
+    material.iridescenceThicknessNm = thicknessNm;
+    return material;
+}
+
+Material filmOnMetal(float thicknessNm, float ior = 1.8f, float roughness = 0.0f) {
+    Material material = filmOnGlass(thicknessNm, ior, roughness);
+    material.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
+    material.metallic = 1.0f;
+    return material;
+}
+
+class FlatFilms : public FlatTest {
+protected:
+    /// What a mirror seen straight on shows of even light.
+    glm::vec4 shown(const Material& material) {
+        Scene scene = flatScene(material);
+        scene.environment = evenEnvironment(1.0);
+        return center(scene);
+    }
+};
+
+/// The eye's sensitivities no longer see waves there; both sides' light adds up.
+TEST_F(FlatFilms, tooThickToInterfereReflectWhatBothSidesDo) {
+    for (const float ior : {1.3f, 1.8f})
+        for (const Material& material : {filmOnGlass(2e4f, ior), filmOnMetal(2e4f, ior)}) {
+            const glm::vec4 found = shown(material);
+            for (int c = 0; c < 3; ++c) {
+                const double bare = material.metallic > 0.0f ? double(material.baseColor[c]) : 0.04;
+                const double below = (1.0 + std::sqrt(bare)) / (1.0 - std::sqrt(bare));
+                const auto side = [](double a, double b) { return (a - b) * (a - b) / ((a + b) * (a + b)); };
+                const double outer = side(1.0, double(ior)), inner = side(double(ior), below);
+                EXPECT_NEAR(found[c], (outer + inner - 2.0 * outer * inner) / (1.0 - outer * inner), 1e-5)
+                    << material.name << ", " << ior << ", " << c;
+            }
+        }
+}
+
+TEST_F(FlatFilms, aQuarterOfAWaveTakesTheReflectionFromGlass) {
+    const float ior = std::sqrt(1.5f), quarterNm = 0.25f * 557.0f / ior;
+    EXPECT_NEAR(shown(filmOnGlass(0.0f)).g, 0.04f, 1e-5f);
+    const glm::vec4 coated = shown(filmOnGlass(quarterNm, ior));
+    EXPECT_LT(coated.g, 0.001f);
+    EXPECT_GT(coated.b, 0.004f);
+    Material half = filmOnGlass(quarterNm, ior);
+    half.iridescence = 0.5f;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown(half)[c], 0.5f * (0.04f + coated[c]), 1e-5f) << "half of it";
+}
+
+/// A film of no thickness, or with the index of air, is none.
+TEST_F(FlatFilms, thatAreNoneChangeNothing) {
+    Material bare = filmOnMetal(400.0f);
+    bare.iridescence = 0.0f;
+    const glm::vec4 wanted = shown(bare);
+    EXPECT_EQ(shown(filmOnMetal(0.0f)), wanted);
+    const glm::vec4 air = shown(filmOnMetal(400.0f, 1.0f));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(air[c], wanted[c], 1e-5f);
+}
+
+class Films : public EnvironmentTest {
+protected:
+    std::vector<float> drawn(const Scene& scene, const frame::FrameSettings& settings,
+                             Technique technique = Technique::Deferred) {
+        return engine::Renderer(context(), scene).render(technique, settings).radiance;
+    }
+    /// Of a ball that fills the picture, without its rim: its pixels, and those that differ from the reference.
+    struct Judged {
+        int pixels = 0, wrong = 0;
+        double colorful = 0.0; ///< the most that two channels are apart
+    };
+    Judged judged(const Scene& scene) {
+        constexpr int kBallPixels = 48;
+        frame::FrameSettings settings;
+        settings.sizePixels = {kBallPixels, kBallPixels};
+        settings.filter = frame::TextureFilter::Exact;
+        const Picture truth = validation::referencePicture(
+                                  scene, settings, [] {}, validation::Leeway::None)
+                                  .picture;
+        const std::vector<float> shown = drawn(scene, settings);
+        Judged result;
+        for (int y = 0; y < kBallPixels; ++y)
+            for (int x = 0; x < kBallPixels; ++x) {
+                const glm::dvec2 at = 1.02 * (glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(kBallPixels) - 1.0);
+                if (glm::length(at) > 0.97) continue;
+                ++result.pixels;
+                const std::size_t first = std::size_t(4 * (y * kBallPixels + x));
+                bool differs = false;
+                for (std::size_t i = first; i < first + 3; ++i) {
+                    const double own = double(shown[i]), other = double(truth.rgba[i]);
+                    differs = differs || !(std::abs(own - other) <= 1e-3 * other + 1e-4);
+                }
+                result.wrong += differs ? 1 : 0;
+                result.colorful = std::max(result.colorful, double(std::abs(shown[first] - shown[first + 2])));
+            }
+        return result;
+    }
+};
+
+/// Mirrors in even light show what a film reflects at each angle.
+TEST_F(Films, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
+    Material transparentBelow = filmOnGlass(550.0f, 1.5f);
+    transparentBelow.specularFactor = 0.5f;
+    transparentBelow.ior = 2.0f;
+    Material partly = filmOnMetal(350.0f, 1.4f);
+    partly.iridescence = 0.6f;
+    for (const Material& material : {filmOnGlass(300.0f), filmOnGlass(600.0f, 1.9f), filmOnMetal(250.0f),
+                                     filmOnMetal(500.0f, 2.4f), transparentBelow, partly}) {
+        SCOPED_TRACE(
+            fmt::format("{} of {} nm and {}", material.name, material.iridescenceThicknessNm, material.iridescenceIor));
+        Scene scene = ballUnderSky(material);
+        scene.environment = evenEnvironment(1.0);
+        const Judged found = judged(scene);
+        EXPECT_GT(found.pixels, 1000);
+        EXPECT_EQ(found.wrong, 0);
+        EXPECT_GT(found.colorful, 0.01);
+    }
+}
+
+/// Highlights, and what the film leaves for the body below.
+TEST_F(Films, underLightsAgreeWithTheReference) {
+    Material matte = filmOnGlass(350.0f, 1.7f, 0.5f);
+    matte.baseColor = {0.8f, 0.4f, 0.2f, 1.0f};
+    matte.metallic = 0.4f;
+    Material coated = filmOnMetal(450.0f, 1.5f, 0.4f);
+    coated.clearcoat = 0.7f;
+    coated.clearcoatPerceptualRoughness = 0.2f;
+    coated.sheenColor = {0.2f, 0.3f, 0.4f};
+    coated.sheenPerceptualRoughness = 0.5f;
+    Material brushed = filmOnMetal(300.0f, 1.6f, 0.5f);
+    brushed.anisotropyStrength = 0.7f;
+    for (const Material& material : {matte, coated, brushed}) {
+        SCOPED_TRACE(material.iridescenceThicknessNm);
+        Scene scene = ballUnderSky(material);
+        scene.lights = {pointLight({1.0, 1.5, 3.0}, 20.0f), pointLight({-3.0, -1.0, 1.0}, 20.0f)};
+        const Judged found = judged(scene);
+        EXPECT_LE(found.wrong, found.pixels / 50); // tangents at poles
+        EXPECT_GT(found.colorful, 0.01);
+    }
+}
+
+/// Each colour that a film does not reflect passes.
+TEST_F(Films, onClearGlassInEvenLightShowExactlyThatLight) {
+    constexpr int kFurnacePixels = 32;
+    frame::FrameSettings settings;
+    settings.sizePixels = {kFurnacePixels, kFurnacePixels};
+    Material glass = filmOnGlass(400.0f, 1.6f);
+    glass.baseColor = glm::vec4(1.0f);
+    glass.transmission = 1.0f;
+    Scene scene = ballUnderSky(glass);
+    scene.environment = evenEnvironment(1.0);
+    const std::vector<float> shown = drawn(scene, settings);
+    for (int y = 0; y < kFurnacePixels; ++y)
+        for (int x = 0; x < kFurnacePixels; ++x) {
+            const glm::dvec2 at = 1.02 * (glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(kFurnacePixels) - 1.0);
+            if (glm::length(at) > 0.95) continue; // interpolated normals turn away from the viewer
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(shown[std::size_t(4 * (y * kFurnacePixels + x) + c)], 1.0f, 1e-3f) << x << ", " << y;
+        }
+}
+
+/// Films among all other materials.
+Scene sceneWithFilms() {
+    Scene scene = everythingScene();
+    for (const std::size_t material : {3u, 4u, 5u, 6u, 11u}) {
+        scene.materials[material].iridescence = 0.8f;
+        scene.materials[material].iridescenceThicknessNm = 200.0f + 50.0f * float(material);
+    }
+    return scene;
+}
+
+TEST_F(Films, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    const Scene scene = sceneWithFilms();
+    engine::Renderer renderer(context(), scene);
+    expectParity(renderer, settings);
+    const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+    EXPECT_NE(pruned, drawn(everythingScene(), settings)) << "shows no film";
+    settings.prune = false;
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+}
+
+/// Other surfaces take other code beside one, and the same bits.
+TEST_F(Films, elsewhereInASceneChangeNoBit) {
+    Material plain;
+    plain.metallic = 0.3f;
+    plain.perceptualRoughness = 0.4f;
+    Scene scene = quadScene(plain);
+    scene.lights = {pointLight({0.3, 0.4, 1.0}, 3.0f)};
+    frame::FrameSettings settings;
+    settings.sizePixels = {32, 32};
+    const std::vector<float> alone = drawn(scene, settings, Technique::Forward);
+    scene.materials.push_back(filmOnMetal(300.0f));
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes.back().instances[0].material = 1;
+    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 50.0, 1.0}; // behind the camera
+    EXPECT_EQ(drawn(scene, settings, Technique::Forward), alone);
+}
+
+TEST_F(Films, aSceneWithoutThemHasNoTraceOfThem) {
+    const auto valuesOf = [](const Scene& scene) {
+        std::vector<std::string> values;
+        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
+            for (const auto& [name, value] : program.defines)
+                if (name == "HAS_IRIDESCENCE") values.push_back(value);
+        return values;
+    };
+    Scene scene = quadScene(filmOnMetal(0.0f));
+    EXPECT_FALSE(valuesOf(scene).empty());
+    EXPECT_THAT(valuesOf(scene), ::testing::Each("0"));
+    scene.materials[0].iridescenceThicknessNm = 100.0f;
+    EXPECT_THAT(valuesOf(scene), ::testing::Contains("1"));
+}
+
+} // namespace
+} // namespace tessera
