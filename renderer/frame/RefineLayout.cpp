@@ -20,6 +20,9 @@ constexpr std::string_view kGrazing = "a material masks by the half vector, whic
 constexpr std::string_view kSpread = "light that has spread over a surface is stored as emission, and spans more "
                                      "powers of ten than half floats";
 
+constexpr std::string_view kFilm =
+    "a thin film may reflect hardly anything, of which the packed field has too few steps";
+
 bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scenes::TextureUse& texture) {
     const bool isFloat = texture.image != scenes::kNone &&
                          scene.images[std::size_t(texture.image)].format == scenes::TexelFormat::Rgba32Float;
@@ -58,6 +61,13 @@ bool hasBrightSpecular(const scenes::Scene& scene) {
     });
 }
 
+/// Of what is drawn on top nothing is stored.
+bool storesFilms(const scenes::Scene& scene) {
+    return anyMaterial(scene, [](const Material& material) {
+        return scenes::isIridescent(material) && !scenes::isTransparent(material);
+    });
+}
+
 bool masksByHalfVector(const scenes::Scene& scene) {
     return anyMaterial(scene, [](const Material& material) {
         return canMask(material) && material.masking == scenes::Masking::HalfVector;
@@ -75,6 +85,8 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Normal, Encoding::Packed, kGrazing});
     if (layout[Channel::Specular] != Encoding::Exact && hasBrightSpecular(scene))
         found.push_back({Channel::Specular, Encoding::Exact, kBright});
+    else if (layout[Channel::Specular] != Encoding::Exact && storesFilms(scene))
+        found.push_back({Channel::Specular, Encoding::Exact, kFilm});
     if (layout[Channel::Emission] != Encoding::Exact && diffusesLight(scene, subsurface))
         found.push_back({Channel::Emission, Encoding::Exact, kSpread});
     return found;

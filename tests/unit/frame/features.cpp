@@ -365,7 +365,7 @@ TEST(Features, materialsVaryByEverythingThatChangesMoreThanNormals) {
 TEST(Features, layersAndMaskingNeverCountForAModelThatLacksThem) {
     scenes::Scene scene = plainScene();
     Material& material = scene.materials[0];
-    material.anisotropyStrength = material.clearcoat = 1.0f;
+    material.anisotropyStrength = material.clearcoat = material.iridescence = 1.0f;
     material.sheenColor = glm::vec3(1.0f);
     material.masking = scenes::Masking::HalfVector;
     EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));

@@ -41,6 +41,19 @@ TEST(RefineLayout, aChannelIsExactOnlyWhereAColourMayExceedItsField) {
     EXPECT_EQ(packed(scene), std::pair(false, true));
 }
 
+TEST(RefineLayout, whatAFilmReflectsIsExactWhereItIsStored) {
+    Material material;
+    material.iridescence = 0.5f;
+    Scene scene = test::quadScene(material);
+    scene.meshes[0].colors.clear();
+    EXPECT_EQ(packed(scene), std::pair(true, false));
+    scene.materials[0].transmission = 0.5f;
+    EXPECT_EQ(packed(scene), std::pair(true, true)) << "drawn on top";
+    scene.materials[0].transmission = 0.0f;
+    scene.materials[0].iridescenceThicknessNm = 0.0f;
+    EXPECT_EQ(packed(scene), std::pair(true, true)) << "no film";
+}
+
 TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheHalfVector) {
     Material material;
     material.model = MaterialModel::Microfacet;

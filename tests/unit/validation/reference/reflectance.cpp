@@ -345,6 +345,8 @@ TEST(ReferenceReflectance, clearGlassLosesNoLight) {
         point.coat = i % 2 == 0 ? 0.0 : random.unit();
         point.coatAlpha = kSmallestAlpha;
         point.coatNormal = point.normal;
+        point.film = i % 3 == 0 ? 0.0 : random.unit();
+        point.filmThicknessNm = 1000.0 * random.unit();
         const glm::dvec3 toViewer = random.around(point.normal, 0.05, 1.0);
         glm::dvec3 sum = transmitted(point, toViewer);
         for (const Mirror& mirror : mirrorsOf(point, toViewer)) sum += mirror.share;
