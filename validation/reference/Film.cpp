@@ -23,7 +23,7 @@ double waveNumberOf(int index) {
     return kFirst + (index + 0.5) * kStep;
 }
 
-double gaussian(double x, double mean, double variance) {
+double normalDensity(double x, double mean, double variance) {
     return std::exp(-(x - mean) * (x - mean) / (2.0 * variance)) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
@@ -35,9 +35,9 @@ std::array<glm::dvec3, kWaveNumbers> makeWeights() {
     for (int i = 0; i < kWaveNumbers; ++i) {
         const double k = waveNumberOf(i);
         const double x =
-            (first * gaussian(k, 1.6810, 2.0 * 4.3278e-3) + second * gaussian(k, 2.2399, 2.0 * 4.5282e-3)) /
+            (first * normalDensity(k, 1.6810, 2.0 * 4.3278e-3) + second * normalDensity(k, 2.2399, 2.0 * 4.5282e-3)) /
             (first + second);
-        const double y = gaussian(k, 1.7953, 2.0 * 9.3046e-3), z = gaussian(k, 2.2084, 2.0 * 6.6121e-3);
+        const double y = normalDensity(k, 1.7953, 2.0 * 9.3046e-3), z = normalDensity(k, 2.2084, 2.0 * 6.6121e-3);
         weights[std::size_t(i)] = {3.2404542 * x - 1.5371385 * y - 0.4985314 * z,
                                    -0.9692660 * x + 1.8760108 * y + 0.0415560 * z,
                                    0.0556434 * x - 0.2040259 * y + 1.0572252 * z};
@@ -59,7 +59,7 @@ struct Film {
     double at(double waveNumber) const {
         const std::complex<double> z =
             std::polar(std::sqrt(outer * inner), 2.0 * std::numbers::pi * way * waveNumber) * turn;
-        const std::complex<double> sum = z * (1.0 - std::pow(z, 4)) / (1.0 - z);
+        const std::complex<double> squared = z * z, sum = z * (1.0 - squared * squared) / (1.0 - z);
         return mean() + 2.0 * (passed() - (1.0 - outer)) * sum.real();
     }
 };
@@ -93,7 +93,7 @@ glm::dvec3 filmReflectance(const glm::dvec3& straight, double cosine, double ior
         Film film{};
         film.outer = fresnelSchlick(squared((1.0 - ior) / (1.0 + ior)), 1.0, cosine);
         film.inner = fresnelSchlick(squared((ior - below) / (ior + below)), 1.0, inside);
-        film.turn = ior < below ? -1.0 : 1.0;
+        film.turn = (ior - below) / (ior + below) > 1e-5 ? 1.0 : -1.0; // by definition where they are alike
         film.way = 2e-3 * ior * thicknessNm * inside;
         reflectance[c] = reflectanceOf(film, c);
     }

@@ -45,8 +45,8 @@ vec3 filmReflectance(vec3 f0, float cosine, float ior, float thicknessMicrometre
     precise float passed = 1.0 - outer;
     precise vec3 both = outer * inner;
     precise vec3 returned = (passed * passed) * inner / max(1.0 - both, vec3(1e-6));
-    // Reflection at the denser side turns the phase by half a wave.
-    precise vec3 ratio = sqrt(both) * vec3(lessThan(vec3(0.0), below)) - sqrt(both) * vec3(lessThan(below, vec3(0.0)));
+    // Reflection at a denser medium turns the phase by half a wave; so it does where only rounding tells the indices apart.
+    precise vec3 ratio = sqrt(both) * (2.0 * vec3(greaterThan(below, vec3(1e-5))) - 1.0);
     precise float way = 2.0 * ior * thicknessMicrometres * inside;
     precise vec3 reflected = vec3(outer) + returned;
     precise vec3 amplitude = returned - passed;
