@@ -61,6 +61,7 @@ class Renderer {
 public:
     /// The scene must outlive the renderer.
     Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders = shader::SourceTree());
+    Renderer(gpu::Context& context, scenes::Scene&& scene, shader::SourceTree shaders = shader::SourceTree()) = delete;
     ~Renderer();
 
     /// Draws one frame of one or more views and does not wait; download() reads it, passTimings() times it. The views
