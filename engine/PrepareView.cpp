@@ -168,6 +168,7 @@ frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::Dif
     prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
     prepared.spec = frame::makeDiffusedSpec(scene, object, prepared.lights, settings);
     addEnvironment(scene, prepared);
+    if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
     if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     return prepared;
 }
@@ -235,6 +236,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
     prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
     addEnvironment(scene, prepared);
+    if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;

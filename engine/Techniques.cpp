@@ -72,8 +72,8 @@ struct ViewWiring {
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
-        const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, drawn);
-        surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, {}};
+        const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, spec, drawn);
+        surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, uploaded.hook, {}};
         if (!spec.features[frame::Feature::Shadows]) surfaces.scene.triangleNormals.reset();
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
         lighting = {surfaces.view,

@@ -18,16 +18,19 @@ void upload(const graph::PassContext& context, graph::BufferHandle handle, const
 
 } // namespace
 
-UploadViewPass::Outputs UploadViewPass::add(graph::Graph& graph, const frame::DrawnView* drawn) {
+UploadViewPass::Outputs UploadViewPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
+                                            const frame::DrawnView* drawn) {
     return graph.addPass<Outputs>(
         "view",
-        [](graph::PassBuilder& pass, Outputs& out) {
+        [&](graph::PassBuilder& pass, Outputs& out) {
             out.constants = pass.create("view", {sizeof(shared::ViewConstants)}, Access::Upload);
             out.rows = pass.create("draw_rows", kGrowing, Access::Upload);
             out.commands = pass.create("draw_commands", kGrowing, Access::Upload);
+            if (spec.hook) out.hook = pass.create("hook", {sizeof(shared::HookConstants)}, Access::Upload);
         },
         [drawn](const Outputs& out, const graph::PassContext& context) {
             context.buffer(out.constants).uploadValue(drawn->prepared.camera.constants);
+            if (out.hook) context.buffer(*out.hook).uploadValue(drawn->prepared.hook);
             upload(context, out.rows, drawn->draws.rows);
             upload(context, out.commands, drawn->scene->commandsOf(drawn->draws));
         });

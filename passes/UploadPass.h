@@ -4,13 +4,14 @@
 namespace tessera::passes {
 
 /// Uploads a view's camera and its draws.
-/// Writes  the view's constants; rows and commands of the draws that it may see
+/// Writes  the view's constants; rows and commands of the draws that it may see; what the scene's hook reads
 struct UploadViewPass {
     struct Outputs {
         graph::BufferHandle constants, rows, commands;
+        std::optional<graph::BufferHandle> hook; ///< shared::HookConstants
     };
     /// `drawn`, null for a plan, must live while the graph runs.
-    static Outputs add(graph::Graph& graph, const frame::DrawnView* drawn);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };
 
 /// Puts a view's lights on the GPU.

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <initializer_list>
 #include <numbers>
+#include <set>
 #include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -306,6 +309,26 @@ void checkSceneWide(const Scene& scene) {
     require(subsurfaces <= kMostSubsurfaces, fmt::format("{} materials have a subsurface, and at most {} can; share "
                                                          "materials, or set the method of some to none",
                                                          subsurfaces, kMostSubsurfaces));
+    if (scene.hook) {
+        const Hook& hook = *scene.hook;
+        const auto isMaterial = [&](int i) { return i >= 0 && std::size_t(i) < scene.materials.size(); };
+        require(std::ranges::all_of(hook.materials, isMaterial), "its hook changes a material that is not there");
+        require(std::ranges::adjacent_find(hook.materials, std::greater_equal<>()) == hook.materials.end(),
+                "the materials that its hook changes must ascend");
+        require(hook.parameters.size() <= kMostHookParameters,
+                fmt::format("its hook has {} parameters, and at most {} can be given", hook.parameters.size(),
+                            kMostHookParameters));
+        std::set<std::string_view> names;
+        for (const HookParameter& parameter : hook.parameters) {
+            require(isHookParameterName(parameter.name) && names.insert(parameter.name).second,
+                    fmt::format("'{}' names no parameter of its hook; give letters and digits, each name once",
+                                parameter.name));
+            require(std::isfinite(parameter.least) && std::isfinite(parameter.most) &&
+                        between(double(parameter.value), double(parameter.least), double(parameter.most)),
+                    fmt::format("the parameter '{}' of its hook is {:g}, and must lie between {:g} and {:g}",
+                                parameter.name, parameter.value, parameter.least, parameter.most));
+        }
+    }
     const SceneOptions& options = scene.options;
     for (const auto& [key, wish] : options.wishes) {
         const auto* const number = std::get_if<double>(&wish);

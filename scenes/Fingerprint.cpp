@@ -119,6 +119,15 @@ public:
         addAll(map, intensity, rotationDegrees);
         static_cast<void>(source); // where it comes from, not what it is
     }
+    void add(const HookParameter& parameter) {
+        const auto& [name, value, least, most] = parameter;
+        addAll(name, value, least, most);
+    }
+    void add(const Hook& hook) {
+        const auto& [file, contentHash, materials, parameters] = hook;
+        addAll(contentHash, materials, parameters);
+        static_cast<void>(file); // where it comes from, not what it is
+    }
     void add(const AnimationSampler& sampler) {
         const auto& [interpolation, width, timesSeconds, values] = sampler;
         addAll(interpolation, width, timesSeconds, values);
@@ -168,9 +177,10 @@ public:
         addAll(clips, playing, nodes, weights, numbers, skins, shapes, deformed, lights, cameras);
     }
     void add(const Scene& scene) {
-        const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options,
-                     warnings] = scene;
+        const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background,
+                     options, warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options);
+        if (hook) add(*hook);        // others keep the fingerprint that they had
         static_cast<void>(warnings); // words about the file, not content
     }
 

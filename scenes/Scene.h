@@ -13,6 +13,7 @@
 
 #include "scenes/Animation.h"
 #include "scenes/Environment.h"
+#include "scenes/Hook.h"
 #include "scenes/Image.h"
 #include "scenes/Light.h"
 #include "scenes/Material.h"
@@ -91,6 +92,7 @@ struct Scene {
     std::vector<Camera> cameras;
     Rig rig; ///< empty where nothing moves and nothing is skinned or morphed
     std::optional<Environment> environment;
+    std::optional<Hook> hook;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature

@@ -65,8 +65,9 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
             {Feature::Blend, "BLEND", "transparent pass", "no material is alpha-blended or transmits"},
             {Feature::DoubleSided, "DOUBLE_SIDED", "two-sided normals", "no material is double-sided"},
+            {Feature::Hook, "HOOK", "what a hook reads", "the scene has no hook"},
             {Feature::VaryingMaterials, "VARYING_MATERIALS", "materials that vary over a surface",
-             "no texture but normal maps, no vertex colour, no anisotropy and no thin film changes one"},
+             "no texture but normal maps, no vertex colour, no anisotropy, no thin film and no hook changes one"},
             {Feature::OrthographicCamera, "ORTHOGRAPHIC_CAMERA", "parallel rays", "the camera is perspective"},
             {Feature::Environment, "ENVIRONMENT", "light of the environment", "the scene has no environment"},
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
@@ -325,7 +326,7 @@ bool FeatureSet::textures() const {
 }
 
 bool FeatureSet::texCoords() const {
-    return textures() || (*this)[Feature::SubsurfaceDiffusion];
+    return textures() || (*this)[Feature::SubsurfaceDiffusion] || (*this)[Feature::Hook];
 }
 
 bool FeatureSet::enteringLight() const {
@@ -377,6 +378,12 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
     }
     for (const scenes::Mesh* mesh : scenes::meshesInUse(scene)) set.add(Feature::VertexColor, !mesh->colors.empty());
     if (!several) set.soleModel = model;
+    if (scene.hook) {
+        set.add(Feature::Hook);
+        set.add(Feature::Emission);
+        set.add(Feature::VaryingMaterials);
+        set.add(Feature::Mirrors, set.glossyModels());
+    }
     // More than fit their table are stored in the pixels as those that vary.
     set.add(Feature::VaryingMaterials, set[Feature::VertexColor] || materials.size() > MATERIAL_TABLE_MOST);
     return set;
@@ -405,6 +412,7 @@ FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) 
     set.soleModel = entered.model;
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);
+    set.add(Feature::Hook, scene.hook.has_value());
     // Holes of what stands in the light's way.
     for (const scenes::Material* other : scenes::materialsInUse(scene)) {
         if (other->alphaMode != scenes::AlphaMode::Mask) continue;

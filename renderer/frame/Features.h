@@ -40,6 +40,7 @@ enum class Feature : std::uint8_t {
     AlphaMask,
     Blend,
     DoubleSided,
+    Hook,             // the scene's own GLSL may change surfaces, and reads texture coordinates
     VaryingMaterials, // values of a material change over a surface, so each pixel must hold its own
     OrthographicCamera,
     Environment, // lights surfaces; of lit pictures with lit models

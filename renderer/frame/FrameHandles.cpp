@@ -40,6 +40,7 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
                           pass.read(rows, Access::VertexRead),
                           pass.read(commands, Access::IndirectRead),
                           {},
+                          {},
                           {}};
     for (graph::BufferHandle& stream : result.scene.vertices) stream = pass.read(stream, Access::VertexRead);
     result.scene.indices = pass.read(scene.indices, Access::IndexRead);
@@ -51,6 +52,7 @@ SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
     result.scene.triangleNormals = readWhereThere(pass, scene.triangleNormals, Access::StorageRead);
     result.diffused = readWhereThere(pass, diffused, Access::ImageRead);
+    result.hook = readWhereThere(pass, hook, Access::UniformRead);
     return result;
 }
 
@@ -81,6 +83,7 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
         const gpu::Buffer& normals = context.buffer(*scene.triangleNormals);
         gpu::bindStorageBuffer(STORAGE_TRIANGLE_NORMALS, normals, 0, normals.bytes());
     }
+    if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
     if (diffused) gpu::bindImage(IMAGE_UNIT_DIFFUSED, context.texture(*diffused), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
     drawn->scene->draw({context.buffer(rows), context.buffer(commands)},

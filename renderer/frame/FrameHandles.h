@@ -93,6 +93,7 @@ struct SurfaceHandles {
     graph::BufferHandle rows;                          ///< DrawRows of each draw of the view
     graph::BufferHandle commands;                      ///< gpu::DrawIndexedCommand of the same
     std::optional<graph::TextureHandle> diffused = {}; ///< where light has spread over some: the view's atlas
+    std::optional<graph::BufferHandle> hook = {};      ///< where the scene has one: shared::HookConstants
     std::vector<std::size_t> depthPrograms = {}; ///< of readDepth(), by number: bare, then where there is one, masked
 
     enum class Kind { Opaque, Transparent };

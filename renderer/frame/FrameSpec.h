@@ -8,6 +8,7 @@
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/GBufferLayout.h"
+#include "renderer/frame/HookConstants.h"
 #include "renderer/frame/PackedLights.h"
 #include "renderer/graph/Plan.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -33,6 +34,7 @@ struct FrameSpec {
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
     std::optional<EnvironmentShape> environment;     ///< where it lights surfaces, or is seen
     bool showsEnvironment = false;                   ///< behind the scene
+    std::optional<HookShape> hook;                   ///< of the scene
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
 
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.

@@ -60,6 +60,12 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     hash.add(settings.shadowMaps.cascades);
     hash.add(std::uint8_t(settings.filter));
     hash.add(settings.prune);
+    if (scene.hook) {
+        hash.add(scene.hook->contentHash);
+        hash.add(scene.hook->changes(std::size_t(object.material)));
+        for (const glm::vec4& numbers : prepared.hook.numbers)
+            for (int i = 0; i < 4; ++i) hash.add(numbers[i]);
+    }
     if (prepared.spec.features[Feature::Environment]) {
         hash.addFloats(std::vector{prepared.environment});
         hash.add(std::uint8_t(settings.environment.light));

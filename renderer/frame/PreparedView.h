@@ -18,6 +18,7 @@ struct PreparedView {
     PackedLights lights;
     shared::LightingConstants lighting{};
     shared::EnvironmentConstants environment{}; ///< where the spec has a map
+    shared::HookConstants hook{};               ///< where the spec has one
     std::vector<shared::SeenLightTexels> seenLights;
     FrameSpec spec;
     ShadowMaps shadowMaps;                             ///< empty where the view has none

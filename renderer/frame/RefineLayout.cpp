@@ -22,6 +22,7 @@ constexpr std::string_view kSpread = "light that has spread over a surface is st
 
 constexpr std::string_view kFilm =
     "a thin film may reflect hardly anything, of which the packed field has too few steps";
+constexpr std::string_view kHooked = "a hook may emit more than its packed field can hold";
 
 bool exceedsOne(const scenes::Scene& scene, const glm::vec3& factor, const scenes::TextureUse& texture) {
     const bool isFloat = texture.image != scenes::kNone &&
@@ -89,6 +90,8 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Specular, Encoding::Exact, kFilm});
     if (layout[Channel::Emission] != Encoding::Exact && diffusesLight(scene, subsurface))
         found.push_back({Channel::Emission, Encoding::Exact, kSpread});
+    else if (layout[Channel::Emission] != Encoding::Exact && scene.hook)
+        found.push_back({Channel::Emission, Encoding::Exact, kHooked});
     return found;
 }
 

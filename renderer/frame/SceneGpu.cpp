@@ -145,6 +145,7 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
+        if (scene_.hook && scene_.hook->changes(i)) constants.kind.y |= MATERIAL_FLAG_HOOKED;
         constants.kind.w = glm::uint(tabled.size() / kTabledBytes);
         std::memcpy(bytes.data() + i * kMaterialStride, &constants, sizeof constants);
         if (!materialsInUse_[i]) continue;

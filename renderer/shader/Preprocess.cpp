@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -45,9 +46,15 @@ class Expander {
 public:
     Expander(const SourceTree& tree, const Defines& defines) : tree_(tree) {
         result_.text = "#version 450 core\n";
-        for (const auto& [name, value] : defines)
-            result_.text +=
-                value.empty() ? fmt::format("#define {}\n", name) : fmt::format("#define {} {}\n", name, value);
+        for (const auto& [name, value] : defines) {
+            if (name == kHookFile)
+                hookFile_ = value;
+            else if (name == kHookParameters)
+                hookParameters_ = value;
+            else
+                result_.text +=
+                    value.empty() ? fmt::format("#define {}\n", name) : fmt::format("#define {} {}\n", name, value);
+        }
     }
 
     ExpandedSource run(std::string_view entryPath) {
@@ -56,6 +63,7 @@ public:
             throw InputError(fmt::format("{}: no such file in {}; correct the name of the program's stage",
                                          displayPath(entryPath), tree_.describe()));
         emit(*entry, false);
+        if (!hookFile_.empty() && indexOf_.contains(std::string(kHookInterface))) emitHook();
         return std::move(result_);
     }
 
@@ -101,6 +109,22 @@ private:
             }
         }
         stack_.pop_back();
+    }
+
+    /// Behind all else, where nothing that it defines can change what the program is made of.
+    void emitHook() {
+        const std::optional<std::size_t> hook = load(hookFile_);
+        if (!hook)
+            throw InputError(fmt::format("{}: the scene's hook is not there any more; bring it back, or load the scene "
+                                         "again",
+                                         hookFile_));
+        result_.text +=
+            "#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
+        std::istringstream parameters(hookParameters_);
+        for (std::string name; parameters >> name;) result_.text += fmt::format("    float {};\n", name);
+        result_.text += "} hook;\n" + lineDirective(1, *hook);
+        for (const std::string& line : files_[*hook].lines) result_.text += line + '\n';
+        result_.text += "#endif\n";
     }
 
     struct Place {
@@ -149,6 +173,7 @@ private:
 
     const SourceTree& tree_;
     ExpandedSource result_;
+    std::string hookFile_, hookParameters_; ///< empty: none
     std::vector<File> files_;
     std::map<std::string, std::size_t> indexOf_;
     std::vector<std::size_t> stack_; ///< files being expanded, the entry first

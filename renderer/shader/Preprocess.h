@@ -17,19 +17,27 @@ using graph::Defines;
 /// glsl_parser.yy clears the source of every location it combines).
 inline constexpr std::size_t kLinesAFile = 1'000'000;
 
+/// Names of defines that no shader is given: the hook of the program's scene (docs/hooks.md), its absolute path and its
+/// parameters with blanks between.
+inline constexpr std::string_view kHookFile = "HOOK_FILE";
+inline constexpr std::string_view kHookParameters = "HOOK_PARAMETERS";
+/// The file that declares what a hook is called with.
+inline constexpr std::string_view kHookInterface = "lib/material/hook.glsl";
+
 /// A shader as the driver gets it. #line directives carry (numbered line, index into files), so that its messages can
 /// be mapped back.
 struct ExpandedSource {
     std::string text;
-    std::vector<std::string> files; ///< paths below shaders/, the entry first
+    std::vector<std::string> files; ///< paths below shaders/, the entry first; a hook's is absolute
 };
 
 /// Resolves #include "path" (relative to shaders/ or to the folder that holds shaders/, as C++ sees shared headers,
 /// else to the including file) from an entry file. The text begins with #version 450 core and the defines. A file with
 /// #pragma once counts once, also when the first #include stands in a conditional that turns out false. Other
 /// preprocessor lines pass through; #includes in the C++ part of a shared header
-/// (#ifdef __cplusplus) do not. Throws InputError naming including file, line and remedy on a missing file, a cycle, a
-/// malformed #include or a #version of another version.
+/// (#ifdef __cplusplus) do not. Where a source includes kHookInterface and the defines name a hook, the block that it
+/// reads and its text stand at the end. Throws InputError naming including file, line and remedy on a missing file, a
+/// cycle, a malformed #include or a #version of another version.
 ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const Defines& defines = {});
 
 /// Rewrites the places in a driver's log, "0:12(5): error: x" (Mesa), "0(12) : error C1: x" (NVIDIA), "ERROR: 0:12: x"

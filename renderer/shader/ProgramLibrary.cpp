@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -117,8 +119,25 @@ std::vector<std::string> ProgramLibrary::reload() {
 }
 
 bool ProgramLibrary::sourcesChanged() {
-    const auto newest = tree_.newestChange();
-    return std::exchange(newestChange_, newest) != newest;
+    // Programs that were compiled since the last call may have brought their hooks.
+    const auto newest = newestChange();
+    const bool isNew = newest && (!newestChange_ || *newest != *newestChange_);
+    newestChange_ = newest;
+    return isNew;
+}
+
+std::optional<std::filesystem::file_time_type> ProgramLibrary::newestChange() const {
+    std::optional<std::filesystem::file_time_type> newest = tree_.newestChange();
+    std::set<std::string> hooks;
+    for (const auto& [key, entry] : entries_)
+        for (const auto& [name, value] : entry->desc.defines)
+            if (name == kHookFile) hooks.insert(value);
+    for (const std::string& hook : hooks) {
+        std::error_code error; // gone while an editor saves it: asked again next time
+        const auto time = std::filesystem::last_write_time(hook, error);
+        if (!error) newest = std::max(newest.value_or(time), time);
+    }
+    return newest;
 }
 
 } // namespace tessera::shader

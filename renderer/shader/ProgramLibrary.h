@@ -27,13 +27,17 @@ public:
     /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
     /// form. Returns one text a fault, with file and line.
     std::vector<std::string> reload();
-    /// True once after a file of the source folder changed; always false for embedded sources.
+    /// True once after a file of the source folder changed, or a hook of a program;
+    /// embedded sources never do. Also once after the first hook has come.
     bool sourcesChanged();
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }
 
 private:
+    /// Of the source folder and of the programs' hooks.
+    std::optional<std::filesystem::file_time_type> newestChange() const;
+
     struct Entry {
         ProgramDesc desc;
         std::vector<ExpandedStage> stages;

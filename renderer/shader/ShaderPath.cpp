@@ -15,7 +15,7 @@ void addCandidate(std::vector<std::string>& candidates, const std::filesystem::p
 } // namespace
 
 std::string displayPath(std::string_view path) {
-    return std::string(kRoot) + std::string(path);
+    return std::filesystem::path(path).is_absolute() ? std::string(path) : std::string(kRoot) + std::string(path);
 }
 
 std::vector<std::string> includeCandidates(const std::string& wanted, const std::string& including) {

@@ -40,7 +40,7 @@ SourceTree SourceTree::embedded() {
 }
 
 std::optional<std::string> SourceTree::read(std::string_view path) const {
-    if (isEmbedded()) {
+    if (isEmbedded() && !std::filesystem::path(path).is_absolute()) {
         const std::optional<std::string_view> text = shaders::embeddedShader(path);
         return text ? std::optional<std::string>(*text) : std::nullopt;
     }

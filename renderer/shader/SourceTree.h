@@ -17,8 +17,8 @@ public:
     /// The embedded files, regardless of the environment.
     static SourceTree embedded();
 
-    /// A file as it is now (folders are read anew each time, so edits show); none when there is no such file. Throws
-    /// InputError when it exists and cannot be read.
+    /// A file as it is now (folders are read anew each time, so edits show; so are hooks, by their absolute paths);
+    /// none when there is no such file. Throws InputError when it exists and cannot be read.
     std::optional<std::string> read(std::string_view path) const;
     bool isEmbedded() const { return folder_.empty(); }
     /// "embedded shaders" or the folder, for messages.

@@ -105,6 +105,10 @@ void shiftRig(Rig& rig, const Scene& whole, std::size_t nodes) {
 } // namespace
 
 void appendScene(Scene& whole, Scene part, const std::string& name, const glm::dmat4& worldFromPart) {
+    if (whole.hook && part.hook)
+        throw InputError(fmt::format("it has a hook, '{}', and so has what comes before it, '{}'; a scene has one: "
+                                     "join them in one file",
+                                     part.hook->file, whole.hook->file));
     Node root;
     root.name = name;
     root.parentFromNode = worldFromPart;
@@ -126,6 +130,11 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
     shiftRig(part.rig, whole, static_cast<std::size_t>(rootIndex) + 1);
     for (Light& light : part.lights) moveLight(light, worldFromPart);
     for (Camera& camera : part.cameras) moveCamera(camera, worldFromPart);
+
+    if (part.hook) {
+        for (int& material : part.hook->materials) shift(material, whole.materials.size());
+        whole.hook = std::move(part.hook);
+    }
 
     moveAll(part.images, whole.images);
     moveAll(part.materials, whole.materials);

@@ -12,6 +12,7 @@
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/JsonText.h"
+#include "scenes/import/SceneJsonHook.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/import/SceneJsonMaterials.h"
 #include "scenes/import/SceneJsonOverrides.h"
@@ -84,6 +85,7 @@ private:
         const std::vector<JsonValue> lights = elementsOf("lights", sizeof(Light));
         const std::vector<JsonValue> cameras = elementsOf("cameras", sizeof(Camera));
         const std::optional<JsonValue> environment = document.find("environment");
+        const std::optional<JsonValue> hook = document.find("hook");
         const std::optional<JsonValue> options = document.find("options");
         const std::optional<JsonValue> base = document.find("base");
         const bool replacesLights = document.has("lights"), replacesCameras = document.has("cameras");
@@ -113,6 +115,7 @@ private:
         scene.lights.insert(scene.lights.end(), ownLights.begin(), ownLights.end());
         scene.cameras.insert(scene.cameras.end(), ownCameras.begin(), ownCameras.end());
         addMaterials(materials, overrides, file, baseSize, scene);
+        if (hook) readHook(*hook, scene, ledger_);
         if (options) readOptions(*options, scene);
         return scene;
     }

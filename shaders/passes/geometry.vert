@@ -1,5 +1,6 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
+#include "shared/hook.h"
 #include "shared/views.h"
 #include "lib/surface/camera.glsl"
 
@@ -59,6 +60,10 @@ layout(location = 14) flat out int diffusedNumber;
 #endif
 #if IN_ATLAS
 layout(location = 15) out vec3 positionLS;
+#endif
+#if HOOKED
+layout(location = 16) out vec3 hookedOS;
+layout(location = 17) flat out float hookedInstance;
 #endif
 #ifdef DRAW_IDS
 layout(location = 9) flat out float drawnObject;
@@ -121,6 +126,10 @@ void main()
 #if HAS_VERTEX_COLOR
     vertexColor = inColor;
     largestColor = drawNormal1.w;
+#endif
+#if HOOKED
+    hookedOS = positionOS;
+    hookedInstance = drawNormal2.w;
 #endif
 #ifdef DRAW_IDS
     drawnObject = drawNormal2.w;

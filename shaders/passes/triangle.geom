@@ -1,5 +1,6 @@
 // Hands every fragment its whole triangle, for --filter exact (lib/surface/triangle.glsl); the rest goes through as it is.
 #include "shared/slots.h"
+#include "shared/hook.h"
 #include "shared/views.h"
 
 layout(triangles) in;
@@ -55,6 +56,12 @@ layout(location = 8) flat out float largestColor;
 layout(location = 14) flat in int vertexDiffusedNumber[];
 layout(location = 19) flat out int diffusedNumber;
 #endif
+#if HOOKED
+layout(location = 16) in vec3 vertexHookedOS[];
+layout(location = 17) flat in float vertexHookedInstance[];
+layout(location = 23) out vec3 hookedOS;
+layout(location = 24) flat out float hookedInstance;
+#endif
 #ifdef DRAW_IDS
 layout(location = 9) flat in float vertexDrawnObject[];
 layout(location = 9) flat out float drawnObject;
@@ -100,6 +107,10 @@ void main()
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
         diffusedNumber = vertexDiffusedNumber[corner];
+#endif
+#if HOOKED
+        hookedOS = vertexHookedOS[corner];
+        hookedInstance = vertexHookedInstance[corner];
 #endif
 #ifdef DRAW_IDS
         drawnObject = vertexDrawnObject[corner];

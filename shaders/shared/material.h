@@ -10,6 +10,7 @@
 #define MATERIAL_FLAG_IOR_TEXTURE 16u
 #define MATERIAL_FLAG_ANISOTROPY_TEXTURE 32u
 #define MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP 64u
+#define MATERIAL_FLAG_HOOKED 128u
 
 // RGBA32UI texels of a material in the table of all of them, which lighting reads where pixels hold only their
 // material's number: what lies before uvRow0. As many materials as a pixel's 11 bits can name, a third of the 65536

@@ -25,6 +25,7 @@ SHARED_BEGIN
 #define UNIFORM_CASTER_TREE 6
 #define UNIFORM_SUBSURFACE 7
 #define UNIFORM_ENVIRONMENT 8
+#define UNIFORM_HOOK 9
 
 // Storage blocks. OpenGL 4.5 guarantees 0 to 7 to fragment and compute shaders; shaders that build light
 // lists never read lights from storage blocks.

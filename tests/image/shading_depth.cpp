@@ -47,7 +47,7 @@ protected:
         shader::ProgramLibrary programs;
         gpu::GraphBackend backend;
         graph::Graph graph;
-        const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, &view);
+        const passes::UploadViewPass::Outputs uploaded = passes::UploadViewPass::add(graph, spec, &view);
         const frame::FrameSpec* const specs[] = {&spec};
         const frame::SurfaceHandles surfaces{
             &view, frame::importScene(graph, specs, &sceneGpu), {uploaded.constants}, uploaded.rows, uploaded.commands,

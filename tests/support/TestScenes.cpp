@@ -288,8 +288,10 @@ scenes::Scene evenScene() {
                 material.textures[i] = {};
         }
         material.anisotropyStrength = 0.0f;
-        if (material.model == scenes::MaterialModel::MicrofacetAnisotropic)
+        if (material.model == scenes::MaterialModel::MicrofacetAnisotropic) {
             material.model = scenes::MaterialModel::Microfacet;
+            material.masking = {};
+        }
     }
     for (scenes::Mesh& mesh : scene.meshes) mesh.colors.clear();
     return scene;

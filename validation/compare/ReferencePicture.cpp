@@ -47,6 +47,10 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                   const std::function<void()>& rowDone, Leeway leeway) {
     requireReferenceTakes(settings);
+    if (scene.hook)
+        throw InputError(
+            fmt::format("{}: the reference runs no shaders, and so no hook; compare the scene without '{}'", scene.name,
+                        scene.hook->file));
     engine::prepareView(scene, engine::Technique::Forward, settings); // throws for names that the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
     wanted.leeway = leeway != Leeway::None;

@@ -1,6 +1,7 @@
 // A surface from a material, as it is rasterised; and from the material's constants alone, where pixels hold its
 // number.
 #pragma once
+#include "lib/material/hook.glsl"
 #include "lib/material/material_frame.glsl"
 #include "lib/material/material_lobes.glsl"
 #include "lib/surface/surface.glsl"
@@ -117,6 +118,7 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     Surface surface;
     setNeutralValues(surface);
     setMaterialValues(fragment, baseColor, surface);
+    takeHook(fragment, surface);
 
 #if HAS_NORMAL_TEXTURE
     vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;

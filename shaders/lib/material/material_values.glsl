@@ -3,6 +3,7 @@
 // the same call in every pass: explicit gradients would give other texels.
 #pragma once
 #include "shared/slots.h"
+#include "shared/hook.h"
 #include "shared/material.h"
 #include "shared/views.h"
 #include "lib/material/texture_filter.glsl"
@@ -42,6 +43,10 @@ struct Fragment {
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
+#if HOOKED
+    vec3 positionOS;
+    int instance; // place of the mesh instance in the scene
+#endif
 #if HAS_SHADOWS
     vec3 facetNormalLS; // of the triangle; unit, away from the viewer
 #endif
@@ -68,6 +73,10 @@ Fragment plainFragment()
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
     fragment.frontFacing = true;
+#if HOOKED
+    fragment.positionOS = vec3(0.0);
+    fragment.instance = 0;
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT
     fragment.objectFromNormal = mat3(1.0);
 #endif

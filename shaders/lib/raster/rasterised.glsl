@@ -46,6 +46,16 @@ layout(location = 4) in vec4 vertexColor;
 layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
 
+#if HOOKED
+#if BY_TRIANGLE
+#define HOOK_ROWS 23
+#else
+#define HOOK_ROWS 16
+#endif
+layout(location = HOOK_ROWS) in vec3 hookedOS;
+layout(location = HOOK_ROWS + 1) flat in float hookedInstance;
+#endif
+
 Fragment rasterisedFragment()
 {
     Fragment fragment = plainFragment();
@@ -97,6 +107,10 @@ Fragment rasterisedFragment()
     fragment.texCoordChange[1] = dmat2(dFdx(texCoord1), dFdy(texCoord1));
 #endif
 #endif
+#endif
+#if HOOKED
+    fragment.positionOS = hookedOS;
+    fragment.instance = int(hookedInstance) - 1;
 #endif
 #if HAS_VERTEX_COLOR
     if (largestColor != 0.0) fragment.color = vertexColor;

@@ -130,6 +130,7 @@ std::vector<Change> changes() {
         {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
         {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
+        {Feature::Hook, [](scenes::Scene& scene) { scene.hook.emplace(); }},
         {Feature::VaryingMaterials, texture(TextureSlot::BaseColor)},
         {Feature::SubsurfaceWrap, material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; })},
         {Feature::SubsurfaceDepthMap,

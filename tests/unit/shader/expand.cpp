@@ -183,5 +183,37 @@ TEST(SourceTree, embeddedFilesAreNotReadFromDisk) {
     EXPECT_FALSE(tree.read("no/such.glsl"));
 }
 
+TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
+    const std::string hook = folder.write("scene/tint.glsl", "void hookSurface() {}\n").string();
+    const Defines defines{{"HOOK_HASH", "7u"}, {"HOOK_FILE", hook}, {"HOOK_PARAMETERS", "speed height"}};
+    folder.write("main.frag", "#include \"lib/material/hook.glsl\"\nvoid main() {}\n");
+    folder.write("lib/material/hook.glsl", "void hookSurface();\n");
+    folder.write("other.frag", "void main() {}\n");
+    const ExpandedSource source = expanded("main.frag", defines);
+    EXPECT_EQ(source.text,
+              "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\n#line 1000001 1\nvoid hookSurface();\n#line 2 0\n"
+              "void main() {}\n#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n"
+              "    float timeSeconds;\n    float speed;\n    float height;\n} hook;\n#line 2000001 2\n"
+              "void hookSurface() {}\n#endif\n");
+    EXPECT_THAT(source.files, ElementsAre("main.frag", "lib/material/hook.glsl", hook));
+    EXPECT_EQ(mapLog("0:2000001(1): error: x", source.files), hook + ":1: error: x");
+    EXPECT_EQ(expanded("other.frag", defines).text,
+              "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\nvoid main() {}\n");
+    EXPECT_THAT(expanded("main.frag", {{"HOOK_HASH", "7u"}}).text, Not(HasSubstr("HookBlock")));
+}
+
+TEST_F(Expand, aHookThatIsNotThereIsNamed) {
+    folder.write("main.frag", "#include \"lib/material/hook.glsl\"\n");
+    folder.write("lib/material/hook.glsl", "\n");
+    const std::string missing = (folder.path() / "gone.glsl").string();
+    try {
+        expanded("main.frag", {{"HOOK_FILE", missing}});
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what(),
+                  missing + ": the scene's hook is not there any more; bring it back, or load the scene again");
+    }
+}
+
 } // namespace
 } // namespace tessera::shader

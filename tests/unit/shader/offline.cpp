@@ -1,5 +1,6 @@
 // Every shader that a built-in scene can ask for, checked by the reference compiler instead of the driver at hand.
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -134,6 +135,26 @@ void addSeenLightPrograms(std::map<std::string, shader::ProgramDesc>& programs) 
     EXPECT_TRUE(isThere);
 }
 
+/// Those of a scene with a hook, in every setting that changes what reaches it.
+void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
+    scenes::Scene scene = test::everythingScene();
+    scene.hook.emplace().file =
+        std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
+    scene.hook->parameters = {{"turnsASecond"}, {"glow"}};
+    for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+        for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {
+            frame::FrameSettings settings;
+            settings.sizePixels = {64, 36};
+            settings.filter = filter;
+            settings.view = view;
+            settings.shadows.kind = scenes::ShadowRequest::Kind::All;
+            for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::Deferred})
+                for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings))
+                    programs.emplace(desc.key(), desc);
+        }
+    }
+}
+
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {
     std::map<std::string, shader::ProgramDesc> programs;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
@@ -143,6 +164,7 @@ std::map<std::string, shader::ProgramDesc> requestedPrograms() {
     }
     addPrograms(programs, test::evenScene()); // materials by number beside maps and layers
     addSeenLightPrograms(programs);
+    addHookedPrograms(programs);
     return programs;
 }
 

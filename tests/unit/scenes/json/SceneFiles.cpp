@@ -24,6 +24,7 @@ SceneFolder::SceneFolder() {
         "environment": {"background": [9, 9, 9]},
         "options": {"technique": "forward"}
     })");
+    write("hooks/redden.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n");
     writePicture("pictures/albedo.tga", 1, 1, {{10, 20, 30, 255}});
     writePicture("pictures/specular.tga", 1, 1, {{40, 50, 60, 255}});
     writePicture("pictures/normal.tga", 1, 1, {{128, 128, 255, 255}});

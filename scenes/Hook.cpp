@@ -1,0 +1,116 @@
+#include "scenes/Hook.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace tessera::scenes {
+namespace {
+
+/// A word that no hook may have outside of comments, and why.
+struct RefusedWord {
+    std::string_view word, why;
+};
+constexpr RefusedWord kRefusedWords[] = {
+    {"include", "a hook is one file, and shader files of the program are no part of it; take the #include out"},
+    {"version", "the program gives the version of GLSL; take it out"},
+    {"extension", "the program gives extensions; take it out"},
+    {"line", "the program numbers lines, so that messages name the right one; take it out"},
+    {"pragma", "the program gives pragmas; take it out"},
+    {"discard", "a hook makes no holes, which passes that store depth alone would not have; use an alpha mask"},
+    {"gl_FragDepth", "a hook moves no depth, which other passes would not move; take it out"},
+    {"layout", "a hook binds nothing; take it out, and declare numbers as parameters of the scene"},
+    {"uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
+    {"buffer", "a hook binds nothing; take it out"},
+    {"dFdx", "differences between pixels differ between passes; take it out"},
+    {"dFdy", "differences between pixels differ between passes; take it out"},
+    {"fwidth", "differences between pixels differ between passes; take it out"},
+};
+/// Of those, the ones that are so as directives alone.
+constexpr std::string_view kDirectives[] = {"include", "version", "extension", "line", "pragma"};
+
+constexpr std::string_view kFunction = "hookSurface";
+
+bool isLetter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool isOfWord(char c) {
+    return isLetter(c) || isDigit(c) || c == '_';
+}
+
+/// The text with spaces for its comments; lines stay where they are.
+std::string withoutComments(std::string_view text) {
+    std::string code(text);
+    enum class In { Code, Line, Block } in = In::Code;
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        const std::string_view pair = text.substr(i, 2);
+        if (in == In::Code && pair == "//") in = In::Line;
+        if (in == In::Code && pair == "/*") {
+            in = In::Block;
+            code[i++] = ' ';
+            code[i] = ' ';
+            continue;
+        }
+        if (in == In::Block && pair == "*/") {
+            in = In::Code;
+            code[i++] = ' ';
+            code[i] = ' ';
+            continue;
+        }
+        if (in == In::Line && code[i] == '\n') in = In::Code;
+        if (in != In::Code && code[i] != '\n') code[i] = ' ';
+    }
+    return code;
+}
+
+} // namespace
+
+bool Hook::changes(std::size_t material) const {
+    return std::ranges::binary_search(materials, int(material));
+}
+
+bool isHookParameterName(std::string_view name) {
+    constexpr std::size_t kMostLetters = 32;
+    return !name.empty() && name.size() <= kMostLetters && isLetter(name.front()) && name != "timeSeconds" &&
+           std::ranges::all_of(name, [](char c) { return isLetter(c) || isDigit(c); });
+}
+
+std::optional<HookFault> hookFault(std::string_view text) {
+    const std::string code = withoutComments(text);
+    std::size_t line = 1;
+    bool hasFunction = false;
+    char before = '\n'; // the last that is no blank
+    for (std::size_t i = 0; i < code.size();) {
+        const char c = code[i];
+        if (c == '\0') return HookFault{line, "a zero byte is no text; give a file of GLSL"};
+        if (c == '\\')
+            return HookFault{line, "a backslash joins lines, so that messages name the wrong one; take it out"};
+        if (!isOfWord(c)) {
+            if (c == '\n') ++line;
+            if (c != ' ' && c != '\t' && c != '\r') before = c;
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        while (end < code.size() && isOfWord(code[end])) ++end;
+        const std::string_view word = std::string_view(code).substr(i, end - i);
+        for (const RefusedWord& refused : kRefusedWords) {
+            const bool isDirective = std::ranges::find(kDirectives, refused.word) != std::end(kDirectives);
+            if (word == refused.word && (!isDirective || before == '#'))
+                return HookFault{line, fmt::format("{}: {}", word, refused.why)};
+        }
+        hasFunction = hasFunction || word == kFunction;
+        before = code[end - 1];
+        i = end;
+    }
+    if (!hasFunction)
+        return HookFault{1, "it defines no hookSurface; write void hookSurface(inout HookedSurface surface, "
+                            "HookInputs inputs)"};
+    return std::nullopt;
+}
+
+} // namespace tessera::scenes

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// GLSL of a scene's own that changes its surfaces (docs/hooks.md).
+namespace tessera::scenes {
+
+inline constexpr std::size_t kMostHookParameters = 15;
+inline constexpr std::size_t kMostHookBytes = std::size_t(1) << 20; ///< of its file
+
+/// A number that a hook reads as hook.<name>.
+struct HookParameter {
+    std::string name; ///< isHookParameterName()
+    float value = 0.0f;
+    float least = 0.0f; ///< the value lies between the two
+    float most = 1.0f;
+    bool operator==(const HookParameter&) const = default;
+};
+
+struct Hook {
+    std::string file;              ///< absolute
+    std::uint64_t contentHash = 0; ///< of the file's text as it was loaded
+    std::vector<int> materials;    ///< those whose surfaces it changes, ascending
+    std::vector<HookParameter> parameters;
+    bool operator==(const Hook&) const = default;
+
+    bool changes(std::size_t material) const;
+};
+
+/// A letter, then up to 31 letters and digits; not the name of what every hook has, timeSeconds.
+bool isHookParameterName(std::string_view name);
+
+/// What keeps a text from being a hook.
+struct HookFault {
+    std::size_t line; ///< from 1
+    std::string why;  ///< with the remedy
+};
+/// The first of what would break the promises that other passes and techniques rely on; none where there is none. A
+/// driver finds what is no GLSL.
+std::optional<HookFault> hookFault(std::string_view text);
+
+} // namespace tessera::scenes

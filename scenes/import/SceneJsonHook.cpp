@@ -1,0 +1,93 @@
+#include "scenes/import/SceneJsonHook.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/Error.h"
+#include "scenes/Fingerprint.h"
+#include "scenes/import/FileBytes.h"
+#include "scenes/import/SceneJsonFiles.h"
+
+namespace tessera::scenes::scenejson {
+namespace {
+
+HookParameter readParameter(const JsonValue& value) {
+    JsonObject object = value.object();
+    HookParameter parameter;
+    const JsonValue name = object.require("name");
+    parameter.name = name.text();
+    if (!isHookParameterName(parameter.name))
+        name.fail("must be a letter and up to 31 letters and digits, and not timeSeconds, which every hook has");
+    if (const auto least = object.find("least")) parameter.least = least->single();
+    if (const auto most = object.find("most")) parameter.most = most->single();
+    const JsonValue number = object.require("value");
+    object.done("a parameter of a hook");
+    parameter.value = number.single();
+    if (!(parameter.value >= parameter.least && parameter.value <= parameter.most))
+        number.fail(fmt::format("is {:g}, and must lie between its least, {:g}, and its most, {:g}", parameter.value,
+                                parameter.least, parameter.most));
+    return parameter;
+}
+
+std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
+    std::set<int> materials;
+    for (const JsonValue& value : list.elements(1)) {
+        const std::string name = value.text();
+        const std::size_t before = materials.size();
+        for (std::size_t i = 0; i < scene.materials.size(); ++i)
+            if (scene.materials[i].name == name) materials.insert(int(i));
+        if (materials.size() > before) continue;
+        if (std::ranges::find(scene.materials, name, &Material::name) != scene.materials.end())
+            value.fail(fmt::format("'{}' is in the list already; remove it", name));
+        std::vector<std::string_view> names;
+        for (const Material& material : scene.materials) names.push_back(material.name);
+        value.failUnknown("material", name, names);
+    }
+    return {materials.begin(), materials.end()};
+}
+
+/// Throws InputError where the file is no hook. Returns the hash of its text.
+std::uint64_t checkedFile(const std::filesystem::path& file, LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    const std::vector<std::byte> bytes = readFileBytes(file, ledger);
+    if (bytes.size() > kMostHookBytes)
+        throw InputError(fmt::format("{}: has {} bytes, and a hook has at most {}; give a shorter one", file.string(),
+                                     bytes.size(), kMostHookBytes));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (const std::optional<HookFault> fault = hookFault(text))
+        throw InputError(fmt::format("{}:{}: {}", file.string(), fault->line, fault->why));
+    ledger.settle(mark, 0);
+    return fingerprint(bytes);
+}
+
+} // namespace
+
+void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
+    scene.hook.reset();
+    if (value.isNull()) return;
+    JsonObject object = value.object();
+    Hook hook;
+    const JsonValue file = object.require("file");
+    const std::optional<JsonValue> materials = object.find("materials");
+    if (const auto parameters = object.find("parameters")) {
+        for (const JsonValue& parameter : parameters->elements(0, kMostHookParameters)) {
+            hook.parameters.push_back(readParameter(parameter));
+            const auto last = hook.parameters.end() - 1;
+            if (std::find_if(hook.parameters.begin(), last,
+                             [&](const HookParameter& other) { return other.name == last->name; }) != last)
+                parameter.fail(fmt::format("the name '{}' is taken; give another", last->name));
+        }
+    }
+    object.done("a hook");
+    if (materials) {
+        hook.materials = materialsCalled(*materials, scene);
+    } else {
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) hook.materials.push_back(int(i));
+    }
+    const std::filesystem::path path = std::filesystem::absolute(resolveFile(file)).lexically_normal();
+    hook.contentHash = checkedFile(path, ledger);
+    hook.file = path.string();
+    scene.hook = std::move(hook);
+}
+
+} // namespace tessera::scenes::scenejson
