@@ -41,15 +41,17 @@ struct Renderer::Drawn {
 };
 
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
-    : context_(context), scene_(scene), bounds_(frame::surfaceBounds(scene)), programs_(std::move(shaders)),
-      diffusionAtlases_(scene) {}
+    : context_(context),
+      hooked_(scene.hook && scene.hook->movesVertices ? std::make_unique<HookedScene>(scene) : nullptr),
+      shown_(hooked_ ? hooked_->scene() : scene), bounds_(frame::surfaceBounds(shown_)), programs_(std::move(shaders)),
+      diffusionAtlases_(shown_) {}
 
 Renderer::~Renderer() = default;
 
 const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     constexpr std::size_t kMostUploaded = 2;
     // Light types change from frame to frame and do not concern the scene's buffers.
-    const frame::FeatureSet features = frame::surfaceFeatures(scene_, spec.settings.prune, spec.settings.subsurface);
+    const frame::FeatureSet features = frame::surfaceFeatures(shown_, spec.settings.prune, spec.settings.subsurface);
     const frame::TextureFilter filter = spec.settings.filter;
     const scenes::SubsurfaceRequest subsurface = spec.settings.subsurface;
     const auto found = std::ranges::find_if(uploaded_, [&](const Uploaded& uploaded) {
@@ -57,7 +59,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     });
     if (found == uploaded_.end()) {
         if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // before there are three
-        auto scene = std::make_unique<frame::SceneGpu>(scene_, features, filter, subsurface);
+        auto scene = std::make_unique<frame::SceneGpu>(shown_, features, filter, subsurface);
         uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
     } else {
         if (found->geometryChanged)
@@ -71,8 +73,25 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
 }
 
 void Renderer::geometryChanged() {
+    if (hooked_) hooked_->takeMeshes();
+    forgetGeometry();
+}
+
+void Renderer::environmentChanged(std::shared_ptr<const frame::FilteredEnvironment> filtered) {
+    if (hooked_) hooked_->takeEnvironment();
+    environment_.reset();
+    filteredEnvironment_ = std::move(filtered);
+    for (auto& [view, memory] : diffusionMemories_) memory.forget();
+}
+
+const scenes::Scene& Renderer::sceneAt(double timeSeconds) {
+    if (hooked_ && hooked_->update(timeSeconds, programs_)) forgetGeometry();
+    return shown_;
+}
+
+void Renderer::forgetGeometry() {
     drawn_.reset(); // it points at atlases
-    bounds_ = frame::surfaceBounds(scene_);
+    bounds_ = frame::surfaceBounds(shown_);
     diffusionAtlases_.forget();
     for (auto& [view, memory] : diffusionMemories_) memory.forget();
     for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;
@@ -99,7 +118,7 @@ frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const fr
     const glm::dvec3 objectWS(list.worldFromObject[std::size_t(object.node)][3]);
     return frame::seenTiles(atlas.tiles, camera,
                             frame::roundingMetres(list.draws[std::size_t(*drawn)], objectWS, camera),
-                            scene_.materials[std::size_t(object.material)].doubleSided);
+                            shown_.materials[std::size_t(object.material)].doubleSided);
 }
 
 void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
@@ -122,7 +141,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         if (spec.features[frame::Feature::ShadowMaps])
             own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
         own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
-        own.key = frame::diffusionKey(scene_, object, own.drawn.prepared, view.scene->casterRevision());
+        own.key = frame::diffusionKey(shown_, object, own.drawn.prepared, view.scene->casterRevision());
         own.seen = seenTiles(object, *own.atlas, view);
         // A frame that sees nothing new does not read it, but the next one may.
         for (const std::string& name : passes::DiffusionPasses::keptNames(number, cell)) backend_.keep(name);
@@ -131,13 +150,18 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
 
 void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
+    const double timeSeconds = views.front().settings.timeSeconds;
+    if (hooked_ &&
+        !std::ranges::all_of(views, [&](const ViewRequest& view) { return view.settings.timeSeconds == timeSeconds; }))
+        throw InputError("a hook moves vertices of the scene for all views of a frame; give all of them one time");
+    sceneAt(timeSeconds);
     auto drawn =
         std::make_unique<Drawn>([this](const std::string& name, const graph::ResourceDesc& desc,
                                        std::uint64_t revision) { return backend_.holds(name, desc, revision); });
     for (const ViewRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
         const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
-        added.prepared = prepareView(scene_, view.technique, settings, bounds_);
+        added.prepared = prepareView(shown_, view.technique, settings, bounds_);
     }
     std::vector<ViewSource> sources;
     shadowMemories_.beginFrame();
@@ -148,7 +172,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         view.scene = &sceneGpuOfAll;
         if (spec.environment && !environment_)
             environment_ =
-                std::make_unique<frame::EnvironmentGpu>(*scene_.environment, std::move(filteredEnvironment_));
+                std::make_unique<frame::EnvironmentGpu>(*shown_.environment, std::move(filteredEnvironment_));
         view.environment = environment_.get();
         view.lobes = &lobes_;
         makeForShadows(spec);
@@ -237,7 +261,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
     drawn.cut = cutShadows(prepared).why;
-    drawn.missing = missingShadows(scene_, bounds_, prepared);
+    drawn.missing = missingShadows(shown_, bounds_, prepared);
     if (!drawn.hasMaps) return drawn;
     const frame::ShadowMaps& maps = prepared.shadowMaps;
     for (const frame::ShadowedLight& light : maps.lights) {

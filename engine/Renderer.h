@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/HookedScene.h"
 #include "engine/Settings.h"
 #include "engine/Techniques.h"
 #include "renderer/frame/DepthInterval.h"
@@ -111,11 +112,7 @@ public:
 
     /// To be called after the scene got another map of its environment; how that lies and shines may change without
     /// notice. Who has filtered the map already may bring that.
-    void environmentChanged(std::shared_ptr<const frame::FilteredEnvironment> filtered = {}) {
-        environment_.reset();
-        filteredEnvironment_ = std::move(filtered);
-        for (auto& [view, memory] : diffusionMemories_) memory.forget();
-    }
+    void environmentChanged(std::shared_ptr<const frame::FilteredEnvironment> filtered = {});
 
     /// Light that has spread over surfaces is kept until something changes that it depends on (docs/skin.md), unless
     /// this is off: then each frame spreads it anew, as measuring it asks for.
@@ -127,7 +124,10 @@ public:
 
     gpu::GraphBackend& backend() { return backend_; }
     shader::ProgramLibrary& programs() { return programs_; }
-    const scenes::Scene& scene() const { return scene_; }
+    /// As the latest frame shows it: with the vertices that its hook has moved.
+    const scenes::Scene& scene() const { return shown_; }
+    /// The same at a time. Where vertices move, the latest frame is gone.
+    const scenes::Scene& sceneAt(double timeSeconds);
     std::span<const frame::SurfaceBounds> bounds() const { return bounds_; }
 
 private:
@@ -138,8 +138,11 @@ private:
     /// The objects of a view that light spreads over.
     void addDiffused(std::size_t number, frame::DrawnView& view);
 
+    void forgetGeometry();
+
     gpu::Context& context_;
-    const scenes::Scene& scene_;
+    std::unique_ptr<HookedScene> hooked_; ///< null where no hook moves vertices
+    const scenes::Scene& shown_;
     std::vector<frame::SurfaceBounds> bounds_;
     shader::ProgramLibrary programs_;
     gpu::GraphBackend backend_;

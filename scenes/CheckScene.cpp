@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 #include <string_view>
@@ -298,6 +299,22 @@ void checkEnvironment(const Scene& scene, const Environment& environment) {
                                 most, kMostRadiance));
 }
 
+/// All instances of a mesh share its vertices.
+void checkMovedMeshes(const Scene& scene, const auto& require) {
+    std::vector<std::optional<bool>> moves(scene.meshes.size());
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& instance : node.instances) {
+            if (instance.mesh == kNone || instance.material == kNone) continue;
+            std::optional<bool>& ofMesh = moves[std::size_t(instance.mesh)];
+            const bool changes = scene.hook->changes(std::size_t(instance.material));
+            require(ofMesh.value_or(changes) == changes,
+                    fmt::format("the mesh '{}' is drawn with a material that its hook changes and with one that it "
+                                "leaves alone, and its vertices cannot be in two places; give both to the hook",
+                                scene.meshes[std::size_t(instance.mesh)].name));
+            ofMesh = changes;
+        }
+}
+
 void checkSceneWide(const Scene& scene) {
     const auto require = [&](bool holds, const std::string& problem) {
         if (!holds) throw InputError(fmt::format("scene '{}': {}", scene.name, problem));
@@ -318,6 +335,9 @@ void checkSceneWide(const Scene& scene) {
         require(hook.parameters.size() <= kMostHookParameters,
                 fmt::format("its hook has {} parameters, and at most {} can be given", hook.parameters.size(),
                             kMostHookParameters));
+        require(between(hook.mayMoveMetres, 0.0, kFarthestMetres),
+                fmt::format("mayMoveMetres of its hook must lie between 0 and {:g}", kFarthestMetres));
+        if (hook.movesVertices) checkMovedMeshes(scene, require);
         std::set<std::string_view> names;
         for (const HookParameter& parameter : hook.parameters) {
             require(isHookParameterName(parameter.name) && names.insert(parameter.name).second,

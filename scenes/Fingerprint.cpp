@@ -124,8 +124,8 @@ public:
         addAll(name, value, least, most);
     }
     void add(const Hook& hook) {
-        const auto& [file, contentHash, materials, parameters] = hook;
-        addAll(contentHash, materials, parameters);
+        const auto& [file, contentHash, materials, parameters, changesSurfaces, movesVertices, mayMoveMetres] = hook;
+        addAll(contentHash, materials, parameters, changesSurfaces, movesVertices, mayMoveMetres);
         static_cast<void>(file); // where it comes from, not what it is
     }
     void add(const AnimationSampler& sampler) {

@@ -30,7 +30,7 @@ constexpr RefusedWord kRefusedWords[] = {
 /// Of those, the ones that are so as directives alone.
 constexpr std::string_view kDirectives[] = {"include", "version", "extension", "line", "pragma"};
 
-constexpr std::string_view kFunction = "hookSurface";
+constexpr std::string_view kSurfaceFunction = "hookSurface", kVertexFunction = "hookVertex";
 
 bool isLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -79,10 +79,23 @@ bool isHookParameterName(std::string_view name) {
            std::ranges::all_of(name, [](char c) { return isLetter(c) || isDigit(c); });
 }
 
+HookFunctions hookFunctions(std::string_view text) {
+    const std::string code = withoutComments(text);
+    HookFunctions functions;
+    for (std::size_t i = 0; i < code.size();) {
+        std::size_t end = i;
+        while (end < code.size() && isOfWord(code[end])) ++end;
+        const std::string_view word = std::string_view(code).substr(i, end - i);
+        functions.surface = functions.surface || word == kSurfaceFunction;
+        functions.vertex = functions.vertex || word == kVertexFunction;
+        i = std::max(end, i + 1);
+    }
+    return functions;
+}
+
 std::optional<HookFault> hookFault(std::string_view text) {
     const std::string code = withoutComments(text);
     std::size_t line = 1;
-    bool hasFunction = false;
     char before = '\n'; // the last that is no blank
     for (std::size_t i = 0; i < code.size();) {
         const char c = code[i];
@@ -103,13 +116,13 @@ std::optional<HookFault> hookFault(std::string_view text) {
             if (word == refused.word && (!isDirective || before == '#'))
                 return HookFault{line, fmt::format("{}: {}", word, refused.why)};
         }
-        hasFunction = hasFunction || word == kFunction;
         before = code[end - 1];
         i = end;
     }
-    if (!hasFunction)
-        return HookFault{1, "it defines no hookSurface; write void hookSurface(inout HookedSurface surface, "
-                            "HookInputs inputs)"};
+    const HookFunctions functions = hookFunctions(text);
+    if (!functions.surface && !functions.vertex)
+        return HookFault{1, "it defines neither hookSurface nor hookVertex; write void hookSurface(inout HookedSurface "
+                            "surface, HookInputs inputs)"};
     return std::nullopt;
 }
 

@@ -26,6 +26,9 @@ struct Hook {
     std::uint64_t contentHash = 0; ///< of the file's text as it was loaded
     std::vector<int> materials;    ///< those whose surfaces it changes, ascending
     std::vector<HookParameter> parameters;
+    bool changesSurfaces = true; ///< it has hookSurface()
+    bool movesVertices = false;  ///< it has hookVertex(), and the scene's meshes are as it found them
+    double mayMoveMetres = 0.0;  ///< as far as it moves a vertex at most, in the mesh's own space
     bool operator==(const Hook&) const = default;
 
     bool changes(std::size_t material) const;
@@ -33,6 +36,12 @@ struct Hook {
 
 /// A letter, then up to 31 letters and digits; not the name of what every hook has, timeSeconds.
 bool isHookParameterName(std::string_view name);
+
+/// Which functions a text names outside of comments.
+struct HookFunctions {
+    bool surface = false, vertex = false;
+};
+HookFunctions hookFunctions(std::string_view text);
 
 /// What keeps a text from being a hook.
 struct HookFault {

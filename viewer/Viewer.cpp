@@ -69,11 +69,11 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    /// Whether lights or clips move as time goes on.
+    /// Whether lights, clips or a hook may move something as time goes on.
     bool plays() const {
         const auto moves = [](const scenes::Light& light) { return light.animation.has_value(); };
         return state_.open && state_.isPlaying &&
-               (state_.open->playsAt(state_.active().settings.timeSeconds) ||
+               (state_.open->playsAt(state_.active().settings.timeSeconds) || state_.open->scene().hook ||
                 std::ranges::any_of(state_.open->scene().lights, moves));
     }
     bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays()); }

@@ -378,7 +378,7 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
     }
     for (const scenes::Mesh* mesh : scenes::meshesInUse(scene)) set.add(Feature::VertexColor, !mesh->colors.empty());
     if (!several) set.soleModel = model;
-    if (scene.hook) {
+    if (scene.hook && scene.hook->changesSurfaces) {
         set.add(Feature::Hook);
         set.add(Feature::Emission);
         set.add(Feature::VaryingMaterials);
@@ -412,7 +412,7 @@ FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) 
     set.soleModel = entered.model;
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);
-    set.add(Feature::Hook, scene.hook.has_value());
+    set.add(Feature::Hook, scene.hook && scene.hook->changesSurfaces);
     // Holes of what stands in the light's way.
     for (const scenes::Material* other : scenes::materialsInUse(scene)) {
         if (other->alphaMode != scenes::AlphaMode::Mask) continue;

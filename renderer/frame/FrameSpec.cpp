@@ -142,7 +142,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.features.has.reset(std::size_t(featureOf(scenes::TextureSlot::Occlusion)));
         spec.features.has.reset(std::size_t(Feature::Mirrors));
     }
-    if (scene.hook) spec.hook = hookShape(*scene.hook);
+    if (scene.hook && scene.hook->changesSurfaces) spec.hook = hookShape(*scene.hook);
     spec.showsEnvironment = showsEnvironment(scene, settings);
     if (spec.features[Feature::Environment] || spec.showsEnvironment)
         spec.environment = environmentShape(scene.environment->map);
@@ -224,9 +224,8 @@ Defines frameDefines(const FrameSpec& spec) {
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));
     if (spec.hook) {
-        defines.emplace_back("HOOK_HASH", fmt::format("{:#010x}u", std::uint32_t(spec.hook->contentHash)));
-        defines.emplace_back(shader::kHookFile, spec.hook->file);
-        defines.emplace_back(shader::kHookParameters, fmt::format("{}", fmt::join(spec.hook->parameters, " ")));
+        const Defines ofHook = hookDefines(*spec.hook);
+        defines.insert(defines.end(), ofHook.begin(), ofHook.end());
     }
     return defines;
 }

@@ -34,7 +34,7 @@ struct FrameSpec {
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
     std::optional<EnvironmentShape> environment;     ///< where it lights surfaces, or is seen
     bool showsEnvironment = false;                   ///< behind the scene
-    std::optional<HookShape> hook;                   ///< of the scene
+    std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
 
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/shader/Preprocess.h"
 #include "scenes/Hook.h"
 #include "shaders/shared/hook.h"
 
@@ -13,8 +14,12 @@ struct HookShape {
     std::string file; ///< absolute
     std::uint64_t contentHash = 0;
     std::vector<std::string> parameters; ///< names, in order
+    bool changesSurfaces = true, movesVertices = false;
 };
 HookShape hookShape(const scenes::Hook& hook);
+
+/// What programs that call it are compiled with.
+shader::Defines hookDefines(const HookShape& hook);
 
 /// What it reads: the time, rounded to fp32, and its parameters.
 shared::HookConstants hookConstants(const scenes::Hook& hook, double timeSeconds);

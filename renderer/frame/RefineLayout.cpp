@@ -90,7 +90,7 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Specular, Encoding::Exact, kFilm});
     if (layout[Channel::Emission] != Encoding::Exact && diffusesLight(scene, subsurface))
         found.push_back({Channel::Emission, Encoding::Exact, kSpread});
-    else if (layout[Channel::Emission] != Encoding::Exact && scene.hook)
+    else if (layout[Channel::Emission] != Encoding::Exact && scene.hook && scene.hook->changesSurfaces)
         found.push_back({Channel::Emission, Encoding::Exact, kHooked});
     return found;
 }

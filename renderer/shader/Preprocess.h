@@ -22,7 +22,7 @@ inline constexpr std::size_t kLinesAFile = 1'000'000;
 inline constexpr std::string_view kHookFile = "HOOK_FILE";
 inline constexpr std::string_view kHookParameters = "HOOK_PARAMETERS";
 /// The file that declares what a hook is called with.
-inline constexpr std::string_view kHookInterface = "lib/material/hook.glsl";
+inline constexpr std::string_view kHookInterface = "lib/material/hook_interface.glsl";
 
 /// A shader as the driver gets it. #line directives carry (numbered line, index into files), so that its messages can
 /// be mapped back.

@@ -46,8 +46,8 @@ std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
     return {materials.begin(), materials.end()};
 }
 
-/// Throws InputError where the file is no hook. Returns the hash of its text.
-std::uint64_t checkedFile(const std::filesystem::path& file, LoadLedger& ledger) {
+/// Takes hash and functions of the file's text. Throws InputError where it is no hook.
+void readFile(const std::filesystem::path& file, LoadLedger& ledger, Hook& hook) {
     const std::uint64_t mark = ledger.usedBytes();
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     if (bytes.size() > kMostHookBytes)
@@ -56,8 +56,12 @@ std::uint64_t checkedFile(const std::filesystem::path& file, LoadLedger& ledger)
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (const std::optional<HookFault> fault = hookFault(text))
         throw InputError(fmt::format("{}:{}: {}", file.string(), fault->line, fault->why));
+    const HookFunctions functions = hookFunctions(text);
+    hook.changesSurfaces = functions.surface;
+    hook.movesVertices = functions.vertex;
+    hook.contentHash = fingerprint(bytes);
+    hook.file = file.string();
     ledger.settle(mark, 0);
-    return fingerprint(bytes);
 }
 
 } // namespace
@@ -69,6 +73,7 @@ void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
     Hook hook;
     const JsonValue file = object.require("file");
     const std::optional<JsonValue> materials = object.find("materials");
+    const std::optional<JsonValue> mayMove = object.find("mayMoveMetres");
     if (const auto parameters = object.find("parameters")) {
         for (const JsonValue& parameter : parameters->elements(0, kMostHookParameters)) {
             hook.parameters.push_back(readParameter(parameter));
@@ -85,8 +90,12 @@ void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
         for (std::size_t i = 0; i < scene.materials.size(); ++i) hook.materials.push_back(int(i));
     }
     const std::filesystem::path path = std::filesystem::absolute(resolveFile(file)).lexically_normal();
-    hook.contentHash = checkedFile(path, ledger);
-    hook.file = path.string();
+    readFile(path, ledger, hook);
+    if (hook.movesVertices != mayMove.has_value())
+        (mayMove ? *mayMove : value)
+            .fail(mayMove ? "the file has no hookVertex, which it would bound; remove it"
+                          : "lacks 'mayMoveMetres', as far as its hookVertex moves a vertex at most");
+    if (mayMove) hook.mayMoveMetres = double(mayMove->single(0.0));
     scene.hook = std::move(hook);
 }
 

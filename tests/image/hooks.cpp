@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/Error.h"
 #include "engine/Rendering.h"
 #include "renderer/gpu/Program.h"
 #include "scenes/Fingerprint.h"
@@ -12,6 +13,7 @@ namespace tessera {
 namespace {
 
 using engine::Technique;
+using frame::ShadowFilter;
 using testing::HasSubstr;
 
 constexpr std::string_view kHeader = "void hookSurface(inout HookedSurface surface, HookInputs inputs)\n";
@@ -149,6 +151,109 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     folder.write(name, std::string(kHeader).append("{ surface.color = vec3(0.0); }\n"));
     EXPECT_TRUE(renderer.programs().reload().empty());
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
+}
+
+constexpr std::string_view kMoving = "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)\n";
+
+class VertexHooks : public Hooks {
+protected:
+    scenes::Scene moving(const scenes::Scene& scene, std::string_view body, double mayMoveMetres) {
+        scenes::Scene result = hooked(scene, "{\n}\n");
+        scenes::Hook& hook = *result.hook;
+        const std::string text = std::string(kMoving).append(body);
+        hook.file = folder.write(fmt::format("{}.glsl", files++), text).string();
+        hook.contentHash = scenes::fingerprint(std::as_bytes(std::span(text)));
+        hook.changesSurfaces = false;
+        hook.movesVertices = true;
+        hook.mayMoveMetres = mayMoveMetres;
+        scenes::checkScene(result);
+        return result;
+    }
+    static frame::FrameSettings shadowed(ShadowFilter filter) {
+        frame::FrameSettings settings = smallSettings();
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = filter;
+        return settings;
+    }
+};
+
+TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
+    const scenes::Scene scene = test::everythingScene();
+    const frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
+    EXPECT_EQ(drawn(moving(scene, "{\n}\n", 0.0), settings), drawn(scene, settings));
+}
+
+TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    scenes::Scene scene = test::everythingScene();
+    const scenes::Scene hook =
+        moving(scene, "{\n    positionOS += vec3(0.25, 0.0, 0.125);\n    normalOS = normalOS.yzx;\n}\n", 0.3);
+    for (scenes::Mesh& mesh : scene.meshes) {
+        for (glm::vec3& position : mesh.positionsOS) position += glm::vec3(0.25f, 0.0f, 0.125f);
+        for (glm::vec3& normal : mesh.normalsOS)
+            normal = glm::vec3(glm::dvec3(normal.y, normal.z, normal.x) / glm::length(glm::dvec3(normal)));
+    }
+    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard}) {
+        const frame::FrameSettings settings = shadowed(filter);
+        for (const Technique technique : {Technique::ForwardPrepass, Technique::ClusteredDeferred})
+            EXPECT_EQ(drawn(hook, settings, technique), drawn(scene, settings, technique)) << int(technique);
+    }
+}
+
+TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    const scenes::Scene scene =
+        moving(test::evenScene(), "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n", 0.2);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
+    settings.timeSeconds = 0.5;
+    const std::vector<float> first = renderer.render(Technique::Forward, settings).radiance;
+    settings.timeSeconds = 2.0;
+    EXPECT_NE(renderer.render(Technique::Forward, settings).radiance, first);
+    settings.timeSeconds = 0.5;
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, first);
+    EXPECT_EQ(drawn(scene, settings), first);
+    expectParity(renderer, settings);
+}
+
+TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
+    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.x *= 0.5;\n}\n", 0.6);
+    engine::Renderer renderer(context(), scene);
+    const frame::FrameSettings settings = smallSettings();
+    EXPECT_THROW(validation::referencePicture(scene, settings), InputError);
+    const scenes::Scene& shown = renderer.sceneAt(settings.timeSeconds);
+    EXPECT_EQ(shown.meshes[0].positionsOS[0].x, 0.5f * scene.meshes[0].positionsOS[0].x);
+    const std::vector<std::uint8_t> covered = validation::referencePicture(shown, settings).picture.covered;
+    EXPECT_EQ(engine::toPicture(renderer.render(Technique::Forward, settings)).covered, covered);
+}
+
+TEST_F(VertexHooks, viewsOfAFrameShowOneTime) {
+    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.z += 0.1 * hook.timeSeconds;\n}\n", 1.0);
+    engine::Renderer renderer(context(), scene);
+    std::vector<engine::ViewRequest> views(2, {Technique::Forward, smallSettings()});
+    EXPECT_NO_THROW(renderer.draw(views));
+    views[1].settings.timeSeconds = 1.0;
+    try {
+        renderer.draw(views);
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("give all of them one time"));
+    }
+}
+
+TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
+    const struct {
+        std::string_view body, says;
+    } cases[] = {{"{\n    positionOS.y += 2.0;\n}\n", "by 2 m, and mayMoveMetres is 1"},
+                 {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "and mayMoveMetres is 1"}};
+    for (const auto& tried : cases) {
+        const scenes::Scene scene = moving(test::quadScene({}), tried.body, 1.0);
+        try {
+            drawn(scene, smallSettings());
+            FAIL() << "expected an InputError";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(scene.hook->file + ": at 0 s hookVertex moves vertex 0"));
+            EXPECT_THAT(error.what(), HasSubstr(tried.says));
+        }
+    }
 }
 
 } // namespace

@@ -42,7 +42,16 @@ TEST(Hook, whatWouldBreakOtherPassesIsRefusedWithItsLine) {
     const std::optional<HookFault> none = hookFault("// void hookSurface()\n");
     ASSERT_TRUE(none.has_value());
     EXPECT_EQ(none->line, 1u);
-    EXPECT_THAT(none->why, HasSubstr("defines no hookSurface"));
+    EXPECT_THAT(none->why, HasSubstr("defines neither hookSurface nor hookVertex"));
+}
+
+TEST(Hook, itsFunctionsAreThoseOutsideOfComments) {
+    EXPECT_TRUE(hookFunctions(kGood).surface);
+    EXPECT_FALSE(hookFunctions(kGood).vertex);
+    const HookFunctions functions = hookFunctions("/* hookSurface */ void hookVertex(inout vec3 p) {} // hookSurface");
+    EXPECT_FALSE(functions.surface);
+    EXPECT_TRUE(functions.vertex);
+    EXPECT_FALSE(hookFunctions("void hookVertexes() {}").vertex);
 }
 
 TEST(Hook, aParameterIsALetterThenLettersAndDigits) {

@@ -186,8 +186,8 @@ TEST(SourceTree, embeddedFilesAreNotReadFromDisk) {
 TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
     const std::string hook = folder.write("scene/tint.glsl", "void hookSurface() {}\n").string();
     const Defines defines{{"HOOK_HASH", "7u"}, {"HOOK_FILE", hook}, {"HOOK_PARAMETERS", "speed height"}};
-    folder.write("main.frag", "#include \"lib/material/hook.glsl\"\nvoid main() {}\n");
-    folder.write("lib/material/hook.glsl", "void hookSurface();\n");
+    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\nvoid main() {}\n");
+    folder.write("lib/material/hook_interface.glsl", "void hookSurface();\n");
     folder.write("other.frag", "void main() {}\n");
     const ExpandedSource source = expanded("main.frag", defines);
     EXPECT_EQ(source.text,
@@ -195,7 +195,7 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
               "void main() {}\n#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n"
               "    float timeSeconds;\n    float speed;\n    float height;\n} hook;\n#line 2000001 2\n"
               "void hookSurface() {}\n#endif\n");
-    EXPECT_THAT(source.files, ElementsAre("main.frag", "lib/material/hook.glsl", hook));
+    EXPECT_THAT(source.files, ElementsAre("main.frag", "lib/material/hook_interface.glsl", hook));
     EXPECT_EQ(mapLog("0:2000001(1): error: x", source.files), hook + ":1: error: x");
     EXPECT_EQ(expanded("other.frag", defines).text,
               "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\nvoid main() {}\n");
@@ -203,8 +203,8 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
 }
 
 TEST_F(Expand, aHookThatIsNotThereIsNamed) {
-    folder.write("main.frag", "#include \"lib/material/hook.glsl\"\n");
-    folder.write("lib/material/hook.glsl", "\n");
+    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
+    folder.write("lib/material/hook_interface.glsl", "\n");
     const std::string missing = (folder.path() / "gone.glsl").string();
     try {
         expanded("main.frag", {{"HOOK_FILE", missing}});

@@ -14,6 +14,7 @@
 #include "engine/ChooseLighting.h"
 #include "engine/ChooseSamples.h"
 #include "engine/ChooseView.h"
+#include "engine/HookedScene.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -141,6 +142,12 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
     scene.hook.emplace().file =
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
     scene.hook->parameters = {{"turnsASecond"}, {"glow"}};
+    scenes::Hook waving;
+    waving.file = std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "flag.glsl";
+    waving.parameters = {{"wind"}};
+    waving.movesVertices = true;
+    const shader::ProgramDesc moving = engine::HookedScene::program(waving);
+    programs.emplace(moving.key(), moving);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {
             frame::FrameSettings settings;

@@ -63,6 +63,30 @@ TEST_F(HookFiles, faultsNameTheirPlace) {
                 HasSubstr("/hook/file: there is no file"));
 }
 
+TEST_F(HookFiles, whatMovesVerticesSaysHowFar) {
+    folder.write("hooks/tint.glsl", "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv) {}\n");
+    const Scene scene = folder.importMembers(members(R"(, "mayMoveMetres": 0.25)"));
+    EXPECT_TRUE(scene.hook->movesVertices);
+    EXPECT_FALSE(scene.hook->changesSurfaces);
+    EXPECT_EQ(scene.hook->mayMoveMetres, 0.25);
+    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members("")), HasSubstr("/hook: lacks 'mayMoveMetres'"));
+    EXPECT_THAT(folder.errorOfMembers(members(R"(, "mayMoveMetres": -1)")), HasSubstr("/hook/mayMoveMetres: is -1"));
+    folder.write("hooks/tint.glsl", kText);
+    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members(R"(, "mayMoveMetres": 0.25)")),
+                HasSubstr("/hook/mayMoveMetres: the file has no hookVertex"));
+}
+
+TEST_F(HookFiles, aMeshOfWhichOnlySomeInstancesMoveIsRefused) {
+    folder.write("hooks/tint.glsl", "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv) {}\n");
+    Scene scene = folder.importMembers(members(R"(, "mayMoveMetres": 0.25, "materials": ["b"])"));
+    Node& node = scene.nodes.emplace_back();
+    node.instances = {{0, scene.hook->materials[0]}};
+    checkScene(scene);
+    scene.materials.emplace_back().name = "other";
+    node.instances[0].material = int(scene.materials.size()) - 1;
+    EXPECT_THAT(test::inputErrorOf([&] { checkScene(scene); }), HasSubstr("cannot be in two places"));
+}
+
 TEST_F(HookFiles, aFaultOfTheFileNamesItsLine) {
     const std::filesystem::path file = folder.write("hooks/tint.glsl", std::string(kText) + "\nuniform float x;\n");
     const std::filesystem::path scene =

@@ -1,0 +1,140 @@
+#include "engine/HookedScene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "renderer/frame/HookConstants.h"
+#include "renderer/gpu/Buffer.h"
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::engine {
+
+namespace {
+
+/// Of shaders/passes/hook_vertices.comp: local_size_x, and floats a vertex.
+constexpr std::size_t kGroupVertices = 64, kRestFloats = 8, kMovedFloats = 6;
+/// At once: 32 MiB, a quarter of what OpenGL guarantees a storage block.
+constexpr std::size_t kMostAtOnce = std::size_t(1) << 20;
+
+/// Vertices from `first` on, `count` of them.
+std::vector<float> restOf(const scenes::Mesh& mesh, std::size_t first, std::size_t count) {
+    std::vector<float> rest;
+    rest.reserve(count * kRestFloats);
+    for (std::size_t i = first; i < first + count; ++i) {
+        const glm::vec3& position = mesh.positionsOS[i];
+        const glm::vec3& normal = mesh.normalsOS[i];
+        const glm::vec2 uv = mesh.texCoords[0].empty() ? glm::vec2(0.0f) : mesh.texCoords[0][i];
+        rest.insert(rest.end(), {position.x, position.y, position.z, normal.x, normal.y, normal.z, uv.x, uv.y});
+    }
+    return rest;
+}
+
+std::vector<float> movedOf(const std::vector<float>& rest) {
+    const std::size_t count = rest.size() / kRestFloats;
+    const gpu::Buffer from = gpu::Buffer::of("hook rest", rest);
+    const gpu::Buffer to("hook moved", count * kMovedFloats * sizeof(float), gpu::BufferUse::Readback);
+    gpu::bindStorageBuffer(STORAGE_HOOK_REST, from);
+    gpu::bindStorageBuffer(STORAGE_HOOK_MOVED, to);
+    gpu::dispatch(std::uint32_t((count + kGroupVertices - 1) / kGroupVertices));
+    gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
+    return to.downloadAs<float>(count * kMovedFloats);
+}
+
+struct MovedVertices {
+    std::vector<glm::vec3> positionsOS, normalsOS;
+};
+
+/// With the program in use.
+MovedVertices movedVertices(const scenes::Hook& hook, const scenes::Mesh& mesh, double timeSeconds) {
+    MovedVertices result;
+    const std::size_t vertices = mesh.positionsOS.size();
+    for (std::size_t first = 0; first < vertices; first += kMostAtOnce) {
+        const std::size_t count = std::min(kMostAtOnce, vertices - first);
+        const std::vector<float> moved = movedOf(restOf(mesh, first, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            const float* const own = moved.data() + kMovedFloats * i;
+            const glm::vec3 position(own[0], own[1], own[2]), normal(own[3], own[4], own[5]);
+            const glm::vec3& rest = mesh.positionsOS[first + i];
+            const double metres = glm::distance(glm::dvec3(position), glm::dvec3(rest));
+            // What rounding to fp32 adds to a movement just as long.
+            const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
+            if (!(metres <= hook.mayMoveMetres + leeway))
+                throw InputError(fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}' by {:g} m, and "
+                                             "mayMoveMetres is {:g}; raise that, or move it less",
+                                             hook.file, timeSeconds, first + i, mesh.name, metres, hook.mayMoveMetres));
+            // As it was where it has no direction any more.
+            const glm::dvec3 direction(normal);
+            const double length = glm::length(direction);
+            const bool isKept = normal == mesh.normalsOS[first + i] || !(length > 0.0) || !std::isfinite(length);
+            result.positionsOS.push_back(position);
+            result.normalsOS.push_back(isKept ? mesh.normalsOS[first + i] : glm::vec3(direction / length));
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+HookedScene::HookedScene(const scenes::Scene& scene) : scene_(scene), moved_(scene) {
+    std::set<std::size_t> meshes;
+    for (const scenes::Node& node : scene.nodes)
+        for (const scenes::MeshInstance& instance : node.instances)
+            if (instance.mesh != scenes::kNone && instance.material != scenes::kNone &&
+                scene.hook->changes(std::size_t(instance.material)))
+                meshes.insert(std::size_t(instance.mesh));
+    meshes_.assign(meshes.begin(), meshes.end());
+}
+
+shader::ProgramDesc HookedScene::program(const scenes::Hook& hook) {
+    shader::ProgramDesc desc;
+    desc.name = "hook_vertices";
+    desc.compute = "passes/hook_vertices.comp";
+    desc.defines = frame::hookDefines(frame::hookShape(hook));
+    desc.defines.emplace_back("DEPTH_ONLY", "0");
+    return desc;
+}
+
+bool HookedScene::update(double timeSeconds, shader::ProgramLibrary& programs) {
+    const scenes::Hook& hook = scene_.hook.value();
+    gpu::useProgram(programs.get(program(hook)));
+    const gpu::Buffer constants = gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)});
+    gpu::bindUniformBuffer(UNIFORM_HOOK, constants);
+    std::vector<MovedVertices> all;
+    for (const std::size_t mesh : meshes_) all.push_back(movedVertices(hook, scene_.meshes[mesh], timeSeconds));
+
+    bool hasChanged = false;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        scenes::Mesh& mesh = moved_.meshes[meshes_[i]];
+        hasChanged = hasChanged || mesh.positionsOS != all[i].positionsOS || mesh.normalsOS != all[i].normalsOS;
+        mesh.positionsOS = std::move(all[i].positionsOS);
+        mesh.normalsOS = std::move(all[i].normalsOS);
+    }
+    moved_.materials = scene_.materials;
+    moved_.nodes = scene_.nodes;
+    moved_.lights = scene_.lights;
+    moved_.cameras = scene_.cameras;
+    moved_.background = scene_.background;
+    moved_.options = scene_.options;
+    moved_.hook = scene_.hook;
+    moved_.hook->movesVertices = false;
+    if (moved_.environment && scene_.environment) { // how its map lies and shines
+        moved_.environment->intensity = scene_.environment->intensity;
+        moved_.environment->rotationDegrees = scene_.environment->rotationDegrees;
+    }
+    return hasChanged;
+}
+
+void HookedScene::takeMeshes() {
+    for (std::size_t i = 0; i < moved_.meshes.size(); ++i) moved_.meshes[i] = scene_.meshes[i];
+    moved_.nodes = scene_.nodes;
+    moved_.materials = scene_.materials;
+}
+
+} // namespace tessera::engine

@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "renderer/shader/ProgramLibrary.h"
+#include "scenes/Scene.h"
+
+namespace tessera::engine {
+
+/// A scene whose hook moves vertices, with the vertices as they are at a time. The hook runs in a compute shader, and
+/// what it makes is read back: all passes, bounds, trees of casters and the reference take the same vertices.
+class HookedScene {
+public:
+    /// The scene must outlive the object. Nothing is moved yet.
+    explicit HookedScene(const scenes::Scene& scene);
+
+    /// What a hook moves vertices with.
+    static shader::ProgramDesc program(const scenes::Hook& hook);
+
+    /// The scene with moved vertices; its hook no longer says that it moves any once update() has.
+    const scenes::Scene& scene() const { return moved_; }
+
+    /// Takes the scene's lights, cameras, materials and nodes as they are, and its vertices as the hook has them at
+    /// that time. True where a vertex has changed. Throws InputError where one is nowhere or farther from its place
+    /// than the hook may move it, gpu::ShaderError where the hook is faulty; then all is as it was.
+    bool update(double timeSeconds, shader::ProgramLibrary& programs);
+    /// To be called after vertices of the scene itself were changed.
+    void takeMeshes();
+    /// To be called after the scene got another map of its environment.
+    void takeEnvironment() { moved_.environment = scene_.environment; }
+
+private:
+    const scenes::Scene& scene_;
+    scenes::Scene moved_;
+    std::vector<std::size_t> meshes_; ///< that the hook moves
+};
+
+} // namespace tessera::engine

@@ -1,0 +1,27 @@
+// What a scene's own GLSL is called with (docs/hooks.md). Where a program includes this file, the scene's text stands
+// behind all else, and before it the block `hook` with the time and its parameters.
+#pragma once
+#include "shared/hook.h"
+
+#if HOOKED
+struct HookedSurface {
+    vec3 color;     // k_d, or base colour of metallic_roughness, linear
+    vec3 emission;  // radiance that needs no light; all of an unlit surface
+    float alpha;    // GGX alpha, of models that have one; along the tangent where the lobe is anisotropic
+    float metallic; // of metallic_roughness
+};
+
+struct HookInputs {
+    vec2 uv;         // the first texture coordinates, 0 where the mesh has none
+    vec3 positionOS; // as drawn: after skins, morph targets and hookVertex()
+    int instance;    // place of the mesh instance in the scene, from 0
+};
+
+// The scene's, those that it has.
+#if HOOK_SURFACE
+void hookSurface(inout HookedSurface surface, HookInputs inputs);
+#endif
+#if HOOK_VERTEX
+void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv);
+#endif
+#endif
