@@ -11,6 +11,14 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
+float valueWithin(const HookParameter& parameter, const JsonValue& number) {
+    const float value = number.single();
+    if (!(value >= parameter.least && value <= parameter.most))
+        number.fail(fmt::format("is {:g}, and must lie between its least, {:g}, and its most, {:g}", value,
+                                parameter.least, parameter.most));
+    return value;
+}
+
 HookParameter readParameter(const JsonValue& value) {
     JsonObject object = value.object();
     HookParameter parameter;
@@ -22,11 +30,17 @@ HookParameter readParameter(const JsonValue& value) {
     if (const auto most = object.find("most")) parameter.most = most->single();
     const JsonValue number = object.require("value");
     object.done("a parameter of a hook");
-    parameter.value = number.single();
-    if (!(parameter.value >= parameter.least && parameter.value <= parameter.most))
-        number.fail(fmt::format("is {:g}, and must lie between its least, {:g}, and its most, {:g}", parameter.value,
-                                parameter.least, parameter.most));
+    parameter.value = valueWithin(parameter, number);
     return parameter;
+}
+
+/// Other values of parameters that the base's hook has.
+void readValues(const JsonValue& values, Scene& scene) {
+    if (!scene.hook) values.fail("there is no hook of a base whose parameters it would set; name a 'file'");
+    JsonObject object = values.object();
+    for (HookParameter& parameter : scene.hook->parameters)
+        if (const auto number = object.find(parameter.name)) parameter.value = valueWithin(parameter, *number);
+    object.done("the values of a hook");
 }
 
 std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
@@ -67,9 +81,13 @@ void readFile(const std::filesystem::path& file, LoadLedger& ledger, Hook& hook)
 } // namespace
 
 void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
-    scene.hook.reset();
-    if (value.isNull()) return;
+    if (value.isNull()) return scene.hook.reset();
     JsonObject object = value.object();
+    if (const auto values = object.find("values")) {
+        object.done("a hook of new values");
+        return readValues(*values, scene);
+    }
+    scene.hook.reset();
     Hook hook;
     const JsonValue file = object.require("file");
     const std::optional<JsonValue> materials = object.find("materials");

@@ -35,11 +35,14 @@ bool namesAFile(const nlohmann::json& value) {
 
 /// True if a document holds only edits of its base, so that a new document can replace it.
 bool onlyEdits(const nlohmann::json& document) {
-    constexpr std::array kEdits = {"$schema", "tessera", "base",    "name",       "materials",
-                                   "lights",  "cameras", "options", "environment"};
+    constexpr std::array kEdits = {"$schema", "tessera", "base",    "name",        "materials",
+                                   "lights",  "cameras", "options", "environment", "hook"};
     if (!document.contains("base")) return false;
     for (const auto& [key, value] : document.items())
         if (std::ranges::find(kEdits, key) == kEdits.end()) return false;
+    // Only new values of the base's hook are an edit.
+    if (document.contains("hook") && !(document["hook"].is_object() && document["hook"].contains("values")))
+        return false;
     const nlohmann::json materials = document.value("materials", nlohmann::json::array());
     return std::ranges::all_of(materials, [](const nlohmann::json& material) {
         // A texture that is named as text is a file too, and adds a picture to those that are counted.

@@ -94,6 +94,14 @@ Json environmentJson(const Scene& scene, const fs::path& file) {
     return object;
 }
 
+/// The hook itself is the base's.
+Json hookValuesJson(const Hook& hook) {
+    Json values = Json::object();
+    for (const HookParameter& parameter : hook.parameters)
+        values[parameter.name] = write::number(double(parameter.value));
+    return values;
+}
+
 Json optionsJson(const Scene& scene) {
     const SceneOptions& options = scene.options;
     Json object = Json::object();
@@ -140,6 +148,7 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
     Json& cameras = document["cameras"] = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
     document["environment"] = environmentJson(scene, file);
+    if (scene.hook && !scene.hook->parameters.empty()) document["hook"] = {{"values", hookValuesJson(*scene.hook)}};
     document["options"] = optionsJson(scene);
     try {
         return textOf(document);

@@ -34,6 +34,13 @@ void sceneList(State& state) {
     ImGui::EndCombo();
 }
 
+/// A slider for each parameter of the scene's hook.
+void hookRows(OpenScene& open) {
+    if (!open.scene().hook) return;
+    for (scenes::HookParameter& parameter : open.edit().hook->parameters)
+        if (slider(parameter.name.c_str(), parameter.value, parameter.least, parameter.most)) open.touch();
+}
+
 } // namespace
 
 void scenePanel(State& state) {
@@ -48,6 +55,7 @@ void scenePanel(State& state) {
     fact("Triangles", fmt::format("{}", scenes::triangleCount(scene)));
     fact("Lights", fmt::format("{}", scene.lights.size()));
     fact("Materials", fmt::format("{}", scene.materials.size()));
+    hookRows(*state.open);
     for (const std::string& warning : scene.warnings) paragraph(warning);
 }
 

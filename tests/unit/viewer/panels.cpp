@@ -5,12 +5,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Overlays.h"
+#include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
@@ -367,6 +369,14 @@ TEST_F(Panels, aDifferenceOfNothingIsSaidOnItsBlackPicture) {
     facts.figuresAreOld = false;
     facts.figures->bitEqual = 0.999;
     EXPECT_FALSE(isSaid());
+}
+
+TEST_F(Panels, theSceneHasASliderForEachParameterOfItsHook) {
+    State state = unusualScene();
+    EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::Not(testing::HasSubstr("windStrength")));
+    state.open->edit().hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
+    EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::HasSubstr("windStrength"));
+    EXPECT_FALSE(state.open->isEdited());
 }
 
 } // namespace

@@ -63,6 +63,23 @@ TEST_F(HookFiles, faultsNameTheirPlace) {
                 HasSubstr("/hook/file: there is no file"));
 }
 
+TEST_F(HookFiles, anEditedSceneGivesTheHookOfItsBaseOtherValues) {
+    folder.write("base.json", R"({"tessera": 1, "include": [{"file": "models/bust.obj"}],
+        "hook": {"file": "hooks/tint.glsl", "parameters": [{"name": "a", "value": 0.25}, {"name": "b", "value": 1}]}})");
+    const auto edited = [](const std::string& hook) {
+        return R"({"tessera": 1, "base": {"file": "base.json"}, "hook": )" + hook + "}";
+    };
+    const Scene scene = folder.import(edited(R"({"values": {"a": 0.75}})"));
+    ASSERT_TRUE(scene.hook.has_value());
+    EXPECT_THAT(scene.hook->parameters, ElementsAre(HookParameter{"a", 0.75f}, HookParameter{"b", 1.0f}));
+    EXPECT_FALSE(folder.import(edited("null")).hook.has_value());
+    EXPECT_THAT(folder.errorBeyondSchemaOf(edited(R"({"values": {"a": 2}})")), HasSubstr("/hook/values/a: is 2"));
+    EXPECT_THAT(folder.errorBeyondSchemaOf(edited(R"({"values": {"c": 1}})")), HasSubstr("/hook/values"));
+    EXPECT_THAT(folder.errorOf(edited(R"({"values": {"a": 1}, "file": "hooks/tint.glsl"})")), HasSubstr("/hook"));
+    EXPECT_THAT(folder.errorBeyondSchemaOf(R"({"tessera": 1, "hook": {"values": {"a": 1}}})"),
+                HasSubstr("/hook/values: there is no hook of a base"));
+}
+
 TEST_F(HookFiles, whatMovesVerticesSaysHowFar) {
     folder.write("hooks/tint.glsl", "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv) {}\n");
     const Scene scene = folder.importMembers(members(R"(, "mayMoveMetres": 0.25)"));

@@ -288,5 +288,22 @@ TEST(SceneTextNumber, anglesThatAreNumbersOfDegreesAreWrittenAsSuch) {
     EXPECT_EQ(write::degreesOf(glm::radians(62.5)).dump(), "62.5");
 }
 
+TEST(SceneText, keepsTheHookOfTheBaseAndItsNewValues) {
+    const SceneFolder folder;
+    const std::filesystem::path base = folder.write("hooked.json", R"({"tessera": 1,
+        "include": [{"file": "models/bust.obj"}],
+        "cameras": [{"name": "front", "position": [0, 1, 4], "target": [0, 1, 0]}],
+        "hook": {"file": "hooks/redden.glsl", "parameters": [{"name": "a", "value": 0.25}]}})");
+    const std::filesystem::path file = folder.path() / "saved.json";
+    Scene scene = loadScene(base.string());
+    const Hook before = *scene.hook;
+    scene.hook->parameters[0].value = 0.7f;
+    Scene again = saved(scene, originOf(base.string(), {}, loadScene(base.string())), file);
+    EXPECT_EQ(again.hook, scene.hook);
+    // A document of edits alone is replaced.
+    again.hook->parameters[0].value = 0.25f;
+    EXPECT_EQ(saved(again, originOf(file.string(), {}, loadScene(file.string())), file).hook, before);
+}
+
 } // namespace
 } // namespace tessera::scenes
