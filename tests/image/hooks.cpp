@@ -114,6 +114,35 @@ TEST_F(Hooks, timeAndParametersChangeThePictureAndCompileNothing) {
     EXPECT_EQ(renderer.programs().size(), programs);
 }
 
+TEST_F(Hooks, everyParameterArrivesUnderItsName) {
+    scenes::Scene scene =
+        hooked(test::quadScene({}), "{\n    surface.emission = vec3(hook.p0, hook.p6, hook.p14);\n}\n");
+    scene.hook->parameters.clear();
+    for (std::size_t i = 0; i < scenes::kMostHookParameters; ++i)
+        scene.hook->parameters.push_back({fmt::format("p{}", i), 0.25f * float(i + 1), 0.0f, 16.0f});
+    const frame::FrameSettings settings = smallSettings();
+    const std::vector<float> radiance = drawn(scene, settings);
+    const std::size_t middle = 4 * (std::size_t(settings.sizePixels.x) * 45 + 80);
+    EXPECT_EQ(radiance[middle], 0.25f);
+    EXPECT_EQ(radiance[middle + 1], 1.75f);
+    EXPECT_EQ(radiance[middle + 2], 3.75f);
+}
+
+TEST_F(Hooks, whatTheyGiveIsKeptWithinWhatASurfaceMayBe) {
+    scenes::Material material;
+    material.model = scenes::MaterialModel::Lambert;
+    const scenes::Scene scene = test::quadScene(material);
+    const scenes::Scene dark = hooked(scene, "{\n    surface.emission = vec3(-1.0, 0.5, -2.0);\n}\n");
+    const frame::FrameSettings settings = smallSettings();
+    for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+        const std::vector<float> radiance = drawn(dark, settings, technique);
+        const std::size_t middle = 4 * (std::size_t(settings.sizePixels.x) * 45 + 80);
+        EXPECT_EQ(radiance[middle], 0.0f);
+        EXPECT_EQ(radiance[middle + 1], 0.5f);
+        EXPECT_EQ(radiance[middle + 2], 0.0f);
+    }
+}
+
 TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {
     const scenes::Scene faulty = hooked(test::evenScene(), "{\n    surface.color = undeclaredName;\n}\n");
     try {

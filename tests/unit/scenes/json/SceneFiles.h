@@ -11,8 +11,8 @@ namespace tessera::scenes::test {
 bool schemaAccepts(std::string_view document);
 
 /// A folder with the files that the tests' scenes refer to: models/bust.obj (node "bust", material "default"),
-/// parts/lamps.json (a light, a camera, a node "lamp"), hooks/redden.glsl, which changes nothing, and pictures of one texel: albedo 10 20 30, specular 40 50 60,
-/// normal 128 128 255.
+/// parts/lamps.json (a light, a camera, a node "lamp"), hooks/redden.glsl, which changes nothing, and pictures of one
+/// texel: albedo 10 20 30, specular 40 50 60, normal 128 128 255.
 class SceneFolder : public TempFolder {
 public:
     SceneFolder();
