@@ -19,7 +19,7 @@ float valueWithin(const HookParameter& parameter, const JsonValue& number) {
     return value;
 }
 
-HookParameter readParameter(const JsonValue& value) {
+HookParameter readHookParameter(const JsonValue& value) {
     JsonObject object = value.object();
     HookParameter parameter;
     const JsonValue name = object.require("name");
@@ -94,7 +94,7 @@ void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
     const std::optional<JsonValue> mayMove = object.find("mayMoveMetres");
     if (const auto parameters = object.find("parameters")) {
         for (const JsonValue& parameter : parameters->elements(0, kMostHookParameters)) {
-            hook.parameters.push_back(readParameter(parameter));
+            hook.parameters.push_back(readHookParameter(parameter));
             const auto last = hook.parameters.end() - 1;
             if (std::find_if(hook.parameters.begin(), last,
                              [&](const HookParameter& other) { return other.name == last->name; }) != last)
