@@ -17,7 +17,7 @@
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
-#include "viewer/session/LightEdits.h"
+#include "viewer/session/SceneEdits.h"
 #include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/window/Gui.h"

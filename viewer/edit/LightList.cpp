@@ -44,10 +44,9 @@ std::string freeLightName(const Lights& lights, const std::string& wanted) {
     return name;
 }
 
-std::size_t addLight(Lights& lights, scenes::Light light) {
+scenes::Light newLight(const Lights& lights, scenes::Light light) {
     light.name = freeLightName(lights, light.name.empty() ? "light" : light.name);
-    lights.push_back(std::move(light));
-    return lights.size() - 1;
+    return light;
 }
 
 scenes::Light lightBeforeFocus(const CameraPose& pose) {
@@ -60,22 +59,17 @@ scenes::Light lightBeforeFocus(const CameraPose& pose) {
     return light;
 }
 
-std::size_t duplicateLight(Lights& lights, std::size_t index) {
+scenes::Light copyOfLight(const Lights& lights, std::size_t index) {
     assert(index < lights.size());
     scenes::Light copy = lights[index];
     copy.name = freeLightName(lights, withoutNumber(copy.name));
-    lights.push_back(std::move(copy));
-    return lights.size() - 1;
+    return copy;
 }
 
-void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo) {
-    assert(index < lights.size());
-    lights.erase(lights.begin() + std::ptrdiff_t(index));
-    if (!solo || *solo < int(index)) return;
-    if (*solo == int(index))
-        solo.reset();
-    else
-        --*solo;
+std::optional<int> indexAfter(int index, std::size_t first, std::size_t taken, std::size_t put) {
+    if (index < int(first) || taken == put) return index;
+    if (index < int(first + taken)) return {};
+    return index + int(put) - int(taken);
 }
 
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index) {

@@ -16,18 +16,19 @@ std::string lightLabel(const Lights& lights, std::size_t index);
 /// `wanted` if no light has that name, else with the least number from 2 on behind it ("lamp 2").
 std::string freeLightName(const Lights& lights, const std::string& wanted);
 
-/// Adds a light at the end, under a name that is free. Returns its index.
-std::size_t addLight(Lights& lights, scenes::Light light);
+/// A light under a name that is free.
+scenes::Light newLight(const Lights& lights, scenes::Light light);
 
 /// A white point light halfway to the camera's focus, before the things that are looked at and not inside them: of 3
 /// lux there.
 scenes::Light lightBeforeFocus(const CameraPose& pose);
 
-/// Adds a copy of a light at the end, the number behind its name counted on ("lamp 2"). Returns the copy's index.
-std::size_t duplicateLight(Lights& lights, std::size_t index);
+/// A copy of a light, the number behind its name counted on ("lamp 2").
+scenes::Light copyOfLight(const Lights& lights, std::size_t index);
 
-/// Deletes a light; `solo` keeps naming the same light, or none if it was this one.
-void deleteLight(Lights& lights, std::size_t index, std::optional<int>& solo);
+/// Where the light of an index is after `put` lights came in the place of `taken` from `first` on; none where it was
+/// one of those that went. As many as went are the same lights, changed.
+std::optional<int> indexAfter(int index, std::size_t first, std::size_t taken, std::size_t put);
 
 /// Solo of a light: on, or off where it was on already.
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);

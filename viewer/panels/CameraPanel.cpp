@@ -13,7 +13,7 @@ void cameraPanel(State& state) {
     for (const scenes::Camera& camera : open.cameras()) choices.push_back({camera.name, ""});
     const auto now = std::size_t(open.camera());
     if (const auto chosen = choose("Camera", choices[now].name, choices, now)) {
-        open.useCamera(int(*chosen));
+        open.jumpToCamera(int(*chosen));
         state.active().settings.camera = int(*chosen);
     }
     CameraRig& rig = open.rig();
@@ -23,9 +23,9 @@ void cameraPanel(State& state) {
     ImGui::SameLine();
     if (ImGui::RadioButton("fly", rig.mode() == CameraRig::Mode::Fly)) rig.setMode(CameraRig::Mode::Fly);
     tip("W A S D and Q E, left drag looks around, Shift is fast");
-    if (ImGui::Button("All in view (F)")) rig.frameScene(state.pictureAspect);
+    if (ImGui::Button("All in view (F)")) open.jumpToAll(state.pictureAspect);
     ImGui::SameLine();
-    if (ImGui::Button("Home")) rig.goHome();
+    if (ImGui::Button("Home")) open.jumpHome();
     const CameraPose pose = rig.pose();
     fact("Eye", fmt::format("{:.3f} {:.3f} {:.3f} m", pose.eyeWS.x, pose.eyeWS.y, pose.eyeWS.z));
     fact("Pivot at", fmt::format("{:.3f} m", pose.focusMetres));

@@ -11,6 +11,7 @@
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -81,19 +82,39 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     return parts;
 }
 
-void statusLine(const State& state, const Facts& facts, const PictureArea& area, float scale) {
+/// A small button that undoes or redoes, and names what.
+void historyButton(const char* label, const char* keys, const std::string* what, State& state, void (*act)(State&)) {
+    const std::string meaning = what != nullptr ? fmt::format("{}: {} ({})", label, *what, keys) : "";
+    ImGui::BeginDisabled(what == nullptr);
+    const bool isPressed = ImGui::SmallButton(label);
+    ImGui::EndDisabled();
+    tip(meaning);
+    if (isPressed) act(state);
+}
+
+void historyButtons(State& state) {
+    if (!state.open) return;
+    historyButton("Undo", "Ctrl+Z", state.open->history().undoText(), state, undo);
+    ImGui::SameLine();
+    historyButton("Redo", "Ctrl+Y", state.open->history().redoText(), state, redo);
+    ImGui::SameLine();
+}
+
+void statusLine(State& state, const Facts& facts, const PictureArea& area, float scale) {
     ImGui::SetNextWindowPos({area.corner.x, area.corner.y + area.size.y});
     ImGui::SetNextWindowSize({area.size.x, kStatusHeight * scale});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(8.0f * scale, 4.0f * scale));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
     if (ImGui::Begin("Status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar)) {
+        historyButtons(state);
+        const float textX = ImGui::GetCursorPosX();
         std::vector<std::string> parts = statusParts(state, facts);
         const char* hint = "F1 help";
         const float hintX = area.size.x - ImGui::CalcTextSize(hint).x - 8.0f * scale;
         std::string text;
         const auto fits = [&] {
             text = fmt::format("{}", fmt::join(parts, "   "));
-            return ImGui::CalcTextSize(text.c_str()).x + 24.0f * scale < hintX;
+            return textX + ImGui::CalcTextSize(text.c_str()).x + 16.0f * scale < hintX;
         };
         while (!fits() && parts.size() > 1) parts.pop_back();
         ImGui::TextUnformatted(text.c_str());
@@ -158,6 +179,8 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);
+    // What is dragged is let go: the next edit is a step of its own.
+    if (state.open && !state.isDragging && !ImGui::IsAnyItemActive()) state.open->endGesture();
 }
 
 } // namespace tessera::viewer

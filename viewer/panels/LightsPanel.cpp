@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "scenes/Limits.h"
 #include "viewer/edit/Bounded.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
-#include "viewer/session/LightEdits.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -20,13 +20,18 @@ constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
 constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: sides and lengths that are slid to
 constexpr double kMostRadiusShare = 0.1;   ///< the same of radii
 
-bool tableRow(State& state, scenes::Scene& scene, int index) {
-    scenes::Light& light = scene.lights[std::size_t(index)];
-    bool changed = false;
+void tableRow(State& state, int index) {
+    const Lights& lights = state.open->scene().lights;
+    const scenes::Light& light = lights[std::size_t(index)];
     ImGui::PushID(index);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    changed |= ImGui::Checkbox("##on", &light.enabled);
+    bool isOn = light.enabled;
+    if (ImGui::Checkbox("##on", &isOn)) {
+        scenes::Light switched = light;
+        switched.enabled = isOn;
+        state.open->changeLight(std::size_t(index), std::move(switched));
+    }
     tip("on or off");
     ImGui::TableNextColumn();
     const ImVec4 color(std::sqrt(light.color.r), std::sqrt(light.color.g), std::sqrt(light.color.b), 1.0f);
@@ -37,7 +42,7 @@ bool tableRow(State& state, scenes::Scene& scene, int index) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
-    const std::string name = lightLabel(scene.lights, std::size_t(index));
+    const std::string name = lightLabel(lights, std::size_t(index));
     const bool isSelected = index == state.selectedLight;
     if (ImGui::Selectable(name.c_str(), isSelected)) state.selectedLight = isSelected ? scenes::kNone : index;
     ImGui::TableNextColumn();
@@ -46,25 +51,22 @@ bool tableRow(State& state, scenes::Scene& scene, int index) {
     if (ImGui::Checkbox("##solo", &isSolo)) solo = toggledSolo(solo, std::size_t(index));
     tip("only this light shines");
     ImGui::PopID();
-    return changed;
 }
 
-bool lightList(State& state, scenes::Scene& scene) {
-    bool changed = false;
+void lightList(State& state) {
     const float height = kListRows * ImGui::GetFrameHeightWithSpacing();
     const ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
-    if (!ImGui::BeginTable("lights", 3, flags, {0.0f, height})) return false;
+    if (!ImGui::BeginTable("lights", 3, flags, {0.0f, height})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("on", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableHeadersRow();
     ImGuiListClipper clipper; // tens of thousands of rows, of which few are in view
-    clipper.Begin(int(scene.lights.size()));
+    clipper.Begin(int(state.open->scene().lights.size()));
     while (clipper.Step())
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) changed |= tableRow(state, scene, i);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) tableRow(state, i);
     ImGui::EndTable();
-    return changed;
 }
 
 bool brightnessRows(scenes::Light& light) {
@@ -223,26 +225,18 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
-/// Buttons that change which lights there are; whether they did.
-bool listButtons(State& state, scenes::Scene& scene) {
+/// Buttons that change which lights there are.
+void listButtons(State& state) {
     const bool any = state.selectedLight != scenes::kNone;
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
-    bool changed = false;
-    if (ImGui::Button("Add", {width, 0.0f}) && scene.lights.size() < std::size_t(scenes::kMostLights)) {
-        state.selectedLight = int(addLight(scene.lights, lightBeforeFocus(state.open->rig().pose())));
-        changed = true;
-    }
+    if (ImGui::Button("Add", {width, 0.0f})) addLight(state);
     tip("A point light in the picture's middle, halfway to the camera's pivot");
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);
-    if (ImGui::Button("Duplicate", {width, 0.0f}) && scene.lights.size() < std::size_t(scenes::kMostLights)) {
-        state.selectedLight = int(duplicateLight(scene.lights, std::size_t(state.selectedLight)));
-        changed = true;
-    }
+    if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLight(state);
     ImGui::SameLine();
     if (ImGui::Button("Delete", {width, 0.0f})) deleteSelectedLight(state);
     ImGui::EndDisabled();
-    return changed;
 }
 
 /// Replaces the lights by many.
@@ -253,10 +247,7 @@ void scatterRows(State& state) {
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     row("");
     if (ImGui::Button("Replace all by these")) state.requests.scatter = true;
-    if (!state.replaced) return;
-    row("");
-    if (ImGui::Button("Bring the old ones back")) bringBackReplaced(state);
-    tip("The lights from before the scattered ones, which go with their edits");
+    tip("Ctrl+Z brings the old ones back");
 }
 
 void timeRow(double& timeSeconds) {
@@ -285,17 +276,19 @@ bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMet
 void lightsPanel(State& state) {
     if (!state.open) return;
     OpenScene& open = *state.open;
-    scenes::Scene& scene = open.edit();
+    const Lights& lights = open.scene().lights;
     double& timeSeconds = state.active().settings.timeSeconds;
-    bool changed = lightList(state, scene);
-    changed |= listButtons(state, scene);
-    if (state.selectedLight >= int(scene.lights.size())) state.selectedLight = scenes::kNone;
+    lightList(state);
+    listButtons(state);
+    if (state.selectedLight >= int(lights.size())) state.selectedLight = scenes::kNone;
     if (state.selectedLight != scenes::kNone) {
         const scenes::Box3& bounds = open.boundsWS();
         const double size = bounds.empty() || bounds.min == bounds.max ? 1.0 : glm::length(bounds.max - bounds.min);
-        scenes::Light& light = scene.lights[std::size_t(state.selectedLight)];
-        changed |= lightRows(light, timeSeconds, size);
-        changed |= animationRows(light, timeSeconds, size);
+        const auto index = std::size_t(state.selectedLight);
+        scenes::Light edited = lights[index];
+        bool changed = lightRows(edited, timeSeconds, size);
+        changed |= animationRows(edited, timeSeconds, size);
+        if (changed) open.changeLight(index, std::move(edited), widgetGesture());
     }
     ImGui::Separator();
     scatterRows(state);
@@ -305,7 +298,6 @@ void lightsPanel(State& state) {
     row("Animation");
     ImGui::Checkbox("plays (Space)", &state.isPlaying);
     timeRow(timeSeconds);
-    if (changed) open.touch();
 }
 
 } // namespace tessera::viewer

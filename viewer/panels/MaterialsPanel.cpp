@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -161,7 +162,7 @@ bool materialRows(Material& material) {
 
 void materialsPanel(State& state) {
     if (!state.open) return;
-    std::vector<Material>& materials = state.open->edit().materials;
+    const std::vector<Material>& materials = state.open->scene().materials;
     if (state.selectedMaterial >= int(materials.size())) state.selectedMaterial = scenes::kNone;
     const auto nameOf = [&materials](std::size_t index) {
         const std::string& name = materials[index].name;
@@ -177,7 +178,9 @@ void materialsPanel(State& state) {
     if (const auto chosen = choose("Material", any ? nameOf(now) : "click a surface", materials.size(), choiceAt, now))
         state.selectedMaterial = int(*chosen);
     if (state.selectedMaterial == scenes::kNone) return;
-    if (materialRows(materials[std::size_t(state.selectedMaterial)])) state.open->touchMaterials();
+    const auto index = std::size_t(state.selectedMaterial);
+    Material edited = materials[index];
+    if (materialRows(edited)) state.open->changeMaterial(index, std::move(edited), widgetGesture());
 }
 
 } // namespace tessera::viewer

@@ -4,6 +4,7 @@
 
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 
@@ -21,6 +22,11 @@ void savePanel(State& state) {
     tip("The command line that renders this picture (Ctrl+C)");
     if (ImGui::Button("Trace", {half, 0.0f})) state.requests.saveTrace = true;
     tip("Times of the latest frames' passes, for chrome://tracing or Perfetto");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!state.open || !state.open->isEdited());
+    if (ImGui::Button("Revert", {half, 0.0f})) revert(state);
+    ImGui::EndDisabled();
+    tip("Back to the scene as it was opened or saved last");
     ImGui::SetNextItemWidth(-FLT_MIN);
     std::string& command = state.command;
     if (!command.empty())

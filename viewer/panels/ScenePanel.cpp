@@ -37,8 +37,12 @@ void sceneList(State& state) {
 /// A slider for each parameter of the scene's hook.
 void hookRows(OpenScene& open) {
     if (!open.scene().hook) return;
-    for (scenes::HookParameter& parameter : open.edit().hook->parameters)
-        if (slider(parameter.name.c_str(), parameter.value, parameter.least, parameter.most)) open.touch();
+    const std::vector<scenes::HookParameter>& parameters = open.scene().hook->parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+        float value = parameters[i].value;
+        if (slider(parameters[i].name.c_str(), value, parameters[i].least, parameters[i].most))
+            open.changeHookParameter(i, value, widgetGesture());
+    }
 }
 
 } // namespace

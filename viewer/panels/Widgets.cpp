@@ -76,6 +76,10 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
     return result;
 }
 
+Gesture widgetGesture() {
+    return ImGui::IsAnyItemActive() ? Gesture::GoesOn : Gesture::Once;
+}
+
 bool slider(const char* label, float& value, float least, float most, const char* format) {
     row(label);
     return edit(value, least, most,

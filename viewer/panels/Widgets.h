@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viewer/edit/Bounded.h"
+#include "viewer/session/History.h"
 
 namespace tessera::viewer {
 
@@ -36,6 +37,9 @@ bool edit(Value& value, Number least, Number most, const Widget& widget) {
     edited = bounded(edited, value, least, most);
     return std::exchange(value, edited) != edited;
 }
+
+/// Whether the edit of a widget that was just shown is one of many that the user makes with it in one go.
+Gesture widgetGesture();
 
 /// A slider in a row of its own. Whether it changed the value.
 bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f");

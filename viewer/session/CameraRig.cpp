@@ -59,9 +59,9 @@ bool CameraRig::isAtRest() const {
     return mode_ == Mode::Orbit ? orbit_.isAtRest() : fly_.isAtRest();
 }
 
-void CameraRig::startHere(const scenes::Camera& here) {
-    start_ = here;
-    home_ = pose();
+void CameraRig::startAt(const scenes::Camera& start, const CameraPose& home) {
+    start_ = start;
+    home_ = home;
 }
 
 const CameraPose& CameraRig::pose() const {

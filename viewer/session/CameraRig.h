@@ -33,10 +33,13 @@ public:
     void advance(double stepSeconds, double heightPixels);
     bool isAtRest() const;
     /// Makes the current camera, `here`, the start that goHome() returns to. Movements in progress continue.
-    void startHere(const scenes::Camera& here);
+    void startHere(const scenes::Camera& here) { startAt(here, pose()); }
+    /// Makes another camera the start, whose pose is `home`. Moves nothing that was moved.
+    void startAt(const scenes::Camera& start, const CameraPose& home);
 
     const CameraPose& pose() const;
     const scenes::Camera& start() const { return start_; }
+    const CameraPose& home() const { return home_; }
     /// Whether it is elsewhere than where it started.
     bool isMoved() const { return pose() != home_; }
     /// The camera to draw: the start camera, to the last bit, while nothing moved it.

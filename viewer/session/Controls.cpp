@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -172,6 +173,7 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
             drag_ = Drag::Rotate;
         }
     }
+    state.isDragging = drag_ != Drag::None;
 }
 
 void Controls::release(const InputEvent& event, State& state, const PictureArea& area) {
@@ -184,8 +186,10 @@ void Controls::release(const InputEvent& event, State& state, const PictureArea&
 void Controls::endDrag(State& state) {
     drag_ = Drag::None;
     handle_.reset();
+    state.isDragging = false;
     state.heldHandle.reset();
     state.dragText.clear();
+    if (state.open) state.open->endGesture();
 }
 
 void Controls::takeHandle(const LightHandle& handle, State& state, const PictureArea& area, const glm::vec2& point) {
@@ -200,11 +204,12 @@ void Controls::takeHandle(const LightHandle& handle, State& state, const Picture
 void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2& point) {
     // Del, or another scene, may have taken the light away.
     if (state.selectedLight != handledLight_ || !hasSelectedLight(state)) return endDrag(state);
-    scenes::Light& light = state.open->edit().lights[std::size_t(handledLight_)];
+    scenes::Light light = state.open->scene().lights[std::size_t(handledLight_)];
     const bool isOneSided = flying_.fast; // Shift
     const double timeSeconds = state.active().settings.timeSeconds;
-    if (handle_->drag(light, timeSeconds, viewOf(state, area), point - area.corner, isOneSided)) state.open->touch();
+    handle_->drag(light, timeSeconds, viewOf(state, area), point - area.corner, isOneSided);
     state.dragText = handle_->text(light);
+    state.open->changeLight(std::size_t(handledLight_), std::move(light), Gesture::GoesOn);
 }
 
 void Controls::move(const InputEvent& event, State& state, const PictureArea& area) {
@@ -224,13 +229,14 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
     case Drag::Zoom:
         rig.zoom(std::pow(kZoomPerHeight, -moved.y / area.size.y), glm::dvec2(0.0), area.size.y);
         break;
-    case Drag::Light:
-        if (state.selectedLight == scenes::kNone || state.selectedLight >= int(state.open->scene().lights.size()))
-            break;
-        moveLight(state.open->edit().lights[std::size_t(state.selectedLight)], state.active().settings.timeSeconds,
-                  rig.pose(), rig.start(), moved, area.size.y);
-        state.open->touch();
+    case Drag::Light: {
+        if (!hasSelectedLight(state)) break;
+        const auto index = std::size_t(state.selectedLight);
+        scenes::Light light = state.open->scene().lights[index];
+        moveLight(light, state.active().settings.timeSeconds, rig.pose(), rig.start(), moved, area.size.y);
+        state.open->changeLight(index, std::move(light), Gesture::GoesOn);
         break;
+    }
     case Drag::Handle:
         dragHandle(state, area, event.position);
         break;

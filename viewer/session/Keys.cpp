@@ -7,7 +7,7 @@
 
 #include "engine/ChooseView.h"
 #include "renderer/frame/DebugViews.h"
-#include "viewer/session/LightEdits.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -75,11 +75,11 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode},
     {GLFW_KEY_F, kNone, "F", "all of the scene in view",
      [](State& s) {
-         if (s.open) s.open->rig().frameScene(s.pictureAspect);
+         if (s.open) s.open->jumpToAll(s.pictureAspect);
      }},
     {GLFW_KEY_HOME, kNone, "Home", "back to the scene's camera",
      [](State& s) {
-         if (s.open) s.open->rig().goHome();
+         if (s.open) s.open->jumpHome();
      }},
     {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }},
     {GLFW_KEY_L, kNone, "L", "only the selected light shines, or all again",
@@ -88,6 +88,9 @@ constexpr KeyBinding kBindings[] = {
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
     {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelectedLight},
+    {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo},
+    {GLFW_KEY_Z, kControl | kShift, "Ctrl+Shift+Z", "redo; also Ctrl+Y", redo},
+    {GLFW_KEY_Y, kControl, "", "", redo},
     {GLFW_KEY_SPACE, kNone, "Space", "lights and clips move, or stop", [](State& s) { s.isPlaying = !s.isPlaying; }},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",

@@ -1,8 +1,12 @@
 #include "viewer/session/OpenScene.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "scenes/Defaults.h"
 #include "scenes/Pose.h"
@@ -61,30 +65,168 @@ void OpenScene::useCamera(int camera) {
     begin(sceneCamera(), poseThrough(sceneCamera()));
 }
 
+void OpenScene::keepJump(std::string what, CameraView before) {
+    const bool isElsewhere = before.camera != camera_ || !(before.placed == placed_) ||
+                             before.rig.pose() != rig_.pose() || !rig_.isAtRest(); // on its way
+    if (isElsewhere) history_.keep(std::move(what), CameraEdit{std::move(before)});
+}
+
+void OpenScene::jumpToCamera(int camera) {
+    CameraView before = view();
+    useCamera(camera);
+    const std::string& name = sceneCamera().name;
+    keepJump(name.empty() ? fmt::format("look through camera {}", camera)
+                          : fmt::format("look through camera '{}'", name),
+             std::move(before));
+}
+
+void OpenScene::jumpHome() {
+    CameraView before = view();
+    rig_.goHome();
+    keepJump("go back to the scene's camera", std::move(before));
+}
+
+void OpenScene::jumpToAll(double aspect) {
+    CameraView before = view();
+    rig_.frameScene(aspect);
+    keepJump("bring all into view", std::move(before));
+}
+
+// ---- Edits ----
+
+void OpenScene::apply(std::string what, Edit edit, Gesture gesture) {
+    exchange(edit);
+    history_.keep(std::move(what), std::move(edit), gesture);
+}
+
+void OpenScene::changeLight(std::size_t index, scenes::Light changed, Gesture gesture) {
+    const scenes::Light& now = scene_.lights[index];
+    if (changed == now) return;
+    const std::string label = lightLabel(scene_.lights, index);
+    LightsEdit edit{index, 1, {std::move(changed)}};
+    const Edit* const begun = history_.continued(edit, gesture);
+    const scenes::Light& before = begun != nullptr ? std::get<LightsEdit>(*begun).others.front() : now;
+    std::string what = changeText(before, edit.others.front(), label);
+    apply(std::move(what), std::move(edit), gesture);
+}
+
+void OpenScene::changeMaterial(std::size_t index, scenes::Material changed, Gesture gesture) {
+    const scenes::Material& now = scene_.materials[index];
+    if (changed == now) return;
+    MaterialEdit edit{index, std::move(changed)};
+    const Edit* const begun = history_.continued(edit, gesture);
+    const scenes::Material& before = begun != nullptr ? std::get<MaterialEdit>(*begun).other : now;
+    std::string what = changeText(before, edit.other, now.name.empty() ? fmt::format("{}", index) : now.name);
+    apply(std::move(what), std::move(edit), gesture);
+}
+
+void OpenScene::changeHookParameter(std::size_t parameter, float value, Gesture gesture) {
+    const scenes::HookParameter& now = scene_.hook->parameters[parameter];
+    if (value == now.value) return;
+    apply(fmt::format("change '{}' of the hook", now.name), HookEdit{parameter, value}, gesture);
+}
+
+void OpenScene::replaceLights(std::string what, std::size_t first, std::size_t count, Lights others) {
+    apply(std::move(what), LightsEdit{first, count, std::move(others)});
+}
+
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
-    scene_.environment = std::move(chosen.environment);
+    const std::string name = std::filesystem::path(chosen.name).filename().string();
+    Surrounding next{std::move(chosen.environment), std::move(chosen.filtered), scene_.warnings,
+                     std::move(chosen.warnings)};
     // What was said of the environment before is over.
-    std::vector<std::string>& warnings = scene_.warnings;
-    std::erase_if(warnings, [&](const std::string& warning) {
+    std::erase_if(next.warnings, [&](const std::string& warning) {
         return warning == scenes::kDefaultLightWarning ||
                std::ranges::find(environmentWarnings_, warning) != environmentWarnings_.end();
     });
-    environmentWarnings_ = std::move(chosen.warnings);
-    warnings.insert(warnings.end(), environmentWarnings_.begin(), environmentWarnings_.end());
-    filtered_ = std::move(chosen.filtered);
-    ++environmentRevision_;
-    touch();
+    next.warnings.insert(next.warnings.end(), next.ownWarnings.begin(), next.ownWarnings.end());
+    apply(fmt::format("choose environment '{}'", name), EnvironmentEdit{std::move(next)});
 }
+
+const Edit* OpenScene::undo() {
+    return history_.undo([this](Edit& edit) {
+        exchange(edit);
+        if (std::holds_alternative<MaterialEdit>(edit)) poseAgain();
+    });
+}
+
+const Edit* OpenScene::redo() {
+    return history_.redo([this](Edit& edit) {
+        exchange(edit);
+        if (std::holds_alternative<MaterialEdit>(edit)) poseAgain();
+    });
+}
+
+void OpenScene::poseAgain() {
+    if (scenes::isPlaying(scene_)) scenes::poseScene(scene_, shownSeconds_);
+}
+
+void OpenScene::exchange(Edit& edit) {
+    std::visit([this](auto& one) { exchange(one); }, edit);
+    ++revision_;
+    if (changesScene(edit)) ++edits_;
+}
+
+void OpenScene::exchange(LightsEdit& edit) {
+    Lights& lights = scene_.lights;
+    const auto begin = lights.begin() + std::ptrdiff_t(edit.first), end = begin + std::ptrdiff_t(edit.count);
+    Lights taken(std::make_move_iterator(begin), std::make_move_iterator(end));
+    const std::size_t put = edit.others.size(), both = std::min(put, edit.count);
+    std::move(edit.others.begin(), edit.others.begin() + std::ptrdiff_t(both), begin);
+    if (put < edit.count)
+        lights.erase(begin + std::ptrdiff_t(both), end);
+    else
+        lights.insert(begin + std::ptrdiff_t(both), std::make_move_iterator(edit.others.begin() + std::ptrdiff_t(both)),
+                      std::make_move_iterator(edit.others.end()));
+    edit.count = put;
+    edit.others = std::move(taken);
+}
+
+void OpenScene::exchange(MaterialEdit& edit) {
+    std::swap(scene_.materials[edit.index], edit.other);
+    ++materialRevision_;
+}
+
+void OpenScene::exchange(HookEdit& edit) {
+    std::swap(scene_.hook->parameters[edit.parameter].value, edit.other);
+}
+
+void OpenScene::exchange(EnvironmentEdit& edit) {
+    std::swap(scene_.environment, edit.other.environment);
+    std::swap(filtered_, edit.other.filtered);
+    std::swap(scene_.warnings, edit.other.warnings);
+    std::swap(environmentWarnings_, edit.other.ownWarnings);
+    ++environmentRevision_;
+}
+
+void OpenScene::exchange(CameraEdit& edit) {
+    CameraView before = view();
+    scene_.cameras[std::size_t(camera_)] = sceneCamera();
+    camera_ = edit.other.camera;
+    placed_ = edit.other.placed;
+    rig_ = std::move(edit.other.rig);
+    rig_.setMode(before.rig.mode()); // how one moves is no matter of where one is
+    applyRig();
+    edit.other = std::move(before);
+}
+
+// ---- The file and the camera ----
 
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
     load.clip = std::move(load_.clip);
     load_ = std::move(load);
-    savedEdits_ = edits_;
+    history_.markSaved();
     cameras_ = scene_.cameras;
     placed_ = {};
     rig_.startHere(sceneCamera());
+    history_.forEach([this](Edit& edit) {
+        auto* const jump = std::get_if<CameraEdit>(&edit);
+        if (jump == nullptr || jump->other.camera != camera_) return;
+        jump->other.placed = {}; // the file's camera is what it starts as now
+        jump->other.rig.startAt(rig_.start(), rig_.home());
+    });
 }
 
 void OpenScene::place(const scenes::CameraChange& change) {

@@ -5,10 +5,12 @@
 #include "scenes/write/SceneOrigin.h"
 #include "viewer/session/CameraRig.h"
 #include "viewer/session/EnvironmentJob.h"
+#include "viewer/session/History.h"
 
 namespace tessera::viewer {
 
-/// An open scene, as loaded and with later edits. Its address is fixed, since a renderer draws it.
+/// An open scene, as loaded and with later edits, which can all be undone. Its address is fixed, since a renderer draws
+/// it.
 class OpenScene {
 public:
     /// `filtered`, of the scene's environment, may be null: it is filtered when a frame needs it.
@@ -19,25 +21,34 @@ public:
 
     const std::string& source() const { return source_; } ///< as loadScene() takes it
     const scenes::SceneOrigin& origin() const { return origin_; }
-    /// Lights or materials were edited since the scene was loaded or saved.
-    bool isEdited() const { return edits_ != savedEdits_; }
-    /// Counts edits of lights and materials.
+    /// The scene differs from what was loaded or saved last by edits that were made, or undone, since.
+    bool isEdited() const { return !history_.isSaved(); }
+    /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
     /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays,
     /// and the clip that was asked for, which a scene file cannot choose.
     void becomes(const std::string& file);
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
-    /// For edits of lights and materials. Whoever edits says touch() or touchMaterials().
-    scenes::Scene& edit() { return scene_; }
-    void touch() {
-        ++revision_;
-        ++edits_;
-    }
-    void touchMaterials() {
-        touch();
-        ++materialRevision_;
-    }
+
+    // ---- Edits: all of them are steps of the history ----
+    const History& history() const { return history_; }
+    /// Gives a light, a material or a parameter of the hook other values. Nothing happens where they are the same.
+    void changeLight(std::size_t index, scenes::Light changed, Gesture gesture = Gesture::Once);
+    void changeMaterial(std::size_t index, scenes::Material changed, Gesture gesture = Gesture::Once);
+    void changeHookParameter(std::size_t parameter, float value, Gesture gesture = Gesture::Once);
+    /// Puts lights in the place of `count` from `first` on. `what` tells the user: "delete light 'lamp 3'".
+    void replaceLights(std::string what, std::size_t first, std::size_t count, Lights others);
+    /// Takes another environment in the place of the scene's own.
+    void takeEnvironment(ChosenEnvironment chosen);
+    /// The drag that edits with Gesture::GoesOn is over.
+    void endGesture() { history_.endGesture(); }
+    /// Undoes or redoes a step; null where there is none, else the edit, after the exchange.
+    const Edit* undo();
+    const Edit* redo();
+    /// From now on its edits are not saved, whatever is undone: what it was opened from is no scene of the user's.
+    void markUnsaved() { history_.markUnsaved(); }
+
     /// Shows the scene at a time of the clip that plays, but its lights and cameras, which are edited here. True where
     /// something may have moved. Throws InputError where something then lies too far away; the pose before then stays,
     /// and the next time is tried anew.
@@ -46,8 +57,6 @@ public:
     bool playsAt(double timeSeconds) const { return timeSeconds < lastSeconds_; }
     /// Counts changes of what clips move.
     std::uint64_t geometryRevision() const { return geometryRevision_; }
-    /// Takes another environment in the place of the scene's own, as an edit.
-    void takeEnvironment(ChosenEnvironment chosen);
     std::uint64_t environmentRevision() const { return environmentRevision_; }
     /// Of its environment, which a renderer need not filter; may be null.
     const std::shared_ptr<const frame::FilteredEnvironment>& filteredEnvironment() const { return filtered_; }
@@ -61,8 +70,13 @@ public:
     int camera() const { return camera_; }
     CameraRig& rig() { return rig_; }
     const CameraRig& rig() const { return rig_; }
-    /// Looks through another of the scene's cameras.
+    /// Looks through another of the scene's cameras, to begin with.
     void useCamera(int camera);
+    // Jumps of the camera are steps of the history too, unless it is there already.
+    void jumpToCamera(int camera);
+    void jumpHome();
+    /// All of the scene in view, in a picture of an aspect: width over height.
+    void jumpToAll(double aspect);
     /// Begins with the change of the scene's camera: what changedCamera() makes of it, to the last bit. Orbiting turns
     /// about the target that it says. Throws InputError for values that no camera can have, and then does nothing.
     void place(const scenes::CameraChange& change);
@@ -79,6 +93,18 @@ private:
     /// Orbits turn about what the camera shows in the middle of its picture; where that is nothing, about the middle of
     /// the scene.
     CameraPose poseThrough(const scenes::Camera& camera) const;
+    void apply(std::string what, Edit edit, Gesture gesture = Gesture::Once);
+    void exchange(Edit& edit);
+    void exchange(LightsEdit& edit);
+    void exchange(MaterialEdit& edit);
+    void exchange(HookEdit& edit);
+    void exchange(EnvironmentEdit& edit);
+    void exchange(CameraEdit& edit);
+    CameraView view() const { return {camera_, placed_, rig_}; }
+    /// Keeps where the camera was before a jump that has begun.
+    void keepJump(std::string what, CameraView before);
+    /// Puts what clips move of edited materials to where it is at the time that is shown.
+    void poseAgain();
     /// Begins anew with a camera and its pose.
     void begin(const scenes::Camera& start, const CameraPose& home);
 
@@ -92,7 +118,8 @@ private:
     scenes::CameraChange placed_; ///< made the camera that the rig started as
     CameraRig rig_;
     std::uint64_t revision_ = 0;
-    std::uint64_t edits_ = 0, savedEdits_ = 0;
+    std::uint64_t edits_ = 0;
+    History history_;
     double lastSeconds_;        ///< when the last key of a clip that plays is; without one long ago
     double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused
     double shownSeconds_ = 0.0; ///< of the clip

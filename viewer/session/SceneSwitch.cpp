@@ -64,7 +64,6 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     }
     comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
-    state_.replaced.reset();
     state_.notice = {};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));

@@ -37,12 +37,6 @@ struct Requests {
     bool quit = false;
 };
 
-/// Lights in whose place others were scattered.
-struct Replaced {
-    std::vector<scenes::Light> lights;
-    std::uint64_t edits = 0; ///< OpenScene::edits() just after
-};
-
 /// What the window shows and how: all that panels show and change.
 struct State {
     std::unique_ptr<OpenScene> open; ///< none until the first scene has been loaded
@@ -63,13 +57,13 @@ struct State {
     bool showsHelp = false;
     int selectedLight = scenes::kNone;
     int selectedMaterial = scenes::kNone;
-    Scatter scatter;                  ///< settings of the next scattering
-    std::optional<Replaced> replaced; ///< what the latest scattering took
+    Scatter scatter; ///< settings of the next scattering
 
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened
 
     bool showsMarkers = false;     ///< where lights are
+    bool isDragging = false;       ///< something in the picture, or the camera
     std::optional<int> heldHandle; ///< of the selected light, which is dragged: LightHandle::number
     std::string dragText;          ///< what the drag in progress sets, for the user
     bool wantsPlan = false;        ///< a panel shows the plan of the active side's frame

@@ -1,8 +1,11 @@
 #include "viewer/session/Controls.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
-#include "viewer/session/LightEdits.h"
+#include "viewer/edit/LightList.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -69,7 +72,9 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
     };
     constexpr int kShift = 1; // GLFW's
     EXPECT_EQ(dragged(kShift), 0.0f);
-    state.open->edit().environment.emplace();
+    ChosenEnvironment chosen;
+    chosen.environment.emplace();
+    state.open->takeEnvironment(std::move(chosen));
     EXPECT_EQ(dragged(0), 0.0f);
     EXPECT_EQ(said, "");
     EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the picture's height
@@ -80,13 +85,14 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
 State withRectangleSelected() {
     State state = withLightInTheMiddle(0, 1);
     state.selectedLight = 0;
-    scenes::Scene& scene = state.open->edit();
+    scenes::Scene scene = state.open->scene();
     const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
     scenes::Light& light = scene.lights[0];
     light.type = scenes::LightType::Rectangle;
     light.directionWS = -glm::dvec3(worldFromCamera[1]);
     light.alongWS = glm::dvec3(worldFromCamera[0]);
     light.widthMetres = float(200.0 * viewOf(state, kArea).metresPerUnit(light.positionWS).value());
+    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
     return state;
 }
 constexpr glm::vec2 kRightSide{300.0f, 200.0f};
@@ -149,6 +155,22 @@ TEST(Controls, aHandleEndsWithItsLight) {
     EXPECT_FALSE(state.heldHandle);
     EXPECT_EQ(state.dragText, "");
     EXPECT_EQ(state.open->edits(), edits);
+}
+
+TEST(Controls, oneDragOfAHandleIsOneStepThatIsUndoneWhenItIsOver) {
+    State state = withRectangleSelected();
+    const scenes::Light before = state.open->scene().lights[0];
+    Controls controls;
+    press(controls, state, kRightSide, true);
+    for (const float x : {10.0f, 30.0f, 50.0f}) moveTo(controls, state, kRightSide + glm::vec2(x, 0.0f));
+    undo(state);
+    EXPECT_FALSE(state.open->scene().lights[0] == before) << "it is held";
+    press(controls, state, kRightSide + glm::vec2(50.0f, 0.0f), false);
+    EXPECT_EQ(state.open->history().undoable(), 1u);
+    EXPECT_EQ(*state.open->history().undoText(), "resize light '" + lightLabel(state.open->scene().lights, 0) + "'");
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights[0] == before);
+    EXPECT_FALSE(state.open->isEdited());
 }
 
 TEST(Controls, handlesAreTakenAsFarBesideThemAsTheDisplayIsDense) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Handles.h"
 
@@ -25,7 +26,10 @@ protected:
             std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
         state_.selectedLight = 0;
     }
-    scenes::Light& light() { return state_.open->edit().lights[0]; }
+    template <typename Change>
+    void change(const Change& change) {
+        test::changeLight(state_, 0, change);
+    }
     auto span() {
         return overlaySpan([&] { drawHandles(state_, area(state_)); });
     }
@@ -57,14 +61,17 @@ TEST_F(Handles, stayInThePictureHoweverLargeTheLightIs) {
     const PictureArea at = area(state_);
     constexpr float kHalfLine = 4.0f; // of the line's width, with its smooth rim
     for (const float metres : {10.0f, 1e6f}) {
-        light().widthMetres = light().heightMetres = metres; // it reaches behind the camera
+        change([&](scenes::Light& light) { light.widthMetres = light.heightMetres = metres; }); // behind the camera
         const auto drawn = span();
         ASSERT_TRUE(drawn);
         EXPECT_GE(drawn->first, at.corner.x - kHalfLine);
         EXPECT_LE(drawn->second, at.corner.x + at.size.x + kHalfLine);
     }
-    light().positionWS = glm::dvec3(state_.open->scene().cameras[0].worldFromCamera * glm::dvec4(0.0, 0.0, 3.0, 1.0));
-    light().widthMetres = light().heightMetres = 0.5f;
+    const glm::dmat4& worldFromCamera = state_.open->scene().cameras[0].worldFromCamera;
+    change([&](scenes::Light& light) {
+        light.positionWS = glm::dvec3(worldFromCamera * glm::dvec4(0.0, 0.0, 3.0, 1.0));
+        light.widthMetres = light.heightMetres = 0.5f;
+    });
     EXPECT_FALSE(span()) << "all of it lies behind the camera";
 }
 
@@ -90,8 +97,10 @@ TEST_F(Handles, noPointerIsThePlainOneWhateverTheWay) {
                                                 ImGuiMouseCursor_ResizeNS, ImGuiMouseCursor_ResizeNWSE};
     for (int eighth = 0; eighth < 4; ++eighth) {
         const double angle = glm::radians(45.0 * eighth);
-        light().alongWS = std::cos(angle) * rightWS + std::sin(angle) * upWS;
-        light().directionWS = std::sin(angle) * rightWS - std::cos(angle) * upWS;
+        change([&](scenes::Light& light) {
+            light.alongWS = std::cos(angle) * rightWS + std::sin(angle) * upWS;
+            light.directionWS = std::sin(angle) * rightWS - std::cos(angle) * upWS;
+        });
         const LightFigure figure = *selectedFigure(state_, area(state_));
         const auto width = std::ranges::find_if(figure.handles, [](const LightHandle& handle) {
             return handle.parameter != nullptr && handle.parameter->member == &scenes::Light::widthMetres;

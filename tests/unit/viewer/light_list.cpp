@@ -39,11 +39,9 @@ scenes::Light movingLight(int kind) {
 
 TEST(LightList, everyNewNameIsFreeAndOthersNeverChange) {
     Lights lights = named({"lamp", "sun", "lamp 3"});
-    EXPECT_EQ(duplicateLight(lights, 0), 3u);
-    EXPECT_EQ(duplicateLight(lights, 0), 4u);
-    EXPECT_EQ(duplicateLight(lights, 2), 5u);
-    EXPECT_EQ(addLight(lights, lights[1]), 6u);
-    EXPECT_EQ(addLight(lights, scenes::Light()), 7u);
+    for (const std::size_t index : {0, 0, 2}) lights.push_back(copyOfLight(lights, index));
+    lights.push_back(newLight(lights, lights[1]));
+    lights.push_back(newLight(lights, scenes::Light()));
     EXPECT_EQ(namesOf(lights), (Names{"lamp", "sun", "lamp 3", "lamp 2", "lamp 4", "lamp 5", "sun 2", "light"}));
 }
 
@@ -51,23 +49,19 @@ TEST(LightList, aCopyIsExactlyTheLightButForItsName) {
     Lights lights = named({"lamp"});
     lights[0].intensity = 7.0f;
     lights[0].animation.emplace().periodSeconds = 3.0;
-    scenes::Light copy = lights[duplicateLight(lights, 0)];
+    scenes::Light copy = copyOfLight(lights, 0);
     copy.name = "lamp";
     EXPECT_TRUE(copy == lights[0]);
 }
 
-TEST(LightList, soloStaysWithItsLightWhileOthersAreDeleted) {
-    Lights lights = named({"a", "b", "c", "d"});
-    std::optional<int> solo = toggledSolo({}, 2);
-    EXPECT_EQ(solo, 2);
-    deleteLight(lights, 3, solo);
-    EXPECT_EQ(solo, 2);
-    deleteLight(lights, 0, solo);
-    EXPECT_EQ(solo, 1);
-    EXPECT_EQ(lights[1].name, "c");
-    deleteLight(lights, 1, solo);
-    EXPECT_FALSE(solo);
-    EXPECT_EQ(namesOf(lights), Names{"b"});
+TEST(LightList, anIndexGoesWithItsLightWhileOthersComeAndGo) {
+    EXPECT_EQ(indexAfter(2, 3, 1, 0), 2) << "one behind it went";
+    EXPECT_EQ(indexAfter(2, 0, 1, 0), 1) << "one before it went";
+    EXPECT_FALSE(indexAfter(2, 2, 1, 0)) << "it went itself";
+    EXPECT_EQ(indexAfter(2, 2, 0, 1), 3) << "one came to where it was";
+    EXPECT_EQ(indexAfter(2, 2, 1, 1), 2) << "it was changed";
+    EXPECT_FALSE(indexAfter(2, 0, 4, 9)) << "others took the place of all";
+    EXPECT_EQ(toggledSolo({}, 2), 2);
     EXPECT_FALSE(toggledSolo(0, 0));
     EXPECT_EQ(toggledSolo(0, 1), 1);
 }

@@ -182,14 +182,15 @@ scenes::Scene riggedAndSeen() {
 TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
     const scenes::Scene scene = riggedAndSeen();
     OpenScene open("rigged.gltf", {}, scene, {});
-    open.edit().lights.clear();
-    const std::uint64_t revision = open.revision();
+    open.replaceLights("delete all", 0, open.scene().lights.size(), {});
+    const std::uint64_t revision = open.revision(), edits = open.edits();
     EXPECT_FALSE(open.showTime(0.0)) << "it is shown already";
     EXPECT_TRUE(open.showTime(1.0));
     EXPECT_EQ(open.geometryRevision(), 1u);
     EXPECT_GT(open.revision(), revision);
     EXPECT_FALSE(open.showTime(1.0));
-    EXPECT_FALSE(open.isEdited());
+    EXPECT_EQ(open.edits(), edits) << "a pose is no edit";
+    EXPECT_TRUE(open.scene().lights.empty());
     EXPECT_NE(open.scene().meshes[0].positionsOS, scene.meshes[0].positionsOS);
     EXPECT_EQ(open.scene().cameras[0].worldFromCamera, scene.cameras[0].worldFromCamera);
     Opened still;
@@ -204,6 +205,30 @@ TEST(OpenScene, savingKeepsTheClipThatWasAskedFor) {
     open.becomes("/saved.json");
     EXPECT_EQ(open.load().clip, "bend");
     EXPECT_FALSE(open.load().lights) << "the file has its lights";
+}
+
+TEST(OpenScene, aDragOfAHooksParameterIsOneStepAndIsUndone) {
+    scenes::Scene scene = riggedAndSeen();
+    scene.hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}, {"speed", 1.0f, 0.0f, 3.0f}};
+    OpenScene open("rigged.gltf", {}, scene, {});
+    const auto strength = [&] { return open.scene().hook->parameters[0].value; };
+    open.changeHookParameter(0, 0.5f);
+    EXPECT_FALSE(open.isEdited()) << "it has that value";
+    for (const float value : {0.75f, 1.0f, 1.25f}) open.changeHookParameter(0, value, Gesture::GoesOn);
+    open.changeHookParameter(1, 2.0f, Gesture::GoesOn);
+    open.endGesture();
+    EXPECT_EQ(open.history().undoable(), 2u);
+    ASSERT_NE(open.history().undoText(), nullptr);
+    EXPECT_EQ(*open.history().undoText(), "change 'speed' of the hook");
+    const std::uint64_t revision = open.revision();
+    open.undo();
+    open.undo();
+    EXPECT_EQ(strength(), 0.5f);
+    EXPECT_EQ(open.scene().hook->parameters[1].value, 1.0f);
+    EXPECT_GT(open.revision(), revision);
+    EXPECT_FALSE(open.isEdited());
+    open.redo();
+    EXPECT_EQ(strength(), 1.25f);
 }
 
 TEST(OpenScene, aClipStandsStillAfterItsEnd) {

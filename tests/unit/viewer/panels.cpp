@@ -9,11 +9,13 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -124,6 +126,45 @@ TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     EXPECT_FALSE(state.wantsPlan);
 }
 
+TEST_F(Panels, oneDragOfAWidgetIsOneStepThatCanBeUndone) {
+    State state = unusualScene();
+    OpenScene& open = *state.open;
+    test::changeLight(state, 0, [](scenes::Light& light) { light.intensity = 1.0f; });
+    open.becomes("/saved.json");
+    const float before = open.scene().lights.at(0).intensity;
+    ImVec2 corner;
+    const auto next = [&](bool isDown, float x) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        ImGui::GetIO().MousePos = {corner.x + 20.0f + x, corner.y + 5.0f};
+        frame([&] {
+            ImGui::SetNextWindowPos({400.0f, 10.0f});
+            ImGui::SetNextWindowSize({300.0f, 200.0f});
+            ImGui::Begin("aside");
+            scenes::Light light = open.scene().lights[0];
+            if (ImGui::DragFloat("##value", &light.intensity, 0.125f)) open.changeLight(0, light, widgetGesture());
+            corner = ImGui::GetItemRectMin();
+            ImGui::End();
+            drawInterface(state, {}, area(state), 1.0f);
+        });
+    };
+    std::vector<float> ends;
+    for (int drag = 0; drag < 2; ++drag) {
+        const float start = 60.0f * float(drag); // in one place it would be a double click
+        for (int i = 0; i < 3; ++i) next(false, start);
+        for (int i = 0; i < 5; ++i) next(true, start + 10.0f * float(i));
+        for (int i = 0; i < 2; ++i) next(false, start + 40.0f);
+        ends.push_back(open.scene().lights[0].intensity);
+    }
+    ASSERT_NE(ends[0], before) << "nothing was dragged";
+    ASSERT_NE(ends[1], ends[0]);
+    EXPECT_EQ(open.history().stepsToSaved(), -2);
+    undo(state);
+    EXPECT_EQ(open.scene().lights[0].intensity, ends[0]);
+    undo(state);
+    EXPECT_EQ(open.scene().lights[0].intensity, before);
+    EXPECT_FALSE(open.isEdited());
+}
+
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
     State state;
     bool isClicked = false;
@@ -222,7 +263,7 @@ TEST_F(Panels, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     const auto text = [&] { return textOf([&] { shadowsPanel(state, facts); }); };
     EXPECT_EQ(text().find("Atlas"), std::string::npos) << "nothing is drawn yet";
     facts.shadows[0] = mapsOf(3);
-    state.open->edit().lights[1].name = "lamp";
+    test::changeLight(state, 1, [](scenes::Light& light) { light.name = "lamp"; });
     const std::string maps = text();
     for (const char* part :
          {"4096x1024 texels", "16 of 20 MiB", "12: 4 drawn, 8 kept", "512 of 1024", "no room", "lamp"})
@@ -235,7 +276,7 @@ TEST_F(Panels, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     EXPECT_NE(text().find("No light in view casts shadows"), std::string::npos);
     // Lights that were deleted since the frame have no row.
     facts.shadows[0] = mapsOf(3);
-    state.open->edit().lights.resize(1);
+    state.open->replaceLights("delete", 1, state.open->scene().lights.size() - 1, {});
     EXPECT_EQ(text().find("no room"), std::string::npos);
 }
 
@@ -270,14 +311,16 @@ TEST_F(Panels, theShadowsPanelSaysWhereNoLightHasTheSizeThatItsFilterHeeds) {
     };
     EXPECT_TRUE(saysSo(frame::ShadowFilter::Pcss));
     EXPECT_FALSE(saysSo(frame::ShadowFilter::Pcf));
-    state.open->edit().lights[2].radiusMetres = 0.1f;
+    test::changeLight(state, 2, [](scenes::Light& light) { light.radiusMetres = 0.1f; });
     EXPECT_FALSE(saysSo(frame::ShadowFilter::Pcss));
 }
 
 TEST_F(Panels, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelectsOne) {
     State state = unusualScene();
-    state.open->edit().lights.resize(256);
-    for (scenes::Light& light : state.open->edit().lights) light.name = "lamp";
+    Lights lamps = state.open->scene().lights;
+    lamps.resize(256);
+    for (scenes::Light& light : lamps) light.name = "lamp";
+    state.open->replaceLights("add", 0, state.open->scene().lights.size(), lamps);
     Facts facts;
     ImGui::GetStyle().ItemSpacing.y += 3.0f; // cells have a padding of their own
     const ImGuiWindow* table = nullptr;
@@ -372,9 +415,13 @@ TEST_F(Panels, aDifferenceOfNothingIsSaidOnItsBlackPicture) {
 }
 
 TEST_F(Panels, theSceneHasASliderForEachParameterOfItsHook) {
-    State state = unusualScene();
+    scenes::LoadOptions load;
+    scenes::Scene scene = scenes::loadScene("room", load);
+    State state;
+    state.open = std::make_unique<OpenScene>("room", load, scene, scenes::SceneOrigin());
     EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::Not(testing::HasSubstr("windStrength")));
-    state.open->edit().hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
+    scene.hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
+    state.open = std::make_unique<OpenScene>("room", load, scene, scenes::SceneOrigin());
     EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::HasSubstr("windStrength"));
     EXPECT_FALSE(state.open->isEdited());
 }

@@ -1,0 +1,262 @@
+#include "viewer/session/History.h"
+
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "scenes/Load.h"
+#include "scenes/write/SceneText.h"
+#include "viewer/session/OpenScene.h"
+
+namespace tessera::viewer {
+namespace {
+
+std::unique_ptr<OpenScene> opened(const std::string& source) {
+    const scenes::LoadOptions load;
+    scenes::Scene scene = scenes::loadScene(source, load);
+    scenes::SceneOrigin origin = scenes::originOf(source, load, scene);
+    return std::make_unique<OpenScene>(source, load, std::move(scene), std::move(origin));
+}
+
+std::string textOf(const OpenScene& open) {
+    return scenes::sceneText(open.scene(), open.origin(), std::filesystem::temp_directory_path() / "edited.json");
+}
+
+/// One of all kinds of edits and jumps, as the window makes them.
+class RandomEdits {
+public:
+    explicit RandomEdits(OpenScene& open) : open_(open) {}
+
+    void edit() {
+        const Lights& lights = open_.scene().lights;
+        switch (number(9)) {
+        case 0:
+            return open_.replaceLights("add", lights.size(), 0, {newLight(lights, scenes::Light())});
+        case 1:
+            if (!lights.empty()) open_.replaceLights("delete", number(lights.size()), 1, {});
+            return;
+        case 2:
+            return open_.replaceLights("scatter", 0, lights.size(), Lights(number(5)));
+        case 3:
+            return drag();
+        case 4: {
+            ChosenEnvironment chosen;
+            chosen.name = "environment";
+            scenes::Environment& environment = chosen.environment.emplace();
+            environment.source = "builtin:studio";
+            environment.intensity = float(number(100));
+            environment.map = {"map", scenes::TexelFormat::Rgba32Float, 1, 1, std::vector<std::byte>(16)};
+            return open_.takeEnvironment(std::move(chosen));
+        }
+        case 5: {
+            const std::size_t index = number(open_.scene().materials.size());
+            scenes::Material material = open_.scene().materials[index];
+            material.baseColor.x = share();
+            return open_.changeMaterial(index, material);
+        }
+        case 6:
+            open_.jumpToCamera(int(number(open_.cameras().size())));
+            return settle();
+        case 7:
+            open_.jumpHome();
+            return settle();
+        default:
+            open_.jumpToAll(0.5 + share());
+            return settle();
+        }
+    }
+
+private:
+    void drag() {
+        if (open_.scene().lights.empty()) return;
+        const std::size_t index = number(open_.scene().lights.size());
+        for (int i = 0; i < 3; ++i) {
+            scenes::Light light = open_.scene().lights[index];
+            light.positionWS.x += double(share()) - 0.5;
+            open_.changeLight(index, light, Gesture::GoesOn);
+        }
+        open_.endGesture();
+    }
+    void settle() {
+        open_.rig().advance(10.0, 400.0);
+        open_.applyRig();
+    }
+    std::size_t number(std::size_t count) { return std::size_t(engine_() % count); }
+    float share() { return float(engine_() >> 11) * 0x1p-53f; }
+
+    OpenScene& open_;
+    std::mt19937_64 engine_{1};
+};
+
+TEST(History, aThousandUndoneEditsLeaveTheSavedSceneByteForByteAndRedoneOnesTheEdited) {
+    const auto open = opened("hall");
+    const std::string saved = textOf(*open);
+    RandomEdits random(*open);
+    for (int i = 0; i < 1000; ++i) random.edit();
+    const std::string edited = textOf(*open);
+    const std::size_t steps = open->history().undoable();
+    EXPECT_GT(steps, 500u) << "some were nothing to do, as a jump to where the camera is";
+    EXPECT_NE(edited, saved);
+    for (int i = 0; i < 2; ++i) {
+        while (open->undo() != nullptr) {
+        }
+        EXPECT_EQ(textOf(*open), saved);
+        EXPECT_FALSE(open->isEdited());
+        while (open->redo() != nullptr) {
+        }
+        EXPECT_EQ(textOf(*open), edited);
+        EXPECT_TRUE(open->isEdited());
+        EXPECT_EQ(open->history().undoable(), steps);
+    }
+}
+
+TEST(History, editsUndoneInAnyOrderWithNewOnesLeadBackToo) {
+    const auto open = opened("room");
+    const std::string saved = textOf(*open);
+    RandomEdits random(*open);
+    std::mt19937_64 engine(2);
+    for (int i = 0; i < 300; ++i) {
+        switch (engine() % 4) {
+        case 0:
+            open->undo();
+            break;
+        case 1:
+            open->redo();
+            break;
+        default:
+            random.edit();
+        }
+        EXPECT_EQ(open->history().undoText() != nullptr, open->history().undoable() > 0);
+    }
+    while (open->undo() != nullptr) {
+    }
+    EXPECT_EQ(textOf(*open), saved);
+    EXPECT_FALSE(open->isEdited());
+}
+
+TEST(History, oneDragIsOneStepAndTheNextAnother) {
+    const auto open = opened("room");
+    const scenes::Light before = open->scene().lights.at(0);
+    scenes::Light light = before;
+    for (int drag = 0; drag < 2; ++drag) {
+        for (int i = 0; i < 5; ++i) {
+            light.intensity += 1.0f;
+            open->changeLight(0, light, Gesture::GoesOn);
+        }
+        open->endGesture();
+    }
+    EXPECT_EQ(open->history().undoable(), 2u);
+    open->undo();
+    EXPECT_EQ(open->scene().lights[0].intensity, before.intensity + 5.0f);
+    open->undo();
+    EXPECT_TRUE(open->scene().lights[0] == before);
+    open->redo();
+    EXPECT_EQ(open->scene().lights[0].intensity, before.intensity + 5.0f) << "the end of the drag, not its beginning";
+    // What is the same already is no step, nor are several elements one.
+    open->changeLight(0, open->scene().lights[0]);
+    EXPECT_EQ(open->history().redoable(), 1u);
+    open->changeLight(0, before, Gesture::GoesOn);
+    scenes::Material material = open->scene().materials.at(0);
+    material.doubleSided = !material.doubleSided;
+    open->changeMaterial(0, material, Gesture::GoesOn);
+    EXPECT_EQ(open->history().undoable(), 3u);
+}
+
+TEST(History, aDragThatGoesOnAfterASaveIsUndoneToWhatWasSaved) {
+    const auto open = opened("room");
+    scenes::Light light = open->scene().lights.at(0);
+    light.intensity = 0.25f;
+    open->changeLight(0, light, Gesture::GoesOn);
+    open->becomes("/saved.json");
+    EXPECT_FALSE(open->isEdited());
+    light.intensity = 0.5f;
+    open->changeLight(0, light, Gesture::GoesOn);
+    EXPECT_TRUE(open->isEdited());
+    open->undo();
+    EXPECT_FALSE(open->isEdited());
+    EXPECT_EQ(open->scene().lights[0].intensity, 0.25f);
+    open->undo();
+    EXPECT_TRUE(open->isEdited()) << "the file has what was undone";
+}
+
+TEST(History, stepsToTheSavedSceneAreNoneWhereAnotherEditTookTheirPlace) {
+    const auto open = opened("room");
+    const auto change = [&](float intensity) {
+        scenes::Light light = open->scene().lights[0];
+        light.intensity = intensity;
+        open->changeLight(0, light);
+    };
+    EXPECT_EQ(open->history().stepsToSaved(), 0);
+    change(0.25f);
+    change(0.5f);
+    EXPECT_EQ(open->history().stepsToSaved(), -2);
+    open->becomes("/saved.json");
+    open->undo();
+    EXPECT_EQ(open->history().stepsToSaved(), 1);
+    change(0.75f);
+    EXPECT_EQ(open->history().stepsToSaved(), std::nullopt);
+    EXPECT_TRUE(open->isEdited());
+}
+
+TEST(History, aSaveLeavesJumpsThatLeadWhereTheyLed) {
+    const auto open = opened("room");
+    const auto settle = [&] {
+        open->rig().advance(10.0, 400.0);
+        open->applyRig();
+    };
+    open->rig().rotate({120.0, 30.0}, 400.0);
+    settle();
+    const CameraPose turned = open->rig().pose();
+    open->jumpHome();
+    settle();
+    open->becomes("/saved.json");
+    ASSERT_NE(open->undo(), nullptr);
+    EXPECT_EQ(open->rig().pose(), turned);
+    const scenes::Camera& file = open->cameras()[std::size_t(open->camera())];
+    EXPECT_EQ(scenes::changedCamera(file, open->cameraChange()), open->scene().cameras[std::size_t(open->camera())])
+        << "the command that renders it says another camera";
+}
+
+TEST(History, environmentsComeBackWithTheirFilterAndWarnings) {
+    const auto open = opened("room");
+    ChosenEnvironment chosen;
+    chosen.name = "/maps/sunset.hdr";
+    chosen.environment.emplace().source = "/maps/sunset.hdr";
+    chosen.filtered = std::make_shared<frame::FilteredEnvironment>();
+    chosen.warnings = {"of the map"};
+    const auto filtered = chosen.filtered;
+    const std::vector<std::string> warnings = open->scene().warnings;
+    const auto before = open->filteredEnvironment();
+    open->takeEnvironment(std::move(chosen));
+    EXPECT_EQ(*open->history().undoText(), "choose environment 'sunset.hdr'");
+    open->undo();
+    EXPECT_EQ(open->filteredEnvironment(), before);
+    EXPECT_EQ(open->scene().warnings, warnings);
+    EXPECT_EQ(open->environmentRevision(), 2u) << "the renderer is told of it";
+    open->redo();
+    EXPECT_EQ(open->filteredEnvironment(), filtered);
+    EXPECT_EQ(open->scene().warnings.back(), "of the map");
+}
+
+TEST(History, textsSayWhatWasDoneAndToWhat) {
+    const scenes::Light light;
+    const auto text = [&light](auto change) {
+        scenes::Light changed = light;
+        change(changed);
+        return changeText(light, changed, "lamp 3");
+    };
+    EXPECT_EQ(text([](scenes::Light& l) { l.positionWS.x = 2.0; }), "move light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.directionWS = {1.0, 0.0, 0.0}; }), "turn light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.enabled = false; }), "switch off light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.color.x = 0.5f; }), "colour light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.widthMetres = 3.0f; }), "resize light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.animation.emplace(); }), "animate light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.castsShadow = true; }), "change light 'lamp 3'");
+    scenes::Material material, glowing;
+    glowing.emissive.x = 1.0f;
+    EXPECT_EQ(changeText(material, glowing, "glass"), "change emission of material 'glass'");
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/viewer/ChangeLight.h"
+#include "viewer/session/Keys.h"
+#include "viewer/session/SceneEdits.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// A window that shows a scene's lights a, b and c.
+State threeLights() {
+    scenes::LoadOptions load;
+    scenes::Scene scene = scenes::loadScene("room", load);
+    scene.lights.assign(3, scene.lights.at(0));
+    for (std::size_t i = 0; i < 3; ++i) scene.lights[i].name = std::string(1, char('a' + i));
+    State state;
+    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
+    return state;
+}
+
+TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndNoneIsSelectedThen) {
+    State state = threeLights();
+    state.selectedLight = 1;
+    state.looks[0].settings.soloLight = 2;
+    deleteSelectedLight(state);
+    const std::vector<scenes::Light>& lights = state.open->scene().lights;
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(lights[0].name, "a");
+    EXPECT_EQ(lights[1].name, "c");
+    EXPECT_EQ(state.looks[0].settings.soloLight, 1);
+    EXPECT_EQ(state.selectedLight, scenes::kNone);
+    EXPECT_TRUE(state.open->isEdited());
+}
+
+TEST(SceneEdits, withoutASelectedLightNothingIsDeletedOrCountedAsAnEdit) {
+    State state = threeLights();
+    for (const int selected : {scenes::kNone, 3}) {
+        state.selectedLight = selected;
+        deleteSelectedLight(state);
+    }
+    EXPECT_EQ(state.open->scene().lights.size(), 3u);
+    EXPECT_FALSE(state.open->isEdited());
+    State none;
+    none.selectedLight = 0;
+    deleteSelectedLight(none);
+    replaceByScattered(none);
+}
+
+TEST(SceneEdits, scatteredLightsTakeTheScenesPlaceAndLieElsewhereTheNextTime) {
+    State state = threeLights();
+    state.selectedLight = 2;
+    state.looks[0].settings.soloLight = 2;
+    state.scatter.count = 20;
+    replaceByScattered(state);
+    const std::vector<scenes::Light> first = state.open->scene().lights;
+    EXPECT_EQ(first.size(), 20u);
+    EXPECT_EQ(state.selectedLight, scenes::kNone);
+    EXPECT_FALSE(state.looks[0].settings.soloLight);
+    EXPECT_TRUE(state.open->isEdited());
+    replaceByScattered(state);
+    EXPECT_EQ(state.open->scene().lights.size(), 20u);
+    EXPECT_FALSE(state.open->scene().lights == first);
+}
+
+TEST(SceneEdits, undoingAScatteringBringsTheLightsBackAndRedoingTakesThemAway) {
+    State state = threeLights();
+    const std::vector<scenes::Light> own = state.open->scene().lights;
+    state.scatter.count = 5;
+    undo(state);
+    redo(state);
+    EXPECT_EQ(state.open->edits(), 0u) << "there is nothing to undo";
+    replaceByScattered(state);
+    const std::vector<scenes::Light> scattered = state.open->scene().lights;
+    EXPECT_EQ(*state.open->history().undoText(), "scatter 5 lights");
+    state.selectedLight = 4;
+    state.looks[0].settings.soloLight = 4;
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_EQ(state.selectedLight, scenes::kNone);
+    EXPECT_FALSE(state.looks[0].settings.soloLight);
+    redo(state);
+    EXPECT_TRUE(state.open->scene().lights == scattered);
+}
+
+TEST(SceneEdits, aDeletedLightComesBackInItsPlaceSelectedAndSoloGoesWithItsLight) {
+    State state = threeLights();
+    const std::vector<scenes::Light> own = state.open->scene().lights;
+    state.selectedLight = 1;
+    state.looks[0].settings.soloLight = 2;
+    deleteSelectedLight(state);
+    EXPECT_EQ(*state.open->history().undoText(), "delete light 'b'");
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_FALSE(state.open->isEdited());
+    EXPECT_EQ(state.selectedLight, 1);
+    EXPECT_EQ(state.looks[0].settings.soloLight, 2);
+    redo(state);
+    EXPECT_EQ(state.open->scene().lights.size(), 2u);
+    EXPECT_EQ(state.looks[0].settings.soloLight, 1);
+}
+
+TEST(SceneEdits, nothingIsUndoneWhileSomethingIsDragged) {
+    State state = threeLights();
+    scenes::Light moved = state.open->scene().lights[0];
+    moved.positionWS.x += 1.0;
+    state.open->changeLight(0, moved, Gesture::GoesOn);
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights[0] == moved) << "a widget is held";
+    state.open->endGesture();
+    state.isDragging = true;
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights[0] == moved);
+    state.isDragging = false;
+    undo(state);
+    EXPECT_FALSE(state.open->isEdited());
+}
+
+TEST(SceneEdits, addingAndDuplicatingAreUndoneAndNamed) {
+    State state = threeLights();
+    addLight(state);
+    EXPECT_EQ(state.selectedLight, 3);
+    EXPECT_EQ(*state.open->history().undoText(), "add light 'light'");
+    state.selectedLight = 0;
+    duplicateSelectedLight(state);
+    EXPECT_EQ(state.selectedLight, 4);
+    EXPECT_EQ(*state.open->history().undoText(), "duplicate light 'a 2'");
+    undo(state);
+    EXPECT_EQ(state.selectedLight, scenes::kNone) << "it was the one that went";
+    undo(state);
+    EXPECT_EQ(state.open->scene().lights.size(), 3u);
+    EXPECT_FALSE(state.open->isEdited());
+}
+
+TEST(SceneEdits, revertGoesBackOrForthToTheSavedSceneAndElseAsksForTheFile) {
+    State state = threeLights();
+    const auto change = [&state](float intensity) {
+        test::changeLight(state, 0, [&](scenes::Light& light) { light.intensity = intensity; });
+    };
+    change(0.25f);
+    state.open->becomes("/saved.json");
+    change(0.5f);
+    change(0.75f);
+    revert(state);
+    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.25f);
+    EXPECT_FALSE(state.open->isEdited());
+    undo(state);
+    EXPECT_TRUE(state.open->isEdited());
+    revert(state);
+    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.25f);
+    EXPECT_FALSE(state.requests.open);
+    redo(state);
+    redo(state);
+    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.75f) << "what was reverted can be redone";
+    for (int i = 0; i < 3; ++i) undo(state);
+    change(0.875f); // in the place of what was saved
+    revert(state);
+    EXPECT_EQ(state.requests.open, "/saved.json");
+}
+
+TEST(SceneEdits, undoingAJumpPutsTheCameraBackAndKeepsWhatCanBeRedone) {
+    State state = threeLights();
+    OpenScene& open = *state.open;
+    const scenes::Camera first = open.scene().cameras.at(0);
+    state.selectedLight = 0;
+    deleteSelectedLight(state);
+    undo(state);
+    open.jumpHome();
+    EXPECT_EQ(open.history().undoable(), 0u) << "it is there already";
+    open.jumpToAll(1.5);
+    open.rig().advance(10.0, 400.0);
+    open.applyRig();
+    const scenes::Camera all = open.scene().cameras[0];
+    EXPECT_NE(all, first);
+    EXPECT_FALSE(open.isEdited()) << "a movement is no edit of the scene";
+    EXPECT_EQ(open.history().redoable(), 1u);
+    undo(state);
+    EXPECT_EQ(open.scene().cameras[0], first);
+    redo(state);
+    EXPECT_EQ(open.scene().cameras[0], all);
+    redo(state);
+    EXPECT_EQ(open.scene().lights.size(), 2u);
+}
+
+} // namespace
+} // namespace tessera::viewer

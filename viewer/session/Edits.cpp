@@ -1,0 +1,88 @@
+#include "viewer/session/Edits.h"
+
+#include <span>
+
+#include <fmt/format.h>
+
+namespace tessera::viewer {
+namespace {
+
+using scenes::Light;
+using scenes::Material;
+
+/// The first row that holds says what was done.
+template <typename Element>
+struct ChangeVerb {
+    const char* verb;
+    bool (*holds)(const Element& before, const Element& after);
+};
+
+constexpr ChangeVerb<Light> kLightVerbs[] = {
+    {"change type of", [](const Light& a, const Light& b) { return a.type != b.type; }},
+    {"switch on", [](const Light& a, const Light& b) { return !a.enabled && b.enabled; }},
+    {"switch off", [](const Light& a, const Light& b) { return a.enabled && !b.enabled; }},
+    {"colour", [](const Light& a, const Light& b) { return a.color != b.color; }},
+    {"change intensity of", [](const Light& a, const Light& b) { return a.intensity != b.intensity; }},
+    {"resize",
+     [](const Light& a, const Light& b) {
+         return a.radiusMetres != b.radiusMetres || a.angularRadiusRadians != b.angularRadiusRadians ||
+                a.widthMetres != b.widthMetres || a.heightMetres != b.heightMetres ||
+                a.lengthMetres != b.lengthMetres || !(a.corners == b.corners);
+     }},
+    {"animate", [](const Light& a, const Light& b) { return !a.animation && b.animation; }},
+    {"stop", [](const Light& a, const Light& b) { return a.animation && !b.animation; }},
+    {"move",
+     [](const Light& a, const Light& b) { return a.positionWS != b.positionWS || !(a.animation == b.animation); }},
+    {"turn", [](const Light& a, const Light& b) { return a.directionWS != b.directionWS || a.alongWS != b.alongWS; }},
+};
+
+constexpr ChangeVerb<Material> kMaterialVerbs[] = {
+    {"change model of", [](const Material& a, const Material& b) { return a.model != b.model; }},
+    {"colour", [](const Material& a, const Material& b) { return glm::vec3(a.baseColor) != glm::vec3(b.baseColor); }},
+    {"change opacity of",
+     [](const Material& a, const Material& b) {
+         return a.baseColor.w != b.baseColor.w || a.alphaMode != b.alphaMode || a.alphaCutoff != b.alphaCutoff;
+     }},
+    {"change emission of", [](const Material& a, const Material& b) { return a.emissive != b.emissive; }},
+    {"change subsurface scattering of",
+     [](const Material& a, const Material& b) { return !(a.subsurface == b.subsurface); }},
+};
+
+template <typename Element>
+std::string textOfChange(std::span<const ChangeVerb<Element>> verbs, const Element& before, const Element& after,
+                         const char* kind, const std::string& label) {
+    const char* verb = "change";
+    for (const ChangeVerb<Element>& row : verbs)
+        if (row.holds(before, after)) {
+            verb = row.verb;
+            break;
+        }
+    return fmt::format("{} {} '{}'", verb, kind, label);
+}
+
+} // namespace
+
+bool areOfOneElement(const Edit& first, const Edit& second) {
+    if (const auto* a = std::get_if<LightsEdit>(&first)) {
+        const auto* b = std::get_if<LightsEdit>(&second);
+        const auto isOfOne = [](const LightsEdit& edit) { return edit.count == 1 && edit.others.size() == 1; };
+        return b != nullptr && isOfOne(*a) && isOfOne(*b) && a->first == b->first;
+    }
+    if (const auto* a = std::get_if<HookEdit>(&first)) {
+        const auto* b = std::get_if<HookEdit>(&second);
+        return b != nullptr && a->parameter == b->parameter;
+    }
+    const auto* a = std::get_if<MaterialEdit>(&first);
+    const auto* b = std::get_if<MaterialEdit>(&second);
+    return a != nullptr && b != nullptr && a->index == b->index;
+}
+
+std::string changeText(const Light& before, const Light& after, const std::string& label) {
+    return textOfChange<Light>(kLightVerbs, before, after, "light", label);
+}
+
+std::string changeText(const Material& before, const Material& after, const std::string& label) {
+    return textOfChange<Material>(kMaterialVerbs, before, after, "material", label);
+}
+
+} // namespace tessera::viewer

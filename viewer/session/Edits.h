@@ -1,0 +1,69 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "renderer/frame/EnvironmentFilter.h"
+#include "viewer/edit/LightList.h"
+#include "viewer/session/CameraRig.h"
+
+/// What can be undone. An edit holds what the scene does not have now: before an edit is undone that is what was there
+/// before, afterwards what it made. Undoing and redoing are the same exchange.
+namespace tessera::viewer {
+
+/// Of neighbouring lights: `others` come in the place of `count` lights from `first` on.
+struct LightsEdit {
+    std::size_t first = 0, count = 0;
+    Lights others;
+};
+
+struct MaterialEdit {
+    std::size_t index = 0;
+    scenes::Material other;
+};
+
+/// A parameter of the scene's hook.
+struct HookEdit {
+    std::size_t parameter = 0;
+    float other = 0.0f;
+};
+
+/// An environment with all that belongs to it.
+struct Surrounding {
+    std::optional<scenes::Environment> environment;
+    std::shared_ptr<const frame::FilteredEnvironment> filtered;
+    std::vector<std::string> warnings;    ///< all of the scene
+    std::vector<std::string> ownWarnings; ///< those of them that the environment brought
+};
+struct EnvironmentEdit {
+    Surrounding other;
+};
+
+/// Which camera is looked through, and where it is.
+struct CameraView {
+    int camera = 0;
+    scenes::CameraChange placed; ///< OpenScene::placed()
+    CameraRig rig;
+};
+struct CameraEdit {
+    CameraView other;
+};
+
+using Edit = std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, CameraEdit>;
+
+/// Movements of the camera are no edits of the scene: nothing of it is lost with them.
+inline bool changesScene(const Edit& edit) {
+    return !std::holds_alternative<CameraEdit>(edit);
+}
+
+/// Whether two edits are of the same light, material or parameter, so that one drag can make one of them.
+bool areOfOneElement(const Edit& first, const Edit& second);
+
+/// What was done to a light or a material, as the user is told: "move light 'lamp 3'". The label is how lists call it.
+std::string changeText(const scenes::Light& before, const scenes::Light& after, const std::string& label);
+std::string changeText(const scenes::Material& before, const scenes::Material& after, const std::string& label);
+
+} // namespace tessera::viewer

@@ -1,0 +1,108 @@
+#include "viewer/session/SceneEdits.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scenes/Limits.h"
+#include "viewer/edit/LightList.h"
+
+namespace tessera::viewer {
+namespace {
+
+bool hasSelected(const State& state) {
+    return state.open && state.selectedLight >= 0 && state.selectedLight < int(state.open->scene().lights.size());
+}
+
+/// Selection and solo go with their lights after `put` lights came in the place of `taken` from `first` on.
+void followLights(State& state, std::size_t first, std::size_t taken, std::size_t put) {
+    if (state.selectedLight != scenes::kNone)
+        state.selectedLight = indexAfter(state.selectedLight, first, taken, put).value_or(scenes::kNone);
+    for (Look& look : state.looks) {
+        std::optional<int>& solo = look.settings.soloLight;
+        if (solo) solo = indexAfter(*solo, first, taken, put);
+    }
+}
+
+void replace(State& state, std::string what, std::size_t first, std::size_t count, Lights others) {
+    const std::size_t put = others.size();
+    state.open->replaceLights(std::move(what), first, count, std::move(others));
+    followLights(state, first, count, put);
+}
+
+void append(State& state, const char* verb, scenes::Light light) {
+    const std::size_t count = state.open->scene().lights.size();
+    std::string what = fmt::format("{} light '{}'", verb, light.name);
+    replace(state, std::move(what), count, 0, {std::move(light)});
+    state.selectedLight = int(count);
+}
+
+bool isFull(const State& state) {
+    return state.open->scene().lights.size() >= std::size_t(scenes::kMostLights);
+}
+
+/// What was exchanged is where the user looks.
+void show(State& state, const Edit& edit) {
+    if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
+        followLights(state, lights->first, lights->others.size(), lights->count);
+        if (lights->count == 1) state.selectedLight = int(lights->first);
+    } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
+        state.selectedMaterial = int(material->index);
+    } else if (std::holds_alternative<CameraEdit>(edit)) {
+        for (Look& look : state.looks) look.settings.camera = state.open->camera();
+    }
+}
+
+bool mayStep(const State& state) {
+    return state.open && !state.isDragging && !state.open->history().isGestureOpen();
+}
+
+} // namespace
+
+void addLight(State& state) {
+    if (!state.open || isFull(state)) return;
+    append(state, "add", newLight(state.open->scene().lights, lightBeforeFocus(state.open->rig().pose())));
+}
+
+void duplicateSelectedLight(State& state) {
+    if (!hasSelected(state) || isFull(state)) return;
+    append(state, "duplicate", copyOfLight(state.open->scene().lights, std::size_t(state.selectedLight)));
+}
+
+void deleteSelectedLight(State& state) {
+    if (!hasSelected(state)) return;
+    const auto index = std::size_t(state.selectedLight);
+    replace(state, fmt::format("delete light '{}'", lightLabel(state.open->scene().lights, index)), index, 1, {});
+}
+
+void replaceByScattered(State& state) {
+    if (!state.open) return;
+    const scenes::Scene& scene = state.open->scene();
+    Lights scattered = scatterLights(scene, state.scatter);
+    ++state.scatter.seed;
+    const std::string what = fmt::format("scatter {} light{}", scattered.size(), scattered.size() == 1 ? "" : "s");
+    replace(state, what, 0, scene.lights.size(), std::move(scattered));
+    // None of them is one that was there, also where there are as many.
+    state.selectedLight = scenes::kNone;
+    for (Look& look : state.looks) look.settings.soloLight.reset();
+}
+
+void undo(State& state) {
+    if (!mayStep(state)) return;
+    if (const Edit* const edit = state.open->undo()) show(state, *edit);
+}
+
+void redo(State& state) {
+    if (!mayStep(state)) return;
+    if (const Edit* const edit = state.open->redo()) show(state, *edit);
+}
+
+void revert(State& state) {
+    if (!mayStep(state)) return;
+    const std::optional<std::ptrdiff_t> steps = state.open->history().stepsToSaved();
+    if (!steps) state.requests.open = state.open->source();
+    for (std::ptrdiff_t i = steps.value_or(0); i < 0; ++i) undo(state);
+    for (std::ptrdiff_t i = steps.value_or(0); i > 0; --i) redo(state);
+}
+
+} // namespace tessera::viewer

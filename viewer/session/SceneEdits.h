@@ -1,0 +1,30 @@
+#pragma once
+#include "viewer/session/State.h"
+
+/// Edits of which lights there are, and undoing, as far as they concern which one is selected and which one shines
+/// alone. Without a scene they do nothing.
+namespace tessera::viewer {
+
+/// Adds a light in the picture's middle, or a copy of the selected one, at the end of the list, and selects it. Nothing
+/// happens where there are as many as a scene can have.
+void addLight(State& state);
+void duplicateSelectedLight(State& state);
+
+/// Deletes the selected light, if there is one; none is selected then.
+void deleteSelectedLight(State& state);
+
+/// Puts the lights that State::scatter describes in the place of the scene's. The next time the scattered ones lie
+/// elsewhere. Traces rays at the scene's surfaces, which may take seconds. Throws std::runtime_error when memory runs
+/// out, and the lights stay as they are.
+void replaceByScattered(State& state);
+
+/// Takes the latest edit or jump of the camera back, or brings back what was taken back last. The light or material
+/// that it was about is selected. While something is dragged, nothing happens.
+void undo(State& state);
+void redo(State& state);
+
+/// Undoes or redoes as many edits as lead to the scene as it was saved; where none do, asks for its file to be opened
+/// again.
+void revert(State& state);
+
+} // namespace tessera::viewer
