@@ -106,38 +106,45 @@ private:
     // ---- Scenes ----
     bool isLeaving() {
         if (!window_.shouldClose()) return false;
-        if (mayLeave("quit")) return true;
+        if (isDiscarding_ || mayLeave({Question::About::Quitting, {}})) return true;
         window_.keepOpen();
         return false;
     }
 
-    /// Unsaved edits are discarded only when the same action is requested twice.
-    bool mayLeave(const std::string& order) {
+    /// Edits that are not saved are left behind only by an answer.
+    bool mayLeave(const Question& question) {
         if (!state_.open || !state_.open->isEdited()) return true;
-        const Warned warned{order, state_.open->edits()};
-        const bool wasWarned = warned_ == warned && now() < warnedUntil_;
-        warned_ = warned;
-        warnedUntil_ = now() + kNoticeSeconds;
-        if (wasWarned) return true;
-        state_.notice = {std::filesystem::path(state_.open->source()).filename().string() +
-                             " has edits that are not saved. Ctrl+S saves them; the same again leaves them behind.",
-                         false};
+        state_.question = question;
         settleFrames_ = kSettleFrames;
         log_.line("edits are not saved");
         return false;
     }
 
     void open(const std::string& source) {
-        if (!mayLeave(orderToOpen(source))) return;
+        if (mayLeave({Question::About::Opening, source})) load(source);
+    }
+
+    /// Opens a scene in the place of this one, with its edits until then.
+    void load(const std::string& source) {
         editsLeft_ = state_.open ? state_.open->edits() : 0;
         scenes_.open(source);
     }
-    static std::string orderToOpen(const std::string& source) { return "open " + source; }
+
+    void answer(Answer answer) {
+        const std::optional<Question> question = std::exchange(state_.question, std::nullopt);
+        settleFrames_ = kSettleFrames;
+        if (!question || answer == Answer::Cancel) return;
+        if (answer == Answer::Keep) saver_.scene(); // where that fails nothing else happens
+        if (question->about == Question::About::Opening) return load(question->scene);
+        isDiscarding_ = true;
+        window_.close();
+    }
 
     void adoptLoaded() {
         // The user was not asked about edits made during the load.
         const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
-        if (scenes_.hasScene() && hasNewEdits && !mayLeave(orderToOpen(state_.loading))) return scenes_.discard();
+        if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading}))
+            return scenes_.discard();
         std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
         if (!scene) return;
         measurements_.clear(facts_);
@@ -277,6 +284,9 @@ private:
 
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
+        attempt([&] {
+            if (requests.answer) answer(*requests.answer);
+        });
         attempt([&] {
             if (requests.open) open(*requests.open);
         });
@@ -471,14 +481,7 @@ private:
     int announcements_ = 0; ///< frames for which the next picture has been announced
     int givenUp_ = 0;       ///< pictures since the latest that was drawn
     std::string title_;
-    /// What was asked for though there were edits that are not saved, and how many.
-    struct Warned {
-        std::string order;
-        std::uint64_t edits = 0;
-        bool operator==(const Warned&) const = default;
-    };
-    std::optional<Warned> warned_;
-    double warnedUntil_ = 0.0;
+    bool isDiscarding_ = false;   ///< the window closes without another question
     std::uint64_t editsLeft_ = 0; ///< of the open scene, when the one that is loading was asked for
     std::string said_;            ///< the latest notice
     std::string drawingFault_;    ///< why the latest picture that failed did

@@ -21,6 +21,9 @@ void cullingPanel(State& state, const Facts& facts);
 void graphPanel(State& state, const Facts& facts);
 void savePanel(State& state);
 
+/// Asks what State::question says, over all else; draws nothing where that is none.
+void questionDialog(State& state, float scale);
+
 /// Every key, over the picture.
 void helpOverlay(State& state, float scale);
 

@@ -146,7 +146,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
 }
 
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {
-    if (drag_ != Drag::None || claims.mouse || !area.contains(event.position)) return;
+    if (drag_ != Drag::None || claims.mouse || state.question || !area.contains(event.position)) return;
     button_ = event.code;
     pressedAt_ = event.position;
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
@@ -256,8 +256,14 @@ void Controls::key(const InputEvent& event, State& state, const Claims& claims) 
     // Keys that are let go are heard even while text is typed, so that none stays held.
     bool* held = flyKey(flying_, event.code);
     const bool commands = (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
-    if (held != nullptr) *held = event.down && !claims.keyboard && !commands;
-    if (!event.down || event.repeated || claims.keyboard) return;
+    if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.question;
+    if (!event.down || event.repeated) return;
+    if (state.question) {
+        for (const AnswerChoice& choice : answersTo(state.question->about))
+            if (choice.key == event.code && !commands) state.requests.answer = choice.answer;
+        return;
+    }
+    if (claims.keyboard) return;
     pressKey(state, event.code, event.modifiers);
 }
 

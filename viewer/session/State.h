@@ -8,6 +8,7 @@
 #include "viewer/edit/Scatter.h"
 #include "viewer/session/Look.h"
 #include "viewer/session/OpenScene.h"
+#include "viewer/session/Question.h"
 #include "viewer/session/Timings.h"
 
 namespace tessera::viewer {
@@ -34,6 +35,7 @@ struct Requests {
     bool measureLights = false;
     bool scatter = false;          ///< the lights that `State::scatter` describes, in the place of the scene's
     std::optional<glm::vec2> pick; ///< a place in the picture, shares of its size from the upper left
+    std::optional<Answer> answer;  ///< to State::question
     bool quit = false;
 };
 
@@ -69,6 +71,8 @@ struct State {
     bool wantsPlan = false;        ///< a panel shows the plan of the active side's frame
     std::string command;           ///< that renders the picture, on request
     Timings timings;
+
+    std::optional<Question> question; ///< waits for an answer, and all else waits for that
 
     Notice notice;
     std::vector<std::string> shaderFaults;
