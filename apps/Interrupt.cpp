@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "base/AtomicFile.h"
+#include "base/EndRequest.h"
 
 namespace tessera::app {
 
@@ -11,6 +12,7 @@ namespace {
 /// Makes only async-signal-safe calls. SA_RESETHAND has put the signal's own action back; the raised signal waits for
 /// the return, then ends the program.
 void cleanUpAndEnd(int signal) {
+    if (noteEnd(signal)) return; // whoever holds the end back ends the program soon; a second signal ends it at once
     removeTemporaries();
     std::raise(signal);
 }

@@ -10,14 +10,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/EndRequest.h"
 #include "base/Extension.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
 #include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
+#include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/SceneEdits.h"
+#include "viewer/session/SceneSource.h"
 #include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/window/Gui.h"
@@ -30,9 +33,21 @@ constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is
 constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
 constexpr double kNoticeSeconds = 6.0;
 constexpr double kHurrySeconds = 0.05; ///< between pictures while input waits
+constexpr double kKeepSeconds = 3.0;   ///< at rest, after which edits are kept in a file
+/// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
+constexpr double kKeepShare = 20.0;
+constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
+/// How often a signal to end is looked for while there are edits to keep before.
+constexpr double kEndPeriodSeconds = 0.25;
 /// Frames after the last event in which the user interface may still change: a list that opens is measured in one
 /// frame and laid out in the next.
 constexpr int kSettleFrames = 3;
+
+/// Beside the settings.
+std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
+    if (!options.preferencesFile) return std::nullopt;
+    return options.preferencesFile->parent_path() / "recovery";
+}
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -43,25 +58,34 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
-          saver_(state_, screen_, log_), measurements_([] { Window::wake(); }), environments_([] { Window::wake(); }),
-          scenes_(options, state_, log_, [] { Window::wake(); }) {
+          saver_(state_, screen_, log_), recovery_(recoveryFolder(options)), measurements_([] { Window::wake(); }),
+          environments_([] { Window::wake(); }), scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
         state_.firstWindowSize = window_.sizeScreen();
         scenes_.open(options.scene, options.load);
+        if (const auto left = recovery_.left()) {
+            state_.question = {Question::About::Recovering, left->string()};
+            log_.line("edits were left in " + left->string());
+        }
     }
+    ~Viewer() { holdEnd(false); }
 
     void run() {
         try {
             while (!isLeaving()) {
                 window_.wait(idleSeconds());
+                if (notedEnd() != 0) return endNow();
                 if (isLeaving()) break;
                 attempt([this] { watchShaders(); });
                 if (isDue()) frame();
+                holdEnd(hasEdits());
+                attempt([this] { keepEdits(); });
             }
         } catch (...) {
-            scenes_.remember(window_.sizeScreen());
+            endWithEdits();
             throw;
         }
+        recovery_.forget();
         scenes_.remember(window_.sizeScreen());
         log_.line("closed");
     }
@@ -93,14 +117,41 @@ private:
     }
     /// How long nothing needs to happen; negative: until something does.
     double idleSeconds() const {
-        if (isDue()) return 0.0;
+        if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
         if (!isWhole() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
+        if (hasEdits()) atMost(kEndPeriodSeconds);
+        if (state_.open && recovery_.isBehind(*state_.open)) atMost(std::max(keepAt() - now(), 0.0));
         return seconds;
+    }
+
+    // ---- Edits that are not saved ----
+    bool hasEdits() const { return state_.open && state_.open->isEdited(); }
+    double keepAt() const { return std::max(restAt_ + kKeepSeconds, nextKeepAt_); }
+    /// Keeps them for the case that the program ends unasked; while nobody waits for a picture, and not too often.
+    void keepEdits() {
+        if (!state_.open || !recovery_.isBehind(*state_.open) || now() < keepAt()) return;
+        const double started = now();
+        nextKeepAt_ = started + kFailedKeepSeconds;
+        recovery_.keep(*state_.open);
+        nextKeepAt_ = now() + kKeepShare * (now() - started);
+    }
+    /// The program ends, and nobody can be asked any more.
+    void endWithEdits() {
+        try {
+            if (state_.open) recovery_.keep(*state_.open);
+        } catch (const std::exception& error) {
+            options_.warn(error.what());
+        }
+        scenes_.remember(window_.sizeScreen());
+    }
+    void endNow() {
+        endWithEdits();
+        endAsNoted();
     }
 
     // ---- Scenes ----
@@ -113,7 +164,7 @@ private:
 
     /// Edits that are not saved are left behind only by an answer.
     bool mayLeave(const Question& question) {
-        if (!state_.open || !state_.open->isEdited()) return true;
+        if (!hasEdits()) return true;
         state_.question = question;
         settleFrames_ = kSettleFrames;
         log_.line("edits are not saved");
@@ -130,10 +181,15 @@ private:
         scenes_.open(source);
     }
 
-    void answer(Answer answer) {
+    void take(Answer answer) {
         const std::optional<Question> question = std::exchange(state_.question, std::nullopt);
         settleFrames_ = kSettleFrames;
         if (!question || answer == Answer::Cancel) return;
+        if (question->about == Question::About::Recovering) {
+            if (answer == Answer::Discard) return Recovery::discard(question->scene);
+            recovering_ = question->scene;
+            return load(recovering_);
+        }
         if (answer == Answer::Keep) saver_.scene(); // where that fails nothing else happens
         if (question->about == Question::About::Opening) return load(question->scene);
         isDiscarding_ = true;
@@ -151,7 +207,22 @@ private:
         facts_.shadows = {};
         state_.timings.clear();
         environments_.discard(); // it was chosen for the scene before
+        // What was asked about the edits of the scene before is settled.
+        if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
+        recovery_.forget();
+        attempt([&] { adoptRecovered(*scene); });
         state_.open = std::move(scene);
+    }
+
+    /// Edits that were left are now this window's, and still not saved.
+    void adoptRecovered(OpenScene& scene) {
+        if (std::exchange(recovering_, {}) != scene.source()) return;
+        scene.markUnsaved();
+        std::erase(state_.recent, identityOf(scene.source()));
+        const std::filesystem::path left = scene.source();
+        recovery_.keep(scene);
+        Recovery::discard(left);
+        log_.line("recovered " + left.string());
     }
 
     static bool isEnvironmentFile(const std::string& file) {
@@ -285,7 +356,7 @@ private:
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
         attempt([&] {
-            if (requests.answer) answer(*requests.answer);
+            if (requests.answer) take(*requests.answer);
         });
         attempt([&] {
             if (requests.open) open(*requests.open);
@@ -406,7 +477,7 @@ private:
     bool isInterrupted(bool isAtRest) {
         constexpr int kWanderings = 2;
         window_.poll();
-        if (window_.shouldClose() || window_.input().isUrgent()) return true;
+        if (window_.shouldClose() || window_.input().isUrgent() || notedEnd() != 0) return true;
         return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
     }
 
@@ -481,12 +552,15 @@ private:
     int announcements_ = 0; ///< frames for which the next picture has been announced
     int givenUp_ = 0;       ///< pictures since the latest that was drawn
     std::string title_;
+    std::string recovering_; ///< the file of edits that is being opened
+    double nextKeepAt_ = 0.0;
     bool isDiscarding_ = false;   ///< the window closes without another question
     std::uint64_t editsLeft_ = 0; ///< of the open scene, when the one that is loading was asked for
     std::string said_;            ///< the latest notice
     std::string drawingFault_;    ///< why the latest picture that failed did
     double saidUntil_ = 0.0;
     Saver saver_;
+    Recovery recovery_;
     Measurements measurements_;
     EnvironmentJob environments_;
     SceneSwitch scenes_; ///< last: its thread ends before what it wakes

@@ -195,6 +195,10 @@ std::optional<int> DrivenViewer::wait() {
     return result.exitCode;
 }
 
+void DrivenViewer::send(int signal) const {
+    process_->send(signal);
+}
+
 void DrivenViewer::close() const {
     desktop_.xdotool({"key", "alt+F4"});
 }

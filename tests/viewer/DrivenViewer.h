@@ -61,6 +61,7 @@ public:
     Shot capture() const;
     /// Waits for the end; the exit code, or none when a signal ended it.
     std::optional<int> wait();
+    void send(int signal) const;
     /// As a window manager asks a window to close.
     void close() const;
     const std::string& errors() const { return errors_; } ///< stderr, after wait()

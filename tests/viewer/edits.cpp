@@ -1,6 +1,8 @@
 // Lights and materials edited, scenes changed, saved and opened again, by way of the panels.
 #include <algorithm>
+#include <csignal>
 #include <map>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -84,6 +86,35 @@ TEST_F(ViewerEdits, anEditIsUndoneAndRedoneByKeys) {
     after(viewer, [&] { viewer.key("ctrl+z"); });
     viewer.key("ctrl+q"); // without a question: nothing is edited
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
+TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
+    Shot dark;
+    {
+        DrivenViewer viewer = open({"spheres"});
+        viewer.waitForWhole(0);
+        toggle(viewer, Section::Lights);
+        const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
+        dark = after(viewer, [&] { viewer.click(onOff); });
+        viewer.send(SIGTERM);
+        EXPECT_EQ(viewer.wait(), std::nullopt) << "it ends by the signal";
+    }
+    DrivenViewer again = open({"room"});
+    again.waitFor("edits were left in ", 0);
+    again.waitForWhole(0);
+    const std::size_t mark = again.mark();
+    again.key("r");
+    again.waitFor("recovered ", mark);
+    EXPECT_TRUE(pictureIn(again, again.waitForWhole(mark)) == dark);
+    // They are not saved yet.
+    again.key("ctrl+q");
+    again.waitFor("edits are not saved", mark);
+    again.pause(0.5);
+    again.key("d");
+    EXPECT_EQ(again.wait(), 0) << again.errors();
+    DrivenViewer last = open({"room"});
+    last.waitForWhole(0);
+    for (const std::string& line : last.lines()) EXPECT_FALSE(line.starts_with("edits were left")) << line;
 }
 
 TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {

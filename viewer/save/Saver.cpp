@@ -17,8 +17,6 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr std::string_view kPrefix = "tessera-";
-
 TraceFrame traced(const FrameTimes& frame) {
     TraceFrame result;
     result.number = frame.number;
@@ -30,14 +28,8 @@ TraceFrame traced(const FrameTimes& frame) {
 
 } // namespace
 
-/// What is saved of a scene that was saved before is named as that was.
 std::string Saver::stem() const {
-    std::string stem = std::filesystem::path(state_.open->source()).stem().string();
-    if (!stem.starts_with(kPrefix)) return stem;
-    stem = stem.substr(kPrefix.size());
-    const std::size_t number = stem.find_last_not_of("0123456789");
-    return number != std::string::npos && stem[number] == '-' && number + 1 < stem.size() ? stem.substr(0, number)
-                                                                                          : stem;
+    return savedStem(state_.open->source());
 }
 
 void Saver::tell(const std::string& path) {

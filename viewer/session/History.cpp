@@ -55,7 +55,7 @@ std::optional<std::ptrdiff_t> History::stepsToSaved() const {
     std::optional<std::ptrdiff_t> nearest;
     for (std::size_t i = 0; i <= steps_.size(); ++i) {
         const std::ptrdiff_t steps = std::ptrdiff_t(i) - std::ptrdiff_t(position_);
-        if (saved_ == versionAt(i) && (!nearest || std::abs(steps) < std::abs(*nearest))) nearest = steps;
+        if (saved_.value_or(0) == versionAt(i) && (!nearest || std::abs(steps) < std::abs(*nearest))) nearest = steps;
     }
     return nearest;
 }

@@ -45,8 +45,8 @@ public:
     void markUnsaved() { saved_.reset(); }
     /// Whether the scene is as it was saved, or opened.
     bool isSaved() const { return saved_ == version(); }
-    /// Steps to the scene as it was saved: negative ones are undone, positive ones redone. None where no step leads
-    /// there: another edit has taken the place of those.
+    /// Steps to the scene as it was saved, or as it was opened where it never was: negative ones are undone, positive
+    /// ones redone. None where no step leads there: another edit has taken the place of those.
     std::optional<std::ptrdiff_t> stepsToSaved() const;
 
     /// Calls `change` with the edit of each step.

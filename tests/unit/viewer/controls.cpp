@@ -173,6 +173,32 @@ TEST(Controls, oneDragOfAHandleIsOneStepThatIsUndoneWhenItIsOver) {
     EXPECT_FALSE(state.open->isEdited());
 }
 
+TEST(Controls, aQuestionIsAnsweredByItsKeysAndByNothingElse) {
+    State state;
+    Controls controls;
+    const auto answerTo = [&](int key, int modifiers) {
+        InputEvent event;
+        event.kind = InputEvent::Kind::Key;
+        event.code = key;
+        event.modifiers = modifiers;
+        event.down = true;
+        controls.handle(std::span(&event, 1), state, kArea, {});
+        return std::exchange(state.requests.answer, std::nullopt);
+    };
+    constexpr int kControl = 2, kEscape = 256; // GLFW's
+    EXPECT_FALSE(answerTo('D', 0)) << "nothing was asked";
+    state.question = Question{};
+    EXPECT_EQ(answerTo('S', 0), Answer::Keep);
+    EXPECT_EQ(answerTo('D', 0), Answer::Discard);
+    EXPECT_EQ(answerTo(kEscape, 0), Answer::Cancel);
+    EXPECT_FALSE(answerTo('Q', kControl));
+    EXPECT_FALSE(state.requests.quit) << "to ask for the same again is no answer";
+    EXPECT_FALSE(answerTo('S', kControl));
+    EXPECT_FALSE(state.requests.saveScene);
+    state.question->about = Question::About::Recovering;
+    EXPECT_EQ(answerTo('R', 0), Answer::Keep);
+}
+
 TEST(Controls, handlesAreTakenAsFarBesideThemAsTheDisplayIsDense) {
     const State state = withRectangleSelected();
     PictureArea dense = kArea;

@@ -165,6 +165,22 @@ TEST_F(Panels, oneDragOfAWidgetIsOneStepThatCanBeUndone) {
     EXPECT_FALSE(open.isEdited());
 }
 
+TEST_F(Panels, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
+    State state = unusualScene();
+    const auto isOpen = [&] {
+        show([&] { questionDialog(state, 1.0f); });
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    EXPECT_FALSE(isOpen());
+    state.question = Question{Question::About::Opening, "/scenes/lamps.json"};
+    EXPECT_TRUE(isOpen());
+    EXPECT_EQ(questionText(*state.question, "room"),
+              "room has edits that are not saved. Save them before lamps.json is opened?");
+    EXPECT_FALSE(state.requests.answer);
+    state.question.reset();
+    EXPECT_FALSE(isOpen());
+}
+
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
     State state;
     bool isClicked = false;

@@ -1,0 +1,25 @@
+#include "base/EndRequest.h"
+
+#include <csignal>
+
+#include <gtest/gtest.h>
+
+namespace tessera {
+namespace {
+
+TEST(EndRequest, aSignalIsNotedOnlyWhereTheEndIsHeldAndThenEndsTheProgram) {
+    EXPECT_EXIT(
+        {
+            bool isRight = !noteEnd(SIGINT) && notedEnd() == 0; // it ends at once
+            holdEnd(true);
+            isRight = isRight && noteEnd(SIGTERM) && notedEnd() == SIGTERM;
+            holdEnd(false);
+            isRight = isRight && !noteEnd(SIGINT) && notedEnd() == SIGTERM;
+            std::signal(SIGTERM, SIG_DFL);
+            if (isRight) endAsNoted();
+        },
+        testing::KilledBySignal(SIGTERM), "");
+}
+
+} // namespace
+} // namespace tessera
