@@ -258,13 +258,15 @@ void Controls::key(const InputEvent& event, State& state, const Claims& claims) 
     const bool commands = (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
     if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.question;
     if (!event.down || event.repeated) return;
+    // Keys that stand for words go by the letter on them, others by their place: W A S D.
+    const int written = event.letter != 0 ? event.letter : event.code;
     if (state.question) {
         for (const AnswerChoice& choice : answersTo(state.question->about))
-            if (choice.key == event.code && !commands) state.requests.answer = choice.answer;
+            if (choice.key == written && !commands) state.requests.answer = choice.answer;
         return;
     }
     if (claims.keyboard) return;
-    pressKey(state, event.code, event.modifiers);
+    pressKey(state, (event.modifiers & GLFW_MOD_CONTROL) != 0 ? written : event.code, event.modifiers);
 }
 
 } // namespace tessera::viewer

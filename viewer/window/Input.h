@@ -17,6 +17,7 @@ struct InputEvent {
     int modifiers = 0;         ///< GLFW_MOD_*
     glm::vec2 position{0.0f};  ///< of the pointer, screen coordinates from the upper left
     glm::vec2 scroll{0.0f};    ///< steps
+    int letter = 0;            ///< of a key: what the keyboard's layout has there, if that is a letter: 'A' to 'Z'
     double heardSeconds = 0.0; ///< when it was taken from the window system, by Window::nowSeconds()
 };
 

@@ -26,6 +26,14 @@ void requireDisplay() {
 #endif
 }
 
+/// The letter that the keyboard's layout has on a key; 0: another character, or none.
+int letterOn(int key, int scancode) {
+    const char* const name = glfwGetKeyName(key, scancode);
+    if (name == nullptr || name[0] == '\0' || name[1] != '\0') return 0;
+    const char letter = name[0] >= 'a' && name[0] <= 'z' ? char(name[0] - 'a' + 'A') : name[0];
+    return letter >= 'A' && letter <= 'Z' ? letter : 0;
+}
+
 std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
     requireDisplay();
     gpu::ContextOptions options;
@@ -72,8 +80,10 @@ void Window::installCallbacks() {
         event.scroll = {float(x), float(y)};
         windowOf(window).note(event);
     });
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-        windowOf(window).note({InputEvent::Kind::Key, key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers});
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+        InputEvent event{InputEvent::Kind::Key, key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers};
+        event.letter = letterOn(key, scancode);
+        windowOf(window).note(event);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
         windowOf(window).note({InputEvent::Kind::Character, int(character)});

@@ -199,6 +199,30 @@ TEST(Controls, aQuestionIsAnsweredByItsKeysAndByNothingElse) {
     EXPECT_EQ(answerTo('R', 0), Answer::Keep);
 }
 
+TEST(Controls, keysWithControlGoByTheLetterOnThemAndOthersByTheirPlace) {
+    State state = withLightInTheMiddle(0, 1);
+    state.selectedLight = 0;
+    deleteSelectedLight(state);
+    Controls controls;
+    const auto pressed = [&](int place, int letter, int modifiers) {
+        InputEvent event;
+        event.kind = InputEvent::Kind::Key;
+        event.code = place;
+        event.letter = letter;
+        event.modifiers = modifiers;
+        event.down = true;
+        controls.handle(std::span(&event, 1), state, kArea, {});
+        return state.open->scene().lights.size();
+    };
+    constexpr int kControl = 2; // GLFW's
+    EXPECT_EQ(pressed('Y', 'Z', kControl), 1u) << "undo, on a German keyboard";
+    EXPECT_EQ(pressed('Z', 'Y', kControl), 0u) << "redo";
+    EXPECT_EQ(pressed('Z', 0, kControl), 1u) << "where the layout has no letter, its place counts";
+    state.compare = Compare::Split;
+    pressed('Z', 'Y', 0);
+    EXPECT_EQ(state.activeSide, 1) << "the other side of a comparison";
+}
+
 TEST(Controls, handlesAreTakenAsFarBesideThemAsTheDisplayIsDense) {
     const State state = withRectangleSelected();
     PictureArea dense = kArea;
