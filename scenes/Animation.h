@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Interpolation.h"
 #include "scenes/Light.h"
 #include "scenes/Material.h"
 #include "scenes/Mesh.h"
@@ -19,12 +20,6 @@
 namespace tessera::scenes {
 
 // ---- Clips ---------------------------------------------------------------------------------------------------------
-
-enum class Interpolation : std::uint8_t {
-    Linear, ///< rotations on the shortest great circle, at constant speed
-    Step,   ///< each key's value until the next
-    CubicSpline
-};
 
 /// A curve over time: clamped before its first key and after its last.
 struct AnimationSampler {

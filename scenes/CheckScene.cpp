@@ -217,6 +217,20 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
             element.require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]),
                             "its key times must ascend");
         }
+        element.require(std::isfinite(times.back() - times.front()), "its key times lie too far apart");
+        if (animation.interpolation == Interpolation::CubicSpline) {
+            element.require(animation.inTangentsWS.size() == times.size() &&
+                                animation.outTangentsWS.size() == times.size(),
+                            fmt::format("has {} in-tangents and {} out-tangents for {} key times; give as many",
+                                        animation.inTangentsWS.size(), animation.outTangentsWS.size(), times.size()));
+            // A spline strays from its points by less than its tangents lead within the time between two keys.
+            const double seconds = std::max(1.0, times.back() - times.front());
+            for (const std::vector<glm::dvec3>* tangents : {&animation.inTangentsWS, &animation.outTangentsWS})
+                for (const glm::dvec3& tangentWS : *tangents)
+                    element.require(allFinite(tangentWS) && isNearEnough(tangentWS * seconds),
+                                    fmt::format("a tangent of its keys leads more than {:g} m away; make it shorter",
+                                                kFarthestMetres));
+        }
     }
 }
 

@@ -92,8 +92,10 @@ public:
         addAll(name, parent, parentFromNode, instances);
     }
     void add(const LightAnimation& animation) {
-        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS] = animation;
-        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS);
+        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS, isOpen,
+                     interpolation, repeat, inTangentsWS, outTangentsWS] = animation;
+        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS, isOpen,
+               interpolation, repeat, inTangentsWS, outTangentsWS);
     }
     void add(const LightCorners& corners) {
         add(std::uint64_t(corners.count));

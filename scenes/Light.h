@@ -14,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/Interpolation.h"
 #include "scenes/Material.h"
 
 /// Lights as plain data, their members as a table, and their types as a table. Everything that names a type or one of
@@ -49,8 +50,15 @@ enum class Falloff : std::uint8_t {
 enum class LightAnimationKind : std::uint8_t {
     Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
     Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
-    Path,     ///< runs along the closed polyline `points` at constant speed once in `periodSeconds`
-    Keyframes ///< linear between (times, points), clamped at the ends
+    Path,     ///< runs along the polyline `points` at constant speed once in `periodSeconds`: around, or there and back
+    Keyframes ///< through (times, points), by `interpolation`, and beyond the ends by `repeat`
+};
+
+/// What follows the last key time, and what is before the first.
+enum class KeyRepeat : std::uint8_t {
+    Once,    ///< the light stands still there
+    Loop,    ///< from the first key again
+    PingPong ///< backwards to the first key, and again
 };
 
 /// Moves the position of a light that has one, as a closed function of time, so that any time can be asked for
@@ -64,6 +72,11 @@ struct LightAnimation {
     glm::dvec3 amplitudeMetres{0.0};
     std::vector<double> timesSeconds;
     std::vector<glm::dvec3> pointsWS;
+    bool isOpen = false; ///< Path: from the first point to the last and back, rather than around
+    Interpolation interpolation = Interpolation::Linear;
+    KeyRepeat repeat = KeyRepeat::Once;
+    std::vector<glm::dvec3> inTangentsWS; ///< by key, in m/s, as glTF's; these two are of CubicSpline
+    std::vector<glm::dvec3> outTangentsWS;
     bool operator==(const LightAnimation&) const = default;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -22,30 +23,57 @@ glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& unitAxis, double 
     return vector * c + glm::cross(unitAxis, vector) * s + unitAxis * (glm::dot(unitAxis, vector) * (1.0 - c));
 }
 
-glm::dvec3 alongClosedPolyline(const std::vector<glm::dvec3>& pointsWS, double share) {
+/// An open line is run along there and back.
+glm::dvec3 alongPolyline(const std::vector<glm::dvec3>& pointsWS, bool isOpen, double share) {
+    const std::size_t sides = pointsWS.size() - (isOpen ? 1 : 0);
     double lengthMetres = 0.0;
-    for (std::size_t i = 0; i < pointsWS.size(); ++i) {
+    for (std::size_t i = 0; i < sides; ++i)
         lengthMetres += glm::distance(pointsWS[i], pointsWS[(i + 1) % pointsWS.size()]);
-    }
-    double leftMetres = share * lengthMetres;
-    for (std::size_t i = 0; i < pointsWS.size(); ++i) {
+    double leftMetres = (isOpen ? 1.0 - std::abs(1.0 - 2.0 * share) : share) * lengthMetres;
+    for (std::size_t i = 0; i < sides; ++i) {
         const glm::dvec3& from = pointsWS[i];
         const glm::dvec3& to = pointsWS[(i + 1) % pointsWS.size()];
         const double sideMetres = glm::distance(from, to);
         if (leftMetres < sideMetres) return glm::mix(from, to, leftMetres / sideMetres);
         leftMetres -= sideMetres;
     }
-    return pointsWS.front();
+    return isOpen ? pointsWS.back() : pointsWS.front();
 }
 
-glm::dvec3 betweenKeyframes(const LightAnimation& animation, double timeSeconds) {
+/// The time between the first key and the last at which a light is as at `timeSeconds`.
+double withinKeys(const LightAnimation& animation, double timeSeconds) {
+    const double first = animation.timesSeconds.front();
+    const double length = animation.timesSeconds.back() - first;
+    if (animation.repeat == KeyRepeat::Once || length <= 0.0) return timeSeconds;
+    const double turns = (timeSeconds - first) / length;
+    const double whole = std::floor(turns);
+    const double share = turns - whole;
+    const bool isBackward = animation.repeat == KeyRepeat::PingPong && std::fmod(whole, 2.0) != 0.0;
+    return first + (isBackward ? 1.0 - share : share) * length;
+}
+
+glm::dvec3 betweenKeyframes(const LightAnimation& animation, double anyTimeSeconds) {
     const std::vector<double>& times = animation.timesSeconds;
+    const std::vector<glm::dvec3>& pointsWS = animation.pointsWS;
+    const double timeSeconds = withinKeys(animation, anyTimeSeconds);
     const auto next = std::upper_bound(times.begin(), times.end(), timeSeconds);
-    if (next == times.begin()) return animation.pointsWS.front();
-    if (next == times.end()) return animation.pointsWS.back();
+    if (next == times.begin()) return pointsWS.front();
+    if (next == times.end()) return pointsWS.back();
     const auto i = static_cast<std::size_t>(next - times.begin());
-    const double share = (timeSeconds - times[i - 1]) / (times[i] - times[i - 1]);
-    return glm::mix(animation.pointsWS[i - 1], animation.pointsWS[i], share);
+    const double seconds = times[i] - times[i - 1];
+    const double share = (timeSeconds - times[i - 1]) / seconds;
+    switch (animation.interpolation) {
+    case Interpolation::Step:
+        return pointsWS[i - 1];
+    case Interpolation::CubicSpline: {
+        const std::array<double, 4> weights = splineWeights(share, seconds);
+        return weights[0] * pointsWS[i - 1] + weights[1] * animation.outTangentsWS[i - 1] + weights[2] * pointsWS[i] +
+               weights[3] * animation.inTangentsWS[i];
+    }
+    case Interpolation::Linear:
+        break;
+    }
+    return glm::mix(pointsWS[i - 1], pointsWS[i], share);
 }
 
 } // namespace
@@ -67,7 +95,7 @@ Light lightAtTime(const Light& light, double timeSeconds) {
             animation.amplitudeMetres * std::sin(2.0 * std::numbers::pi * periodShare(animation, timeSeconds));
         break;
     case LightAnimationKind::Path:
-        moved.positionWS = alongClosedPolyline(animation.pointsWS, periodShare(animation, timeSeconds));
+        moved.positionWS = alongPolyline(animation.pointsWS, animation.isOpen, periodShare(animation, timeSeconds));
         break;
     case LightAnimationKind::Keyframes:
         moved.positionWS = betweenKeyframes(animation, timeSeconds);

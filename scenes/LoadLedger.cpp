@@ -121,7 +121,9 @@ std::uint64_t bytesOf(const Scene& scene) {
     for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);
     for (const Light& light : scene.lights) {
         bytes += light.name.size();
-        if (light.animation) bytes += bytesOf(light.animation->timesSeconds) + bytesOf(light.animation->pointsWS);
+        if (light.animation)
+            bytes += bytesOf(light.animation->timesSeconds) + bytesOf(light.animation->pointsWS) +
+                     bytesOf(light.animation->inTangentsWS) + bytesOf(light.animation->outTangentsWS);
     }
     for (const Camera& camera : scene.cameras) bytes += camera.name.size();
     for (const auto& [key, wish] : scene.options.wishes) {

@@ -1,6 +1,7 @@
 #include "scenes/Pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -70,12 +71,12 @@ void slerp(std::span<double> from, std::span<const double> to, double share) {
 
 /// Source: glTF 2.0 specification, appendix C.5.
 void spline(const AnimationSampler& sampler, std::size_t key, double share, double seconds, std::span<double> value) {
-    const double s = share, s2 = s * s, s3 = s2 * s;
+    const std::array<double, 4> weights = splineWeights(share, seconds);
     const std::span<const float> p0 = stored(sampler, key, 1), out = stored(sampler, key, 2);
     const std::span<const float> in = stored(sampler, key + 1, 0), p1 = stored(sampler, key + 1, 1);
     for (std::size_t i = 0; i < value.size(); ++i)
-        value[i] = (2.0 * s3 - 3.0 * s2 + 1.0) * double(p0[i]) + seconds * (s3 - 2.0 * s2 + s) * double(out[i]) +
-                   (3.0 * s2 - 2.0 * s3) * double(p1[i]) + seconds * (s3 - s2) * double(in[i]);
+        value[i] = weights[0] * double(p0[i]) + weights[1] * double(out[i]) + weights[2] * double(p1[i]) +
+                   weights[3] * double(in[i]);
 }
 
 // ---- Application ---------------------------------------------------------------------------------------------------

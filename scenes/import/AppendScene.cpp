@@ -55,6 +55,8 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
                                       light.name); // mirrored, an orbit runs the other way
     animation.amplitudeMetres = linear * animation.amplitudeMetres;
     for (glm::dvec3& pointWS : animation.pointsWS) pointWS = movedPoint(worldFromPart, pointWS);
+    for (glm::dvec3& tangentWS : animation.inTangentsWS) tangentWS = linear * tangentWS;
+    for (glm::dvec3& tangentWS : animation.outTangentsWS) tangentWS = linear * tangentWS;
 }
 
 /// View direction and position go along exactly; up follows as far as a rotation allows.

@@ -18,6 +18,11 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("amplitudeMetres", animation.amplitudeMetres...);
     visit("timesSeconds", animation.timesSeconds...);
     visit("pointsWS", animation.pointsWS...);
+    visit("isOpen", animation.isOpen...);
+    visit("interpolation", animation.interpolation...);
+    visit("repeat", animation.repeat...);
+    visit("inTangentsWS", animation.inTangentsWS...);
+    visit("outTangentsWS", animation.outTangentsWS...);
 }
 
 template <typename Visitor, typename... Lights>

@@ -69,11 +69,22 @@ void readKeyframes(JsonObject& object, LightAnimation& animation) {
             time.fail(fmt::format("is {}, which does not follow {}; times must ascend",
                                   animation.timesSeconds[count - 1], animation.timesSeconds[count - 2]));
     }
-    const JsonValue points = object.require("points");
-    animation.pointsWS = readPoints(points, 1);
-    if (animation.pointsWS.size() != animation.timesSeconds.size())
-        points.fail(fmt::format("has {} elements for {} times; give one for each", animation.pointsWS.size(),
-                                animation.timesSeconds.size()));
+    const auto readByKey = [&](const char* key) {
+        const JsonValue value = object.require(key);
+        std::vector<glm::dvec3> points = readPoints(value, 1);
+        if (points.size() != animation.timesSeconds.size())
+            value.fail(fmt::format("has {} elements for {} times; give one for each", points.size(),
+                                   animation.timesSeconds.size()));
+        return points;
+    };
+    animation.pointsWS = readByKey("points");
+    if (const auto interpolation = object.find("interpolation"))
+        animation.interpolation = interpolation->oneOf<Interpolation>("interpolation", kInterpolations);
+    if (animation.interpolation == Interpolation::CubicSpline) {
+        animation.inTangentsWS = readByKey("inTangents");
+        animation.outTangentsWS = readByKey("outTangents");
+    }
+    if (const auto repeat = object.find("repeat")) animation.repeat = repeat->oneOf<KeyRepeat>("repeat", kKeyRepeats);
 }
 
 LightAnimation readAnimation(const JsonValue& value) {
@@ -94,6 +105,7 @@ LightAnimation readAnimation(const JsonValue& value) {
         animation.amplitudeMetres = object.require("amplitude").vector3();
     } else if (animation.kind == LightAnimationKind::Path) {
         animation.pointsWS = readPoints(object.require("points"), 2);
+        if (const auto open = object.find("open")) animation.isOpen = open->boolean();
     }
     object.done(fmt::format("a {} animation", type.text()));
     return animation;

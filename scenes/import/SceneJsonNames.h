@@ -55,6 +55,12 @@ inline constexpr std::array kAnimations = {Named<LightAnimationKind>{"orbit", Li
                                            Named<LightAnimationKind>{"wobble", LightAnimationKind::Wobble},
                                            Named<LightAnimationKind>{"path", LightAnimationKind::Path},
                                            Named<LightAnimationKind>{"keyframes", LightAnimationKind::Keyframes}};
+inline constexpr std::array kInterpolations = {Named<Interpolation>{"linear", Interpolation::Linear},
+                                               Named<Interpolation>{"step", Interpolation::Step},
+                                               Named<Interpolation>{"cubic_spline", Interpolation::CubicSpline}};
+inline constexpr std::array kKeyRepeats = {Named<KeyRepeat>{"once", KeyRepeat::Once},
+                                           Named<KeyRepeat>{"loop", KeyRepeat::Loop},
+                                           Named<KeyRepeat>{"ping_pong", KeyRepeat::PingPong}};
 inline constexpr std::array kProjections = {Named<Projection>{"perspective", Projection::Perspective},
                                             Named<Projection>{"orthographic", Projection::Orthographic}};
 
@@ -91,6 +97,12 @@ inline std::span<const Named<Falloff>> choicesOf(Falloff) {
 }
 inline std::span<const Named<LightAnimationKind>> choicesOf(LightAnimationKind) {
     return kAnimations;
+}
+inline std::span<const Named<Interpolation>> choicesOf(Interpolation) {
+    return kInterpolations;
+}
+inline std::span<const Named<KeyRepeat>> choicesOf(KeyRepeat) {
+    return kKeyRepeats;
 }
 inline std::span<const Named<Projection>> choicesOf(Projection) {
     return kProjections;

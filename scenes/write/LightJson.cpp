@@ -48,10 +48,18 @@ Json animationJson(const LightAnimation& animation) {
         break;
     case LightAnimationKind::Path:
         json["points"] = pointsJson(animation.pointsWS);
+        if (animation.isOpen) json["open"] = true;
         break;
     case LightAnimationKind::Keyframes:
         json["times"] = animation.timesSeconds;
         json["points"] = pointsJson(animation.pointsWS);
+        if (animation.interpolation != Interpolation::Linear)
+            json["interpolation"] = scenejson::nameOf(animation.interpolation);
+        if (animation.interpolation == Interpolation::CubicSpline) {
+            json["inTangents"] = pointsJson(animation.inTangentsWS);
+            json["outTangents"] = pointsJson(animation.outTangentsWS);
+        }
+        if (animation.repeat != KeyRepeat::Once) json["repeat"] = scenejson::nameOf(animation.repeat);
         return json;
     }
     json["periodSeconds"] = number(animation.periodSeconds);

@@ -218,6 +218,24 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              animation.timesSeconds = {1.0, 1.0};
              animation.pointsWS.assign(2, glm::dvec3(0.0));
          }},
+        {"0 in-tangents and 0 out-tangents for 1 key times",
+         [](Scene& s) {
+             LightAnimation& animation = s.lights[0].animation.emplace();
+             animation.kind = LightAnimationKind::Keyframes;
+             animation.interpolation = Interpolation::CubicSpline;
+             animation.timesSeconds = {1.0};
+             animation.pointsWS.assign(1, glm::dvec3(0.0));
+         }},
+        {"a tangent of its keys",
+         [](Scene& s) {
+             LightAnimation& animation = s.lights[0].animation.emplace();
+             animation.kind = LightAnimationKind::Keyframes;
+             animation.interpolation = Interpolation::CubicSpline;
+             animation.timesSeconds = {1.0};
+             animation.pointsWS.assign(1, glm::dvec3(0.0));
+             animation.inTangentsWS.assign(1, glm::dvec3(kNaN));
+             animation.outTangentsWS.assign(1, glm::dvec3(0.0));
+         }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = 2.0; }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = -1.0; }},
         {"far plane", [](Scene& s) { s.cameras[0].farMetres = 0.05; }},

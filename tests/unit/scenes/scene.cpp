@@ -99,6 +99,64 @@ TEST(LightAnimation, keyframesAreClampedAtTheirEnds) {
     EXPECT_EQ(lightAtTime(light, 99.0).positionWS, glm::dvec3(1.0, 8.0, 0.0));
 }
 
+TEST(LightAnimation, stepsKeepEachPointUntilTheNextKey) {
+    Light light = animatedLight(LightAnimationKind::Keyframes);
+    light.animation->interpolation = Interpolation::Step;
+    light.animation->timesSeconds = {1.0, 2.0};
+    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+    EXPECT_EQ(lightAtTime(light, 1.999).positionWS, glm::dvec3(0.0));
+    EXPECT_EQ(lightAtTime(light, 2.0).positionWS, glm::dvec3(1.0, 0.0, 0.0));
+}
+
+TEST(LightAnimation, splinesFollowACubicWhoseSlopesAreTheirTangents) {
+    Light light = animatedLight(LightAnimationKind::Keyframes);
+    light.animation->interpolation = Interpolation::CubicSpline;
+    light.animation->timesSeconds = {1.0, 3.0, 4.0};
+    const auto cubic = [](double t) { return glm::dvec3(t * t * t, 2.0 - t, t * t); };
+    for (const double t : light.animation->timesSeconds) {
+        light.animation->pointsWS.push_back(cubic(t));
+        light.animation->inTangentsWS.emplace_back(3.0 * t * t, -1.0, 2.0 * t);
+    }
+    light.animation->outTangentsWS = light.animation->inTangentsWS;
+    for (const double t : {1.0, 1.25, 2.0, 2.9, 3.0, 3.5, 4.0})
+        expectNear(lightAtTime(light, t).positionWS, cubic(t), 1e-12); // rounding of numbers up to 64
+    EXPECT_EQ(lightAtTime(light, 1e9).positionWS, cubic(4.0));
+}
+
+TEST(LightAnimation, keyframesLoopOrTurnBackBeyondTheirEnds) {
+    Light light = animatedLight(LightAnimationKind::Keyframes);
+    light.animation->timesSeconds = {1.0, 3.0};
+    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
+    const auto xAt = [&](double seconds) { return lightAtTime(light, seconds).positionWS.x; };
+    light.animation->repeat = KeyRepeat::Loop;
+    EXPECT_EQ(xAt(2.5), 1.5);
+    EXPECT_EQ(xAt(3.0), 0.0);
+    EXPECT_EQ(xAt(3.5), 0.5);
+    EXPECT_EQ(xAt(0.5), 1.5);
+    EXPECT_EQ(xAt(1e9 + 1.5), 0.5);
+    light.animation->repeat = KeyRepeat::PingPong;
+    EXPECT_EQ(xAt(2.5), 1.5);
+    EXPECT_EQ(xAt(3.0), 2.0);
+    EXPECT_EQ(xAt(3.5), 1.5);
+    EXPECT_EQ(xAt(0.5), 0.5);
+    EXPECT_EQ(xAt(5.5), 0.5);
+    EXPECT_EQ(xAt(1e9 + 1.5), 0.5);
+    light.animation->timesSeconds = {1.0};
+    light.animation->pointsWS.resize(1);
+    EXPECT_EQ(xAt(7.0), 0.0) << "one key is a place";
+}
+
+TEST(LightAnimation, openPathsGoThereAndBackAtConstantSpeed) {
+    Light light = animatedLight(LightAnimationKind::Path);
+    light.animation->periodSeconds = 14.0;
+    light.animation->isOpen = true;
+    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {3.0, 4.0, 0.0}};
+    expectNear(lightAtTime(light, 1.0).positionWS, {1.0, 0.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 5.0).positionWS, {3.0, 2.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 7.0).positionWS, {3.0, 4.0, 0.0}, kRounding);
+    expectNear(lightAtTime(light, 13.0).positionWS, {1.0, 0.0, 0.0}, kRounding);
+}
+
 TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {
     Light light = animatedLight(LightAnimationKind::Orbit);
     // 2^40 s is a whole number of periods of 4 s, exactly representable with its fraction.

@@ -162,6 +162,18 @@ TEST(SceneJsonLights, everyAnimationMovesTheLight) {
     expectNear(positionAt(orbit + R"(, "phase": 0.5})", 0.0), {1, 2, -3});
     expectNear(positionAt(R"({"type": "wobble", "amplitude": [1, 0, 2], "periodSeconds": 4})", 1.0), {2, 2, 5});
     expectNear(positionAt(R"({"type": "path", "points": [[0, 0, 0], [2, 0, 0]], "periodSeconds": 4})", 1.0), {1, 0, 0});
+    expectNear(
+        positionAt(R"({"type": "path", "points": [[0, 0, 0], [2, 0, 0]], "open": true, "periodSeconds": 4})", 2.0),
+        {2, 0, 0});
+    expectNear(positionAt(R"({"type": "keyframes", "times": [1, 3], "points": [[0, 0, 0], [2, 0, 0]],
+                              "interpolation": "cubic_spline", "inTangents": [[0, 0, 0], [0, 4, 0]],
+                              "outTangents": [[0, 4, 0], [0, 0, 0]], "repeat": "ping_pong"})",
+                          4.0),
+               {1, 0, 0});
+    expectNear(positionAt(R"({"type": "keyframes", "times": [1, 3], "points": [[0, 0, 0], [2, 0, 0]],
+                              "interpolation": "step", "repeat": "loop"})",
+                          4.0),
+               {0, 0, 0});
     expectNear(positionAt(R"({"type": "keyframes", "times": [1, 3], "points": [[0, 0, 0], [2, 0, 0]]})", 1.5),
                {0.5, 0, 0});
 }
@@ -184,13 +196,21 @@ TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     EXPECT_EQ(animationError(R"({"type": "wobble", "periodSeconds": 1})"),
               "/lights/0/animation: lacks the key 'amplitude'; add it");
     EXPECT_EQ(animationError(R"({"type": "keyframes", "periodSeconds": 1, "times": [0], "points": [[0, 0, 0]]})"),
-              "/lights/0/animation: a keyframes animation has no key 'periodSeconds'; valid are type, times, points");
+              "/lights/0/animation: a keyframes animation has no key 'periodSeconds'; valid are type, times, points, "
+              "interpolation, repeat");
     EXPECT_EQ(animationError(R"({"type": "spin"})"),
               "/lights/0/animation/type: there is no animation 'spin'; valid are orbit, wobble, path, keyframes");
     EXPECT_EQ(beyondSchema(R"({"type": "keyframes", "times": [1, 1], "points": [[0, 0, 0], [0, 0, 0]]})"),
               "/lights/0/animation/times/1: is 1, which does not follow 1; times must ascend");
     EXPECT_EQ(beyondSchema(R"({"type": "keyframes", "times": [1, 2], "points": [[0, 0, 0]]})"),
               "/lights/0/animation/points: has 1 elements for 2 times; give one for each");
+    EXPECT_EQ(beyondSchema(R"({"type": "keyframes", "times": [1], "points": [[0, 0, 0]],
+                               "interpolation": "cubic_spline", "inTangents": [[0, 0, 0], [0, 0, 0]],
+                               "outTangents": [[0, 0, 0]]})"),
+              "/lights/0/animation/inTangents: has 2 elements for 1 times; give one for each");
+    EXPECT_EQ(animationError(R"({"type": "keyframes", "times": [1], "points": [[0, 0, 0]], "interpolation": "wild"})"),
+              "/lights/0/animation/interpolation: there is no interpolation 'wild'; valid are linear, step, "
+              "cubic_spline");
     EXPECT_EQ(
         errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
         "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <numbers>
 
 #include "scenes/Scene.h"
@@ -27,6 +28,11 @@ public:
         animation.amplitudeMetres = point();
         animation.timesSeconds = {share(), 2.0 + share()};
         animation.pointsWS = {point(), point()};
+        animation.isOpen = random_.unit() < 0.5;
+        animation.interpolation = Interpolation(std::min(2.0, 3.0 * random_.unit()));
+        animation.repeat = KeyRepeat(std::min(2.0, 3.0 * random_.unit()));
+        animation.inTangentsWS = {point(), point()};
+        animation.outTangentsWS = {point(), point()};
         return animation;
     }
 

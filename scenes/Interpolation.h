@@ -1,0 +1,21 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+/// How a curve runs between its keys. Source: glTF 2.0 specification, appendix C.
+namespace tessera::scenes {
+
+enum class Interpolation : std::uint8_t {
+    Linear, ///< rotations on the shortest great circle, at constant speed
+    Step,   ///< each key's value until the next
+    CubicSpline
+};
+
+/// What a cubic spline takes of the key before, its out-tangent, the key after and its in-tangent, at `share` of the
+/// `seconds` between them. Tangents are per second.
+constexpr std::array<double, 4> splineWeights(double share, double seconds) {
+    const double s2 = share * share, s3 = s2 * share;
+    return {2.0 * s3 - 3.0 * s2 + 1.0, seconds * (s3 - 2.0 * s2 + share), 3.0 * s2 - 2.0 * s3, seconds * (s3 - s2)};
+}
+
+} // namespace tessera::scenes
