@@ -263,6 +263,14 @@ void checkLight(const Element& element, const Light& light) {
         fmt::format("its inner cone of {:g} radians is wider than its outer cone of {:g} radians; make it narrower",
                     light.innerConeRadians, light.outerConeRadians));
     if (light.animation) checkAnimation(element, *light.animation);
+    if (!light.flicker) return;
+    const LightFlicker& flicker = *light.flicker;
+    element.require(flicker.amplitude >= 0.0 && flicker.amplitude <= 1.0,
+                    "the amplitude of its flicker must be between 0 and 1");
+    element.require(
+        flicker.frequencyHz > 0.0 && flicker.frequencyHz <= LightFlicker::kMostHertz,
+        fmt::format("the frequency of its flicker must be above 0 and at most {:g} Hz", LightFlicker::kMostHertz));
+    element.require(flicker.seed >= 0, "the seed of its flicker must not be negative");
 }
 
 void checkCamera(const Element& element, const Camera& camera) {

@@ -97,6 +97,10 @@ public:
         addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS, isOpen,
                interpolation, repeat, inTangentsWS, outTangentsWS);
     }
+    void add(const LightFlicker& flicker) {
+        const auto& [amplitude, frequencyHz, seed] = flicker;
+        addAll(amplitude, frequencyHz, seed);
+    }
     void add(const LightCorners& corners) {
         add(std::uint64_t(corners.count));
         for (const glm::vec2& corner : corners.all()) add(corner);

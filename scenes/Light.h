@@ -80,6 +80,15 @@ struct LightAnimation {
     bool operator==(const LightAnimation&) const = default;
 };
 
+/// Multiplies a light's intensity by flickerAt().
+struct LightFlicker {
+    static constexpr double kMostHertz = 1000.0;
+    double amplitude = 0.5;   ///< 0..1: the factor stays within 1 - amplitude and 1 + amplitude
+    double frequencyHz = 8.0; ///< above 0: nothing in it is faster
+    int seed = 0;             ///< >= 0: lights of different seeds flicker differently
+    bool operator==(const LightFlicker&) const = default;
+};
+
 /// The corners of an outline in the order of its edges, in metres from the light's position: x along Light::alongWS, y
 /// across it, at right angles to both that and the light's direction. They lie within the light, since every light has
 /// them. cornersProblem() (scenes/AreaLight.h) says what makes no outline.
@@ -126,6 +135,7 @@ struct Light {
     bool isTwoSided = false;                 ///< what is flat: shines from the back too
     bool isSeen = true;                      ///< with an area: pictures show the surface
     std::optional<LightAnimation> animation;
+    std::optional<LightFlicker> flicker;
     bool operator==(const Light&) const = default;
 };
 
@@ -159,6 +169,7 @@ inline constexpr std::tuple kLightFields{
     Field{"isTwoSided", &Light::isTwoSided},
     Field{"isSeen", &Light::isSeen},
     Field{"animation", &Light::animation},
+    Field{"flicker", &Light::flicker},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
               "kLightFields lacks a member of Light");

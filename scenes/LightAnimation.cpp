@@ -2,6 +2,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "scenes/Scene.h"
@@ -76,13 +77,35 @@ glm::dvec3 betweenKeyframes(const LightAnimation& animation, double anyTimeSecon
     return glm::mix(pointsWS[i - 1], pointsWS[i], share);
 }
 
+/// Source: Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators" (SplitMix64). 0 <= share < 1.
+double hashedShare(std::uint64_t number) {
+    std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30u)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27u)) * 0x94d049bb133111ebu;
+    return std::ldexp(double((z ^ (z >> 31u)) >> 11u), -53);
+}
+
 } // namespace
+
+double flickerAt(const LightFlicker& flicker, double timeSeconds) {
+    // Without common divisors, so that the whole repeats late; the last is the frequency itself.
+    constexpr std::array kHarmonics{17.0, 29.0, 43.0, 64.0};
+    const double turns = timeSeconds * (flicker.frequencyHz / kHarmonics.back());
+    const double share = turns - std::floor(turns);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kHarmonics.size(); ++i) {
+        const double phase = hashedShare(std::uint64_t(flicker.seed) * kHarmonics.size() + i);
+        sum += std::sin(2.0 * std::numbers::pi * (kHarmonics[i] * share + phase));
+    }
+    return 1.0 + flicker.amplitude / double(kHarmonics.size()) * sum;
+}
 
 Light lightAtTime(const Light& light, double timeSeconds) {
     assert(std::isfinite(timeSeconds));
-    if (!light.animation || !infoOf(light.type).hasPosition()) return light;
-    const LightAnimation& animation = *light.animation;
     Light moved = light;
+    if (light.flicker) moved.intensity = float(double(light.intensity) * flickerAt(*light.flicker, timeSeconds));
+    if (!light.animation || !infoOf(light.type).hasPosition()) return moved;
+    const LightAnimation& animation = *light.animation;
     switch (animation.kind) {
     case LightAnimationKind::Orbit: {
         const double angleRadians = 2.0 * std::numbers::pi * periodShare(animation, timeSeconds);

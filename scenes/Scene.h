@@ -53,7 +53,12 @@ struct Node {
 
 // ---- Lights --------------------------------------------------------------------------------------------------------
 
-/// The light as it is at `timeSeconds`: its animation applied to its position.
+/// The factor of the intensity at `timeSeconds`, a function of nothing else, so that times can be asked for in any
+/// order: 1 + amplitude / 4 * sum over k in {17, 29, 43, 64} of sin(2 pi (k frequency t / 64 + phase_k)), with phases
+/// of the seed. Its mean over 64 / frequency seconds, after which it repeats, is 1.
+double flickerAt(const LightFlicker& flicker, double timeSeconds);
+
+/// The light as it is at `timeSeconds`: its animation applied to its position, its flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);
 
 // ---- Cameras, options, scene ---------------------------------------------------------------------------------------

@@ -95,7 +95,7 @@ private:
     double now() const { return Window::nowSeconds(); }
     /// Whether lights, clips or a hook may move something as time goes on.
     bool plays() const {
-        const auto moves = [](const scenes::Light& light) { return light.animation.has_value(); };
+        const auto moves = [](const scenes::Light& light) { return light.animation || light.flicker; };
         return state_.open && state_.isPlaying &&
                (state_.open->playsAt(state_.active().settings.timeSeconds) || state_.open->scene().hook ||
                 std::ranges::any_of(state_.open->scene().lights, moves));

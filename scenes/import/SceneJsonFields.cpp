@@ -9,6 +9,7 @@ namespace tessera::scenes::scenejson {
 namespace {
 
 void read(const JsonValue& value, LightAnimation& animation);
+void read(const JsonValue& value, LightFlicker& flicker);
 void read(const JsonValue& value, TextureUse& use);
 void read(const JsonValue& value, DiffusionGaussian& gaussian);
 void read(const JsonValue& value, Subsurface& subsurface);
@@ -82,6 +83,12 @@ void read(const JsonValue& value, LightAnimation& animation) {
     JsonObject object = value.object();
     visitAnimation(readerOf(object), animation);
     object.done("an animation's fields");
+}
+
+void read(const JsonValue& value, LightFlicker& flicker) {
+    JsonObject object = value.object();
+    visitFlicker(readerOf(object), flicker);
+    object.done("a flicker's fields");
 }
 
 void read(const JsonValue& value, TextureUse& use) {

@@ -25,6 +25,13 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("outTangentsWS", animation.outTangentsWS...);
 }
 
+template <typename Visitor, typename... Flickers>
+void visitFlicker(Visitor&& visit, Flickers&... flicker) {
+    visit("amplitude", flicker.amplitude...);
+    visit("frequencyHz", flicker.frequencyHz...);
+    visit("seed", flicker.seed...);
+}
+
 template <typename Visitor, typename... Lights>
 void visitLight(Visitor&& visit, Lights&... light) {
     visitFields(kLightFields, [&](const auto& field) { visit(field.name, light.*field.member...); });

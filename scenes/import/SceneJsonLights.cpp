@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <fmt/ranges.h>
 #include <glm/trigonometric.hpp>
@@ -166,6 +167,20 @@ void readParameters(JsonObject& object, Light& light) {
     }
 }
 
+LightFlicker readFlicker(const JsonValue& value) {
+    JsonObject object = value.object();
+    LightFlicker flicker;
+    if (const auto amplitude = object.find("amplitude")) flicker.amplitude = amplitude->number(0.0, 1.0);
+    if (const auto frequency = object.find("frequencyHz")) {
+        flicker.frequencyHz = frequency->positive();
+        if (flicker.frequencyHz > LightFlicker::kMostHertz)
+            frequency->fail(fmt::format("is {}; at most {} is allowed", flicker.frequencyHz, LightFlicker::kMostHertz));
+    }
+    if (const auto seed = object.find("seed")) flicker.seed = seed->integer(0, std::numeric_limits<int>::max());
+    object.done("a flicker");
+    return flicker;
+}
+
 } // namespace
 
 Light readLight(const JsonValue& value, std::size_t index) {
@@ -178,6 +193,7 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (const auto enabled = object.find("enabled")) light.enabled = enabled->boolean();
     if (const auto color = object.find("color")) light.color = color->color();
     if (const auto intensity = object.find("intensity")) light.intensity = intensity->single(0.0);
+    if (const auto flicker = object.find("flicker")) light.flicker = readFlicker(*flicker);
     const LightTypeInfo& info = infoOf(light.type);
     if (info.hasPosition()) {
         light.positionWS = object.require("position").vector3();

@@ -12,6 +12,7 @@ namespace tessera::scenes::write {
 namespace {
 
 Json fieldOf(const LightAnimation& animation);
+Json fieldOf(const LightFlicker& flicker);
 Json fieldOf(const TextureUse& use);
 Json fieldOf(const DiffusionGaussian& gaussian);
 Json fieldOf(const Subsurface& subsurface);
@@ -79,6 +80,13 @@ Json fieldOf(const LightAnimation& animation) {
     Json json = Json::object();
     const LightAnimation none;
     scenejson::visitAnimation(differencesInto(json), animation, none);
+    return json;
+}
+
+Json fieldOf(const LightFlicker& flicker) {
+    Json json = Json::object();
+    const LightFlicker none;
+    scenejson::visitFlicker(differencesInto(json), flicker, none);
     return json;
 }
 

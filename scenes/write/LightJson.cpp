@@ -74,6 +74,10 @@ Json byKeys(const Light& light) {
     if (!light.enabled) json["enabled"] = false;
     json["color"] = numbers(light.color);
     json["intensity"] = number(light.intensity);
+    if (light.flicker)
+        json["flicker"] = {{"amplitude", number(light.flicker->amplitude)},
+                           {"frequencyHz", number(light.flicker->frequencyHz)},
+                           {"seed", light.flicker->seed}};
     const LightTypeInfo& info = infoOf(light.type);
     if (info.hasPosition()) {
         json["position"] = numbers(light.positionWS);

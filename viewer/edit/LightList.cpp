@@ -155,7 +155,7 @@ void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds,
 }
 
 void stopLight(scenes::Light& light, double timeSeconds) {
-    light = scenes::lightAtTime(light, timeSeconds);
+    light.positionWS = scenes::lightAtTime(light, timeSeconds).positionWS; // and the intensity flickers on
     light.animation.reset();
 }
 

@@ -218,6 +218,9 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              animation.timesSeconds = {1.0, 1.0};
              animation.pointsWS.assign(2, glm::dvec3(0.0));
          }},
+        {"amplitude of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().amplitude = kNaN; }},
+        {"frequency of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().frequencyHz = 0.0; }},
+        {"seed of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().seed = -1; }},
         {"0 in-tangents and 0 out-tangents for 1 key times",
          [](Scene& s) {
              LightAnimation& animation = s.lights[0].animation.emplace();

@@ -150,6 +150,7 @@ const std::vector<Change>& changes() {
         {"light.cornerCount", [](Scene& s) { s.lights[0].corners.count = 3; }},
         {"light.twoSided", [](Scene& s) { s.lights[0].isTwoSided = true; }},
         {"light.seen", [](Scene& s) { s.lights[0].isSeen = false; }},
+        {"light.flicker", [](Scene& s) { s.lights[0].flicker.emplace(); }},
         {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},
         {"animation.kind", [](Scene& s) { s.lights[0].animation->kind = LightAnimationKind::Path; }},
         {"animation.period", [](Scene& s) { s.lights[0].animation->periodSeconds = 2.0; }},

@@ -164,6 +164,40 @@ TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {
                kRounding);
 }
 
+TEST(LightAnimation, flickerKeepsItsMeanAndItsBounds) {
+    for (const int seed : {0, 1, 77}) {
+        const LightFlicker flicker{.amplitude = 1.0, .frequencyHz = 4.0, .seed = seed};
+        constexpr int kSteps = 1024; // 16 a turn of the fastest part: sums of sines vanish but for rounding
+        double sum = 0.0, least = 9.0, most = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double factor = flickerAt(flicker, 16.0 * i / kSteps);
+            EXPECT_EQ(factor, flickerAt(flicker, 16.0 * i / kSteps + 16.0 * 1048576.0)) << "and repeats";
+            sum += factor;
+            least = std::min(least, factor);
+            most = std::max(most, factor);
+        }
+        EXPECT_NEAR(sum / kSteps, 1.0, 1e-12);
+        EXPECT_GE(least, 0.0);
+        EXPECT_LE(most, 2.0);
+        EXPECT_GT(most - least, 0.5) << "it does flicker";
+    }
+}
+
+TEST(LightAnimation, flickerScalesTheIntensityOfEveryType) {
+    Light light;
+    light.intensity = 10.0f;
+    light.flicker = LightFlicker{.amplitude = 0.5, .frequencyHz = 3.0, .seed = 5};
+    LightFlicker other = *light.flicker;
+    other.seed = 6;
+    EXPECT_NE(flickerAt(*light.flicker, 0.3), flickerAt(other, 0.3));
+    for (const LightTypeInfo& type : lightTypes()) {
+        light.type = type.type;
+        EXPECT_EQ(lightAtTime(light, 1e9).intensity, float(10.0 * flickerAt(*light.flicker, 1e9))) << type.name;
+    }
+    light.flicker->amplitude = 0.0;
+    EXPECT_EQ(lightAtTime(light, 0.3).intensity, 10.0f);
+}
+
 TEST(LightAnimation, directionalAndStillLightsNeverMove) {
     Light light = animatedLight(LightAnimationKind::Wobble);
     light.animation->amplitudeMetres = glm::dvec3(1.0);

@@ -124,6 +124,17 @@ TEST(LightList, anOrbitBeginsAndAStopEndsWhereTheLightIs) {
     }
 }
 
+TEST(LightList, aStoppedLightKeepsItsIntensityAndItsFlicker) {
+    scenes::Light light;
+    light.intensity = 10.0f;
+    light.animation.emplace();
+    light.flicker.emplace();
+    const scenes::Light before = light;
+    stopLight(light, 0.3);
+    EXPECT_EQ(light.intensity, before.intensity);
+    EXPECT_EQ(light.flicker, before.flicker);
+}
+
 TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     for (const scenes::LightTypeInfo& first : scenes::lightTypes()) {
         for (const scenes::LightTypeInfo& second : scenes::lightTypes()) {

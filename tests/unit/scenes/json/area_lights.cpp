@@ -81,10 +81,11 @@ TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
     EXPECT_EQ(error(panel + R"(, "along": [0, 0, 0])"), "/lights/0/along: has no length; give a direction");
     EXPECT_EQ(error(panel + R"(, "width": -1)"), "/lights/0/width: is -1; at least 0 is needed");
     EXPECT_EQ(error(panel + R"(, "height": 1000001)"), "/lights/0/height: is 1000001; at most 1000000 is allowed");
-    EXPECT_EQ(error(panel + R"(, "radius": 1)"),
-              "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, "
-              "position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
-              "castsShadow, fields");
+    EXPECT_EQ(
+        error(panel + R"(, "radius": 1)"),
+        "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, flicker, "
+        "position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
+        "castsShadow, fields");
     EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
     EXPECT_EQ(error(panel + R"(, "seen": 1)"), "/lights/0/seen: is a number; true or false is needed");
     const std::string polygon = R"("type": "polygon", "direction": [0, 0, 1])";

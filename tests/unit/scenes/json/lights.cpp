@@ -180,6 +180,12 @@ TEST(SceneJsonLights, everyAnimationMovesTheLight) {
 
 TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     const SceneFolder folder;
+    EXPECT_EQ(lightOf(folder, point(R"("flicker": {"amplitude": 0.25, "seed": 7})")).flicker,
+              (LightFlicker{.amplitude = 0.25, .seed = 7}));
+    EXPECT_EQ(errorOfLight(folder, point(R"("flicker": {"frequencyHz": 0})")),
+              "/lights/0/flicker/frequencyHz: is 0; more than 0 is needed");
+    EXPECT_EQ(errorOfLight(folder, point(R"("flicker": {"frequencyHz": 2000})")),
+              "/lights/0/flicker/frequencyHz: is 2000; at most 1000 is allowed");
     const auto animationError = [&](const std::string& animation) {
         return errorOfLight(folder, point(R"("animation": )" + animation));
     };
@@ -214,6 +220,7 @@ TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     EXPECT_EQ(
         errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
         "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
+        "flicker, "
         "direction, castsShadow, angularRadiusDegrees, fields");
 }
 

@@ -63,10 +63,10 @@ TEST(SceneJson, anUnknownKeyIsRefusedWithTheNearest) {
               "/: a scene has no key 'lihgts'; did you mean 'lights'?");
     EXPECT_EQ(folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "intensty": 2}])"),
               "/lights/0: a point light has no key 'intensty'; did you mean 'intensity'?");
-    EXPECT_EQ(
-        folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "target": [1, 0, 0]}])"),
-        "/lights/0: a point light has no key 'target'; valid are type, name, enabled, color, intensity, position, "
-        "falloff, animation, castsShadow, radius, fields");
+    EXPECT_EQ(folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "target": [1, 0, 0]}])"),
+              "/lights/0: a point light has no key 'target'; valid are type, name, enabled, color, intensity, flicker, "
+              "position, "
+              "falloff, animation, castsShadow, radius, fields");
 }
 
 TEST(SceneJson, aWrongTypeIsRefused) {

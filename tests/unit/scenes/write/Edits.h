@@ -43,6 +43,7 @@ public:
         light.enabled = random_.unit() < 0.5;
         light.color = color();
         light.intensity = 100.0f * share();
+        light.flicker = LightFlicker{.amplitude = random_.unit(), .frequencyHz = 1.0 + share(), .seed = 3};
         light.positionWS = point();
         light.directionWS = direction();
         light.falloff = falloff;
