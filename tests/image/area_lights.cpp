@@ -69,7 +69,7 @@ TEST_F(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
         std::vector<Technique> techniques; ///< besides forward; none: all
     };
     for (Case& one : std::vector<Case>{
-             {withAreaLights(evenScene()), 1, {}, {}},
+             {withAreaLights(evenScene()), 1, {}, techniquesInTurn(0)},
              {withAreaLights(everythingScene()), 1, {}, {Technique::TiledDeferred, Technique::ClusteredForward}},
              {withAreaLights(evenScene()), 1, kAllLightsCast, {Technique::DeferredVolumes, Technique::ForwardPlus}},
              {withAreaLights(quadScene({})), 4, {}, {}}}) {
@@ -117,19 +117,24 @@ protected:
     double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
                 const glm::dvec3& toViewer = {0.0, 0.0, 1.0},
                 const std::optional<scenes::Environment>& environment = {}) {
-        scenes::Scene scene = quadScene(material);
-        scene.environment = environment;
-        scene.lights = lights;
-        for (scenes::Light& light : scene.lights) light.isSeen = false;
-        scenes::Camera& camera = scene.cameras[0];
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 1e-4;
-        const glm::dvec3 back = glm::normalize(toViewer);
-        camera.worldFromCamera = scenes::worldFromLookAt(3.0 * back, glm::dvec3(0.0));
+        if (!shown_ || !(shown_->material == material) || shown_->toViewer != toViewer || environment ||
+            shown_->scene.environment) {
+            shown_.emplace();
+            shown_->material = material;
+            shown_->toViewer = toViewer;
+            scenes::Scene& scene = shown_->scene = quadScene(material);
+            scene.environment = environment;
+            scenes::Camera& camera = scene.cameras[0];
+            camera.projection = scenes::Projection::Orthographic;
+            camera.halfHeightMetres = 1e-4;
+            camera.worldFromCamera = scenes::worldFromLookAt(3.0 * glm::normalize(toViewer), glm::dvec3(0.0));
+            shown_->renderer.emplace(context(), scene);
+        }
+        shown_->scene.lights = lights;
+        for (scenes::Light& light : shown_->scene.lights) light.isSeen = false;
         frame::FrameSettings settings;
         settings.sizePixels = {3, 3};
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+        const std::vector<float> radiance = shown_->renderer->render(Technique::Deferred, settings).radiance;
         return double(radiance[4 * 4]);
     }
     /// Of the picture of a ball against the integral over a light.
@@ -164,6 +169,16 @@ protected:
         material.doubleSided = true;
         return material;
     }
+
+private:
+    /// What seen() showed last: a renderer takes longer to make than such a picture.
+    struct Shown {
+        scenes::Material material;
+        glm::dvec3 toViewer{0.0};
+        scenes::Scene scene;
+        std::optional<engine::Renderer> renderer;
+    };
+    std::optional<Shown> shown_;
 };
 
 // Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".

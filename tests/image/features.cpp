@@ -42,22 +42,25 @@ protected:
         for (std::size_t i = 0; i < a.pixelCount(); ++i) count += !std::equal(a.pixel(i), a.pixel(i) + 3, b.pixel(i));
         return count;
     }
-    /// Every fourth change in forward too.
+    /// Every fourth change in forward too. Without pruning, so that all share programs, which take most of the time.
     void expectEachShows(const std::vector<Change>& changes) {
         std::size_t turn = 0;
         const Scene base = test::everythingScene();
         engine::Renderer baseRenderer(context(), base);
         const Picture before = engine::toPicture(baseRenderer.render(Technique::Deferred, small()));
+        frame::FrameSettings settings = small();
+        settings.prune = false;
+        EXPECT_EQ(engine::toPicture(baseRenderer.render(Technique::Deferred, settings)).rgba, before.rgba);
         for (const Change& change : changes) {
             SCOPED_TRACE(change.what);
             Scene scene = base;
             change.apply(scene);
             ASSERT_NO_THROW(scenes::checkScene(scene));
             engine::Renderer renderer(context(), scene);
-            const Picture deferred = engine::toPicture(renderer.render(Technique::Deferred, small()));
+            const Picture deferred = engine::toPicture(renderer.render(Technique::Deferred, settings));
             EXPECT_GT(changedPixels(before, deferred), 10u) << "the picture did not change";
             if (turn++ % 4 != 0) continue;
-            const Picture forward = engine::toPicture(renderer.render(Technique::Forward, small()));
+            const Picture forward = engine::toPicture(renderer.render(Technique::Forward, settings));
             EXPECT_EQ(forward.rgba, deferred.rgba) << "forward and deferred do not agree on it";
             const validation::ErrorFigures figures = validation::errorFigures(deferred, forward);
             EXPECT_EQ(figures.bad.sum() + figures.badOutside.sum(), 0u);

@@ -56,7 +56,7 @@ TEST_F(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
     const std::span<const Case> cases(kCases);
     expectIn(test::everythingScene(), cases);
     expectIn(headWith(SubsurfaceMethod::Wrap), cases.first(2));
-    expectIn(test::evenScene(), cases.last(2));
+    expectIn(test::evenScene(), cases.subspan(1, 1)); // its G-buffer holds numbers of materials
 }
 
 // Its shadow side is where the light wraps.
