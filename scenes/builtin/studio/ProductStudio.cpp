@@ -58,18 +58,8 @@ void addProducts(Scene& scene) {
                metallicRoughness("orange plastic", {0.80f, 0.19f, 0.015f}, 0.0f, 0.28f));
 }
 
-/// A lamp that is in the picture. What is seen to shine lies just within the light, so that the light does not shine on
-/// it, and casts no shadow.
-void addSeenLamp(Scene& scene, Mesh mesh, const Light& light) {
-    Material glow = metallicRoughness("shining " + light.name, glm::vec3(0.0f), 0.0f, 1.0f);
-    glow.emissive = light.intensity * light.color;
-    glow.castsShadow = false;
-    addProduct(scene, std::move(mesh), glm::translate(glm::dmat4(1.0), light.positionWS), glow);
-}
-
 void addProductLights(Scene& scene) {
     constexpr glm::dvec3 kProductsWS(0.0, 0.35, 0.0);
-    constexpr float kWithin = 0.97f; // of a light's size: the surface that is seen
 
     Light& key =
         addAreaLight(scene, "key", LightType::Rectangle, {-2.5, 2.9, 2.0}, kProductsWS, {1.0f, 0.95f, 0.88f}, 13.0f);
@@ -99,14 +89,12 @@ void addProductLights(Scene& scene) {
     tube.radiusMetres = 0.03f;
     tube.lengthMetres = 1.6f;
     tube.rangeMetres = 6.0f;
-    addSeenLamp(scene, studio::rod(kWithin * tube.radiusMetres, kWithin * tube.lengthMetres), tube);
 
     constexpr double kGlobeY = 0.165;
     const glm::dvec3 globeWS(0.83, kGlobeY, 0.72);
     Light& globe = addAreaLight(scene, "globe", LightType::Sphere, globeWS, kProductsWS, {1.0f, 0.72f, 0.42f}, 9.0f);
     globe.radiusMetres = 0.07f;
     globe.rangeMetres = 3.0f;
-    addSeenLamp(scene, studio::globe(kWithin * globe.radiusMetres), globe);
     addProduct(scene, studio::lampFoot(), studioPlace(globeWS.x, globeWS.z),
                metallicRoughness("brass foot", {0.78f, 0.57f, 0.27f}, 1.0f, 0.25f));
 }

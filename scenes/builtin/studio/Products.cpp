@@ -146,22 +146,6 @@ Mesh shell() {
     return mesh;
 }
 
-Mesh globe(double radiusMetres) {
-    Mesh mesh;
-    appendSphere(mesh, glm::dvec3(0.0), radiusMetres, 40, 24);
-    return mesh;
-}
-
-Mesh rod(double radiusMetres, double lengthMetres) {
-    Profile profile({0.0, -0.5 * lengthMetres});
-    profile.lineTo({radiusMetres, -0.5 * lengthMetres})
-        .lineTo({radiusMetres, 0.5 * lengthMetres})
-        .lineTo({0.0, 0.5 * lengthMetres});
-    Mesh mesh;
-    appendLathe(mesh, profile, 32);
-    return mesh;
-}
-
 Mesh lampFoot() {
     Profile profile({0.07, 0.0});
     profile.lineTo({0.07, 0.02}).arcAround({0.05, 0.02}, 0.5 * pi, 6).lineTo({0.012, 0.045}).lineTo({0.012, 0.10});

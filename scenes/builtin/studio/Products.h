@@ -4,15 +4,13 @@
 /// What the scene `studio` shows, as meshes in metres: each stands on the origin unless it says otherwise.
 namespace tessera::scenes::builtin::studio {
 
-Mesh paperSweep();                                  ///< a floor that bends up into a wall behind, in world space
-Mesh ball(double radiusMetres);                     ///< resting on the origin
-Mesh drapedCloth();                                 ///< over a round table, in folds; 0.62 m high
-Mesh vase();                                        ///< 0.78 m high
-Mesh ring();                                        ///< a bracelet that lies flat
-Mesh stopper();                                     ///< a rounded cylinder
-Mesh shell();                                       ///< a smooth egg, lying, 0.44 m high
-Mesh globe(double radiusMetres);                    ///< around the origin
-Mesh rod(double radiusMetres, double lengthMetres); ///< around the origin, along Y, with its ends
-Mesh lampFoot();                                    ///< 0.1 m high
+Mesh paperSweep();              ///< a floor that bends up into a wall behind, in world space
+Mesh ball(double radiusMetres); ///< resting on the origin
+Mesh drapedCloth();             ///< over a round table, in folds; 0.62 m high
+Mesh vase();                    ///< 0.78 m high
+Mesh ring();                    ///< a bracelet that lies flat
+Mesh stopper();                 ///< a rounded cylinder
+Mesh shell();                   ///< a smooth egg, lying, 0.44 m high
+Mesh lampFoot();                ///< 0.1 m high
 
 } // namespace tessera::scenes::builtin::studio
