@@ -19,6 +19,7 @@
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
+#include "viewer/session/Playback.h"
 #include "viewer/session/SceneEdits.h"
 #include "viewer/session/SceneSource.h"
 #include "viewer/session/SceneSwitch.h"
@@ -93,14 +94,7 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    /// Whether lights, clips or a hook may move something as time goes on.
-    bool plays() const {
-        const auto moves = [](const scenes::Light& light) { return light.animation || light.flicker; };
-        return state_.open && state_.isPlaying &&
-               (state_.open->playsAt(state_.active().settings.timeSeconds) || state_.open->scene().hook ||
-                std::ranges::any_of(state_.open->scene().lights, moves));
-    }
-    bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays()); }
+    bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays(state_)); }
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
@@ -364,6 +358,9 @@ private:
         attempt([&] {
             if (requests.environment) chooseEnvironment(*requests.environment);
         });
+        attempt([&] {
+            if (requests.clip && state_.open) chooseClip(state_, *requests.clip);
+        });
         attempt([&] { serveSceneRequests(requests); });
         attempt([&] {
             if (requests.reloadShaders) reloadShaders();
@@ -412,7 +409,7 @@ private:
             state_.open->rig().advance(step, area_.size.y);
             state_.open->applyRig();
         }
-        if (plays()) state_.active().settings.timeSeconds += step;
+        passTime(state_, step);
         state_.shareSettings();
         attempt([this] {
             if (state_.open->showTime(state_.active().settings.timeSeconds)) screen_.takeEdits();

@@ -11,6 +11,7 @@
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/Playback.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
@@ -49,6 +50,7 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
         section("Subsurface scattering", false, [&] { skinPanel(state); });
         section("Camera", false, [&] { cameraPanel(state); });
         section("Compare", false, [&] { comparePanel(state, facts); });
+        section("Animation", canMove(state), [&] { animationPanel(state); });
         section("Lights", false, [&] { lightsPanel(state); });
         section("Materials", false, [&] { materialsPanel(state); });
         section("Timings", false, [&] { timingsPanel(state, facts); });

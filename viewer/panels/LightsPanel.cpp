@@ -250,13 +250,6 @@ void scatterRows(State& state) {
     tip("Ctrl+Z brings the old ones back");
 }
 
-void timeRow(double& timeSeconds) {
-    row("Time");
-    edit(timeSeconds, -kMostSeconds, kMostSeconds, [](double& seconds) {
-        return ImGui::DragScalar("##Time", ImGuiDataType_Double, &seconds, 0.02f, nullptr, nullptr, "%.2f s");
-    });
-}
-
 bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
     if (!scenes::infoOf(light.type).hasPosition()) return false;
     row("Moves");
@@ -277,7 +270,7 @@ void lightsPanel(State& state) {
     if (!state.open) return;
     OpenScene& open = *state.open;
     const Lights& lights = open.scene().lights;
-    double& timeSeconds = state.active().settings.timeSeconds;
+    const double timeSeconds = state.active().settings.timeSeconds;
     lightList(state);
     listButtons(state);
     if (state.selectedLight >= int(lights.size())) state.selectedLight = scenes::kNone;
@@ -295,9 +288,6 @@ void lightsPanel(State& state) {
     row("Markers");
     ImGui::Checkbox("show (M)", &state.showsMarkers);
     tip("Drag a marker to move its light. The selected one has handles too, until its name is clicked again.");
-    row("Animation");
-    ImGui::Checkbox("plays (Space)", &state.isPlaying);
-    timeRow(timeSeconds);
 }
 
 } // namespace tessera::viewer

@@ -13,6 +13,7 @@ void environmentPanel(State& state);
 void shadowsPanel(State& state, const Facts& facts);
 void skinPanel(State& state);
 void cameraPanel(State& state);
+void animationPanel(State& state);
 void lightsPanel(State& state);
 void materialsPanel(State& state);
 void comparePanel(State& state, const Facts& facts);

@@ -7,6 +7,7 @@
 
 #include "engine/ChooseView.h"
 #include "renderer/frame/DebugViews.h"
+#include "viewer/session/Playback.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
@@ -91,7 +92,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo},
     {GLFW_KEY_Z, kControl | kShift, "Ctrl+Shift+Z", "redo; also Ctrl+Y", redo},
     {GLFW_KEY_Y, kControl, "", "", redo},
-    {GLFW_KEY_SPACE, kNone, "Space", "lights and clips move, or stop", [](State& s) { s.isPlaying = !s.isPlaying; }},
+    {GLFW_KEY_SPACE, kNone, "Space", "what moves by itself goes on, or stops", togglePlaying},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",
      [](State& s) { s.requests.savePng = true; }},

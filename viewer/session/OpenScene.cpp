@@ -49,6 +49,25 @@ bool OpenScene::showTime(double timeSeconds) {
     return true;
 }
 
+void OpenScene::playClip(const std::string& nameOrNumber) {
+    const std::vector<int> before = scene_.rig.playing;
+    try {
+        scenes::playClip(scene_, nameOrNumber);
+        scenes::poseScene(scene_, 0.0);
+    } catch (...) {
+        scene_.materials = scenes::restingMaterials(scene_);
+        scene_.rig.playing = before;
+        poseAgain();
+        throw;
+    }
+    load_.clip = nameOrNumber;
+    lastSeconds_ = lastSecondsOf(scene_.rig);
+    askedSeconds_ = shownSeconds_ = 0.0;
+    ++revision_;
+    ++geometryRevision_;
+    ++materialRevision_;
+}
+
 CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
     constexpr int kSidePixels = 3; // the middle one looks along the axis
     const auto seen = pickedByRay(scene_, camera, glm::ivec2(kSidePixels), glm::ivec2(kSidePixels / 2));

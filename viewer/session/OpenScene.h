@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,11 @@ public:
     /// something may have moved. Throws InputError where something then lies too far away; the pose before then stays,
     /// and the next time is tried anew.
     bool showTime(double timeSeconds);
-    /// Whether the clip goes on at a time: after its last key it stands still.
-    bool playsAt(double timeSeconds) const { return timeSeconds < lastSeconds_; }
+    /// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
+    double clipSeconds() const { return std::max(lastSeconds_, 0.0); }
+    /// Plays another clip, as --clip takes it, from its beginning. Throws InputError where that does not exist, or
+    /// moves something too far away; the one before then stays.
+    void playClip(const std::string& nameOrNumber);
     /// Counts changes of what clips move.
     std::uint64_t geometryRevision() const { return geometryRevision_; }
     std::uint64_t environmentRevision() const { return environmentRevision_; }

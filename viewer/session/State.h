@@ -26,6 +26,7 @@ struct Notice {
 struct Requests {
     std::optional<std::string> open;        ///< a scene
     std::optional<std::string> environment; ///< as --environment takes it
+    std::optional<std::string> clip;        ///< as --clip takes it
     bool reloadShaders = false;
     bool savePng = false;
     bool saveExr = false;
@@ -52,7 +53,9 @@ struct State {
     float divider = 0.5f; ///< share of the picture's width
     float amplification = 16.0f;
 
-    bool isPlaying = false;     ///< lights move
+    bool isPlaying = false;     ///< time goes on
+    float speed = 1.0f;         ///< of that time against the clock's
+    bool repeatsClip = true;    ///< at its end; otherwise it stays there
     bool automaticScale = true; ///< smaller pictures while something moves
     float fixedScale = 1.0f;    ///< otherwise
     bool showsPanel = true;

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
+#include "scenes/Pose.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/CameraTest.h"
 
@@ -233,14 +234,35 @@ TEST(OpenScene, aDragOfAHooksParameterIsOneStepAndIsUndone) {
 
 TEST(OpenScene, aClipStandsStillAfterItsEnd) {
     OpenScene open("rigged.gltf", {}, riggedAndSeen(), {});
-    EXPECT_TRUE(open.playsAt(-1.0));
-    EXPECT_TRUE(open.playsAt(0.999));
-    EXPECT_FALSE(open.playsAt(1.0));
+    EXPECT_EQ(open.clipSeconds(), 1.0);
     EXPECT_TRUE(open.showTime(5.0));
     EXPECT_FALSE(open.showTime(6.0));
     EXPECT_EQ(open.geometryRevision(), 1u);
     EXPECT_TRUE(open.showTime(0.5));
-    EXPECT_FALSE(Opened().open.playsAt(-1e9)) << "it has no clip";
+    EXPECT_EQ(Opened().open.clipSeconds(), 0.0) << "it has no clip";
+}
+
+TEST(OpenScene, anotherClipBeginsAndNoneLeavesTheSceneByItself) {
+    scenes::Scene scene = riggedAndSeen();
+    scenes::poseScene(scene, 0.0); // as the clip begins
+    const std::vector<glm::vec3> atRest = scene.meshes[0].positionsOS;
+    OpenScene open("rigged.gltf", {}, scene, {});
+    ASSERT_TRUE(open.showTime(1.0));
+    ASSERT_NE(open.scene().meshes[0].positionsOS, atRest);
+    const std::uint64_t geometry = open.geometryRevision(), edits = open.edits();
+    open.playClip("none");
+    EXPECT_EQ(open.scene().meshes[0].positionsOS, atRest);
+    EXPECT_GT(open.geometryRevision(), geometry);
+    EXPECT_EQ(open.edits(), edits) << "it is no edit";
+    EXPECT_EQ(open.load().clip, "none") << "a command line plays it too";
+    EXPECT_EQ(open.clipSeconds(), 0.0);
+    EXPECT_FALSE(open.showTime(1.0));
+    open.playClip("0");
+    EXPECT_EQ(open.clipSeconds(), 1.0);
+    EXPECT_TRUE(open.showTime(1.0));
+    EXPECT_THROW(open.playClip("no such clip"), InputError);
+    EXPECT_EQ(open.load().clip, "0");
+    EXPECT_TRUE(open.showTime(0.5)) << "the clip before still plays";
 }
 
 TEST(OpenScene, aRefusedPoseLeavesTheOneBefore) {

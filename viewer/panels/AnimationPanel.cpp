@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <imgui.h>
+
+#include "scenes/Pose.h"
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+#include "viewer/session/Playback.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// As --clip takes a clip: by its name, else by its number.
+std::string calledBy(const scenes::Rig& rig, std::size_t clip) {
+    return rig.clips[clip].name.empty() ? fmt::format("{}", clip) : rig.clips[clip].name;
+}
+
+void clipRow(State& state) {
+    const scenes::Rig& rig = state.open->scene().rig;
+    if (rig.clips.empty()) return;
+    std::vector<std::string> names{std::string(scenes::kNoClip)};
+    for (std::size_t i = 0; i < rig.clips.size(); ++i)
+        if (std::string name = calledBy(rig, i); std::ranges::find(names, name) == names.end())
+            names.push_back(std::move(name)); // all clips of a name play together
+    std::vector<std::string> playing;
+    for (const int clip : rig.playing) playing.push_back(calledBy(rig, std::size_t(clip)));
+    const std::string shown = playing.empty() ? names.front() : fmt::format("{}", fmt::join(playing, ", "));
+    const auto now =
+        std::size_t(std::ranges::find(names, playing.empty() ? names.front() : playing.front()) - names.begin());
+    const auto choiceAt = [&](std::size_t i) { return Choice{names[i], ""}; };
+    if (const auto chosen = choose("Clip", shown, names.size(), choiceAt, now)) state.requests.clip = names[*chosen];
+}
+
+/// A clip's time is chosen within it; without one there is no end.
+void timeRow(State& state) {
+    const double clipSeconds = state.open->clipSeconds();
+    const bool isBounded = clipSeconds > 0.0;
+    const double least = isBounded ? 0.0 : -kMostSeconds, most = isBounded ? clipSeconds : kMostSeconds;
+    row("Time");
+    edit(state.active().settings.timeSeconds, least, most, [&](double& seconds) {
+        return isBounded
+                   ? ImGui::SliderScalar("##Time", ImGuiDataType_Double, &seconds, &least, &most, "%.2f s")
+                   : ImGui::DragScalar("##Time", ImGuiDataType_Double, &seconds, 0.02f, nullptr, nullptr, "%.2f s");
+    });
+}
+
+} // namespace
+
+void animationPanel(State& state) {
+    if (!state.open) return;
+    clipRow(state);
+    if (canMove(state)) {
+        if (ImGui::Button(state.isPlaying ? "Pause (Space)" : "Play (Space)")) togglePlaying(state);
+        if (state.open->clipSeconds() > 0.0) {
+            ImGui::SameLine();
+            ImGui::Checkbox("repeat", &state.repeatsClip);
+            tip("From the beginning again at the end of the clip, with all else that moves");
+        }
+    } else {
+        paragraph("Nothing moves: no clip plays, no light moves or flickers by itself, and the scene has no hook.");
+        return;
+    }
+    timeRow(state);
+    logarithmicSlider("Speed", state.speed, kSlowest, kFastest, "%.2fx");
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,51 @@
+#include "viewer/session/Playback.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::viewer {
+namespace {
+
+/// Whether anything but a clip moves.
+bool movesByItself(const OpenScene& open) {
+    const auto moves = [](const scenes::Light& light) { return light.animation || light.flicker; };
+    return open.scene().hook || std::ranges::any_of(open.scene().lights, moves);
+}
+
+} // namespace
+
+bool canMove(const State& state) {
+    return state.open && (state.open->clipSeconds() > 0.0 || movesByItself(*state.open));
+}
+
+bool plays(const State& state) {
+    if (!state.isPlaying || !canMove(state)) return false;
+    return state.repeatsClip || movesByItself(*state.open) ||
+           state.active().settings.timeSeconds < state.open->clipSeconds();
+}
+
+void togglePlaying(State& state) {
+    state.isPlaying = !state.isPlaying;
+    if (state.isPlaying && canMove(state) && !plays(state)) state.active().settings.timeSeconds = 0.0;
+}
+
+void passTime(State& state, double clockSeconds) {
+    if (!plays(state)) return;
+    double& timeSeconds = state.active().settings.timeSeconds;
+    timeSeconds += clockSeconds * double(state.speed);
+    const double clipSeconds = state.open->clipSeconds();
+    if (!(clipSeconds > 0.0) || timeSeconds < clipSeconds) return;
+    if (state.repeatsClip) {
+        timeSeconds = std::fmod(timeSeconds, clipSeconds);
+    } else if (!movesByItself(*state.open)) {
+        timeSeconds = clipSeconds;
+        state.isPlaying = false;
+    }
+}
+
+void chooseClip(State& state, const std::string& nameOrNumber) {
+    state.open->playClip(nameOrNumber);
+    state.active().settings.timeSeconds = 0.0;
+}
+
+} // namespace tessera::viewer
