@@ -76,6 +76,12 @@ bool FrameJournal::isFinished(const std::string& path, std::uint64_t settings) c
 void FrameJournal::add(const std::string& path, std::uint64_t settings, std::span<const std::uint8_t> bytes) {
     const std::string line = lineOf(path, settings, std::as_bytes(bytes));
     const std::string text = (endsWithinLine_ ? "\n" : "") + line + "\n";
+    std::error_code unknown;
+    const fs::file_status status = fs::status(file_, unknown);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw InputError(fmt::format("{}: is no file that can record which frames are finished; take it away or render "
+                                     "to another name",
+                                     file_));
     std::FILE* const file = std::fopen(file_.c_str(), "ab");
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     good = good && std::fflush(file) == 0;

@@ -1,10 +1,12 @@
 #include "apps/FrameSequence.h"
 
 #include <chrono>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/AtomicFile.h"
+#include "base/Error.h"
 #include "base/Median.h"
 #include "scenes/Fingerprint.h"
 
@@ -39,6 +41,10 @@ std::uint64_t FrameSequence::settingsOf(double timeSeconds) const {
 
 void FrameSequence::leaveOutFinished(const engine::ViewRequest& request, const scenes::Scene& scene,
                                      const std::string& maker) {
+    for (const int frame : frames_)
+        if (!std::isfinite(secondsOf(frame, request.settings)))
+            throw InputError(fmt::format("frame {} has no finite time at {} frames a second; give more with --fps",
+                                         frame, options_.framesPerSecond));
     depends_ = fmt::format("{}\n{:016x}\n", maker, scenes::fingerprint(scene));
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.key != "time") depends_ += fmt::format("{} {}\n", setting.key, setting.text(request, &scene));

@@ -39,7 +39,7 @@ public:
     void requireWritable() const;
 
     /// Finds the frames that are finished, to be called before draw(). `maker` says what pictures depend on besides the
-    /// request and its scene: the program, the renderer.
+    /// request and its scene: the program, the renderer. Throws InputError where a frame's time is not finite.
     void leaveOutFinished(const engine::ViewRequest& request, const scenes::Scene& scene, const std::string& maker);
     /// How many are to be made.
     std::size_t unfinished() const { return unfinished_.size(); }

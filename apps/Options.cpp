@@ -195,11 +195,20 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     return load;
 }
 
+void poseAt(scenes::Scene& scene, double timeSeconds, const std::string& file) {
+    try {
+        scenes::poseScene(scene, timeSeconds);
+    } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}: at {:g} s of {}: {}", file, timeSeconds, scenes::clipText(scene), error.what()));
+    }
+}
+
 scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files) {
     scenes::LoadOptions load = loadOptionsOf(options);
     load.files = files;
     scenes::Scene scene = scenes::loadScene(options.scene, load);
-    if (scenes::isPlaying(scene)) scenes::poseScene(scene, secondsFor(options, scene));
+    if (scenes::isPlaying(scene)) poseAt(scene, secondsFor(options, scene), options.scene);
     placeCamera(options, scene);
     return scene;
 }

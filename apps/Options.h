@@ -53,6 +53,9 @@ struct Request : engine::ViewRequest {
     scenes::Scene scene;
     std::vector<std::string> files; ///< that the scene was read from
 };
+/// scenes::poseScene(), of which an error names the scene's file and the time.
+void poseAt(scenes::Scene& scene, double timeSeconds, const std::string& file);
+
 /// The scene alone, as the options have it: at the time that they, else the scene ask for, the camera they choose where
 /// they place it.
 /// Names of the files it was read from are added to `files`.

@@ -43,6 +43,7 @@ struct RenderOptions {
 /// What a command makes: one picture, or the frames of a sequence.
 struct RenderJob {
     Request request;
+    std::string scene;  ///< as the command line names it
     std::string output; ///< of one picture
     std::optional<FrameSequence> sequence;
     Outputs outputs;
@@ -53,7 +54,7 @@ struct RenderJob {
     /// may have moved.
     bool pose(double timeSeconds) {
         if (!sequence || !scenes::isPlaying(request.scene)) return false;
-        scenes::poseScene(request.scene, timeSeconds);
+        poseAt(request.scene, timeSeconds, scene);
         return true;
     }
     void make(const frame::FrameSettings& settings, const MakePicture& makePicture) {
@@ -211,6 +212,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
 
 int render(const RenderOptions& options, const GlobalOptions& global) {
     RenderJob job;
+    job.scene = options.frame.scene;
     job.output = options.output;
     job.sequence = sequenceOf(options);
     FrameOptions frame = options.frame;

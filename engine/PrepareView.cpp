@@ -183,16 +183,19 @@ void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBound
         throw InputError(fmt::format("{}: light spreads over {} objects, {} is the most; give some of their materials "
                                      "another subsurface method",
                                      scene.name, prepared.diffusedObjects.size(), kMostDiffusedObjects));
+    const glm::ivec2 texels = frame::diffusedCells(prepared.diffusedObjects.size(), spec.spreadTexels()).texels();
+    const double gibibytes = double(texels.x) * double(texels.y) * sizeof(glm::vec4) / double(1u << 30u);
+    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels || gibibytes > kMostDiffusedGibibytes)
+        throw InputError(
+            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side together have "
+                        "{}x{} and take {:.1f} GiB; {} texels a side and {:g} GiB are the most; give a "
+                        "smaller {}",
+                        scene.name, prepared.diffusedObjects.size(), spec.spreadTexels(), texels.x, texels.y, gibibytes,
+                        frame::kLargestSidePixels, kMostDiffusedGibibytes, settingOf("diffusionTexels").flag));
     for (const frame::DiffusedObject& object : prepared.diffusedObjects) {
         prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
         spec.diffused.push_back(prepared.diffused.back().spec);
     }
-    const glm::ivec2 texels = spec.diffusedCells().texels();
-    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels)
-        throw InputError(
-            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side together exceed the "
-                        "largest texture; give a smaller {}",
-                        scene.name, spec.diffused.size(), spec.spreadTexels(), settingOf("diffusionTexels").flag));
 }
 
 } // namespace

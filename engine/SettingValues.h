@@ -186,6 +186,9 @@ SettingValue number(Get get, const NumberKind& kind) {
         if (!value || !std::isfinite(*value))
             throw InputError(fmt::format("{} '{}' is not a finite number, such as 1.5", source.called, text));
         requireBounds(kind, *value, source);
+        if (!std::isfinite(static_cast<Value>(*value)))
+            throw InputError(
+                fmt::format("{} '{}' is more than single precision holds; give less", source.called, text));
         return static_cast<Value>(*value);
     };
     return valueIn(

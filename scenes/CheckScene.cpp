@@ -110,13 +110,16 @@ template <typename Value, typename Field>
 bool isWithin(const Value&, const Field&) {
     return true;
 }
+/// Single precision may round a value that is a bound beyond it, so bounds are rounded alike.
 template <typename Field>
 bool isWithin(float value, const Field& field) {
-    return between(double(value), field.least, field.most);
+    return value >= float(field.least) && value <= float(field.most); // false for NaN
 }
 template <glm::length_t Length, typename Field>
 bool isWithin(const glm::vec<Length, float>& vector, const Field& field) {
-    return allBetween(vector, field.least, field.most);
+    for (glm::length_t i = 0; i < Length; ++i)
+        if (!isWithin(vector[i], field)) return false;
+    return true;
 }
 
 void checkMaterial(const Element& element, const Material& material, std::size_t imageCount) {

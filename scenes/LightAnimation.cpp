@@ -12,9 +12,13 @@ namespace {
 
 /// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
 /// exact.
+/// What is left of whole turns: of more turns than a double can count nothing is.
+double shareOf(double turns) {
+    return std::isfinite(turns) ? turns - std::floor(turns) : 0.0;
+}
+
 double periodShare(const LightAnimation& animation, double timeSeconds) {
-    const double turns = timeSeconds / animation.periodSeconds + animation.phase;
-    return turns - std::floor(turns);
+    return shareOf(timeSeconds / animation.periodSeconds + animation.phase);
 }
 
 /// Rodrigues' rotation formula.
@@ -47,9 +51,8 @@ double withinKeys(const LightAnimation& animation, double timeSeconds) {
     const double length = animation.timesSeconds.back() - first;
     if (animation.repeat == KeyRepeat::Once || length <= 0.0) return timeSeconds;
     const double turns = (timeSeconds - first) / length;
-    const double whole = std::floor(turns);
-    const double share = turns - whole;
-    const bool isBackward = animation.repeat == KeyRepeat::PingPong && std::fmod(whole, 2.0) != 0.0;
+    const double share = shareOf(turns);
+    const bool isBackward = animation.repeat == KeyRepeat::PingPong && shareOf(0.5 * turns) >= 0.5;
     return first + (isBackward ? 1.0 - share : share) * length;
 }
 
@@ -90,8 +93,7 @@ double hashedShare(std::uint64_t number) {
 double flickerAt(const LightFlicker& flicker, double timeSeconds) {
     // Without common divisors, so that the whole repeats late; the last is the frequency itself.
     constexpr std::array kHarmonics{17.0, 29.0, 43.0, 64.0};
-    const double turns = timeSeconds * (flicker.frequencyHz / kHarmonics.back());
-    const double share = turns - std::floor(turns);
+    const double share = shareOf(timeSeconds * (flicker.frequencyHz / kHarmonics.back()));
     double sum = 0.0;
     for (std::size_t i = 0; i < kHarmonics.size(); ++i) {
         const double phase = hashedShare(std::uint64_t(flicker.seed) * kHarmonics.size() + i);

@@ -54,6 +54,8 @@ std::uint64_t hashOf(std::uint64_t key, const Parts& parts) {
 
 /// Whether all was there as it was written, and nothing else.
 bool read(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false; // a pipe would wait for its other end
     std::ifstream in(file, std::ios::binary);
     std::uint64_t found[2] = {};
     if (!in.read(reinterpret_cast<char*>(found), sizeof(found)) || found[0] != key) return false;
@@ -103,7 +105,9 @@ Parts partsOf(FilteredEnvironment& filtered) {
 } // namespace
 
 std::optional<std::filesystem::path> cacheFolder() {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0')
+    // A relative one is to be ignored. Source: XDG Base Directory Specification.
+    if (const char* folder = std::getenv("XDG_CACHE_HOME");
+        folder != nullptr && std::filesystem::path(folder).is_absolute())
         return std::filesystem::path(folder) / "tessera";
     if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
         return std::filesystem::path(home) / ".cache" / "tessera";

@@ -12,7 +12,7 @@
 /// that cannot be written or read is no error.
 namespace tessera::frame {
 
-/// $XDG_CACHE_HOME/tessera, ~/.cache/tessera; none where neither is known.
+/// $XDG_CACHE_HOME/tessera where that is absolute, else ~/.cache/tessera; none where neither is known.
 std::optional<std::filesystem::path> cacheFolder();
 
 /// As filterEnvironment(), from a file of the folder where an earlier call left it for a map of the same texels, else

@@ -6,9 +6,12 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/Error.h"
 #include "renderer/frame/EnvironmentCache.h"
+#include "renderer/gpu/Context.h"
 
 namespace tessera::frame {
 
@@ -119,7 +122,15 @@ EnvironmentShape environmentShape(const scenes::Image& map) {
 
 EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
                                std::shared_ptr<const FilteredEnvironment> filtered)
-    : environment_(environment), known_(std::move(filtered)), smooth_(gpu::Sampler::linearClamp()) {}
+    : environment_(environment), known_(std::move(filtered)), smooth_(gpu::Sampler::linearClamp()) {
+    const int most = gpu::Context::current()->capabilities().maxTextureSize; // before it is filtered, which takes long
+    const scenes::Image& map = environment.map;
+    if (std::max(map.width, map.height) > most)
+        throw InputError(
+            fmt::format("environment '{}' has {}x{} texels; this driver's textures have at most {} a side, so "
+                        "make it smaller",
+                        map.name, map.width, map.height, most));
+}
 
 void EnvironmentGpu::makeMap() {
     if (map_) return;

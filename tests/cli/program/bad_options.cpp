@@ -91,6 +91,7 @@ TEST_F(BadOptions, malformedNumbersAreRefused) {
 }
 
 TEST_F(BadOptions, lengthsBeyondThoseOfSinglePrecisionAreRefused) {
+    expectRefused({"--environment-rotation", "1e300"}, {"--environment-rotation '1e300'", "single precision"});
     expectRefused({"--near", "1e-30"}, {"near plane at 1e-30 m", "1e-09 to 1e+15 m"});
     expectRefused({"--eye", "1e30,0,0"}, {"more than 1e+15 m from the origin"});
     folder_.write("vast.json",
@@ -128,6 +129,8 @@ TEST_F(BadOptions, sequencesThatCannotBeNumberedAreRefused) {
         expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps ") + fps});
     for (const char* fps : {"nan", "inf"})
         expectSequenceRefused({"--frames", "2", "--fps", fps, "-o", "a_%d.png"}, {std::string("--fps '") + fps});
+    expectSequenceRefused({"--frames", "2", "--fps", "1e-320", "-o", "a_%d.png"},
+                          {"frame 1 has no finite time", "--fps"});
     expectSequenceRefused({"--fps", "25", "-o", "a.png"}, {"--fps needs --frames"});
 }
 

@@ -286,6 +286,9 @@ TEST(CheckScene, extremesThatAreAllowedPass) {
                   s.environment = sky(1e-8f, 1e38f, -3e38f);
               }),
               "");
+    // A bound that single precision rounds is as files give it.
+    for (const double scale : {kLeastScaleMetres, kMostScaleMetres})
+        EXPECT_EQ(verdict([=](Scene& s) { s.materials[0].subsurface.scaleMetres = float(scale); }), "") << scale;
 }
 
 } // namespace

@@ -164,6 +164,25 @@ TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {
                kRounding);
 }
 
+/// More turns than a double counts, or infinitely many.
+TEST(LightAnimation, timesFarBeyondThePeriodLeaveLightsInTheirPlace) {
+    for (const LightAnimationKind kind : {LightAnimationKind::Orbit, LightAnimationKind::Wobble,
+                                          LightAnimationKind::Path, LightAnimationKind::Keyframes}) {
+        Light light = animatedLight(kind);
+        light.animation->periodSeconds = 1e-300;
+        light.animation->amplitudeMetres = {1.0, 2.0, 3.0};
+        light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+        light.animation->timesSeconds = {0.0, 1e-300};
+        light.animation->repeat = KeyRepeat::PingPong;
+        light.flicker.emplace().frequencyHz = LightFlicker::kMostHertz;
+        for (const double seconds : {1e10, -1e10, 1e300, -1e308}) {
+            const Light then = lightAtTime(light, seconds);
+            EXPECT_LT(glm::length(then.positionWS), 100.0) << int(kind) << " at " << seconds; // not NaN either
+            EXPECT_TRUE(std::isfinite(then.intensity)) << seconds;
+        }
+    }
+}
+
 TEST(LightAnimation, flickerKeepsItsMeanAndItsBounds) {
     for (const int seed : {0, 1, 77}) {
         const LightFlicker flicker{.amplitude = 1.0, .frequencyHz = 4.0, .seed = seed};
