@@ -129,7 +129,7 @@ void environmentList(State& state) {
         state.requests.environment = std::string(choices[*picked].name);
     ImGui::EndDisabled();
     if (state.loadingEnvironment.empty())
-        ImGui::TextDisabled("or drop an .hdr or .exr file onto the window");
+        paragraph("or drop an .hdr or .exr file onto the window");
     else
         paragraph(fmt::format("Filtering {} ...", std::filesystem::path(state.loadingEnvironment).filename().string()));
 }
