@@ -138,6 +138,8 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
         if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" &&
             options.frame.said(setting.key))
             spdlog::warn("{} changes nothing. The reference follows rays of its own", setting.flag);
+    if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
+        fmt::print("the reference shows the environment behind the scene as it is, without a blur\n");
     bool hasWarned = false;
     job.make(settings, [&](const std::string& path, const frame::FrameSettings& one) {
         job.pose(one.timeSeconds);

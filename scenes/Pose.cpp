@@ -340,6 +340,8 @@ void playClip(Scene& scene, const std::string& nameOrNumber) {
         rig.playing.push_back(int(number));
         return;
     }
+    if (rig.clips.empty())
+        throw InputError(fmt::format("the scene has no clip, so none is called '{}'; leave it out", nameOrNumber));
     std::vector<std::string_view> names{kNoClip};
     for (const Clip& clip : rig.clips) names.push_back(clip.name);
     throw InputError(fmt::format("no clip of the scene is called '{}', nor is it the number of one; {}", nameOrNumber,
