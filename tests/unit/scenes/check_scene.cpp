@@ -19,6 +19,15 @@ Environment sky(float radiance, float intensity, float rotationDegrees) {
             rotationDegrees};
 }
 
+/// At the origin, at those times.
+LightAnimation& giveKeyframes(Light& light, std::vector<double> timesSeconds) {
+    LightAnimation& animation = light.animation.emplace();
+    animation.kind = LightAnimationKind::Keyframes;
+    animation.pointsWS.assign(timesSeconds.size(), glm::dvec3(0.0));
+    animation.timesSeconds = std::move(timesSeconds);
+    return animation;
+}
+
 /// The message checkScene() gives for the tiny scene after `spoil`, or "" when it passes.
 std::string verdict(const std::function<void(Scene&)>& spoil) {
     Scene scene = tinyScene();
@@ -213,29 +222,17 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"key times", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Keyframes; }},
         {"ascend",
          [](Scene& s) {
-             LightAnimation& animation = s.lights[0].animation.emplace();
-             animation.kind = LightAnimationKind::Keyframes;
-             animation.timesSeconds = {1.0, 1.0};
-             animation.pointsWS.assign(2, glm::dvec3(0.0));
+             giveKeyframes(s.lights[0], {1.0, 1.0});
          }},
         {"amplitude of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().amplitude = kNaN; }},
         {"frequency of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().frequencyHz = 0.0; }},
         {"seed of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().seed = -1; }},
         {"0 in-tangents and 0 out-tangents for 1 key times",
-         [](Scene& s) {
-             LightAnimation& animation = s.lights[0].animation.emplace();
-             animation.kind = LightAnimationKind::Keyframes;
-             animation.interpolation = Interpolation::CubicSpline;
-             animation.timesSeconds = {1.0};
-             animation.pointsWS.assign(1, glm::dvec3(0.0));
-         }},
+         [](Scene& s) { giveKeyframes(s.lights[0], {1.0}).interpolation = Interpolation::CubicSpline; }},
         {"a tangent of its keys",
          [](Scene& s) {
-             LightAnimation& animation = s.lights[0].animation.emplace();
-             animation.kind = LightAnimationKind::Keyframes;
+             LightAnimation& animation = giveKeyframes(s.lights[0], {1.0});
              animation.interpolation = Interpolation::CubicSpline;
-             animation.timesSeconds = {1.0};
-             animation.pointsWS.assign(1, glm::dvec3(0.0));
              animation.inTangentsWS.assign(1, glm::dvec3(kNaN));
              animation.outTangentsWS.assign(1, glm::dvec3(0.0));
          }},
