@@ -50,9 +50,10 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
         section("Subsurface scattering", false, [&] { skinPanel(state); });
         section("Camera", false, [&] { cameraPanel(state); });
         section("Compare", false, [&] { comparePanel(state, facts); });
-        section("Animation", canMove(state), [&] { animationPanel(state); });
         section("Lights", false, [&] { lightsPanel(state); });
         section("Materials", false, [&] { materialsPanel(state); });
+        if (canMove(state) || !state.open->scene().rig.clips.empty())
+            section("Animation", true, [&] { animationPanel(state); });
         section("Timings", false, [&] { timingsPanel(state, facts); });
         section("Light culling", false, [&] { cullingPanel(state, facts); });
         section("Graph", false, [&] { graphPanel(state, facts); });
