@@ -1,6 +1,7 @@
 """Does what the guides say, on a copy of the repository: applies their patches, builds the program and uses it.
 
     run_guides.py SOURCE_DIR CMAKE WORK_DIR
+    run_guides.py SOURCE_DIR: only whether pages and patches agree, and each patch still fits without a guess
 
 A guide is a page docs/add-a-*.md with a patch in docs/guides. All patches are applied to one copy, which is built once.
 Then the guide's ```console blocks are run, with the scene that SCENES gives for it, and what a newcomer would look for is
@@ -23,7 +24,7 @@ PATCHES = {
     "pillars_scene": ("add-a-scene.md", 1, 3),
 }
 # A setting is part of the first patch; its files:
-SETTING_FILES = {"renderer/frame/FrameSettings.h", "engine/Settings.cpp"}
+SETTING_FILES = {"renderer/frame/FrameSettings.h", "engine/FrameSettingRows.cpp"}
 
 
 def fail(message):
@@ -131,8 +132,13 @@ def checkVignette(program, folder):
 
 
 def main():
-    source, cmake, work = pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3])
+    source = pathlib.Path(sys.argv[1])
     checkPatches(source)
+    if len(sys.argv) == 2:
+        for name in PATCHES:
+            run(["patch", "-p1", "-F0", "--dry-run", "-i", str(source / "docs/guides" / f"{name}.patch")], source)
+        return
+    cmake, work = sys.argv[2], pathlib.Path(sys.argv[3])
     program = build(source, cmake, work)
     for page, *_ in PATCHES.values():
         runGuide(source / "docs" / page, program, work / page)
