@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/Error.h"
+#include "tests/support/FileSizeLimit.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::app {
@@ -91,12 +93,23 @@ TEST_F(FrameJournals, aShardAppendsToItsOwnAndReadsThoseOfAll) {
 }
 
 TEST_F(FrameJournals, aJournalThatCannotBeWrittenIsAnError) {
+    folder_.write("f_frames.png.txt", std::string(999, ' ') + "\n");
+    const test::FileSizeLimit fullDisk(1000);
+    try {
+        FrameJournal(pattern(), {}).add(path(1), kSettings, {});
+        FAIL() << "it was not refused";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("f_frames.png.txt: File too large"));
+    }
+}
+
+TEST_F(FrameJournals, whatIsNoRegularFileIsNoJournal) {
     std::filesystem::create_symlink("/dev/full", folder_.path() / "f_frames.png.txt");
     try {
         finish(1, "one");
         FAIL() << "it was not refused";
-    } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("f_frames.png.txt: No space left"));
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("f_frames.png.txt: is no file that can record"));
     }
 }
 

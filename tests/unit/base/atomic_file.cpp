@@ -1,42 +1,24 @@
 #include "base/AtomicFile.h"
 
-#include <csignal>
 #include <fcntl.h>
 #include <stdexcept>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 
+#include "tests/support/FileSizeLimit.h"
 #include "tests/unit/validation/Samples.h"
 
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
+using test::FileSizeLimit;
 using testing::StartsWith;
 using validation::errorOf;
 using validation::readText;
 using validation::TemporaryFolder;
-
-/// Makes every write beyond `bytes` of a file fail, as a full disk does, while it lives.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes) : oldHandler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &old_);
-        const rlimit limit{bytes, old_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &old_);
-        std::signal(SIGXFSZ, oldHandler_);
-    }
-
-private:
-    rlimit old_{};
-    void (*oldHandler_)(int);
-};
 
 TEST(AtomicFile, theFileHoldsExactlyTheBytesGiven) {
     const TemporaryFolder folder;
