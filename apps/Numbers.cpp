@@ -1,5 +1,6 @@
 #include "apps/Numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -63,6 +64,26 @@ CLI::Option* addPoint(CLI::App& command, const std::string& flag, std::optional<
         if (!target) throw InputError(fmt::format("{} '{}' is not three finite numbers, such as 0,1.5,-2", flag, text));
     };
     return command.add_option_function<std::string>(flag, read, help)->type_name(type);
+}
+
+CLI::Option* addHookValues(CLI::App& command, const std::string& flag, std::vector<scenes::HookValue>& target,
+                           const std::string& help, const std::string& type) {
+    const auto read = [flag, &target](const std::vector<std::string>& texts) {
+        target.clear();
+        for (const std::string& text : texts) {
+            const std::size_t equals = std::min(text.find('='), text.size());
+            const auto value = equals < text.size() ? parsed<float>(text.substr(equals + 1)) : std::optional<float>();
+            if (equals == 0 || !value || !std::isfinite(*value))
+                throw InputError(
+                    fmt::format("{} '{}' is not a name, = and a finite number, such as wind=1.5", flag, text));
+            target.push_back({text.substr(0, equals), *value});
+        }
+    };
+    return command.add_option_function<std::vector<std::string>>(flag, read, help)
+        ->type_name(type)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 } // namespace tessera::app

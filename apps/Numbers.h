@@ -1,9 +1,12 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <glm/glm.hpp>
+
+#include "scenes/Hook.h"
 
 namespace tessera::app {
 
@@ -16,5 +19,9 @@ CLI::Option* addWholeNumber(CLI::App& command, const std::string& flag, std::opt
 /// Three numbers and commas between them.
 CLI::Option* addPoint(CLI::App& command, const std::string& flag, std::optional<glm::dvec3>& target,
                       const std::string& help, const std::string& type);
+
+/// A name, = and a number, any number of times: all are kept, in order.
+CLI::Option* addHookValues(CLI::App& command, const std::string& flag, std::vector<scenes::HookValue>& target,
+                           const std::string& help, const std::string& type);
 
 } // namespace tessera::app

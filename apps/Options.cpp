@@ -92,6 +92,10 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
                             "The clip of the scene that plays, by name or counted from 0, or none [its first]")
                 ->type_name("NAME")
                 ->group(std::string(group));
+        if (setting.key == "time")
+            addHookValues(command, "--hook", options.hookValues,
+                          "Sets a parameter of the scene's hook, within its bounds; may be repeated", "NAME=VALUE")
+                ->group(std::string(group));
     }
 }
 
@@ -191,6 +195,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.defaultLight = !options.noDefaultLight;
     load.environment = options.environment;
     load.clip = options.clip;
+    load.hookValues = options.hookValues;
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
     return load;
 }

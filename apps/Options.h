@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -36,9 +37,10 @@ struct FrameOptions {
     std::optional<std::string> memoryLimit;
     std::optional<int> lights;
     bool noDefaultLight = false;
-    std::optional<std::string> environment; ///< as scenes::LoadOptions has it
-    std::optional<std::string> clip;        ///< the same
-    scenes::CameraChange pose;              ///< of the camera that is chosen
+    std::optional<std::string> environment;    ///< as scenes::LoadOptions has it
+    std::optional<std::string> clip;           ///< the same
+    std::vector<scenes::HookValue> hookValues; ///< the same
+    scenes::CameraChange pose;                 ///< of the camera that is chosen
 
     /// What was said of the setting of that key.
     std::optional<std::string> said(std::string_view key) const;

@@ -4,6 +4,9 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/Error.h"
 
 namespace tessera::scenes {
 namespace {
@@ -77,6 +80,21 @@ bool isHookParameterName(std::string_view name) {
     constexpr std::size_t kMostLetters = 32;
     return !name.empty() && name.size() <= kMostLetters && isLetter(name.front()) && name != "timeSeconds" &&
            std::ranges::all_of(name, [](char c) { return isLetter(c) || isDigit(c); });
+}
+
+void setHookValue(Hook& hook, const HookValue& value) {
+    const auto found = std::ranges::find(hook.parameters, value.name, &HookParameter::name);
+    if (found == hook.parameters.end()) {
+        std::vector<std::string_view> names;
+        for (const HookParameter& parameter : hook.parameters) names.push_back(parameter.name);
+        throw InputError(
+            fmt::format("its hook has no parameter '{}'; {}", value.name,
+                        names.empty() ? "it has none" : fmt::format("valid are {}", fmt::join(names, ", "))));
+    }
+    if (!(value.value >= found->least && value.value <= found->most))
+        throw InputError(fmt::format("the parameter '{}' of its hook cannot be {:g}; it lies between {:g} and {:g}",
+                                     value.name, value.value, found->least, found->most));
+    found->value = value.value;
 }
 
 HookFunctions hookFunctions(std::string_view text) {

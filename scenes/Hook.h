@@ -21,6 +21,13 @@ struct HookParameter {
     bool operator==(const HookParameter&) const = default;
 };
 
+/// Another value for the parameter of that name.
+struct HookValue {
+    std::string name;
+    float value = 0.0f;
+    bool operator==(const HookValue&) const = default;
+};
+
 struct Hook {
     std::string file;              ///< absolute
     std::uint64_t contentHash = 0; ///< of the file's text as it was loaded
@@ -36,6 +43,10 @@ struct Hook {
 
 /// A letter, then up to 31 letters and digits; not the name of what every hook has, timeSeconds.
 bool isHookParameterName(std::string_view name);
+
+/// Gives a parameter the value. Throws InputError where the hook has none of that name, or the value is not within its
+/// bounds; then nothing has changed.
+void setHookValue(Hook& hook, const HookValue& value);
 
 /// Which functions a text names outside of comments.
 struct HookFunctions {

@@ -133,6 +133,12 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     try {
         checkScene(scene);
+        for (const HookValue& value : options.hookValues) {
+            if (!scene.hook)
+                throw InputError(fmt::format("has no hook whose parameter '{}' could be {:g}; leave it out", value.name,
+                                             value.value));
+            setHookValue(*scene.hook, value);
+        }
         takeRest(scene);
         if (options.clip) playClip(scene, *options.clip);
         poseScene(scene, 0.0);

@@ -23,6 +23,8 @@ struct LoadOptions {
     /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it the first of each
     /// model.
     std::optional<std::string> clip;
+    /// Given to parameters of the scene's hook, in order.
+    std::vector<HookValue> hookValues;
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;
     /// Where it is given, the names of the files that are read are added to it.

@@ -34,4 +34,11 @@ std::string poseText(const scenes::CameraChange& change) {
     return text;
 }
 
+std::string hookText(std::span<const scenes::HookValue> values) {
+    std::string text;
+    for (const scenes::HookValue& value : values)
+        text += " --hook " + shellWord(fmt::format("{}={}", value.name, value.value));
+    return text;
+}
+
 } // namespace tessera::viewer

@@ -1,7 +1,9 @@
 #pragma once
+#include <span>
 #include <string>
 
 #include "scenes/CameraChange.h"
+#include "scenes/Hook.h"
 
 /// Pieces of a command line as text to paste into a shell.
 namespace tessera::viewer {
@@ -11,5 +13,8 @@ std::string shellWord(const std::string& word);
 
 /// A camera's change as options: " --eye 1,2,3 --target 0,1,0". Empty where nothing is changed.
 std::string poseText(const scenes::CameraChange& change);
+
+/// Values of a hook's parameters as options: " --hook wind=1.5". Empty where there is none.
+std::string hookText(std::span<const scenes::HookValue> values);
 
 } // namespace tessera::viewer

@@ -18,6 +18,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     if (request.lights) text += fmt::format(" --lights {}", *request.lights);
     if (request.environment) text += " --environment " + shellWord(*request.environment);
     if (request.clip) text += " --clip " + shellWord(*request.clip);
+    text += hookText(request.hookValues);
     if (!request.defaultLight) text += " --no-default-light";
     return text + poseText(request.pose);
 }

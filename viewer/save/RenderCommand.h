@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/Settings.h"
 #include "scenes/CameraChange.h"
@@ -9,12 +10,13 @@ namespace tessera::viewer {
 
 /// The arguments of `tessera render`: a scene and its frame options.
 struct RenderRequest : engine::ViewRequest {
-    std::string source;                     ///< the scene's file or name
-    std::optional<int> lights;              ///< number requested of the load
-    bool defaultLight = true;               ///< the same
-    std::optional<std::string> environment; ///< the same
-    std::optional<std::string> clip;        ///< the same
-    scenes::CameraChange pose;              ///< of the camera that the settings choose
+    std::string source;                        ///< the scene's file or name
+    std::optional<int> lights;                 ///< number requested of the load
+    bool defaultLight = true;                  ///< the same
+    std::optional<std::string> environment;    ///< the same
+    std::optional<std::string> clip;           ///< the same
+    std::vector<scenes::HookValue> hookValues; ///< the same
+    scenes::CameraChange pose;                 ///< of the camera that the settings choose
 };
 
 /// The command line that asks for this and writes the picture to `output`, to paste into a shell: "tessera render hall

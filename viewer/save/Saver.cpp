@@ -72,6 +72,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.defaultLight = open.load().defaultLight;
     request.environment = open.load().environment;
     request.clip = open.load().clip;
+    request.hookValues = open.load().hookValues;
     request.technique = look.technique;
     request.settings = look.settings;
     request.settings.sizePixels = sizePixels;

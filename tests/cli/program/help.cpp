@@ -33,27 +33,12 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
         const std::string text = runGood({command, "--help"});
         expectReadable(text);
         EXPECT_THAT(text, HasSubstr(std::string("Usage: tessera ") + command + " "));
-        for (const char* option : {"--layout NAME",
-                                   "--size WxH",
-                                   "--samples N",
-                                   "--camera NAME",
-                                   "--eye X,Y,Z",
-                                   "--fov DEGREES",
-                                   "--time SECONDS",
-                                   "--lights N",
-                                   "--view NAME",
-                                   "--exposure EV",
-                                   "--range-tolerance EPS",
-                                   "--tonemap NAME",
-                                   "--prune on|off",
-                                   "--filter NAME",
-                                   "--solo N",
-                                   "--specular on|off",
-                                   "--space NAME",
-                                   "--no-default-light",
-                                   "--quiet",
-                                   "--context KIND",
-                                   "--clip NAME"})
+        for (const char* option :
+             {"--layout NAME",         "--size WxH",       "--samples N",        "--camera NAME", "--eye X,Y,Z",
+              "--fov DEGREES",         "--time SECONDS",   "--lights N",         "--view NAME",   "--exposure EV",
+              "--range-tolerance EPS", "--tonemap NAME",   "--prune on|off",     "--filter NAME", "--solo N",
+              "--specular on|off",     "--space NAME",     "--no-default-light", "--quiet",       "--context KIND",
+              "--clip NAME",           "--hook NAME=VALUE"})
             EXPECT_THAT(text, HasSubstr(option));
         // The demonstration shows several.
         EXPECT_EQ(text.find("--technique NAME") == std::string::npos, std::string_view(command) == "demo");

@@ -1,5 +1,7 @@
 #include "scenes/Hook.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -17,6 +19,30 @@ constexpr std::string_view kGood = "// discard, and #include \"x\"\n/* uniform\n
 
 TEST(Hook, commentsAndNamesLikeThoseOfDirectivesAreNoFaults) {
     EXPECT_FALSE(hookFault(kGood).has_value());
+}
+
+TEST(Hook, valuesAreTakenByNameWithinTheirBounds) {
+    Hook hook;
+    hook.parameters = {{"wind", 1.0f, 0.0f, 2.0f}, {"shade", 0.0f, -1.0f, 1.0f}};
+    setHookValue(hook, {"shade", -1.0f});
+    EXPECT_EQ(hook.parameters[1].value, -1.0f);
+    EXPECT_EQ(hook.parameters[0].value, 1.0f);
+    const Hook before = hook;
+    const struct {
+        HookValue value;
+        std::string_view says;
+    } cases[] = {{{"Wind", 1.0f}, "its hook has no parameter 'Wind'; valid are wind, shade"},
+                 {{"wind", 2.5f}, "the parameter 'wind' of its hook cannot be 2.5; it lies between 0 and 2"},
+                 {{"wind", std::numeric_limits<float>::quiet_NaN()}, "it lies between 0 and 2"}};
+    for (const auto& tried : cases) {
+        try {
+            setHookValue(hook, tried.value);
+            FAIL() << "expected an InputError";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(tried.says));
+        }
+        EXPECT_EQ(hook, before);
+    }
 }
 
 TEST(Hook, whatWouldBreakOtherPassesIsRefusedWithItsLine) {

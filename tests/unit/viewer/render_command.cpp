@@ -17,6 +17,7 @@ using testing::HasSubstr;
 
 /// A scene of two lights and three cameras, the last of the first one's name; `options` are its own options.
 std::string sceneFile(const tessera::test::TempFolder& folder, const std::string& options = "{}") {
+    folder.write("sway.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}");
     return folder
         .write("a scene's file.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
         "lights": [{"type": "directional", "direction": [0, -1, 0]}, {"type": "point", "position": [0, 1, 0]}],
@@ -24,6 +25,8 @@ std::string sceneFile(const tessera::test::TempFolder& folder, const std::string
                     {"name": "plan of $HOME", "type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0],
                      "up": [0, 0, -1], "halfHeight": 3},
                     {"name": "front", "position": [0, 1, 4], "target": [0, 2, 0]}],
+        "hook": {"file": "sway.glsl", "parameters": [{"name": "wind", "value": 1, "least": 0, "most": 2},
+                                                     {"name": "shade", "value": 0}]},
         "options": )" + options + "}")
         .string();
 }
@@ -66,6 +69,7 @@ void expectSame(const RenderRequest& request) {
     load.defaultLight = request.defaultLight;
     load.environment = request.environment;
     load.clip = request.clip;
+    load.hookValues = request.hookValues;
     const scenes::Scene scene = scenes::loadScene(request.source, load);
     const std::string line = renderCommand(request, scene, "it's a picture.exr");
     SCOPED_TRACE(line);
@@ -78,6 +82,7 @@ void expectSame(const RenderRequest& request) {
     EXPECT_TRUE(result.request.scene.cameras.at(camera) ==
                 scenes::changedCamera(scene.cameras.at(camera), request.pose));
     EXPECT_TRUE(result.request.scene.lights == scene.lights);
+    EXPECT_TRUE(result.request.scene.hook == scene.hook);
     const auto sourceOf = [](const scenes::Scene& of) { return of.environment ? of.environment->source : ""; };
     EXPECT_EQ(sourceOf(result.request.scene), sourceOf(scene));
 }
@@ -117,6 +122,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.defaultLight = false;
     request.environment = "sky";
     request.clip = "none";
+    request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;

@@ -1,0 +1,59 @@
+#include <array>
+
+#include <fmt/format.h>
+
+#include "tests/cli/program/Cli.h"
+
+namespace tessera::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A black square that shows what its hook makes of its parameters.
+class HookedSquare : public Cli {
+protected:
+    void SetUp() override {
+        folder_.write("shine.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs)\n"
+                                    "{\n    surface.emission = vec3(hook.red, hook.green, 0.0);\n}\n");
+        folder_.write("square.obj", "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3 4\n");
+        folder_.write("square.json", R"({"tessera": 1,
+            "include": [{"file": "square.obj", "name": "square"}],
+            "materials": [{"name": "black", "model": "lambert", "k_d": [0, 0, 0]}],
+            "overrides": [{"node": "square", "material": "black"}],
+            "cameras": [{"name": "front", "position": [0, 0, 2], "target": [0, 0, 0]}],
+            "hook": {"file": "shine.glsl", "parameters": [{"name": "red", "value": 0.25, "least": 0, "most": 2},
+                                                          {"name": "green", "value": 0.5, "least": 0, "most": 1}]}})");
+    }
+    static Words command(const Words& more) {
+        Words words{"render", "square.json", "--no-default-light", "--size", "16x8", "-o", "a.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    std::array<float, 2> shown() const {
+        const Picture made = picture("a.exr");
+        const float* const middle = made.pixel(made.pixelCount() / 2 + 8);
+        return {middle[0], middle[1]};
+    }
+};
+
+TEST_F(HookedSquare, optionsSetItsParameters) {
+    runGood(command({}));
+    EXPECT_EQ(shown(), (std::array{0.25f, 0.5f}));
+    runGood(command({"--hook", "red=1.5"}));
+    EXPECT_EQ(shown(), (std::array{1.5f, 0.5f}));
+    runGood(command({"--hook", "green=0.125", "--hook", "red=2"}));
+    EXPECT_EQ(shown(), (std::array{2.0f, 0.125f}));
+}
+
+TEST_F(HookedSquare, whatItHasNotIsRefusedByName) {
+    expectError(kBadInput, command({"--hook", "blue=1"}),
+                {"square.json: its hook has no parameter 'blue'", "valid are red, green"});
+    expectError(kBadInput, command({"--hook", "red=3"}), {"'red' of its hook cannot be 3", "between 0 and 2"});
+    for (const char* text : {"red", "red=", "red=x", "=1", "red=inf"})
+        expectError(kBadInput, command({"--hook", text}), {fmt::format("--hook '{}' is not a name", text)});
+    expectError(kBadInput, {"render", "room", "--size", "16x8", "-o", "a.exr", "--hook", "red=1"},
+                {"room: has no hook whose parameter 'red'"});
+}
+
+} // namespace
+} // namespace tessera::test
