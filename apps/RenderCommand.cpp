@@ -121,7 +121,7 @@ void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::D
     spdlog::warn("{}", oneLine(path + ": " + why));
 }
 
-/// Without a context: the display picture has exposure and sRGB alone.
+/// Without a context, unless the scene's hook needs one to run: the display picture has exposure and sRGB alone.
 void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
     frame::FrameSettings& settings = job.request.settings;
     // As compare does; hardware filtering is available on request.
@@ -141,11 +141,18 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
         fmt::print("the reference shows the environment behind the scene as it is, without a blur\n");
     bool hasWarned = false;
+    std::unique_ptr<gpu::Context> context;
+    std::optional<engine::Renderer> renderer;
+    if (job.request.scene.hook) {
+        context = makeContext(global);
+        renderer.emplace(*context, job.request.scene);
+    }
+    const auto rowDone = [&progress] { progress.advance(); };
     job.make(settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        job.pose(one.timeSeconds);
-        Picture picture = validation::referencePicture(
-                              job.request.scene, one, [&progress] { progress.advance(); }, validation::Leeway::None)
-                              .picture;
+        if (job.pose(one.timeSeconds) && renderer) renderer->geometryChanged();
+        Picture picture =
+            renderer ? validation::referencePicture(*renderer, one, rowDone, validation::Leeway::None).picture
+                     : validation::referencePicture(job.request.scene, one, rowDone, validation::Leeway::None).picture;
         warnOfPicture(path, job.request.scene, one.view, picture.rgba, "", hasWarned);
         if (isLinear) return encodeExr(picture);
         for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 /// GLSL of a scene's own that changes its surfaces (docs/hooks.md).
 namespace tessera::scenes {
 
@@ -39,6 +41,23 @@ struct Hook {
     bool operator==(const Hook&) const = default;
 
     bool changes(std::size_t material) const;
+};
+
+/// The numbers that hookSurface() changes (shaders/lib/material/hook_interface.glsl).
+struct HookedSurface {
+    glm::vec3 color{0.0f};    ///< linear
+    glm::vec3 emission{0.0f}; ///< radiance
+    float alpha = 1.0f;       ///< of GGX; 1 where the model has none
+    float metallic = 0.0f;    ///< 0 where the model has none
+    bool operator==(const HookedSurface&) const = default;
+};
+/// All that it gets at a point.
+struct HookPoint {
+    HookedSurface surface; ///< as the material has it
+    glm::vec2 uv{0.0f};
+    glm::vec3 positionOS{0.0f};
+    int instance = 0;
+    bool operator==(const HookPoint&) const = default;
 };
 
 /// A letter, then up to 31 letters and digits; not the name of what every hook has, timeSeconds.

@@ -41,6 +41,8 @@ SHARED_BEGIN
 #define STORAGE_LIGHTS 7
 #define STORAGE_HOOK_REST 0 // of what moves vertices
 #define STORAGE_HOOK_MOVED 1
+#define STORAGE_HOOK_POINTS 0 // of what changes surfaces for the reference
+#define STORAGE_HOOK_SURFACES 1
 
 // Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. What needs no
 // environment, and so no occlusion texture, and no area lights keeps to 16, and programs that never sample both share a

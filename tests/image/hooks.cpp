@@ -8,6 +8,7 @@
 #include "tests/image/ShadowTest.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/TestScenes.h"
+#include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
@@ -180,6 +181,88 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     folder.write(name, std::string(kHeader).append("{ surface.color = vec3(0.0); }\n"));
     EXPECT_TRUE(renderer.programs().reload().empty());
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
+}
+
+/// Without steps, whose pixels rounding would decide.
+constexpr std::string_view kSmooth = R"({
+    float wave = 0.5 + 0.5 * sin(hook.timeSeconds + 3.0 * inputs.positionOS.x + 2.0 * inputs.uv.y +
+                                 float(inputs.instance));
+    surface.color = mix(surface.color, vec3(0.25, wave, 0.75), hook.strength);
+    surface.emission += hook.strength * vec3(0.1, 0.0, 0.2 * wave);
+    surface.alpha = mix(surface.alpha, 0.5 + 0.3 * wave, hook.strength);
+    surface.metallic = mix(surface.metallic, wave, hook.strength);
+}
+)";
+
+class ReferenceOfHooks : public Hooks {
+protected:
+    void expectAgreement(const scenes::Scene& scene, double timeSeconds = 0.0) {
+        engine::Renderer renderer(context(), scene);
+        validation::CompareRequest request;
+        request.techniques = {Technique::Forward};
+        request.against = validation::Reference{};
+        request.settings = smallSettings();
+        request.settings.timeSeconds = timeSeconds;
+        request.settings.filter = frame::TextureFilter::Exact;
+        request.hardwareFilter = false;
+        const auto pairs = validation::compareTechniques(renderer, context().capabilities(), request).record.pairs;
+        ASSERT_EQ(pairs.size(), 1u);
+        EXPECT_TRUE(pairs[0].tolerance.p999Rel && pairs[0].tolerance.relMse && pairs[0].tolerance.bias);
+        EXPECT_TRUE(pairs[0].verdict.ok) << testing::PrintToString(pairs[0].verdict.missed);
+    }
+};
+
+TEST_F(ReferenceOfHooks, itShowsWhatTheyChange) {
+    for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
+        const scenes::Scene changed = hooked(scene, kSmooth);
+        for (const double seconds : {0.0, 1.5}) expectAgreement(changed, seconds);
+        engine::Renderer renderer(context(), changed);
+        const frame::FrameSettings settings = smallSettings();
+        const auto shown = validation::referencePicture(
+            renderer, settings, [] {}, validation::Leeway::None);
+        EXPECT_NE(shown.picture.rgba, validation::referencePicture(
+                                          scene, settings, [] {}, validation::Leeway::None)
+                                          .picture.rgba);
+    }
+}
+
+TEST_F(ReferenceOfHooks, lightThatPassesThroughGlassKeepsTheMaterialsColour) {
+    scenes::Scene scene = test::evenScene();
+    scenes::Material glass;
+    glass.model = scenes::MaterialModel::MetallicRoughness;
+    glass.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
+    glass.metallic = 0.2f;
+    glass.perceptualRoughness = 0.6f;
+    glass.transmission = 0.8f;
+    scene.nodes.back().instances.front().material = int(scene.materials.size());
+    scene.materials.push_back(glass);
+    expectAgreement(hooked(scene, kSmooth));
+}
+
+TEST_F(ReferenceOfHooks, oneThatMovesVerticesAndChangesThemIsTakenWhole) {
+    scenes::Scene scene = hooked(test::evenScene(), kSmooth);
+    const std::string text = std::string(kHeader).append(kSmooth) +
+                             "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)\n"
+                             "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n";
+    scene.hook->file = folder.write("both.glsl", text).string();
+    scene.hook->contentHash = scenes::fingerprint(std::as_bytes(std::span(text)));
+    scene.hook->movesVertices = true;
+    scene.hook->mayMoveMetres = 0.2;
+    scenes::checkScene(scene);
+    expectAgreement(scene, 0.75);
+}
+
+TEST_F(ReferenceOfHooks, lightThatSpreadsBelowWhatTheyChangeIsRefusedByName) {
+    const scenes::Scene scene = hooked(test::everythingScene(), kSmooth);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = smallSettings();
+    settings.subsurface = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    try {
+        validation::referencePicture(renderer, settings);
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("the reference knows no light that spreads below"));
+    }
 }
 
 constexpr std::string_view kMoving = "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)\n";

@@ -48,7 +48,7 @@ GroupTruth::GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame
         picture_ = toPicture(renderer.render(engine::Technique::Forward, settings_));
         return;
     }
-    reference_ = referencePicture(renderer.sceneAt(settings_.timeSeconds), settings_, rowDone, Leeway::Definition);
+    reference_ = referencePicture(renderer, settings_, rowDone, Leeway::Definition);
     excluded_ = shownTriangles(renderer, settings_, reference_->ids).excluded;
     picture_ = reference_->picture;
 }

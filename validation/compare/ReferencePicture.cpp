@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "engine/HookedSurfaces.h"
 #include "engine/PrepareView.h"
 #include "renderer/frame/EnvironmentMap.h"
 
@@ -44,16 +45,25 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
     }
 }
 
-ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                  const std::function<void()>& rowDone, Leeway leeway) {
+namespace {
+
+/// Light that spreads over a surface enters at points that are found while it is lit, too late to ask for.
+void requireNoneSpreads(const scenes::Scene& scene, const scenes::SubsurfaceRequest& subsurface) {
+    for (const int place : scene.hook->materials) {
+        const scenes::Material& material = scene.materials[std::size_t(place)];
+        if (scenes::subsurfaceOf(material, subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion)
+            throw InputError(fmt::format("{}: the reference knows no light that spreads below '{}', which the hook "
+                                         "changes; give --subsurface wrap or none",
+                                         scene.name, material.name));
+    }
+}
+
+ReferencePicture pictureOf(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                           const std::function<void()>& rowDone, Leeway leeway, reference::RunHook runHook) {
     requireReferenceTakes(settings);
-    // Vertices that a renderer has moved already are a scene like others.
-    if (scene.hook && (scene.hook->changesSurfaces || scene.hook->movesVertices))
-        throw InputError(
-            fmt::format("{}: the reference runs no shaders, and so no hook; compare the scene without '{}'", scene.name,
-                        scene.hook->file));
     engine::prepareView(scene, engine::Technique::Forward, settings); // throws for names that the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
+    wanted.runHook = std::move(runHook);
     wanted.leeway = leeway != Leeway::None;
     if (leeway != Leeway::DefinitionAndNoise) wanted.shadowSamples = 0;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);
@@ -74,6 +84,31 @@ ReferencePicture referencePicture(const scenes::Scene& scene, const frame::Frame
     result.surroundings = std::move(rendered.surroundings);
     result.areaLights = std::move(rendered.areaLights);
     return result;
+}
+
+} // namespace
+
+ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                                  const std::function<void()>& rowDone, Leeway leeway) {
+    // Vertices that a renderer has moved already are a scene like others.
+    if (scene.hook && (scene.hook->changesSurfaces || scene.hook->movesVertices))
+        throw InputError(
+            fmt::format("{}: the reference runs no shaders, and so no hook without a renderer; take '{}' out",
+                        scene.name, scene.hook->file));
+    return pictureOf(scene, settings, rowDone, leeway, {});
+}
+
+ReferencePicture referencePicture(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                                  const std::function<void()>& rowDone, Leeway leeway) {
+    const scenes::Scene& scene = renderer.sceneAt(settings.timeSeconds);
+    reference::RunHook runHook;
+    if (scene.hook && scene.hook->changesSurfaces) {
+        requireNoneSpreads(scene, settings.subsurface);
+        runHook = [&](std::span<const scenes::HookPoint> points) {
+            return engine::hookedSurfaces(*scene.hook, settings.timeSeconds, points, renderer.programs());
+        };
+    }
+    return pictureOf(scene, settings, rowDone, leeway, std::move(runHook));
 }
 
 namespace {
@@ -171,7 +206,9 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
             "light spread in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;
     }
-    if (!frame::materialFeatures(scene).textures()) {
+    // The numbers of a hook are those of textures: in fp32, with slopes of their own.
+    const bool isTextured = frame::materialFeatures(scene).textures() || (scene.hook && scene.hook->changesSurfaces);
+    if (!isTextured) {
         tolerance.p999Rel = 3e-4;
         tolerance.relMse = 1e-8;
         tolerance.bias = 1e-4;

@@ -44,9 +44,16 @@ struct ReferencePicture {
 enum class Leeway : std::uint8_t { None, Definition, DefinitionAndNoise };
 
 /// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
-/// Throws InputError when the settings name what the scene lacks or requireReferenceTakes() does.
+/// Throws InputError when the settings name what the scene lacks, requireReferenceTakes() does, or the scene has a
+/// hook.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
+    Leeway leeway = Leeway::DefinitionAndNoise);
+
+/// The same of a renderer's scene at the time of the settings, with what its hook moves and changes, which the renderer
+/// runs. Where vertices move, the latest frame is gone.
+ReferencePicture referencePicture(
+    engine::Renderer& renderer, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
     Leeway leeway = Leeway::DefinitionAndNoise);
 
 /// Whether a frame has shadows, and those traced, so that ReferencePicture::shadowFigures() tells something.

@@ -65,7 +65,7 @@ struct TruthPicture {
 TruthPicture referenceTruth(engine::Renderer& renderer, const frame::FrameSettings& settings,
                             const std::function<void()>& rowDone) {
     TruthPicture truth;
-    truth.reference = referencePicture(renderer.sceneAt(settings.timeSeconds), settings, rowDone);
+    truth.reference = referencePicture(renderer, settings, rowDone);
     truth.triangles = shownTriangles(renderer, settings, truth.reference->ids);
     truth.own = {"reference", truth.reference->picture, toDisplayImage(truth.reference->picture)};
     return truth;

@@ -83,7 +83,8 @@ void setTransmission(const scenes::Material& material, SurfacePoint& point) {
 
 } // namespace
 
-SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
+SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
+                       const std::function<void(SurfacePoint& point)>& change) {
     const scenes::Material& material = *hit.object->material;
     const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, textures); };
     const glm::dvec4 base = baseColorAt(hit, textures);
@@ -109,6 +110,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures) {
     point.emission = glm::dvec3(material.emissive) * glm::dvec3(texel(TextureSlot::Emissive));
     point.masking = material.masking;
     point.normal = normalAt(hit, textures);
+    if (change) change(point);
     setDirection(hit, textures, point);
     setLayers(hit, textures, point);
     setTransmission(material, point);

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "validation/reference/Hit.h"
@@ -46,9 +48,14 @@ struct SurfacePoint {
     bool spreads = false;             ///< light that enters leaves elsewhere (Diffusion.h)
     bool passes = false;              ///< light from behind passes through
     glm::dvec3 absorptionPerMetre{0}; ///< of it, by channel, in the scene's metres
+    /// Of what passes through, where a hook has changed those of the surface.
+    std::optional<glm::dvec3> passingColor;
+    std::optional<double> passingMetallic;
 };
 
-SurfacePoint surfaceAt(const Hit& hit, const Textures& textures);
+/// `change` gets the point before the directions on it, layers and what passes are known, and may change its numbers.
+SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
+                       const std::function<void(SurfacePoint& point)>& change = {});
 
 /// Base colour's alpha x texel x vertex colour, as it is.
 double opacityAt(const Hit& hit, const Textures& textures);

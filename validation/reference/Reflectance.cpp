@@ -275,13 +275,14 @@ glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const 
 glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     const double cosView = glm::dot(point.normal, toViewer);
     const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
-    double share = point.transmission * (1.0 - point.metallic);
+    double share = point.transmission * (1.0 - point.passingMetallic.value_or(point.metallic));
     if (strongest > 0.0)
         share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
     if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
     // A normal that points away from the viewer reflects nothing.
     const glm::dvec3 reflected = cosView > 0.0 ? fresnelOf(point, cosView, cosView) : glm::dvec3(0.0);
-    return share * point.color * point.leftByBody * glm::max(1.0 - reflected, glm::dvec3(0.0));
+    return share * point.passingColor.value_or(point.color) * point.leftByBody *
+           glm::max(1.0 - reflected, glm::dvec3(0.0));
 }
 
 std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer, double ior) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "validation/reference/AreaLights.h"
 #include "validation/reference/Diffusion.h"
+#include "validation/reference/HookAt.h"
 #include "validation/reference/LightAt.h"
 #include "validation/reference/Occlusion.h"
 #include "validation/reference/Reflectance.h"
@@ -29,9 +31,22 @@ public:
           occlusion_(scene, objects_), diffusion_(objects_, textures_, lights_, surroundings_, occlusion_, settings) {}
 
     void row(int row, Rendered& rendered) const {
+        for (int column = 0; column < rendered.width; ++column)
+            pixel(rays_.through(column, row), placeOf(column, row, rendered), rendered, nullptr);
+    }
+
+    /// The same where the scene's hook changes surfaces, `points` by column. While they are not known, pixels ask for
+    /// them, and what else is found is forgotten.
+    void hookedRow(int row, Rendered& rendered, std::span<HookPoints> points) const {
         for (int column = 0; column < rendered.width; ++column) {
-            const std::size_t at = std::size_t(row) * std::size_t(rendered.width) + std::size_t(column);
-            pixel(rays_.through(column, row), at, rendered);
+            const std::size_t at = placeOf(column, row, rendered);
+            HookPoints& own = points[std::size_t(column)];
+            const bool isAsking = !own.areKnown();
+            pixel(rays_.through(column, row), at, rendered, &own);
+            if (!isAsking) continue;
+            rendered.ids[at] = {};
+            rendered.covered[at] = 0;
+            rendered.alternatives[at].clear();
         }
     }
 
@@ -54,6 +69,10 @@ public:
     }
 
 private:
+    static std::size_t placeOf(int column, int row, const Rendered& rendered) {
+        return std::size_t(row) * std::size_t(rendered.width) + std::size_t(column);
+    }
+
     static constexpr double kEndless = std::numeric_limits<double>::infinity();
 
     /// A pixel's centre and how far from it rounding to fp32 may move what is seen of a light, with room: most of it is
@@ -113,8 +132,9 @@ private:
         }
     }
 
-    void pixel(const Ray& ray, std::size_t at, Rendered& rendered) const {
+    void pixel(const Ray& ray, std::size_t at, Rendered& rendered, HookPoints* hookPoints) const {
         Seen seen;
+        seen.hookPoints = hookPoints;
         seen.opaque = visibility_.nearestOpaque(ray);
         double depthMetres = kEndless;
         if (seen.opaque) {
@@ -155,7 +175,8 @@ private:
         const bool isNoiseAlone = alternatives.empty() && rendered.undecidedShadows[at] == 0;
         addShadowLeeway(ray, seen, radiance, alternatives);
         for (const Hit& hit : coincidentWith(ray, seen)) {
-            const Seen other{hit, {}, seen.transparent, {}};
+            Seen other{hit, {}, seen.transparent, {}};
+            other.hookPoints = seen.hookPoints;
             const glm::dvec3 otherRadiance = radianceOf(ray, other, Nudge());
             alternatives.push_back({otherRadiance, otherRadiance});
             addLeeway(ray, other, otherRadiance, alternatives);
@@ -177,6 +198,7 @@ private:
         mutable std::vector<std::vector<std::optional<Estimate>>> areaLights{}; ///< by light too, nothing hidden
         mutable std::vector<std::optional<glm::dvec3>> throughBodies{};         ///< as surroundings
         std::uint32_t seed = 0;                                                 ///< of Diffusion and Surroundings
+        HookPoints* hookPoints = nullptr;                                       ///< null where no hook changes surfaces
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
@@ -318,15 +340,18 @@ private:
         return litBy(ray, seen, nudge, shadows).radiance;
     }
 
-    SurfacePoint nudged(Hit hit, const Nudge& nudge) const {
+    SurfacePoint nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const {
         hit.nudge = nudge;
-        return surfaceAt(hit, textures_);
+        const auto place = std::size_t(hit.object->material - scene_.materials.data());
+        if (hookPoints == nullptr || !scene_.hook->changes(place)) return surfaceAt(hit, textures_);
+        return surfaceAt(hit, textures_, [&](SurfacePoint& point) { hookPoints->change(hit, point); });
     }
 
     /// One of the surfaces, numbered as in Seen::shadows.
     Lit litSurface(const Seen& seen, std::size_t surface, const Nudge& nudge, const Ray& ray, Shadows shadows) const {
         const Hit& hit = surface == 0 ? *seen.opaque : seen.transparent[surface - 1];
-        const SurfacePoint point = nudged(hit, nudge);
+        const SurfacePoint point = nudged(hit, nudge, seen.hookPoints);
+        if (seen.hookPoints != nullptr && !seen.hookPoints->areKnown()) return {glm::dvec3(0.0), point.opacity};
         if (!scenes::infoOf(point.model).isLit) return {point.emission + point.color, point.opacity};
         const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
         const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
@@ -471,6 +496,38 @@ std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle) 
     return (mixed ^ (mixed >> 15)) * 0xC2B2AE35u >> 16;
 }
 
+namespace {
+
+/// A few rows at once, which bounds the memory that their points take.
+void renderHooked(const Pixels& picture, const RunHook& runHook, Rendered& rendered,
+                  const std::function<void()>& rowDone) {
+    constexpr int kRowsAtOnce = 32;
+    const auto width = std::size_t(rendered.width);
+    for (int first = 0; first < rendered.height; first += kRowsAtOnce) {
+        const int end = std::min(first + kRowsAtOnce, rendered.height);
+        std::vector<HookPoints> points(std::size_t(end - first) * width);
+        const auto draw = [&](int row) {
+            picture.hookedRow(row, rendered, std::span(points).subspan(std::size_t(row - first) * width, width));
+        };
+        tbb::parallel_for(first, end, draw);
+        std::vector<scenes::HookPoint> asked;
+        for (const HookPoints& own : points) asked.insert(asked.end(), own.asked().begin(), own.asked().end());
+        const std::vector<scenes::HookedSurface> known = runHook(asked);
+        std::size_t from = 0;
+        for (HookPoints& own : points) {
+            const std::size_t count = own.asked().size();
+            own.know(std::span(known).subspan(from, count));
+            from += count;
+        }
+        tbb::parallel_for(first, end, [&](int row) {
+            draw(row);
+            rowDone();
+        });
+    }
+}
+
+} // namespace
+
 Rendered render(const scenes::Scene& scene, const Settings& settings, const std::function<void()>& rowDone) {
     Rendered rendered;
     rendered.width = settings.sizePixels.x;
@@ -486,6 +543,10 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.surroundings.resize(pixels);
     rendered.areaLights.resize(pixels);
     const Pixels picture(scene, settings);
+    if (settings.runHook) {
+        renderHooked(picture, settings.runHook, rendered, rowDone);
+        return rendered;
+    }
     tbb::parallel_for(0, rendered.height, [&](int row) {
         picture.row(row, rendered);
         rowDone();

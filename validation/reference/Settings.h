@@ -1,5 +1,8 @@
 #pragma once
+#include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -30,6 +33,10 @@ struct Noise {
     }
 };
 
+/// What a scene's hook makes of surfaces, by point. Whoever renders a scene with a hook brings it: a hook is the text
+/// of a shader, and the reference runs none. In single precision, as a hook's numbers are, and without bounds.
+using RunHook = std::function<std::vector<scenes::HookedSurface>(std::span<const scenes::HookPoint> points)>;
+
 /// What is rendered of a scene.
 struct Settings {
     glm::ivec2 sizePixels{1280, 720};
@@ -54,6 +61,8 @@ struct Settings {
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C and area lights end where they fall to it;
                                  ///< 0: nowhere
+    /// Where the scene's hook changes surfaces, and only there. Called by the thread that renders, once in many rows.
+    RunHook runHook;
 };
 
 } // namespace tessera::reference

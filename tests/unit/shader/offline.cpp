@@ -15,6 +15,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/ChooseView.h"
 #include "engine/HookedScene.h"
+#include "engine/HookedSurfaces.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -142,6 +143,8 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
     scene.hook.emplace().file =
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
     scene.hook->parameters = {{"turnsASecond"}, {"glow"}};
+    const shader::ProgramDesc asking = engine::hookedSurfacesProgram(*scene.hook);
+    programs.emplace(asking.key(), asking);
     scenes::Hook waving;
     waving.file = std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "flag.glsl";
     waving.parameters = {{"wind"}};
