@@ -178,6 +178,11 @@ private:
             if (!file.text().starts_with(kBuiltinPrefix))
                 lights->fail("only a built-in scene makes as many lights as it is asked for; remove it");
         }
+        if (const auto assets = object.find("assets")) {
+            options.useAssets = assets->boolean();
+            if (!file.text().starts_with(kBuiltinPrefix))
+                assets->fail("only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it");
+        }
         object.done("a base");
         std::string name = std::move(scene.name);
         scene = load(file, options);

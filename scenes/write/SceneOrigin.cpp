@@ -95,6 +95,7 @@ void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
         if (const std::string name = base["file"]; name.starts_with(kBuiltinPrefix)) {
             origin.base = name;
             if (base.contains("lights")) origin.lights = base["lights"].get<int>();
+            origin.useAssets = base.value("assets", true);
             return;
         }
         file = fileNamed(base, file, "base");
@@ -115,6 +116,7 @@ SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, 
     if (std::ranges::any_of(builtinScenes(), isCalled)) {
         origin.base = std::string(kBuiltinPrefix) + nameOrPath;
         origin.lights = options.lights;
+        origin.useAssets = options.useAssets;
     } else {
         LoadLedger ledger(options.memoryLimitBytes);
         ledger.settle(0, bytesOf(loaded));

@@ -10,6 +10,7 @@ namespace tessera::scenes {
 struct SceneOrigin {
     std::string base;          ///< absolute path of a scene file, or builtin:NAME
     std::optional<int> lights; ///< that a built-in scene was asked to make
+    bool useAssets = true;     ///< whether it may use the models of TESSERA_ASSETS
     /// Materials that .json files between the base and the scene replace, as JSON by index. Such files need not exist
     /// any more for what is edited further.
     std::map<std::size_t, std::string> replacedMaterials;

@@ -49,6 +49,7 @@ Json baseJson(const SceneOrigin& origin, const fs::path& file) {
     Json base;
     base["file"] = nameIn(origin.base, file);
     if (origin.lights) base["lights"] = *origin.lights;
+    if (!origin.useAssets) base["assets"] = false;
     return base;
 }
 

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -5,6 +7,7 @@
 #include "engine/Rendering.h"
 #include "renderer/gpu/Program.h"
 #include "scenes/Fingerprint.h"
+#include "scenes/Load.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/TestScenes.h"
@@ -335,6 +338,44 @@ TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
     EXPECT_EQ(shown.meshes[0].positionsOS[0].x, 0.5f * scene.meshes[0].positionsOS[0].x);
     const std::vector<std::uint8_t> covered = validation::referencePicture(shown, settings).picture.covered;
     EXPECT_EQ(engine::toPicture(renderer.render(Technique::Forward, settings)).covered, covered);
+}
+
+/// Of scenes/files, at the ends of their parameters.
+class SampleHooks : public Hooks {
+protected:
+    static scenes::Scene sample(std::string_view name) {
+        return scenes::loadScene(fmt::format("{}/scenes/files/{}.json", TESSERA_SOURCE_DIR, name));
+    }
+};
+
+TEST_F(SampleHooks, verticesStayWithinMayMoveMetres) {
+    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+        SCOPED_TRACE(name);
+        scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        for (const bool most : {false, true}) {
+            for (scenes::HookParameter& parameter : scene.hook->parameters)
+                parameter.value = most ? parameter.most : parameter.least;
+            for (int step = 0; step < 12; ++step) EXPECT_NO_THROW(renderer.sceneAt(0.37 * step));
+        }
+    }
+}
+
+TEST_F(SampleHooks, everyParameterChangesThePicture) {
+    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+        scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = smallSettings();
+        settings.timeSeconds = 2.9;
+        settings.subsurface = scenes::SubsurfaceMethod::None;
+        const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
+        for (scenes::HookParameter& parameter : scene.hook->parameters) {
+            const float value = std::exchange(parameter.value, parameter.most);
+            EXPECT_NE(renderer.render(Technique::Forward, settings).radiance, before) << name << ' ' << parameter.name;
+            parameter.value = value;
+        }
+        EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before) << name;
+    }
 }
 
 TEST_F(VertexHooks, viewsOfAFrameShowOneTime) {

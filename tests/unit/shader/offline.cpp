@@ -142,7 +142,8 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
     scenes::Scene scene = test::everythingScene();
     scene.hook.emplace().file =
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
-    scene.hook->parameters = {{"turnsASecond"}, {"glow"}};
+    scene.hook->parameters = {{"breathsASecond"}, {"swell"}, {"glow"}};
+    scene.hook->movesVertices = true;
     const shader::ProgramDesc asking = engine::hookedSurfacesProgram(*scene.hook);
     programs.emplace(asking.key(), asking);
     scenes::Hook waving;

@@ -1,4 +1,6 @@
+#include "base/Error.h"
 #include "scenes/Load.h"
+#include "tests/support/AssetsFolder.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 #include "tests/unit/scenes/write/SameScene.h"
 
@@ -27,6 +29,20 @@ TEST(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsAsked) {
     expectSameScene(
         folder.import(R"({"tessera": 1, "name": "lattice", "base": {"file": "builtin:lattice", "lights": 7}})"),
         loadScene("lattice", seven));
+}
+
+TEST(SceneJsonBase, aBuiltinBaseMayKeepToItsOwnModels) {
+    const SceneFolder folder;
+    folder.write("LeePerrySmith/head.obj", "v 0 0\n");
+    const tessera::test::AssetsFolder assets(folder.path().c_str());
+    const auto based = [&](const char* more) {
+        return folder.import(std::string(R"({"tessera": 1, "name": "head", "base": {"file": "builtin:head")") + more +
+                             "}}");
+    };
+    EXPECT_THROW(based(""), InputError) << "the folder's model is taken";
+    LoadOptions own;
+    own.useAssets = false;
+    expectSameScene(based(R"(, "assets": false)"), loadScene("head", own));
 }
 
 TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
@@ -89,6 +105,8 @@ TEST(SceneJsonBase, mistakesAreNamedWithTheirPlace) {
     const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "models/bust.obj", "lights": 3}})"),
               "/base/lights: only a built-in scene makes as many lights as it is asked for; remove it");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "models/bust.obj", "assets": false}})"),
+              "/base/assets: only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "builtin:hal"}})"),
               "/base/file: there is no built-in scene 'hal'; did you mean 'hall'?");
     EXPECT_EQ(folder.errorBeyondSchemaOf(

@@ -207,6 +207,20 @@ TEST(SceneText, aSavedSceneThatIsEditedAndSavedOverItselfIsLoadedBackIdentically
     expectSameScene(saved(scene, models, file), scene);
 }
 
+TEST(SceneText, aSceneOfItsOwnModelsKeepsToThem) {
+    const SceneFolder folder;
+    const std::string first = folder
+                                  .write("own.json", R"({"tessera": 1,
+        "base": {"file": "builtin:room", "assets": false}})")
+                                  .string();
+    const std::string second = (folder.path() / "second.json").string();
+    const Scene scene = loadScene(first);
+    EXPECT_FALSE(originOf(first, {}, scene).useAssets);
+    saved(scene, originOf(first, {}, scene), second);
+    EXPECT_FALSE(originOf(second, {}, scene).useAssets);
+    EXPECT_TRUE(originOf("room", {}, scene).useAssets);
+}
+
 TEST(SceneText, aSceneSavedElsewhereDoesNotNeedTheEditedFile) {
     const SceneFolder folder;
     const std::string first = (folder.path() / "first.json").string();
