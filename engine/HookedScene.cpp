@@ -49,26 +49,46 @@ std::vector<float> movedOf(const std::vector<float>& rest) {
 
 struct MovedVertices {
     std::vector<glm::vec3> positionsOS, normalsOS;
+    std::vector<glm::vec4> colors; ///< the mesh's own, with marks where there are any
 };
 
+/// Opacities of vertices that are moved too far and nowhere (shaders/lib/material/material_values.glsl).
+constexpr float kTooFarMark = 2.0f, kNowhereMark = 3.0f;
+
+void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<glm::vec4>& colors) {
+    if (colors.empty()) colors.assign(vertices, glm::vec4(1.0f));
+    colors[vertex].a = opacity;
+}
+
+/// What is farther from its place counts as nowhere: no scene reaches there.
+constexpr double kFarthestMarkedMetres = 1e6;
+
 /// With the program in use.
-MovedVertices movedVertices(const scenes::Hook& hook, const scenes::Mesh& mesh, double timeSeconds) {
+MovedVertices movedVertices(const scenes::Hook& hook, const scenes::Mesh& mesh, double timeSeconds, Excess excess) {
     MovedVertices result;
+    result.colors = mesh.colors;
     const std::size_t vertices = mesh.positionsOS.size();
     for (std::size_t first = 0; first < vertices; first += kMostAtOnce) {
         const std::size_t count = std::min(kMostAtOnce, vertices - first);
         const std::vector<float> moved = movedOf(restOf(mesh, first, count));
         for (std::size_t i = 0; i < count; ++i) {
             const float* const own = moved.data() + kMovedFloats * i;
-            const glm::vec3 position(own[0], own[1], own[2]), normal(own[3], own[4], own[5]);
+            glm::vec3 position(own[0], own[1], own[2]);
+            const glm::vec3 normal(own[3], own[4], own[5]);
             const glm::vec3& rest = mesh.positionsOS[first + i];
             const double metres = glm::distance(glm::dvec3(position), glm::dvec3(rest));
             // What rounding to fp32 adds to a movement just as long.
             const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
-            if (!(metres <= hook.mayMoveMetres + leeway))
+            const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
+            if (isTooFar && excess == Excess::Mark) {
+                const bool isNowhere = !(metres <= kFarthestMarkedMetres);
+                mark(first + i, vertices, isNowhere ? kNowhereMark : kTooFarMark, result.colors);
+                if (isNowhere) position = rest;
+            } else if (isTooFar) {
                 throw InputError(fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}' by {:g} m, and "
                                              "mayMoveMetres is {:g}; raise that, or move it less",
                                              hook.file, timeSeconds, first + i, mesh.name, metres, hook.mayMoveMetres));
+            }
             // As it was where it has no direction any more.
             const glm::dvec3 direction(normal);
             const double length = glm::length(direction);
@@ -101,20 +121,23 @@ shader::ProgramDesc HookedScene::program(const scenes::Hook& hook) {
     return desc;
 }
 
-bool HookedScene::update(double timeSeconds, shader::ProgramLibrary& programs) {
+HookedScene::Changed HookedScene::update(double timeSeconds, Excess excess, shader::ProgramLibrary& programs) {
     const scenes::Hook& hook = scene_.hook.value();
     gpu::useProgram(programs.get(program(hook)));
     const gpu::Buffer constants = gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)});
     gpu::bindUniformBuffer(UNIFORM_HOOK, constants);
     std::vector<MovedVertices> all;
-    for (const std::size_t mesh : meshes_) all.push_back(movedVertices(hook, scene_.meshes[mesh], timeSeconds));
+    for (const std::size_t mesh : meshes_) all.push_back(movedVertices(hook, scene_.meshes[mesh], timeSeconds, excess));
 
-    bool hasChanged = false;
+    Changed changed;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
         scenes::Mesh& mesh = moved_.meshes[meshes_[i]];
-        hasChanged = hasChanged || mesh.positionsOS != all[i].positionsOS || mesh.normalsOS != all[i].normalsOS;
+        changed.vertices =
+            changed.vertices || mesh.positionsOS != all[i].positionsOS || mesh.normalsOS != all[i].normalsOS;
         mesh.positionsOS = std::move(all[i].positionsOS);
         mesh.normalsOS = std::move(all[i].normalsOS);
+        changed.colors = changed.colors || mesh.colors != all[i].colors;
+        mesh.colors = std::move(all[i].colors);
     }
     moved_.materials = scene_.materials;
     moved_.nodes = scene_.nodes;
@@ -128,11 +151,15 @@ bool HookedScene::update(double timeSeconds, shader::ProgramLibrary& programs) {
         moved_.environment->intensity = scene_.environment->intensity;
         moved_.environment->rotationDegrees = scene_.environment->rotationDegrees;
     }
-    return hasChanged;
+    return changed;
 }
 
 void HookedScene::takeMeshes() {
-    for (std::size_t i = 0; i < moved_.meshes.size(); ++i) moved_.meshes[i] = scene_.meshes[i];
+    for (std::size_t i = 0; i < moved_.meshes.size(); ++i) {
+        std::vector<glm::vec4> marked = std::move(moved_.meshes[i].colors); // until update() has new ones
+        moved_.meshes[i] = scene_.meshes[i];
+        moved_.meshes[i].colors = std::move(marked);
+    }
     moved_.nodes = scene_.nodes;
     moved_.materials = scene_.materials;
 }

@@ -1,10 +1,17 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "renderer/shader/ProgramLibrary.h"
 #include "scenes/Scene.h"
 
 namespace tessera::engine {
+
+/// What is done about vertices that are moved nowhere, or farther than the hook may move them.
+enum class Excess : std::uint8_t {
+    Refuse,
+    Mark ///< one that goes nowhere stays; opacities of vertex colours are 2 for those too far, 3 for those nowhere
+};
 
 /// A scene whose hook moves vertices, with the vertices as they are at a time. The hook runs in a compute shader, and
 /// what it makes is read back: all passes, bounds, trees of casters and the reference take the same vertices.
@@ -19,10 +26,14 @@ public:
     /// The scene with moved vertices; its hook no longer says that it moves any once update() has.
     const scenes::Scene& scene() const { return moved_; }
 
+    struct Changed {
+        bool vertices = false; ///< a position or a normal
+        bool colors = false;   ///< of vertices: others are marked
+    };
     /// Takes the scene's lights, cameras, materials and nodes as they are, and its vertices as the hook has them at
-    /// that time. True where a vertex has changed. Throws InputError where one is nowhere or farther from its place
-    /// than the hook may move it, gpu::ShaderError where the hook is faulty; then all is as it was.
-    bool update(double timeSeconds, shader::ProgramLibrary& programs);
+    /// that time. Throws InputError where one is nowhere or farther from its place than the hook may move it, unless
+    /// those are marked, gpu::ShaderError where the hook is faulty; then all is as it was.
+    Changed update(double timeSeconds, Excess excess, shader::ProgramLibrary& programs);
     /// To be called after vertices of the scene itself were changed.
     void takeMeshes();
     /// To be called after the scene got another map of its environment.

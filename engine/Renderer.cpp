@@ -84,8 +84,11 @@ void Renderer::environmentChanged(std::shared_ptr<const frame::FilteredEnvironme
     for (auto& [view, memory] : diffusionMemories_) memory.forget();
 }
 
-const scenes::Scene& Renderer::sceneAt(double timeSeconds) {
-    if (hooked_ && hooked_->update(timeSeconds, programs_)) forgetGeometry();
+const scenes::Scene& Renderer::sceneAt(double timeSeconds, Excess excess) {
+    if (!hooked_) return shown_;
+    const HookedScene::Changed changed = hooked_->update(timeSeconds, excess, programs_);
+    if (changed.vertices || changed.colors) forgetGeometry();
+    if (changed.colors) uploaded_.clear(); // colours are attributes, and decide on features
     return shown_;
 }
 
@@ -154,7 +157,9 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     if (hooked_ &&
         !std::ranges::all_of(views, [&](const ViewRequest& view) { return view.settings.timeSeconds == timeSeconds; }))
         throw InputError("a hook moves vertices of the scene for all views of a frame; give all of them one time");
-    sceneAt(timeSeconds);
+    const bool marks = std::ranges::any_of(
+        views, [](const ViewRequest& view) { return view.settings.view == frame::DebugView::MovedTooFar; });
+    sceneAt(timeSeconds, marks ? Excess::Mark : Excess::Refuse);
     auto drawn =
         std::make_unique<Drawn>([this](const std::string& name, const graph::ResourceDesc& desc,
                                        std::uint64_t revision) { return backend_.holds(name, desc, revision); });

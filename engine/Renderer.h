@@ -127,7 +127,7 @@ public:
     /// As the latest frame shows it: with the vertices that its hook has moved.
     const scenes::Scene& scene() const { return shown_; }
     /// The same at a time. Where vertices move, the latest frame is gone.
-    const scenes::Scene& sceneAt(double timeSeconds);
+    const scenes::Scene& sceneAt(double timeSeconds, Excess excess = Excess::Refuse);
     std::span<const frame::SurfaceBounds> bounds() const { return bounds_; }
 
 private:

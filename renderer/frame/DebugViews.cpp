@@ -42,6 +42,10 @@ constexpr DebugViewInfo kViews[] = {
      DisplayMapping::Count, true},
     {DebugView::Faults, 0, "faults",
      "the lit picture in grey; NaN magenta, infinite cyan, negative yellow, with a legend", DisplayMapping::Faults},
+    {DebugView::MovedTooFar, 0, "moved_too_far",
+     "grey surfaces; magenta where the scene's hook moves vertices farther than `mayMoveMetres`, cyan where it moves "
+     "them nowhere",
+     DisplayMapping::Radiance},
     {DebugView::Ids, 0, "ids",
      "which triangle each pixel shows: mesh instance, triangle, and a sum over transparent ones", DisplayMapping::Ids},
 };
@@ -52,6 +56,7 @@ static_assert(int(DebugView::Fresnel) == VIEW_FRESNEL && int(DebugView::Depth) =
 static_assert(int(DebugView::Lights) == VIEW_LIGHTS && int(DebugView::Ids) == VIEW_IDS);
 static_assert(int(DebugView::NormalView) == VIEW_NORMAL_VIEW && int(DebugView::NormalObject) == VIEW_NORMAL_OBJECT);
 static_assert(int(DebugView::Shadow) == VIEW_SHADOW && int(DebugView::Cascades) == VIEW_CASCADES);
+static_assert(int(DebugView::MovedTooFar) == VIEW_MOVED_TOO_FAR);
 static_assert(int(DebugView::Overdraw) == VIEW_OVERDRAW && int(DebugView::Faults) == VIEW_FAULTS);
 static_assert(int(DebugView::ShadowAtlas) == VIEW_SHADOW_ATLAS && int(DebugView::Stored) == VIEW_STORED);
 

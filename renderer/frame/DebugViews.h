@@ -28,6 +28,7 @@ enum class DebugView : std::uint8_t {
     NormalObject,
     Shadow,
     Cascades,
+    MovedTooFar,
     Overdraw,
     Faults,
     ShadowAtlas,

@@ -16,7 +16,8 @@
 #define VIEW_NORMAL_OBJECT 11
 #define VIEW_SHADOW 12
 #define VIEW_CASCADES 13
-#define VIEW_OVERDRAW 14
-#define VIEW_FAULTS 15
-#define VIEW_SHADOW_ATLAS 16
-#define VIEW_STORED 17 // the first of the debug views of stored G-buffer channels
+#define VIEW_MOVED_TOO_FAR 14
+#define VIEW_OVERDRAW 15
+#define VIEW_FAULTS 16
+#define VIEW_SHADOW_ATLAS 17
+#define VIEW_STORED 18 // the first of the debug views of stored G-buffer channels

@@ -340,6 +340,67 @@ TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
     EXPECT_EQ(engine::toPicture(renderer.render(Technique::Forward, settings)).covered, covered);
 }
 
+class MovedTooFar : public VertexHooks {
+protected:
+    /// Colour of the middle of a half of the picture.
+    glm::vec3 shown(engine::Renderer& renderer, Technique technique, double share) {
+        frame::FrameSettings settings = smallSettings();
+        settings.view = frame::DebugView::MovedTooFar;
+        const std::vector<float> radiance = renderer.render(technique, settings).radiance;
+        const std::size_t pixel = 4 * (160 * 45 + std::size_t(160 * share));
+        return {radiance[pixel], radiance[pixel + 1], radiance[pixel + 2]};
+    }
+};
+
+TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
+    scenes::Material material;
+    material.baseColor = {0.0f, 1.0f, 0.0f, 1.0f};
+    const struct {
+        std::string_view body;
+        glm::vec3 left, right;
+    } cases[] = {
+        {"{\n    positionOS.z += 0.5;\n}\n", glm::vec3(0.4f), glm::vec3(0.4f)},
+        {"{\n    positionOS.z += 1.5;\n}\n", {0.9f, 0.0f, 0.9f}, {0.9f, 0.0f, 0.9f}},
+        {"{\n    positionOS.z = sqrt(-1.0 - hook.timeSeconds);\n}\n", {0.0f, 0.9f, 0.9f}, {0.0f, 0.9f, 0.9f}},
+    };
+    for (const auto& tried : cases) {
+        const scenes::Scene scene = moving(test::quadScene(material), tried.body, 1.0);
+        engine::Renderer renderer(context(), scene);
+        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+            for (const auto& [share, wanted] : {std::pair(0.45, tried.left), std::pair(0.55, tried.right)}) {
+                // Between them 0.4 and 1 times as bright, by how a surface faces the eye.
+                const glm::vec3 found = shown(renderer, technique, share);
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_LE(found[c], wanted[c] + 0.003f) << tried.body;
+                    EXPECT_GE(found[c], 0.39f * wanted[c]) << tried.body;
+                }
+            }
+        }
+    }
+}
+
+TEST_F(MovedTooFar, onlyTheVerticesThatDoAreAndOtherFramesDoNotShowIt) {
+    const scenes::Scene scene =
+        moving(test::quadScene({}), "{\n    if (positionOS.x > 0.0) positionOS.z += hook.timeSeconds;\n}\n", 1.0);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = smallSettings();
+    const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
+    settings.view = frame::DebugView::MovedTooFar;
+    settings.timeSeconds = 1.25;
+    const std::vector<float> painted = renderer.render(Technique::Forward, settings).radiance;
+    std::size_t reddish = 0, grey = 0;
+    for (std::size_t i = 0; i < painted.size(); i += 4) {
+        if (painted[i + 3] == 0.0f) continue;
+        ++(painted[i] > 1.5f * painted[i + 1] ? reddish : grey);
+    }
+    EXPECT_GT(reddish, 100u);
+    EXPECT_GT(grey, 100u);
+    settings.view = frame::DebugView::Final;
+    EXPECT_THROW(renderer.render(Technique::Forward, settings), InputError);
+    settings.timeSeconds = 0.0;
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before);
+}
+
 /// Of scenes/files, at the ends of their parameters.
 class SampleHooks : public Hooks {
 protected:

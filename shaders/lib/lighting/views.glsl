@@ -62,6 +62,16 @@ vec3 cascadesView(Surface surface, Viewpoint viewpoint)
 }
 #endif
 
+#if VIEW == VIEW_MOVED_TOO_FAR
+// The paint that materialBaseColor() took for the colour: darker the less a surface faces the eye.
+vec3 movedTooFarView(Surface surface, Viewpoint viewpoint)
+{
+    precise float facing = abs(dot(surface.normalLS, viewpoint.toViewerLS));
+    precise vec3 shown = (0.4 + 0.6 * facing) * (IS_UNLIT(surface.model) ? surface.emission : surface.albedo);
+    return shown;
+}
+#endif
+
 vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
 #if VIEW == VIEW_FINAL
@@ -84,6 +94,8 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return shadowView(surface, viewpoint);
 #elif VIEW == VIEW_CASCADES
     return cascadesView(surface, viewpoint);
+#elif VIEW == VIEW_MOVED_TOO_FAR
+    return movedTooFarView(surface, viewpoint);
 #elif VIEW == VIEW_DEPTH
     return vec3(view.eyeLS.w + dot(viewpoint.positionLS, view.forwardLS.xyz));
 #else

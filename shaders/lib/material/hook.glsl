@@ -4,7 +4,7 @@
 #include "lib/material/material_values.glsl"
 #include "lib/surface/surface.glsl"
 
-#if HOOKED
+#if HOOKED && VIEW != VIEW_MOVED_TOO_FAR
 const float HOOK_EMISSION_MOST = 1e30; // scenes::kMostEmission
 
 // Values that a hook leaves alone keep every bit: no bound is within them.

@@ -130,7 +130,21 @@ vec4 materialBaseColor(Fragment fragment)
     color *= sampleSlot(baseColorTexture, TEXTURE_SLOT_BASE_COLOR, fragment);
 #endif
 #if HAS_VERTEX_COLOR
+#if VIEW == VIEW_MOVED_TOO_FAR
+    color.a *= min(fragment.color.a, 1.0);
+#else
     color *= fragment.color;
+#endif
+#endif
+#if VIEW == VIEW_MOVED_TOO_FAR
+    color.rgb = vec3(0.4);
+#if HAS_VERTEX_COLOR
+    // Opacities beyond 1 are engine::HookedScene's marks.
+    precise float tooFar = clamp(fragment.color.a - 1.0, 0.0, 1.0);
+    precise float nowhere = clamp(fragment.color.a - 2.0, 0.0, 1.0);
+    color.rgb += tooFar * (vec3(0.9, 0.0, 0.9) - color.rgb);
+    color.rgb += nowhere * (vec3(0.0, 0.9, 0.9) - color.rgb);
+#endif
 #endif
     return color;
 }
