@@ -16,6 +16,7 @@ std::string frameOptionText(const FrameOptions& options) {
     if (options.lights) text += fmt::format(" --lights {}", *options.lights);
     if (options.clip) text += " --clip " + shellWord(*options.clip);
     text += viewer::hookText(options.hookValues);
+    text += viewer::importText(options.import);
     text += viewer::poseText(options.pose);
     if (options.environment) text += " --environment " + shellWord(*options.environment);
     if (options.noDefaultLight) text += " --no-default-light";

@@ -174,6 +174,10 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
                     "The most memory that reading a scene may take [half of the machine's]")
         ->type_name("SIZE")
         ->group("Reading");
+    command
+        .add_flag("--strict", options.import.isStrict,
+                  "Refuses a model of which a picture cannot be read; else a checkerboard is drawn for its colours")
+        ->group("Reading");
     addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
         ->group("Camera");
     addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");
@@ -196,6 +200,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.environment = options.environment;
     load.clip = options.clip;
     load.hookValues = options.hookValues;
+    load.import = options.import;
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
     return load;
 }

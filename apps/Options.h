@@ -40,6 +40,7 @@ struct FrameOptions {
     std::optional<std::string> environment;    ///< as scenes::LoadOptions has it
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
+    scenes::ImportWishes import;               ///< the same
     scenes::CameraChange pose;                 ///< of the camera that is chosen
 
     /// What was said of the setting of that key.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
+#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -73,6 +75,32 @@ void keepFirstWarnings(std::vector<std::string>& warnings) {
     warnings.push_back("and " + std::to_string(more) + " more warnings");
 }
 
+/// `text` without each occurrence of `part` that begins a word.
+std::string without(std::string_view part, std::string text) {
+    if (part.empty()) return text;
+    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos;) {
+        if (at == 0 || std::string_view(" '\"(").find(text[at - 1]) != std::string_view::npos)
+            text.erase(at, part.size());
+        else
+            ++at;
+    }
+    return text;
+}
+
+/// Who shows a scene's warnings names the scene, so they name files as seen from its folder, and the scene's own not at
+/// all. What several included files say alike stands once.
+void shortenWarnings(std::vector<std::string>& warnings, const std::string& path) {
+    const std::string folder = std::filesystem::path(path).parent_path().string(), own = path + ": ";
+    std::unordered_set<std::string> said;
+    std::vector<std::string> kept;
+    for (std::string& warning : warnings) {
+        std::string text = warning.starts_with(own) ? warning.substr(own.size()) : std::move(warning);
+        text = without(folder.empty() || folder.ends_with('/') ? folder : folder + '/', std::move(text));
+        if (said.insert(text).second) kept.push_back(std::move(text));
+    }
+    warnings = std::move(kept);
+}
+
 void goOn(const LoadOptions& options) {
     if (options.stop.stop_requested()) throw LoadStopped();
 }
@@ -118,7 +146,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     }
     goOn(options);
     Scene scene;
-    LoadLedger ledger(options.memoryLimitBytes);
+    LoadLedger ledger(options.memoryLimitBytes, options.import);
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {
@@ -129,6 +157,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
+    shortenWarnings(scene.warnings, nameOrPath);
     keepFirstWarnings(scene.warnings);
     goOn(options);
     try {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/ImportWishes.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -25,6 +26,7 @@ struct LoadOptions {
     std::optional<std::string> clip;
     /// Given to parameters of the scene's hook, in order.
     std::vector<HookValue> hookValues;
+    ImportWishes import; ///< how models are read
     /// The memory that reading files may take (LoadLedger.h); none: half of the machine's.
     std::optional<std::uint64_t> memoryLimitBytes;
     /// Where it is given, the names of the files that are read are added to it.

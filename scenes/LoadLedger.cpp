@@ -68,11 +68,11 @@ std::string sizeText(std::uint64_t bytes) {
     return fmt::format("{:.1f} {}", size, unit);
 }
 
-LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes)
-    : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()) {}
+LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes, ImportWishes wishes)
+    : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()), wishes_(std::move(wishes)) {}
 
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
-    throw InputError(
+    throw MemoryRefused(
         fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; use a smaller file, or raise "
                     "the memory limit",
                     who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/Error.h"
+#include "scenes/ImportWishes.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -21,18 +23,24 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
 /// "512 B", "1.5 KiB", "2.0 GiB".
 std::string sizeText(std::uint64_t bytes);
 
-/// The files that one load has read, and the memory it may take. Importers charge memory before they reserve it, so
-/// that a small file that asks for much is refused before the memory is gone. One load has one ledger: it cannot be
-/// copied, and no importer makes one of its own. What a command reads beside a loaded scene has a ledger that begins
-/// with what that scene takes.
+/// A load would take more memory than it may. No importer draws anything else instead.
+class MemoryRefused : public InputError {
+public:
+    using InputError::InputError;
+};
+
+/// How one load is to read models, the files it has read, and the memory it may take. Importers charge memory before
+/// they reserve it, so that a small file that asks for much is refused before the memory is gone. One load has one
+/// ledger: it cannot be copied, and no importer makes one of its own. What a command reads beside a loaded scene has a
+/// ledger that begins with what that scene takes.
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().
-    explicit LoadLedger(std::optional<std::uint64_t> limitBytes = {});
+    explicit LoadLedger(std::optional<std::uint64_t> limitBytes = {}, ImportWishes wishes = {});
     LoadLedger(const LoadLedger&) = delete;
     LoadLedger& operator=(const LoadLedger&) = delete;
 
-    /// Throws InputError when `bytes` more would exceed the limit; `who` is called for the "file: place" of the
+    /// Throws MemoryRefused when `bytes` more would exceed the limit; `who` is called for the "file: place" of the
     /// request.
     template <typename Who>
     void charge(std::uint64_t bytes, Who&& who) {
@@ -46,6 +54,8 @@ public:
         usedBytes_ = std::min(markBytes + keptBytes, limitBytes_);
     }
 
+    const ImportWishes& wishes() const { return wishes_; }
+
     void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }
     const std::vector<std::string>& files() const { return files_; }
 
@@ -53,6 +63,7 @@ private:
     [[noreturn]] void refuse(const std::string& who, std::uint64_t bytes) const;
 
     std::uint64_t limitBytes_;
+    ImportWishes wishes_;
     std::uint64_t usedBytes_ = 0; ///< at most limitBytes_
     std::vector<std::string> files_;
 };

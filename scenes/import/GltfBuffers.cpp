@@ -84,7 +84,7 @@ std::span<const std::byte> Buffers::buffer(int index) {
                                                    : readFileBytes(fileOfUri(uri, document_.folder), document_.ledger))
                             .first;
             } catch (const InputError& error) {
-                document_.fail(place, error.what());
+                document_.fail(place, error);
             }
             document_.ledger.settle(mark, found->second.size());
             heldBytes_ += found->second.size();
@@ -120,7 +120,7 @@ std::vector<std::byte> Buffers::decompress(int bufferView, const model::Meshopt&
     try {
         return decodeMeshopt(encoded, meshopt);
     } catch (const InputError& error) {
-        document_.fail(place, error.what());
+        document_.fail(place, error);
     }
 }
 

@@ -165,6 +165,12 @@ void Document::fail(std::string_view place, std::string_view what) const {
     throw InputError(fmt::format("{}: {}: {}", file, place, what));
 }
 
+void Document::fail(std::string_view place, const InputError& error) const {
+    if (dynamic_cast<const MemoryRefused*>(&error) != nullptr)
+        throw MemoryRefused(fmt::format("{}: {}: {}", file, place, error.what()));
+    fail(place, std::string_view(error.what()));
+}
+
 void Document::charge(std::uint64_t bytes, std::string_view kind, int index) const {
     ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
 }

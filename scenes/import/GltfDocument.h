@@ -21,6 +21,8 @@ struct Document {
 
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
+    /// The same with the text of an error, which stays a MemoryRefused if it is one.
+    [[noreturn]] void fail(std::string_view place, const InputError& error) const;
     /// Charges the ledger for what `kind` `index`, such as accessors 3, is about to take.
     void charge(std::uint64_t bytes, std::string_view kind, int index) const;
 };

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "scenes/import/GltfUri.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/StandIn.h"
 
 namespace tessera::scenes::gltf {
 
@@ -28,7 +29,7 @@ Material Materials::convert(int index) {
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
         const auto& [path, slot] = model::kTexturePlaces[i];
         if (isUnlit && slot != TextureSlot::BaseColor) continue;
-        material.texture(slot) = use(stored.textures[i], fmt::format("{}/{}", place, path));
+        material.texture(slot) = use(stored.textures[i], slot, fmt::format("{}/{}", place, path));
     }
     if (isUnlit) return material;
     if (stored.ior != 0.0 && stored.ior < 1.0)
@@ -43,7 +44,7 @@ std::optional<int> Materials::imported(int index) const {
     return found == materials_.end() ? std::nullopt : std::optional(found->second);
 }
 
-TextureUse Materials::use(const model::TextureInfo& info, const std::string& place) {
+TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, const std::string& place) {
     if (info.texture == kNone) return {};
     if (info.texCoordSet > 1) {
         context_.warn(
@@ -53,18 +54,47 @@ TextureUse Materials::use(const model::TextureInfo& info, const std::string& pla
     }
     const model::Model& model = context_.document.model;
     const model::Texture& texture = model.textures[static_cast<std::size_t>(info.texture)];
-    if (texture.source == kNone)
-        context_.document.fail(fmt::format("/textures/{}", info.texture),
-                               "has no source in a supported format; store it as PNG or JPEG");
-    TextureUse use{image(texture.source), {}, info.texCoordSet, info.transform};
+    int picture = kNone;
+    if (texture.source != kNone) {
+        picture = image(texture.source);
+    } else {
+        const std::string textureAt = fmt::format("/textures/{}", info.texture);
+        constexpr const char* kWhat = "has no source in a supported format; store it as PNG or JPEG";
+        if (context_.document.ledger.wishes().isStrict) context_.document.fail(textureAt, kWhat);
+        context_.warn(fmt::format("{}: {}{}", textureAt, kWhat, kStandInText));
+    }
+    if (picture == kNone && !takesStandIn(slot)) return {};
+    TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
     if (texture.sampler != kNone) use.sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
     return use;
 }
 
 int Materials::image(int index) {
-    const auto [entry, isNew] = images_.try_emplace(index, static_cast<int>(context_.scene.images.size()));
-    if (isNew) context_.scene.images.push_back(decoded(index));
-    return entry->second;
+    const auto [entry, isNew] = images_.try_emplace(index, kNone);
+    if (!isNew) return entry->second;
+    const Document& document = context_.document;
+    const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
+    try {
+        context_.scene.images.push_back(decoded(index));
+    } catch (const MemoryRefused&) {
+        throw;
+    } catch (const InputError& error) {
+        if (document.ledger.wishes().isStrict) throw;
+        document.ledger.settle(mark, context_.buffers.heldBytes());
+        const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
+        context_.warn(text.substr(text.starts_with(file) ? file.size() : 0) + kStandInText);
+        return kNone;
+    }
+    return entry->second = static_cast<int>(context_.scene.images.size()) - 1;
+}
+
+int Materials::standIn() {
+    if (standIn_ == kNone) {
+        const std::string& file = context_.document.file;
+        context_.scene.images.push_back(standInPicture(context_.document.ledger, file + ": a stand-in"));
+        standIn_ = static_cast<int>(context_.scene.images.size()) - 1;
+    }
+    return standIn_;
 }
 
 Image Materials::decoded(int index) const {
@@ -82,7 +112,7 @@ Image Materials::decoded(int index) const {
         try {
             bytes = decodeDataUri(uri);
         } catch (const InputError& error) {
-            document.fail(place, error.what());
+            document.fail(place, error);
         }
         image = decodeImage(bytes, fmt::format("{}: {}", document.file, place), document.ledger);
         document.ledger.settle(mark, image.texels.size());
@@ -90,7 +120,7 @@ Image Materials::decoded(int index) const {
         try {
             image = readImage(fileOfUri(uri, document.folder), document.ledger);
         } catch (const InputError& error) {
-            document.fail(place, error.what());
+            document.fail(place, error);
         }
     } else {
         document.fail(place, "has neither a uri nor a bufferView");

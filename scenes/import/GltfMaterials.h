@@ -12,7 +12,8 @@ public:
     explicit Materials(Context& context) : context_(context) {}
 
     /// The scene's index of glTF material `index`; kNone gives the default material of the specification, named
-    /// "default". Throws InputError naming the image's file when one cannot be read.
+    /// "default". For an image that cannot be read a stand-in is drawn, with a warning that names its file; a load that
+    /// is to be strict throws InputError with the same text.
     int material(int index);
     /// The scene's index of glTF material `index` where something uses it.
     std::optional<int> imported(int index) const;
@@ -20,13 +21,15 @@ public:
 private:
     Material convert(int index);
     /// `place` names the use in messages.
-    TextureUse use(const model::TextureInfo& info, const std::string& place);
+    TextureUse use(const model::TextureInfo& info, TextureSlot slot, const std::string& place);
     int image(int index);
     Image decoded(int index) const;
+    int standIn();
 
     Context& context_;
     std::map<int, int> materials_; ///< scene material by glTF material
-    std::map<int, int> images_;    ///< scene image by glTF image
+    std::map<int, int> images_;    ///< scene image by glTF image; kNone: it cannot be read
+    int standIn_ = kNone;          ///< scene image
 };
 
 } // namespace tessera::scenes::gltf

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/PackChannels.h"
+#include "scenes/import/StandIn.h"
 
 namespace tessera::scenes::obj {
 namespace {
@@ -50,7 +51,8 @@ int MaterialConverter::add(const MtlMaterial& mtl) {
     material.metallic = 0.0f;
     material.perceptualRoughness = 0.5f;
     if (mtl.diffuse) material.baseColor = glm::vec4(*mtl.diffuse, 1.0f);
-    if (mtl.diffusePicture) material.texture(TextureSlot::BaseColor) = textureUse(mtl, *mtl.diffusePicture);
+    if (mtl.diffusePicture)
+        material.texture(TextureSlot::BaseColor) = textureUse(mtl, *mtl.diffusePicture, TextureSlot::BaseColor);
     setOpacity(mtl, material);
     if (mtl.illumination == kConstantColour) {
         material.model = MaterialModel::SingleColor;
@@ -60,7 +62,7 @@ int MaterialConverter::add(const MtlMaterial& mtl) {
         setNormalMap(mtl, material);
         if (mtl.emissionPicture) {
             material.emissive = glm::vec3(1.0f);
-            material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture);
+            material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture, TextureSlot::Emissive);
         }
         if (mtl.emission) material.emissive = *mtl.emission;
     }
@@ -78,7 +80,23 @@ int MaterialConverter::addDefault(const std::string& name) {
     return static_cast<int>(scene_.materials.size()) - 1;
 }
 
-TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPicture& picture) {
+TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot) {
+    TextureUse use = pictureUse(mtl, picture);
+    if (use.image != kNone) return use;
+    if (!takesStandIn(slot)) return {};
+    use.image = standIn(mtl);
+    return use;
+}
+
+int MaterialConverter::standIn(const MtlMaterial& mtl) {
+    if (standIn_ == kNone) {
+        scene_.images.push_back(standInPicture(ledger_, mtl.file + ": a stand-in"));
+        standIn_ = static_cast<int>(scene_.images.size()) - 1;
+    }
+    return standIn_;
+}
+
+TextureUse MaterialConverter::pictureUse(const MtlMaterial& mtl, const MtlPicture& picture) {
     TextureUse use;
     use.image = image(mtl, picture);
     use.transform = transformOf(picture);
@@ -90,10 +108,19 @@ int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) 
     const std::filesystem::path path = pathOf(mtl, picture.name);
     const auto [entry, isNew] = imageOfFile_.try_emplace(path.lexically_normal().string(), kNone);
     if (!isNew) return entry->second;
+    const std::uint64_t mark = ledger_.usedBytes();
+    const auto textOf = [&](const InputError& error) {
+        return fmt::format("{}: material '{}', {}: {}", mtl.file, mtl.name, picture.keyword, error.what());
+    };
     try {
         scene_.images.push_back(readImage(path, ledger_));
+    } catch (const MemoryRefused& error) {
+        throw MemoryRefused(textOf(error));
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: material '{}', {}: {}", mtl.file, mtl.name, picture.keyword, error.what()));
+        if (ledger_.wishes().isStrict) throw InputError(textOf(error));
+        ledger_.settle(mark, 0);
+        scene_.warnings.push_back(textOf(error) + kStandInText);
+        return kNone;
     }
     return entry->second = static_cast<int>(scene_.images.size()) - 1;
 }
@@ -106,7 +133,11 @@ void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
     }
     material.alphaMode = AlphaMode::Mask;
     TextureUse& colour = material.texture(TextureSlot::BaseColor);
-    const TextureUse opacity = textureUse(mtl, *mtl.opacityPicture);
+    const TextureUse opacity = pictureUse(mtl, *mtl.opacityPicture);
+    if (opacity.image == kNone) { // it cannot be read
+        material.alphaMode = material.baseColor.w < 1.0f ? AlphaMode::Blend : AlphaMode::Opaque;
+        return;
+    }
     if (opacity.image == colour.image) return; // its alpha is the opacity already
     if (colour.image == kNone) {
         colour = opacity;
@@ -143,10 +174,11 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
 
     TextureUse roughness;
     TextureUse metalness;
-    if (mtl.roughnessPicture) roughness = textureUse(mtl, *mtl.roughnessPicture);
-    if (mtl.metalnessPicture) metalness = textureUse(mtl, *mtl.metalnessPicture);
-    TextureUse use = mtl.roughnessPicture ? roughness : metalness;
-    if (mtl.roughnessPicture && mtl.metalnessPicture &&
+    if (mtl.roughnessPicture) roughness = pictureUse(mtl, *mtl.roughnessPicture);
+    if (mtl.metalnessPicture) metalness = pictureUse(mtl, *mtl.metalnessPicture);
+    if (roughness.image == kNone && metalness.image == kNone) return; // they cannot be read
+    TextureUse use = roughness.image != kNone ? roughness : metalness;
+    if (roughness.image != kNone && metalness.image != kNone &&
         (roughness.transform != metalness.transform || roughness.sampler != metalness.sampler))
         warn(mtl, "map_Pm is placed as map_Pr is; its own options are left out");
     // One picture for both is packed as in glTF, green and blue; two are packed here.
@@ -175,7 +207,9 @@ void MaterialConverter::setSpecular(const MtlMaterial& mtl, Material& material) 
         return;
     }
     if (mtl.specular) material.specularColor = glm::min(*mtl.specular, glm::vec3(1.0f));
-    if (mtl.specularPicture) material.texture(TextureSlot::SpecularColor) = textureUse(mtl, *mtl.specularPicture);
+    if (mtl.specularPicture)
+        material.texture(TextureSlot::SpecularColor) =
+            textureUse(mtl, *mtl.specularPicture, TextureSlot::SpecularColor);
 }
 
 void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material) {
@@ -185,7 +219,7 @@ void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material)
         warn(mtl, fmt::format("the picture of {} is taken for a tangent-space normal map; if it holds heights, "
                               "convert it",
                               picture->keyword));
-    material.texture(TextureSlot::Normal) = textureUse(mtl, *picture);
+    material.texture(TextureSlot::Normal) = textureUse(mtl, *picture, TextureSlot::Normal);
     material.normalScale = picture->bumpMultiplier;
 }
 

@@ -27,14 +27,19 @@ class MaterialConverter {
 public:
     MaterialConverter(Scene& scene, LoadLedger& ledger) : scene_(scene), ledger_(ledger) {}
 
-    /// The index of the new material. Throws InputError naming MTL file, material and picture when one cannot be read.
+    /// The index of the new material. For a picture that cannot be read a stand-in is drawn, with a warning naming MTL
+    /// file, material and picture; a load that is to be strict throws InputError with the same text.
     int add(const MtlMaterial& mtl);
 
     /// For faces without a material, or with an undefined one: grey, half rough, not metallic.
     int addDefault(const std::string& name);
 
 private:
-    TextureUse textureUse(const MtlMaterial& mtl, const MtlPicture& picture);
+    /// Of no image where the picture cannot be read and nothing can stand in for it.
+    TextureUse textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot);
+    /// The same without regard to what a stand-in can be.
+    TextureUse pictureUse(const MtlMaterial& mtl, const MtlPicture& picture);
+    int standIn(const MtlMaterial& mtl);
     int image(const MtlMaterial& mtl, const MtlPicture& picture);
     void setOpacity(const MtlMaterial& mtl, Material& material);
     void setMetallicRoughness(const MtlMaterial& mtl, Material& material);
@@ -46,7 +51,8 @@ private:
 
     Scene& scene_;
     LoadLedger& ledger_;
-    std::map<std::string, int> imageOfFile_;
+    std::map<std::string, int> imageOfFile_; ///< kNone: it cannot be read
+    int standIn_ = kNone;
     std::map<std::pair<int, int>, int> colourAndOpacity_;      ///< packed image of two images, either may be kNone
     std::map<std::pair<int, int>, int> roughnessAndMetalness_; ///< likewise
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "scenes/LoadLedger.h"
 
@@ -11,8 +12,9 @@ inline constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
 /// What `read` makes of `input` under a ledger of its own: for tests that look at one file.
 template <typename Read, typename Input>
-auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {}) {
-    LoadLedger ledger(limitBytes);
+auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {},
+                 ImportWishes wishes = {}) {
+    LoadLedger ledger(limitBytes, std::move(wishes));
     return read(input, ledger);
 }
 

@@ -41,4 +41,8 @@ std::string hookText(std::span<const scenes::HookValue> values) {
     return text;
 }
 
+std::string importText(const scenes::ImportWishes& wishes) {
+    return wishes.isStrict ? " --strict" : "";
+}
+
 } // namespace tessera::viewer

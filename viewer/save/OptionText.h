@@ -4,6 +4,7 @@
 
 #include "scenes/CameraChange.h"
 #include "scenes/Hook.h"
+#include "scenes/ImportWishes.h"
 
 /// Pieces of a command line as text to paste into a shell.
 namespace tessera::viewer {
@@ -16,5 +17,7 @@ std::string poseText(const scenes::CameraChange& change);
 
 /// Values of a hook's parameters as options: " --hook wind=1.5". Empty where there is none.
 std::string hookText(std::span<const scenes::HookValue> values);
+/// How models are read as options: " --strict". Empty where nothing is asked for.
+std::string importText(const scenes::ImportWishes& wishes);
 
 } // namespace tessera::viewer

@@ -20,6 +20,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     if (request.clip) text += " --clip " + shellWord(*request.clip);
     text += hookText(request.hookValues);
     if (!request.defaultLight) text += " --no-default-light";
+    text += importText(request.import);
     return text + poseText(request.pose);
 }
 

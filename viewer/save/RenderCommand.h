@@ -5,6 +5,7 @@
 
 #include "engine/Settings.h"
 #include "scenes/CameraChange.h"
+#include "scenes/ImportWishes.h"
 
 namespace tessera::viewer {
 
@@ -16,6 +17,7 @@ struct RenderRequest : engine::ViewRequest {
     std::optional<std::string> environment;    ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
+    scenes::ImportWishes import;               ///< the same
     scenes::CameraChange pose;                 ///< of the camera that the settings choose
 };
 

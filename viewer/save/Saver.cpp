@@ -73,6 +73,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.environment = open.load().environment;
     request.clip = open.load().clip;
     request.hookValues = open.load().hookValues;
+    request.import = open.load().import;
     request.technique = look.technique;
     request.settings = look.settings;
     request.settings.sizePixels = sizePixels;

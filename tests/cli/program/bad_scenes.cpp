@@ -82,7 +82,8 @@ TEST_F(BadScenes, gltfDataOutOfRangeIsRefusedByName) {
     texture.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
     texture.json["textures"] = Json::parse(R"([{"source": 0}])");
     texture.json["images"] = Json::parse(R"([{"uri": "nix.png"}])");
-    expectRefused(texture, {"nix.png"});
+    folder_.write("m.gltf", texture.json.dump());
+    expectError(kBadInput, {"render", "m.gltf", "--strict", "-o", "a.png"}, {"m.gltf: /images/0: ", "nix.png"});
     Builder cycle;
     cycle.json["nodes"] = Json::parse(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
     expectRefused(cycle, {"/nodes"});

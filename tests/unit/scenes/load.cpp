@@ -1,5 +1,6 @@
 #include "scenes/Load.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -92,6 +93,31 @@ TEST(LoadScene, aBuiltinSceneIsFoundByItsExactName) {
     EXPECT_EQ(builtinScene("room")->name, "room");
     EXPECT_EQ(builtinScene("Room"), nullptr);
     EXPECT_EQ(builtinScene("./room"), nullptr);
+}
+
+TEST(LoadScene, warningsNameFilesAsSeenFromTheScenesFolderAndStandOnce) {
+    const test::TempFolder folder;
+    folder.write("models/a.mtl", "newmtl a\nmap_Kd pictures/gone.png\n");
+    folder.write("models/m.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    const auto contains = [](const Scene& scene, const std::string& warning) {
+        return std::ranges::count(scene.warnings, warning);
+    };
+    const std::string lost = "a.mtl: material 'a', map_Kd: {0}pictures/gone.png: there is no such file; check the name "
+                             "and the folder; its colours are a checkerboard, and what else it holds is left out";
+    const std::string undefined = "no material library defines 'b'; a default material of that name is used";
+    const auto in = [&](const std::string& place) { return std::string(lost).replace(lost.find("{0}"), 3, place); };
+    const Scene model = loadScene((folder.path() / "models/m.obj").string());
+    EXPECT_EQ(contains(model, in("")), 1);
+    EXPECT_EQ(contains(model, undefined), 1);
+    const Scene scene = loadScene(
+        folder.write("s.json", R"({"tessera": 1, "include": [{"file": "models/m.obj"}, {"file": "models/m.obj"}]})")
+            .string());
+    EXPECT_EQ(contains(scene, "models/" + in("models/")), 1);
+    EXPECT_EQ(contains(scene, "models/m.obj: " + undefined), 1);
+
+    LoadOptions strict;
+    strict.import.isStrict = true;
+    EXPECT_THROW(loadScene((folder.path() / "s.json").string(), strict), InputError);
 }
 
 TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {

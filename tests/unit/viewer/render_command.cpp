@@ -70,12 +70,14 @@ void expectSame(const RenderRequest& request) {
     load.environment = request.environment;
     load.clip = request.clip;
     load.hookValues = request.hookValues;
+    load.import = request.import;
     const scenes::Scene scene = scenes::loadScene(request.source, load);
     const std::string line = renderCommand(request, scene, "it's a picture.exr");
     SCOPED_TRACE(line);
     const Parsed result = parsed(line);
     EXPECT_EQ(result.options.scene, request.source);
     EXPECT_EQ(result.output, "it's a picture.exr");
+    EXPECT_EQ(result.options.import, request.import);
     EXPECT_EQ(result.request.technique, request.technique);
     EXPECT_TRUE(result.request.settings == request.settings);
     const std::size_t camera = std::size_t(request.settings.camera);
@@ -123,6 +125,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.environment = "sky";
     request.clip = "none";
     request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
+    request.import.isStrict = true;
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;

@@ -121,13 +121,13 @@ public:
         json["textures"] = Json::parse(R"([{"source": 0}])");
     }
 
-    Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump())); }
+    Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, wishes); }
 
     /// What the import refuses the document with, or "" when it does not.
-    std::string error() const { return errorOf(folder.write("model.gltf", json.dump())); }
-    static std::string errorOf(const std::filesystem::path& file) {
+    std::string error() const { return errorOf(folder.write("model.gltf", json.dump()), wishes); }
+    static std::string errorOf(const std::filesystem::path& file, const ImportWishes& asked = {}) {
         try {
-            underLedger(importGltf, file);
+            underLedger(importGltf, file, {}, asked);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -137,6 +137,7 @@ public:
     void merge(const char* patch) { json.merge_patch(Json::parse(patch)); }
 
     Json json;
+    ImportWishes wishes;
     Folder folder;
 };
 

@@ -354,8 +354,48 @@ TEST(GltfTextures, imageUsedTwiceIsDecodedOnce) {
     EXPECT_EQ(builder.import().images.size(), 1u);
 }
 
-TEST(GltfTextures, missingOrBrokenImageIsRefusedByName) {
+TEST(GltfTextures, missingOrBrokenImageIsACheckerboardOfColoursAndNothingElse) {
     Builder builder;
+    builder.material().merge_patch(Json::parse(
+        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}},
+            "normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}})"));
+    builder.addTexture();
+    builder.json["images"] = Json::parse(R"([{"uri": "gone.png"}, {"uri": "data:image/png;base64,QUJD"}])");
+    builder.json["textures"].push_back(Json::parse(R"({"source": 1})"));
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.images.size(), 1u) << "one stands in for both";
+    EXPECT_NE(scene.images[0].texels.front(), scene.images[0].texels[8 * 4]) << "its squares are 8 texels wide";
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::Emissive).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::Normal).image, kNone);
+    EXPECT_EQ(material.texture(TextureSlot::MetallicRoughness).image, kNone);
+    EXPECT_EQ(scene.warnings.size(), 2u) << "once each, however often they are used";
+    EXPECT_TRUE(hasWarning(scene, "gone.png: there is no such file"));
+    EXPECT_TRUE(hasWarning(scene, "model.gltf: /images/1: is in no known picture format"));
+    EXPECT_TRUE(hasWarning(scene, "; its colours are a checkerboard, and what else it holds is left out"));
+
+    builder.json["textures"][0] = Json::object();
+    EXPECT_TRUE(hasWarning(builder.import(), "/textures/0: has no source in a supported format"));
+}
+
+TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
+    Builder builder;
+    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    builder.addTexture();
+    // A TGA of one grey, whose runs of 128 texels take two bytes each.
+    std::vector<std::uint8_t> tga{0, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 16, 0, 8, 8, 0x20};
+    for (int run = 0; run < 4096 * 2048 / 128; ++run) tga.insert(tga.end(), {0xff, 7});
+    builder.folder.write("grey.tga", bytesOf(tga));
+    builder.json["images"][0] = Json::parse(R"({"uri": "grey.tga"})");
+    const std::filesystem::path file = builder.folder.write("model.gltf", builder.json.dump());
+    EXPECT_EQ(underLedger(importGltf, file).images.at(0).width, 4096);
+    EXPECT_THROW(underLedger(importGltf, file, 8 * kMiB), MemoryRefused);
+}
+
+TEST(GltfTextures, missingOrBrokenImageIsRefusedByNameWhereTheLoadIsStrict) {
+    Builder builder;
+    builder.wishes.isStrict = true;
     builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
     builder.addTexture();
     builder.json["images"][0] = Json::parse(R"({"uri": "gone.png"})");

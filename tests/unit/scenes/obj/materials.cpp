@@ -240,12 +240,36 @@ TEST(ObjMaterials, aMissingLibraryWarnsAndKeepsTheMaterialsNames) {
                     file.string() + ": no material library defines 'skin'; a default material of that name is used"));
 }
 
-TEST(ObjMaterials, aMissingPictureIsAnErrorNamingIt) {
+TEST(ObjMaterials, aMissingPictureIsACheckerboardOfColoursAndNothingElse) {
     const TempFolder folder;
-    const std::string error = test::inputErrorOf([&] { painted(folder, "map_Kd no picture.png\n"); });
-    EXPECT_EQ(error, (folder.path() / "paint.mtl").string() +
-                         ": material 'paint', map_Kd: " + (folder.path() / "no picture.png").string() +
-                         ": there is no such file; check the name and the folder");
+    const std::string text = (folder.path() / "paint.mtl").string() +
+                             ": material 'paint', map_Kd: " + (folder.path() / "no picture.png").string() +
+                             ": there is no such file; check the name and the folder";
+    const Scene scene = painted(folder, "d 0.5\nmap_Kd no picture.png\nmap_d no picture.png\nnorm no picture.png\n"
+                                        "map_Pr no picture.png\nmap_Pm no picture.png\nmap_Ks no picture.png\n");
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(text + "; its colours are a checkerboard, and what else it holds is left out"));
+    ASSERT_EQ(scene.images.size(), 1u);
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::SpecularColor).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::Normal).image, kNone);
+    EXPECT_EQ(material.texture(TextureSlot::MetallicRoughness).image, kNone);
+    EXPECT_EQ(material.alphaMode, AlphaMode::Blend) << "as without the picture of opacity";
+
+    ImportWishes strict;
+    strict.isStrict = true;
+    EXPECT_EQ(test::inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strict); }), text);
+}
+
+TEST(ObjMaterials, aMissingPictureBesideOneThatIsThereLeavesThatOne) {
+    const TempFolder folder;
+    folder.writePicture("grey.tga", 1, 1, {{100, 100, 100, 255}});
+    for (const char* lines : {"map_Pr grey.tga\nmap_Pm none.png\n", "map_Pr none.png\nmap_Pm grey.tga\n"}) {
+        const Scene scene = painted(folder, lines);
+        EXPECT_NE(scene.materials.at(0).texture(TextureSlot::MetallicRoughness).image, kNone) << lines;
+        EXPECT_EQ(scene.warnings.size(), 1u) << lines;
+    }
 }
 
 TEST(ObjMaterials, unsupportedStatementsWarn) {

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace tessera::scenes {
+
+/// How models are to be read, where a command says it. It holds for every model of a load, also for those that a scene
+/// file names.
+struct ImportWishes {
+    bool isStrict = false; ///< a picture that cannot be read refuses its model; else a stand-in is drawn
+    bool operator==(const ImportWishes&) const = default;
+};
+
+} // namespace tessera::scenes
