@@ -49,6 +49,7 @@ FrameOptions forAnyScene(FrameOptions said) {
         if (setting.isOfScene) said.settings.erase(std::string(setting.key));
     said.pose = {};
     said.lights.reset();
+    said.import.variant.reset();
     return said;
 }
 

@@ -175,6 +175,12 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->type_name("SIZE")
         ->group("Reading");
     command
+        .add_option("--variant", options.import.variant,
+                    "Shows the models in this variant of their materials; a name that none has is refused with a list "
+                    "of those there are [the materials without a variant]")
+        ->type_name("NAME")
+        ->group("Reading");
+    command
         .add_flag("--strict", options.import.isStrict,
                   "Refuses a model of which a picture cannot be read; else a checkerboard is drawn for its colours")
         ->group("Reading");
@@ -261,6 +267,7 @@ Request resolve(const FrameOptions& options) {
         spdlog::warn("{}", oneLine(request.scene.name + ": " + warning));
     if (const std::string clip = scenes::clipText(request.scene); !clip.empty())
         spdlog::info("{}", oneLine(request.scene.name + ": " + clip));
+    for (const std::string& note : request.scene.notes) spdlog::info("{}", oneLine(request.scene.name + ": " + note));
     return request;
 }
 

@@ -232,6 +232,8 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     job.outputs.reads(job.request.files);
     if (const std::string clip = scenes::clipText(job.request.scene); !clip.empty() && !global.quiet)
         fmt::print("{}\n", oneLine(clip));
+    for (const std::string& note : job.request.scene.notes)
+        if (!global.quiet) fmt::print("{}\n", oneLine(note));
     if (isReference)
         renderReference(options, job, global);
     else

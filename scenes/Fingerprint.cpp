@@ -184,10 +184,10 @@ public:
     }
     void add(const Scene& scene) {
         const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background,
-                     options, warnings] = scene;
+                     options, variants, notes, warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options);
-        if (hook) add(*hook);        // others keep the fingerprint that they had
-        static_cast<void>(warnings); // words about the file, not content
+        if (hook) add(*hook); // others keep the fingerprint that they had
+        for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // about the file, no content
     }
 
 private:

@@ -101,6 +101,16 @@ void shortenWarnings(std::vector<std::string>& warnings, const std::string& path
     warnings = std::move(kept);
 }
 
+void requireVariant(const Scene& scene, const std::string& nameOrPath, const ImportWishes& wishes) {
+    if (!wishes.variant || std::ranges::find(scene.variants, *wishes.variant) != scene.variants.end()) return;
+    if (scene.variants.empty())
+        throw InputError(
+            fmt::format("{}: no model of the scene has variants, so none is called '{}'", nameOrPath, *wishes.variant));
+    const std::vector<std::string_view> names(scene.variants.begin(), scene.variants.end());
+    throw InputError(fmt::format("{}: no variant of the scene's models is called '{}'; {}", nameOrPath, *wishes.variant,
+                                 suggestNames(*wishes.variant, names)));
+}
+
 void goOn(const LoadOptions& options) {
     if (options.stop.stop_requested()) throw LoadStopped();
 }
@@ -157,7 +167,9 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
+    requireVariant(scene, nameOrPath, options.import);
     shortenWarnings(scene.warnings, nameOrPath);
+    shortenWarnings(scene.notes, nameOrPath);
     keepFirstWarnings(scene.warnings);
     goOn(options);
     try {

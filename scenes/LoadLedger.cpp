@@ -131,7 +131,8 @@ std::uint64_t bytesOf(const Scene& scene) {
         if (const auto* text = std::get_if<std::string>(&wish)) bytes += text->size();
         if (const auto* list = std::get_if<std::vector<double>>(&wish)) bytes += bytesOf(*list);
     }
-    for (const std::string& warning : scene.warnings) bytes += sizeof(std::string) + warning.size();
+    for (const auto* words : {&scene.variants, &scene.notes, &scene.warnings})
+        for (const std::string& text : *words) bytes += sizeof(std::string) + text.size();
     return bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/Error.h"
@@ -55,6 +56,8 @@ public:
     }
 
     const ImportWishes& wishes() const { return wishes_; }
+    /// For what a scene file says itself. Who asks for the load goes first, and files before those that they name.
+    void wishVariant(std::optional<std::string> variant) { wishes_.variant = std::move(variant); }
 
     void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }
     const std::vector<std::string>& files() const { return files_; }

@@ -100,6 +100,8 @@ struct Scene {
     std::optional<Hook> hook;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
+    std::vector<std::string> variants; ///< names that ImportWishes::variant may have, of all models, once each
+    std::vector<std::string> notes; ///< what the importer chose, where a reader may want to know, and nothing is lost
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature
 };
 

@@ -169,10 +169,23 @@ private:
         if (mayLeave({Question::About::Opening, source})) load(source);
     }
 
-    /// Opens a scene in the place of this one, with its edits until then.
-    void load(const std::string& source) {
+    /// Reads the open scene again: its materials and pictures are others.
+    void openVariant(const std::string& variant) {
+        if (!state_.open) return;
+        const Question question{Question::About::Opening, state_.open->source(), variant};
+        if (mayLeave(question)) load(question.scene, question.variant);
+    }
+
+    /// Opens a scene in the place of this one, with its edits until then; or this one again, in a variant.
+    void load(const std::string& source, const std::optional<std::string>& variant = {}) {
         editsLeft_ = state_.open ? state_.open->edits() : 0;
-        scenes_.open(source);
+        loadingVariant_ = variant;
+        scenes::LoadOptions load;
+        if (variant && state_.open) {
+            load = state_.open->load();
+            load.import.variant = variant->empty() ? std::nullopt : variant;
+        }
+        scenes_.open(source, load);
     }
 
     void take(Answer answer) {
@@ -185,7 +198,7 @@ private:
             return load(recovering_);
         }
         if (answer == Answer::Keep) saver_.scene(); // where that fails nothing else happens
-        if (question->about == Question::About::Opening) return load(question->scene);
+        if (question->about == Question::About::Opening) return load(question->scene, question->variant);
         isDiscarding_ = true;
         window_.close();
     }
@@ -193,7 +206,7 @@ private:
     void adoptLoaded() {
         // The user was not asked about edits made during the load.
         const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
-        if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading}))
+        if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
             return scenes_.discard();
         std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
         if (!scene) return;
@@ -354,6 +367,9 @@ private:
         });
         attempt([&] {
             if (requests.open) open(*requests.open);
+        });
+        attempt([&] {
+            if (requests.variant) openVariant(*requests.variant);
         });
         attempt([&] {
             if (requests.environment) chooseEnvironment(*requests.environment);
@@ -551,10 +567,11 @@ private:
     std::string title_;
     std::string recovering_; ///< the file of edits that is being opened
     double nextKeepAt_ = 0.0;
-    bool isDiscarding_ = false;   ///< the window closes without another question
-    std::uint64_t editsLeft_ = 0; ///< of the open scene, when the one that is loading was asked for
-    std::string said_;            ///< the latest notice
-    std::string drawingFault_;    ///< why the latest picture that failed did
+    bool isDiscarding_ = false;                 ///< the window closes without another question
+    std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
+    std::optional<std::string> loadingVariant_; ///< of load()
+    std::string said_;                          ///< the latest notice
+    std::string drawingFault_;                  ///< why the latest picture that failed did
     double saidUntil_ = 0.0;
     Saver saver_;
     Recovery recovery_;

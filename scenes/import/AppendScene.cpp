@@ -154,6 +154,10 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
     moveAll(part.rig.deformed, whole.rig.deformed);
     moveAll(part.rig.lights, whole.rig.lights);
     moveAll(part.rig.cameras, whole.rig.cameras);
+    for (std::string& variant : part.variants)
+        if (std::ranges::find(whole.variants, variant) == whole.variants.end())
+            whole.variants.push_back(std::move(variant));
+    moveAll(part.notes, whole.notes);
     moveAll(part.warnings, whole.warnings);
 }
 

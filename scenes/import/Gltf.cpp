@@ -2,9 +2,14 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/Transform.h"
 #include "scenes/import/GltfCamerasAndLights.h"
@@ -176,6 +181,7 @@ public:
             if (!imported) continue;
             const int sceneMesh = static_cast<int>(context_.scene.meshes.size());
             context_.scene.meshes.push_back(std::move(imported->rest));
+            context_.noteVariant(sceneMesh, primitives[i]);
             entry->second.push_back({sceneMesh, materials_.material(primitives[i].material)});
         }
         return entry->second;
@@ -213,7 +219,8 @@ void placeThicknesses(Context& context, const Materials& materials, const std::v
         const std::optional<double> scale = node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0;
         if (scale == 0.0) continue; // nothing is seen
         for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-            const auto [entry, isNew] = scales.try_emplace(primitive.material, scale);
+            const int material = context.variantMaterial(primitive).value_or(primitive.material);
+            const auto [entry, isNew] = scales.try_emplace(material, scale);
             std::optional<double>& shared = entry->second;
             if (!isNew && shared && !(scale && std::abs(*scale - *shared) <= kSameScale * *shared)) shared.reset();
         }
@@ -231,6 +238,39 @@ void placeThicknesses(Context& context, const Materials& materials, const std::v
                                      material));
         }
     }
+}
+
+/// Tells which variants there are, and imports the materials of the one that is asked for, after all others: so these
+/// keep their numbers, by which scene files name them.
+void importVariant(Context& context, Materials& materials) {
+    const std::optional<std::string>& wish = context.document.ledger.wishes().variant;
+    std::vector<std::string>& names = context.scene.variants;
+    std::unordered_set<std::string_view> known;
+    for (const model::Variant& variant : context.document.model.variants) {
+        if (!known.insert(variant.name).second) continue;
+        context.document.ledger.charge(2 * (sizeof(std::string) + variant.name.size()),
+                                       [&] { return context.document.file + ": its variants"; });
+        names.push_back(variant.name);
+    }
+    if (names.empty()) return;
+    constexpr std::size_t kMostTold = 20;
+    const std::span<const std::string> told = std::span(names).first(std::min(names.size(), kMostTold));
+    context.scene.notes.push_back(fmt::format("{}; its variants are {}{}",
+                                              wish && known.contains(*wish)
+                                                  ? fmt::format("shows the variant '{}'", *wish)
+                                                  : "shows its materials as they are without a variant",
+                                              fmt::join(told, ", "), told.size() < names.size() ? ", ..." : ""));
+    for (const auto& [sceneMesh, material] : context.variantMaterials) materials.material(material);
+}
+
+/// When all instances are there.
+void bindVariant(Context& context, Materials& materials) {
+    if (context.variantMaterials.empty()) return;
+    for (Node& node : context.scene.nodes)
+        for (MeshInstance& instance : node.instances) {
+            const auto found = context.variantMaterials.find(instance.mesh);
+            if (found != context.variantMaterials.end()) instance.material = materials.material(found->second);
+        }
 }
 
 /// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
@@ -295,7 +335,9 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         importLight(context, placed.node, placed.worldFromNode);
         rigging.addCarried(placed.node);
     }
+    importVariant(context, materials);
     rigging.finish();
+    bindVariant(context, materials);
     placeThicknesses(context, materials, allPlaced);
     ledger.settle(mark, bytesOf(scene));
     return scene;

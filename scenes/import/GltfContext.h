@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,9 +15,24 @@ struct Context {
     Buffers& buffers;
     Accessors& accessors;
     Scene& scene;
+    std::map<int, int> variantMaterials = {}; ///< of the document, by meshes of the scene, in the variant that is shown
     std::unordered_set<std::string> warned = {};             ///< the scene's warnings
     std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
     std::unordered_set<std::string> cameraNames = {};
+
+    /// The document's material of a primitive in the variant that is asked for, where that changes it.
+    std::optional<int> variantMaterial(const model::Primitive& primitive) const {
+        const std::optional<std::string>& wish = document.ledger.wishes().variant;
+        if (!wish) return std::nullopt;
+        for (const model::VariantMapping& mapping : primitive.variantMappings)
+            for (const int variant : mapping.variants)
+                if (document.model.variants[static_cast<std::size_t>(variant)].name == *wish) return mapping.material;
+        return std::nullopt;
+    }
+    /// Called for each mesh of the scene that a primitive becomes.
+    void noteVariant(int sceneMesh, const model::Primitive& primitive) {
+        if (const std::optional<int> material = variantMaterial(primitive)) variantMaterials[sceneMesh] = *material;
+    }
 
     /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.
     void warn(const std::string& text) {

@@ -4,6 +4,7 @@ namespace tessera::scenes::gltf::model {
 namespace {
 
 constexpr IndexOf kLights{"extensions/KHR_lights_punctual/lights"};
+constexpr IndexOf kVariants{"extensions/KHR_materials_variants/variants"};
 constexpr Range kInts{0.0, kMaxInt};
 
 constexpr Choice<int, ComponentType> kComponentTypes[] = {
@@ -65,6 +66,11 @@ void Model::read(Object& object) {
     object.optional("cameras", cameras);
     object.optional("skins", skins);
     object.optional("animations", animations);
+    object.optional(kVariants.array, variants);
+}
+
+void Variant::read(Object& object) {
+    object.required("name", name);
 }
 
 void Scene::read(Object& object) {
@@ -101,6 +107,12 @@ void Primitive::read(Object& object) {
     object.optional("mode", mode, Range{0.0, 6.0});
     object.optional("targets", targets, IndexOf{"accessors"});
     object.optional("extensions", unneeded<AnyObject>());
+    object.optional("extensions/KHR_materials_variants/mappings", variantMappings);
+}
+
+void VariantMapping::read(Object& object) {
+    object.required("material", material, IndexOf{"materials"});
+    object.required("variants", variants, kVariants);
 }
 
 void Accessor::read(Object& object) {

@@ -35,12 +35,21 @@ struct Node {
     void read(Object& object);
 };
 
+/// Of KHR_materials_variants: the material of a primitive in some of the document's variants.
+struct VariantMapping {
+    int material = kNone;
+    std::vector<int> variants;
+
+    void read(Object& object);
+};
+
 struct Primitive {
     std::map<std::string, int> attributes; ///< accessors
     int indices = kNone;
     int material = kNone;
     int mode = 4;
     std::vector<std::map<std::string, int>> targets; ///< accessors by attribute
+    std::vector<VariantMapping> variantMappings;
 
     void read(Object& object);
 };
@@ -232,6 +241,13 @@ struct Animation {
     void read(Object& object);
 };
 
+/// Of KHR_materials_variants.
+struct Variant {
+    std::string name;
+
+    void read(Object& object);
+};
+
 struct Model {
     std::vector<std::string> extensionsUsed;
     std::vector<std::string> extensionsRequired;
@@ -250,6 +266,7 @@ struct Model {
     std::vector<Light> lights;
     std::vector<Skin> skins;
     std::vector<Animation> animations;
+    std::vector<Variant> variants;
 
     void read(Object& object);
 };

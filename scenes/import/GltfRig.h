@@ -31,6 +31,7 @@ private:
     struct Drawn {
         int shape = 0;
         int material = 0;
+        const model::Primitive* primitive = nullptr;
     };
     /// An instance whose node is not there yet.
     struct Standing {

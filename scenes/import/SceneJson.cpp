@@ -183,10 +183,25 @@ private:
             if (!file.text().starts_with(kBuiltinPrefix))
                 assets->fail("only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it");
         }
+        const std::optional<JsonValue> variant = object.find("variant");
+        if (variant) variant->text();
         object.done("a base");
         std::string name = std::move(scene.name);
-        scene = load(file, options);
+        scene = inVariant(variant, [&] { return load(file, options); });
         scene.name = std::move(name);
+    }
+
+    /// What `read` makes of a file, in a variant that its document names, where no other was asked for before.
+    template <typename Read>
+    Scene inVariant(const std::optional<JsonValue>& variant, const Read& read) {
+        const std::optional<std::string> before = ledger_.wishes().variant;
+        if (variant && !before) ledger_.wishVariant(variant->text());
+        Scene scene = read();
+        ledger_.wishVariant(before);
+        if (variant && std::ranges::find(scene.variants, variant->text()) == scene.variants.end())
+            variant->failUnknown("variant of the model", variant->text(),
+                                 std::vector<std::string_view>(scene.variants.begin(), scene.variants.end()));
+        return scene;
     }
 
     void addInclude(const JsonValue& value, Scene& scene) {
@@ -195,9 +210,11 @@ private:
         const glm::dmat4 worldFromPart = readTransform(object);
         const std::optional<JsonValue> name = object.find("name");
         const std::string rootName = name ? name->text() : std::string();
+        const std::optional<JsonValue> variant = object.find("variant");
+        if (variant) variant->text();
         object.done("an include");
         countIncludes(file, 1);
-        Scene part = loadPart(file);
+        Scene part = inVariant(variant, [&] { return loadPart(file); });
         const std::string partName = part.name;
         try {
             appendScene(scene, std::move(part), name ? rootName : partName, worldFromPart);
@@ -217,7 +234,7 @@ private:
         const std::string text = name.text();
         const std::string file =
             text.starts_with(kBuiltinPrefix) ? text : resolveFile(name).lexically_normal().string();
-        Part& part = parts_[file];
+        Part& part = parts_[{file, ledger_.wishes().variant.value_or(std::string())}];
         if (part.kept) {
             countIncludes(name, part.includes);
             return copyOf(*part.kept, name);
@@ -345,8 +362,8 @@ private:
     };
 
     LoadLedger& ledger_;
-    std::map<std::string, Part> parts_;
-    std::uint64_t keptBytes_ = 0;              ///< of the scenes in parts_
+    std::map<std::pair<std::string, std::string>, Part> parts_; ///< by file and variant
+    std::uint64_t keptBytes_ = 0;                               ///< of the scenes in parts_
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
 };

@@ -92,6 +92,7 @@ void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
             for (const nlohmann::json& material : document["materials"]) // an upper document's stay
                 origin.replacedMaterials.try_emplace(material["replaces"].get<std::size_t>(), material.dump());
         const nlohmann::json& base = document["base"];
+        if (!origin.variant && base.contains("variant")) origin.variant = base["variant"].get<std::string>();
         if (const std::string name = base["file"]; name.starts_with(kBuiltinPrefix)) {
             origin.base = name;
             if (base.contains("lights")) origin.lights = base["lights"].get<int>();
@@ -118,6 +119,7 @@ SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, 
         origin.lights = options.lights;
         origin.useAssets = options.useAssets;
     } else {
+        origin.variant = options.import.variant;
         LoadLedger ledger(options.memoryLimitBytes);
         ledger.settle(0, bytesOf(loaded));
         followBases(nameOrPath, origin, ledger);

@@ -8,9 +8,10 @@ namespace tessera::scenes {
 
 /// The file of a scene and its original contents, to which a file that holds only later edits refers.
 struct SceneOrigin {
-    std::string base;          ///< absolute path of a scene file, or builtin:NAME
-    std::optional<int> lights; ///< that a built-in scene was asked to make
-    bool useAssets = true;     ///< whether it may use the models of TESSERA_ASSETS
+    std::string base;                   ///< absolute path of a scene file, or builtin:NAME
+    std::optional<int> lights;          ///< that a built-in scene was asked to make
+    bool useAssets = true;              ///< whether it may use the models of TESSERA_ASSETS
+    std::optional<std::string> variant; ///< of models that was asked for, by a command or a file above the base
     /// Materials that .json files between the base and the scene replace, as JSON by index. Such files need not exist
     /// any more for what is edited further.
     std::map<std::size_t, std::string> replacedMaterials;

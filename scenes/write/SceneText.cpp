@@ -50,6 +50,7 @@ Json baseJson(const SceneOrigin& origin, const fs::path& file) {
     base["file"] = nameIn(origin.base, file);
     if (origin.lights) base["lights"] = *origin.lights;
     if (!origin.useAssets) base["assets"] = false;
+    if (origin.variant) base["variant"] = *origin.variant;
     return base;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -45,6 +46,19 @@ void hookRows(OpenScene& open) {
     }
 }
 
+/// Of the materials of models that have some.
+void variantList(State& state) {
+    const std::vector<std::string>& variants = state.open->scene().variants;
+    if (variants.empty()) return;
+    const std::string shown = state.open->load().import.variant.value_or("");
+    std::vector<Choice> choices{{"as the file has it", "the materials without a variant, else that of the scene file"}};
+    for (const std::string& variant : variants) choices.push_back({variant, "a variant of the materials"});
+    const auto now = std::size_t(std::ranges::find(variants, shown) - variants.begin());
+    const std::size_t chosen = now < variants.size() ? now + 1 : 0;
+    if (const auto picked = choose("Variant", choices[chosen].name, choices, chosen))
+        state.requests.variant = *picked == 0 ? std::string() : variants[*picked - 1];
+}
+
 } // namespace
 
 void scenePanel(State& state) {
@@ -55,11 +69,13 @@ void scenePanel(State& state) {
         ImGui::TextDisabled("or drop a file onto the window");
     }
     if (!state.open) return;
+    variantList(state);
     const scenes::Scene& scene = state.open->scene();
     fact("Triangles", fmt::format("{}", scenes::triangleCount(scene)));
     fact("Lights", fmt::format("{}", scene.lights.size()));
     fact("Materials", fmt::format("{}", scene.materials.size()));
     hookRows(*state.open);
+    for (const std::string& note : scene.notes) paragraph(note);
     for (const std::string& warning : scene.warnings) paragraph(warning);
 }
 

@@ -42,7 +42,10 @@ std::string hookText(std::span<const scenes::HookValue> values) {
 }
 
 std::string importText(const scenes::ImportWishes& wishes) {
-    return wishes.isStrict ? " --strict" : "";
+    std::string text;
+    if (wishes.variant) text += " --variant " + shellWord(*wishes.variant);
+    if (wishes.isStrict) text += " --strict";
+    return text;
 }
 
 } // namespace tessera::viewer

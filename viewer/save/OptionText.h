@@ -17,7 +17,7 @@ std::string poseText(const scenes::CameraChange& change);
 
 /// Values of a hook's parameters as options: " --hook wind=1.5". Empty where there is none.
 std::string hookText(std::span<const scenes::HookValue> values);
-/// How models are read as options: " --strict". Empty where nothing is asked for.
+/// How models are read as options: " --variant 'deep red' --strict". Empty where nothing is asked for.
 std::string importText(const scenes::ImportWishes& wishes);
 
 } // namespace tessera::viewer

@@ -236,6 +236,7 @@ void OpenScene::becomes(const std::string& file) {
     scenes::LoadOptions load; // the file says the rest
     load.clip = std::move(load_.clip);
     load.import = std::move(load_.import);
+    load.import.variant.reset();
     load_ = std::move(load);
     history_.markSaved();
     cameras_ = scene_.cameras;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,7 +16,8 @@ struct Question {
         Recovering ///< edits of a run that ended without being asked
     };
     About about = About::Quitting;
-    std::string scene; ///< that is opened by the answer; of Recovering the file of the edits
+    std::string scene;                       ///< that is opened by the answer; of Recovering the file of the edits
+    std::optional<std::string> variant = {}; ///< of Opening: in which the open scene is read again; empty: in none
     bool operator==(const Question&) const = default;
 };
 

@@ -25,6 +25,7 @@ struct Notice {
 /// What panels and keys ask for that is more than a change of the state; done between two frames.
 struct Requests {
     std::optional<std::string> open;        ///< a scene
+    std::optional<std::string> variant;     ///< that the open scene's models are to show; empty: none
     std::optional<std::string> environment; ///< as --environment takes it
     std::optional<std::string> clip;        ///< as --clip takes it
     bool reloadShaders = false;

@@ -120,6 +120,25 @@ TEST(LoadScene, warningsNameFilesAsSeenFromTheScenesFolderAndStandOnce) {
     EXPECT_THROW(loadScene((folder.path() / "s.json").string(), strict), InputError);
 }
 
+TEST(LoadScene, aVariantThatNoModelHasIsRefusedWithThoseThatThereAre) {
+    const test::TempFolder folder;
+    folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
+        [{"name": "beach"}, {"name": "street"}]}}})");
+    folder.write("b.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
+        [{"name": "night"}]}}})");
+    const std::string file =
+        folder.write("s.json", R"({"tessera": 1, "include": [{"file": "a.gltf"}, {"file": "b.gltf"}]})").string();
+    LoadOptions options;
+    for (const char* name : {"beach", "street", "night"}) {
+        options.import.variant = name;
+        EXPECT_NO_THROW(loadScene(file, options)) << name;
+    }
+    options.import.variant = "xyz";
+    EXPECT_EQ(complaint(file, options),
+              file + ": no variant of the scene's models is called 'xyz'; valid are beach, street, night");
+    EXPECT_EQ(complaint("room", options), "room: no model of the scene has variants, so none is called 'xyz'");
+}
+
 TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     const test::TempFolder folder;
     folder.write("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

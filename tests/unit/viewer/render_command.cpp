@@ -18,8 +18,11 @@ using testing::HasSubstr;
 /// A scene of two lights and three cameras, the last of the first one's name; `options` are its own options.
 std::string sceneFile(const tessera::test::TempFolder& folder, const std::string& options = "{}") {
     folder.write("sway.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}");
+    folder.write("model.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
+        [{"name": "it's red"}]}}})");
     return folder
-        .write("a scene's file.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+        .write("a scene's file.json",
+               R"({"tessera": 1, "base": {"file": "builtin:room"}, "include": [{"file": "model.gltf"}],
         "lights": [{"type": "directional", "direction": [0, -1, 0]}, {"type": "point", "position": [0, 1, 0]}],
         "cameras": [{"name": "front", "position": [0, 1, 4], "target": [0, 1, 0]},
                     {"name": "plan of $HOME", "type": "orthographic", "position": [0, 9, 0], "direction": [0, -1, 0],
@@ -27,7 +30,8 @@ std::string sceneFile(const tessera::test::TempFolder& folder, const std::string
                     {"name": "front", "position": [0, 1, 4], "target": [0, 2, 0]}],
         "hook": {"file": "sway.glsl", "parameters": [{"name": "wind", "value": 1, "least": 0, "most": 2},
                                                      {"name": "shade", "value": 0}]},
-        "options": )" + options + "}")
+        "options": )" +
+                   options + "}")
         .string();
 }
 
@@ -126,6 +130,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.clip = "none";
     request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
     request.import.isStrict = true;
+    request.import.variant = "it's red";
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));
     request.settings.timeSeconds = 1.0 / 3.0;

@@ -75,6 +75,35 @@ TEST(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+/// A triangle that is paint, in 'red' ruby.
+constexpr const char* kCar = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+    "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
+    "materials": [{"name": "paint"}, {"name": "ruby"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
+        {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
+    "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})";
+
+TEST(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
+    const SceneFolder folder;
+    folder.write("car.gltf", kCar);
+    const auto worn = [](const Scene& scene) {
+        std::string names;
+        for (const Node& node : scene.nodes)
+            for (const MeshInstance& instance : node.instances)
+                names += scene.materials.at(std::size_t(instance.material)).name + " ";
+        return names;
+    };
+    EXPECT_EQ(worn(folder.import(R"({"tessera": 1, "base": {"file": "car.gltf", "variant": "red"}})")), "ruby ");
+    const std::string cars = R"({"tessera": 1, "include": [{"file": "car.gltf"}, {"file": "car.gltf", "variant": "red"},
+        {"file": "car.gltf"}, {"file": "car.gltf", "variant": "red"}]})";
+    EXPECT_EQ(worn(folder.import(cars)), "paint ruby paint ruby ");
+    LoadOptions red;
+    red.import.variant = "red";
+    EXPECT_EQ(worn(loadScene(folder.write("cars.json", cars).string(), red)), "ruby ruby ruby ruby ");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "car.gltf", "variant": "rde"}})"),
+              "/base/variant: there is no variant of the model 'rde'; did you mean 'red'?");
+}
+
 TEST(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
     const SceneFolder folder;
     const auto isLit = [&](const std::string& members) {

@@ -260,6 +260,28 @@ TEST(SceneText, aSceneWhoseLightWasTakenAwayNeverGetsOneSupplied) {
     EXPECT_EQ(back.options.defaultLight, false);
 }
 
+TEST(SceneText, theVariantThatIsShownIsSavedAlsoBySavedFilesOfSavedFiles) {
+    const SceneFolder folder;
+    const std::string car = folder
+                                .write("car.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
+        "materials": [{"name": "paint"}, {"name": "ruby"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions":
+            {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
+        "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})")
+                                .string();
+    LoadOptions red;
+    red.import.variant = "red";
+    Scene scene = loadScene(car, red);
+    ASSERT_EQ(scene.materials.size(), 2u);
+    scene.materials[1].metallic = 0.25f; // a material that only the variant has
+    const std::filesystem::path first = folder.path() / "first.json", second = folder.path() / "second.json";
+    expectSameScene(saved(scene, originOf(car, red, scene), first), scene);
+    Scene again = loadScene(first.string());
+    again.materials[0].metallic = 0.5f;
+    expectSameScene(saved(again, originOf(first.string(), {}, again), second), again);
+}
+
 TEST(SceneText, namesAreRelativeToTheNewFile) {
     const SceneFolder folder;
     const std::string bust = (folder.path() / "models" / "bust.obj").string();
