@@ -14,6 +14,7 @@
 #include "scenes/Transform.h"
 #include "scenes/import/GltfCamerasAndLights.h"
 #include "scenes/import/GltfGeometry.h"
+#include "scenes/import/GltfInstances.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/Importers.h"
@@ -196,6 +197,31 @@ private:
 /// Of lengths and squares of them, relative: far above the rounding of matrices, and far below what shows.
 constexpr double kSameScale = 1e-4;
 
+/// Node-from-instance, by nodes of the document whose meshes are drawn several times.
+using Instancing = std::map<int, std::vector<glm::dmat4>>;
+
+/// Gives each instance a node of its own below that of its mesh. Called when all nodes of the document are in the
+/// scene, so that these keep their numbers.
+void addInstances(Context& context, Meshes& meshes, const Instancing& instancing, const std::vector<int>& sceneNodes) {
+    std::vector<Node>& nodes = context.scene.nodes;
+    for (const auto& [index, transforms] : instancing) {
+        const int parent = sceneNodes[static_cast<std::size_t>(index)];
+        const std::string name = nodes[static_cast<std::size_t>(parent)].name;
+        const std::vector<MeshInstance>& drawn =
+            meshes.instancesOf(context.document.model.nodes[static_cast<std::size_t>(index)].mesh);
+        constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
+        const std::size_t bytesEach = sizeof(Node) + name.size() + kDigits + drawn.size() * sizeof(MeshInstance);
+        context.document.charge(kCopies * transforms.size() * bytesEach, "nodes", index);
+        for (std::size_t i = 0; i < transforms.size(); ++i) {
+            Node& node = nodes.emplace_back();
+            node.name = fmt::format("{} {}", name, i);
+            node.parent = parent;
+            node.parentFromNode = transforms[i];
+            node.instances = drawn;
+        }
+    }
+}
+
 /// By which a matrix scales lengths in all directions; nothing where that depends on the direction.
 std::optional<double> uniformScale(const glm::dmat4& matrix) {
     const double scale = glm::length(glm::dvec3(matrix[0])), square = scale * scale;
@@ -210,20 +236,27 @@ std::optional<double> uniformScale(const glm::dmat4& matrix) {
 
 /// A document states thicknesses in the space of each mesh, the scene in metres of the world. Source:
 /// KHR_materials_volume, "Properties". What a skin moves is taken to be as large as its mesh.
-void placeThicknesses(Context& context, const Materials& materials, const std::vector<PlacedNode>& allPlaced) {
+void placeThicknesses(Context& context, const Materials& materials, const std::vector<PlacedNode>& allPlaced,
+                      const Instancing& instancing) {
     const model::Model& model = context.document.model;
     std::map<int, std::optional<double>> scales; // that all nodes share, by the document's material
     for (const PlacedNode& placed : allPlaced) {
         const model::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
         if (!placed.isDrawn || node.mesh == kNone) continue;
-        const std::optional<double> scale = node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0;
-        if (scale == 0.0) continue; // nothing is seen
-        for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-            const int material = context.variantMaterial(primitive).value_or(primitive.material);
-            const auto [entry, isNew] = scales.try_emplace(material, scale);
-            std::optional<double>& shared = entry->second;
-            if (!isNew && shared && !(scale && std::abs(*scale - *shared) <= kSameScale * *shared)) shared.reset();
-        }
+        const auto take = [&](const std::optional<double>& scale) {
+            if (scale == 0.0) return; // nothing is seen
+            for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+                const int material = context.variantMaterial(primitive).value_or(primitive.material);
+                const auto [entry, isNew] = scales.try_emplace(material, scale);
+                std::optional<double>& shared = entry->second;
+                if (!isNew && shared && !(scale && std::abs(*scale - *shared) <= kSameScale * *shared)) shared.reset();
+            }
+        };
+        const auto instanced = instancing.find(placed.node);
+        if (instanced == instancing.end())
+            take(node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0);
+        else
+            for (const glm::dmat4& transform : instanced->second) take(uniformScale(placed.worldFromNode * transform));
     }
     for (const auto& [material, scale] : scales) {
         const std::optional<int> imported = materials.imported(material);
@@ -315,7 +348,8 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     std::vector<int> sceneNodes(nodeCount, kNone);
     for (std::size_t i = 0; i < allPlaced.size(); ++i)
         sceneNodes[static_cast<std::size_t>(allPlaced[i].node)] = static_cast<int>(i);
-    Rigging rigging(context, materials, std::move(sceneNodes));
+    Rigging rigging(context, materials, sceneNodes);
+    Instancing instancing;
     for (const PlacedNode& placed : allPlaced) {
         const model::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
         Node node;
@@ -323,7 +357,13 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
         const bool isDeformed = placed.isDrawn && stored.mesh != kNone && rigging.deformsOf(placed.node) != Deforms();
-        if (placed.isDrawn && stored.mesh != kNone && !isDeformed) {
+        const bool isInstanced = placed.isDrawn && stored.mesh != kNone && stored.instanceAttributes.has_value();
+        if (isInstanced && isDeformed)
+            context.warn(fmt::format("{}: its mesh is skinned or has morph targets that are used, so it is drawn once, "
+                                     "and its instances are left out",
+                                     placeOf(placed.node)));
+        if (isInstanced && !isDeformed) instancing[placed.node] = instanceTransforms(context, placed.node);
+        if (placed.isDrawn && stored.mesh != kNone && !isDeformed && !isInstanced) {
             const std::vector<MeshInstance>& instances = meshes.instancesOf(stored.mesh);
             document.charge(instances.size() * sizeof(MeshInstance), "nodes", placed.node);
             node.instances = instances;
@@ -335,10 +375,11 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         importLight(context, placed.node, placed.worldFromNode);
         rigging.addCarried(placed.node);
     }
+    addInstances(context, meshes, instancing, sceneNodes);
     importVariant(context, materials);
     rigging.finish();
     bindVariant(context, materials);
-    placeThicknesses(context, materials, allPlaced);
+    placeThicknesses(context, materials, allPlaced, instancing);
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }

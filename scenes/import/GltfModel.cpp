@@ -90,6 +90,7 @@ void Node::read(Object& object) {
     object.optional("rotation", rotation);
     object.optional("scale", scale);
     object.required("extensions/KHR_lights_punctual/light", light, kLights);
+    object.required("extensions/EXT_mesh_gpu_instancing/attributes", instanceAttributes, IndexOf{"accessors"});
 }
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------

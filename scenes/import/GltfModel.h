@@ -25,6 +25,7 @@ struct Node {
     int mesh = kNone;
     int skin = kNone;
     std::vector<float> weights; ///< of the mesh's morph targets; empty: those of the mesh
+    std::optional<std::map<std::string, int>> instanceAttributes; ///< accessors; EXT_mesh_gpu_instancing
     int camera = kNone;
     int light = kNone;
     std::optional<glm::dmat4> matrix; ///< instead of the three below

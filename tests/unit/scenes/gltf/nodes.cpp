@@ -296,5 +296,79 @@ TEST(GltfLights, orderIsThatOfTheNodes) {
     EXPECT_EQ(scene.lights[1].name, "a");
 }
 
+// ---- Instances -----------------------------------------------------------------------------------------------------
+
+/// Node 0 draws two instances of the triangle, the second turned by a quarter about Y and twice as large; node 1 after
+/// it is empty.
+Builder withInstances() {
+    Builder builder =
+        withNodes(R"([{"name": "tree", "mesh": 0, "translation": [0, 5, 0]}, {"name": "last"}])", "[0, 1]");
+    constexpr int kByte = 5120;
+    Json& attributes = builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    const int translations = builder.add(std::vector<float>{1, 0, 0, 2, 0, 0}, 5126, "VEC3", 2);
+    // Normalised bytes: 90 / 127 is about the sine of an eighth turn, and the quaternion's length does not matter.
+    const int rotations = builder.add(std::vector<std::int8_t>{0, 0, 0, 127, 0, 90, 0, 90}, kByte, "VEC4", 2, true);
+    const int scales = builder.add(std::vector<float>{1, 1, 1, 2, 2, 2}, 5126, "VEC3", 2);
+    attributes = {{"TRANSLATION", translations}, {"ROTATION", rotations}, {"SCALE", scales}};
+    builder.json["extensionsRequired"] = builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    return builder;
+}
+
+TEST(GltfInstances, eachIsANodeBelowThatOfItsMeshAfterAllOthers) {
+    const Scene scene = withInstances().import();
+    ASSERT_EQ(scene.nodes.size(), 4u);
+    EXPECT_TRUE(scene.nodes[0].instances.empty());
+    EXPECT_EQ(scene.nodes[1].name, "last");
+    EXPECT_EQ(scene.nodes[2].name, "tree 0");
+    EXPECT_EQ(scene.nodes[3].name, "tree 1");
+    EXPECT_EQ(scene.nodes[3].parent, 0);
+    ASSERT_EQ(scene.nodes[3].instances.size(), 1u);
+    EXPECT_EQ(scene.meshes.size(), 1u) << "they share it";
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    expectNear(glm::dvec3(worldFromNode[2] * glm::dvec4(1, 0, 0, 1)), {2, 5, 0});
+    expectNear(glm::dvec3(worldFromNode[3] * glm::dvec4(1, 0, 0, 1)), {2, 5, -2});
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfInstances, aThicknessIsScaledAsAllInstancesWhereTheyAgree) {
+    Builder builder = withInstances();
+    builder.material()["extensions"] = Json::parse(
+        R"({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 0.5}})");
+    EXPECT_TRUE(hasWarning(builder.import(), "the thickness of material 0 is taken in metres"));
+    Json& attributes = builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    attributes["SCALE"] = builder.add(std::vector<float>{3, 3, 3, 3, 3, 3}, 5126, "VEC3", 2);
+    EXPECT_FLOAT_EQ(builder.import().materials.at(0).thicknessMetres, 1.5f);
+}
+
+TEST(GltfInstances, attributesThatPlaceNothingAreRefusedByName) {
+    const auto errorWith = [](const char* attribute, const std::vector<float>& values, const char* type,
+                              std::size_t count) {
+        Builder builder = withInstances();
+        const int accessor = builder.add(values, 5126, type, count);
+        builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"][attribute] = accessor;
+        return builder.error();
+    };
+    EXPECT_NE(errorWith("TRANSLATION", {1, 2, 3}, "VEC3", 1)
+                  .find("/TRANSLATION: accessor 4 has 1 elements, but there "
+                        "are 2 instances"),
+              std::string::npos);
+    EXPECT_NE(errorWith("SCALE", {1, 2}, "SCALAR", 2).find("/SCALE: accessor 4 has 1 components"), std::string::npos);
+    EXPECT_NE(errorWith("ROTATION", {0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2).find("element 1 is the zero quaternion"),
+              std::string::npos);
+    Builder none = withInstances();
+    none.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = Json::object();
+    EXPECT_NE(none.error().find("holds nothing that says how many instances there are"), std::string::npos);
+}
+
+TEST(GltfInstances, ofDeformedMeshesAreLeftOutWithAWarning) {
+    Builder builder = withInstances();
+    builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}])");
+    builder.json["meshes"][0]["weights"] = {0.5};
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.nodes.size(), 2u);
+    EXPECT_EQ(scene.nodes[0].instances.size(), 1u);
+    EXPECT_TRUE(hasWarning(scene, "/nodes/0: its mesh is skinned or has morph targets"));
+}
+
 } // namespace
 } // namespace tessera::scenes::gltf::test
