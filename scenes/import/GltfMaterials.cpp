@@ -1,10 +1,13 @@
 #include "scenes/import/GltfMaterials.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/Error.h"
 #include "scenes/import/GltfUri.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/PackChannels.h"
 #include "scenes/import/StandIn.h"
 
 namespace tessera::scenes::gltf {
@@ -29,6 +32,9 @@ Material Materials::convert(int index) {
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
         const auto& [path, slot] = model::kTexturePlaces[i];
         if (isUnlit && slot != TextureSlot::BaseColor) continue;
+        const bool isReplaced = slot == TextureSlot::BaseColor || slot == TextureSlot::MetallicRoughness ||
+                                slot == TextureSlot::SpecularColor || slot == TextureSlot::SpecularFactor;
+        if (stored.specularGlossiness && isReplaced) continue;
         material.texture(slot) = use(stored.textures[i], slot, fmt::format("{}/{}", place, path));
     }
     if (isUnlit) return material;
@@ -36,7 +42,50 @@ Material Materials::convert(int index) {
         context_.document.fail(place + "/extensions/KHR_materials_ior/ior",
                                fmt::format("is {}; it must be 0 or at least 1", stored.ior));
     material.ior = static_cast<float>(stored.ior);
+    if (stored.specularGlossiness)
+        convertSpecularGlossiness(*stored.specularGlossiness, place + "/extensions/KHR_materials_pbrSpecularGlossiness",
+                                  material);
     return material;
+}
+
+/// With an index of refraction of 0 a dielectric reflects all light, and its tint is what the extension calls specular:
+/// both give F0, with F90 = 1, and what is reflected is taken from the diffuse part.
+/// Source: KHR_materials_ior, "Implementation": its mode for specular-glossiness materials.
+void Materials::convertSpecularGlossiness(const model::SpecularGlossiness& stored, const std::string& place,
+                                          Material& material) {
+    constexpr const char* kNote = "materials of specular and glossiness (KHR_materials_pbrSpecularGlossiness) are "
+                                  "converted to dielectrics of roughness 1 - glossiness, tinted as their specular";
+    std::vector<std::string>& notes = context_.scene.notes;
+    if (std::ranges::find(notes, kNote) == notes.end()) notes.emplace_back(kNote);
+    material.baseColor = stored.diffuse;
+    material.texture(TextureSlot::BaseColor) =
+        use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture");
+    material.ior = 0.0f;
+    material.metallic = 0.0f;
+    material.specularFactor = 1.0f;
+    material.specularColor = stored.specular;
+    material.perceptualRoughness = 1.0f - stored.glossiness;
+    const TextureUse both =
+        use(stored.specularGlossinessTexture, TextureSlot::SpecularColor, place + "/specularGlossinessTexture");
+    material.texture(TextureSlot::SpecularColor) = both;
+    if (both.image == kNone || both.image == standIn_) return;
+    material.perceptualRoughness = 1.0f;
+    TextureUse& roughness = material.texture(TextureSlot::MetallicRoughness) = both;
+    roughness.image = roughnessOf(both.image, stored.glossiness);
+}
+
+int Materials::roughnessOf(int image, float glossiness) {
+    const auto [entry, isNew] = roughness_.try_emplace({image, glossiness}, kNone);
+    if (!isNew) return entry->second;
+    std::vector<Image>& images = context_.scene.images;
+    const Image& alpha = images[static_cast<std::size_t>(image)];
+    context_.document.ledger.charge(alpha.texels.size(), [&] {
+        return fmt::format("{}: the roughness of '{}'", context_.document.file, alpha.name);
+    });
+    const ChannelSource roughness{&alpha, 3, -double(glossiness), 1.0};
+    Image packed = packChannels(alpha.name + " as roughness", {ChannelSource{}, roughness, ChannelSource{}, {}});
+    images.push_back(std::move(packed));
+    return entry->second = static_cast<int>(images.size()) - 1;
 }
 
 std::optional<int> Materials::imported(int index) const {

@@ -1,6 +1,8 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "scenes/import/GltfContext.h"
 
@@ -20,6 +22,10 @@ public:
 
 private:
     Material convert(int index);
+    void convertSpecularGlossiness(const model::SpecularGlossiness& stored, const std::string& place,
+                                   Material& material);
+    /// The scene's index of a picture whose green is the roughness 1 - `glossiness` x the alpha of another.
+    int roughnessOf(int image, float glossiness);
     /// `place` names the use in messages.
     TextureUse use(const model::TextureInfo& info, TextureSlot slot, const std::string& place);
     int image(int index);
@@ -27,9 +33,10 @@ private:
     int standIn();
 
     Context& context_;
-    std::map<int, int> materials_; ///< scene material by glTF material
-    std::map<int, int> images_;    ///< scene image by glTF image; kNone: it cannot be read
-    int standIn_ = kNone;          ///< scene image
+    std::map<int, int> materials_;                   ///< scene material by glTF material
+    std::map<int, int> images_;                      ///< scene image by glTF image; kNone: it cannot be read
+    int standIn_ = kNone;                            ///< scene image
+    std::map<std::pair<int, float>, int> roughness_; ///< scene image by what roughnessOf() takes
 };
 
 } // namespace tessera::scenes::gltf

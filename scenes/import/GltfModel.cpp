@@ -195,6 +195,14 @@ void TextureInfo::read(Object& object) {
     object.optional("extensions/KHR_texture_transform/texCoord", texCoordSet, kInts);
 }
 
+void SpecularGlossiness::read(Object& object) {
+    object.optional("diffuseFactor", diffuse, kFraction);
+    object.optional("specularFactor", specular, kFraction);
+    object.optional("glossinessFactor", glossiness, kFraction);
+    object.optional("diffuseTexture", diffuseTexture);
+    object.optional("specularGlossinessTexture", specularGlossinessTexture);
+}
+
 void Material::read(Object& object) {
     object.optional("name", surface.name);
     object.optional("pbrMetallicRoughness/baseColorFactor", surface.baseColor, kFromZero);
@@ -210,6 +218,7 @@ void Material::read(Object& object) {
     std::optional<AnyObject> unlit;
     object.optional("extensions/KHR_materials_unlit", unlit);
     if (unlit) surface.model = MaterialModel::SingleColor;
+    if (!unlit) object.optional("extensions/KHR_materials_pbrSpecularGlossiness", specularGlossiness);
     // An unlit material is its base colour; the rest is a fallback for programs that do not know the extension.
     scenes::Material unneededLayers;
     scenes::Material& layers = unlit ? unneededLayers : surface;

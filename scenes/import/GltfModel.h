@@ -172,6 +172,17 @@ inline constexpr TexturePlace kTexturePlaces[] = {
     {"extensions/KHR_materials_sheen/sheenRoughnessTexture", TextureSlot::SheenRoughness},
 };
 
+/// KHR_materials_pbrSpecularGlossiness, which takes the place of pbrMetallicRoughness.
+struct SpecularGlossiness {
+    glm::vec4 diffuse{1.0f};
+    glm::vec3 specular{1.0f};
+    float glossiness = 1.0f;
+    TextureInfo diffuseTexture;
+    TextureInfo specularGlossinessTexture; ///< RGB specular (sRGB), A glossiness (linear)
+
+    void read(Object& object);
+};
+
 /// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
 /// _sheen, _iridescence, _transmission, _volume, _dispersion.
 struct Material {
@@ -180,6 +191,7 @@ struct Material {
     double ior = 1.5;
     bool hasUnreadTexture = false; ///< of transmission, thickness or iridescence
     float emissiveStrength = 1.0f; ///< in surface.emissive
+    std::optional<SpecularGlossiness> specularGlossiness;
 
     void read(Object& object);
 };

@@ -75,6 +75,7 @@ Image packChannels(const std::string& name, const std::array<ChannelSource, 4>& 
                     const std::int64_t column = x * from->width / packed.width;
                     value =
                         valueAt(*from, static_cast<std::size_t>(row * from->width + column), sources[channel].channel);
+                    value = sources[channel].offset + sources[channel].scale * value;
                 }
                 setValue(packed, texel, channel, value);
             }

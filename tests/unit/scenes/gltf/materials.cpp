@@ -354,6 +354,48 @@ TEST(GltfTextures, imageUsedTwiceIsDecodedOnce) {
     EXPECT_EQ(builder.import().images.size(), 1u);
 }
 
+TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(R"({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1],
+        "baseColorTexture": {"index": 0}}, "extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [0.1, 0.2, 0.3, 0.4], "specularFactor": [0.5, 0.6, 0.7], "glossinessFactor": 0.75}}})"));
+    builder.addTexture();
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
+    const Scene scene = builder.import();
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.model, MaterialModel::MetallicRoughness);
+    EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(material.specularColor, glm::vec3(0.5f, 0.6f, 0.7f)) << "F0 with an index of 0";
+    EXPECT_EQ(material.ior, 0.0f);
+    EXPECT_EQ(material.metallic, 0.0f);
+    EXPECT_EQ(material.perceptualRoughness, 0.25f);
+    EXPECT_TRUE(scene.images.empty()) << "what stands in for programs without the extension is not read";
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_NE(scene.notes[0].find("(KHR_materials_pbrSpecularGlossiness) are converted"), std::string::npos);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfSpecularGlossiness, theAlphaOfItsTextureBecomesRoughness) {
+    Builder builder;
+    builder.material()["extensions"] = Json::parse(R"({"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0}, "glossinessFactor": 0.5}})");
+    builder.addTexture(); // alpha 255 and 128
+    const Scene scene = builder.import();
+    const Material& material = scene.materials.at(0);
+    ASSERT_EQ(scene.images.size(), 2u);
+    EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::SpecularColor).image, 0);
+    EXPECT_EQ(material.texture(TextureSlot::MetallicRoughness).image, 1);
+    EXPECT_EQ(material.perceptualRoughness, 1.0f);
+    EXPECT_EQ(std::to_integer<int>(scene.images[1].texels.at(1)), 128) << "1 - 0.5 x 255/255, to the nearest";
+    EXPECT_EQ(std::to_integer<int>(scene.images[1].texels.at(5)), 191) << "1 - 0.5 x 128/255";
+
+    builder.json["images"][0] = Json::parse(R"({"uri": "gone.png"})");
+    const Material lost = builder.import().materials.at(0);
+    EXPECT_EQ(lost.perceptualRoughness, 0.5f) << "of the factor alone";
+    EXPECT_EQ(lost.texture(TextureSlot::MetallicRoughness).image, kNone);
+}
+
 /// Two triangles: one that is paint, in 'red' ruby and in 'blue' sky, and one that always is paint.
 Builder withVariants() {
     Builder builder;
