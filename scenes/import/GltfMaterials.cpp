@@ -104,9 +104,11 @@ TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, cons
     const model::Model& model = context_.document.model;
     const model::Texture& texture = model.textures[static_cast<std::size_t>(info.texture)];
     int picture = kNone;
-    if (texture.source != kNone) {
-        picture = image(texture.source);
-    } else {
+    if (texture.webp != kNone)
+        picture = image(texture.webp,
+                        texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
+    if (picture == kNone && texture.source != kNone) picture = image(texture.source, kStandInText);
+    if (texture.source == kNone && texture.webp == kNone) {
         const std::string textureAt = fmt::format("/textures/{}", info.texture);
         constexpr const char* kWhat = "has no source in a supported format; store it as PNG or JPEG";
         if (context_.document.ledger.wishes().isStrict) context_.document.fail(textureAt, kWhat);
@@ -118,7 +120,7 @@ TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, cons
     return use;
 }
 
-int Materials::image(int index) {
+int Materials::image(int index, const char* instead) {
     const auto [entry, isNew] = images_.try_emplace(index, kNone);
     if (!isNew) return entry->second;
     const Document& document = context_.document;
@@ -131,7 +133,7 @@ int Materials::image(int index) {
         if (document.ledger.wishes().isStrict) throw;
         document.ledger.settle(mark, context_.buffers.heldBytes());
         const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
-        context_.warn(text.substr(text.starts_with(file) ? file.size() : 0) + kStandInText);
+        context_.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);
         return kNone;
     }
     return entry->second = static_cast<int>(context_.scene.images.size()) - 1;

@@ -28,7 +28,8 @@ private:
     int roughnessOf(int image, float glossiness);
     /// `place` names the use in messages.
     TextureUse use(const model::TextureInfo& info, TextureSlot slot, const std::string& place);
-    int image(int index);
+    /// `instead` ends the warning where it cannot be read.
+    int image(int index, const char* instead);
     Image decoded(int index) const;
     int standIn();
 

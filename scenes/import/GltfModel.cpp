@@ -176,6 +176,7 @@ void Image::read(Object& object) {
 void Texture::read(Object& object) {
     object.optional("name", unneeded<std::string>());
     object.optional("source", source, IndexOf{"images"});
+    object.required("extensions/EXT_texture_webp/source", webp, IndexOf{"images"});
     object.optional("sampler", sampler, IndexOf{"samplers"});
 }
 

@@ -133,6 +133,7 @@ struct Image {
 
 struct Texture {
     int source = kNone;
+    int webp = kNone; ///< the image to be preferred; EXT_texture_webp
     int sampler = kNone;
 
     void read(Object& object);

@@ -478,6 +478,33 @@ TEST(GltfTextures, missingOrBrokenImageIsACheckerboardOfColoursAndNothingElse) {
     EXPECT_TRUE(hasWarning(builder.import(), "/textures/0: has no source in a supported format"));
 }
 
+TEST(GltfTextures, webpGoesBeforeTheOtherPictureAndThatStandsInForIt) {
+    Builder builder;
+    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    builder.addTexture();
+    std::filesystem::copy_file(std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/corpus/picture/small.webp",
+                               builder.folder.write("a.webp", std::string()),
+                               std::filesystem::copy_options::overwrite_existing);
+    builder.json["images"].push_back(Json::parse(R"({"uri": "a.webp", "mimeType": "image/webp"})"));
+    builder.json["textures"][0] = Json::parse(R"({"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}})");
+    const Scene both = builder.import();
+    ASSERT_EQ(both.images.size(), 1u);
+    EXPECT_EQ(both.images[0].name, "a.webp");
+    EXPECT_TRUE(both.warnings.empty());
+
+    builder.json["textures"][0].erase("source");
+    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"EXT_texture_webp"};
+    EXPECT_EQ(builder.import().images.at(0).name, "a.webp");
+
+    builder.json["textures"][0]["source"] = 0;
+    builder.json["images"][1]["uri"] = "gone.webp";
+    const Scene other = builder.import();
+    ASSERT_EQ(other.images.size(), 1u);
+    EXPECT_EQ(other.images[0].width, 2) << "the PNG";
+    EXPECT_EQ(other.warnings.size(), 1u);
+    EXPECT_TRUE(hasWarning(other, "; the texture's other picture is used instead"));
+}
+
 TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
     Builder builder;
     builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
