@@ -207,6 +207,10 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.clip = options.clip;
     load.hookValues = options.hookValues;
     load.import = options.import;
+    if (const auto size = options.said("size")) {
+        const glm::dvec2 pixels = sizeNamed(std::string(engine::settingOf("size").flag), *size);
+        load.aspect = pixels.x / pixels.y;
+    }
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
     return load;
 }

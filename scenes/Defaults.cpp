@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/Error.h"
+#include "scenes/Framing.h"
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
@@ -13,9 +13,6 @@
 namespace tessera::scenes {
 namespace {
 
-/// The picture's share that the bounding sphere leaves free on each side is set by this factor on the distance at which
-/// the sphere would touch the frame's edges.
-constexpr double kDistanceMargin = 1.2;
 /// Near plane as a share of the bounds' radius: small enough to walk close to things; depth is reversed and in floating
 /// point, so a small near plane costs no precision.
 constexpr double kNearShare = 1e-3;
@@ -25,6 +22,15 @@ const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
     const std::optional<std::string>& wish = scene.options.camera;
     return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
+}
+
+/// Of the size that the scene's options ask for, else that of most screens.
+double aspectWished(const Scene& scene) {
+    const auto wish = scene.options.wishes.find("size");
+    if (wish != scene.options.wishes.end())
+        if (const auto* size = std::get_if<std::vector<double>>(&wish->second))
+            if (size->size() == 2 && size->at(0) >= 1.0 && size->at(1) >= 1.0) return size->at(0) / size->at(1);
+    return 16.0 / 9.0;
 }
 
 /// Whether light changes nothing that is drawn. Emission does not count: most models that glow do so in few places,
@@ -37,25 +43,20 @@ bool isAllUnlit(const Scene& scene) {
 
 } // namespace
 
-void addDefaultCamera(Scene& scene) {
+void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
     if (!scene.cameras.empty()) return;
-    const Box3 boundsWS = worldBounds(scene);
-    const glm::dvec3 centerWS = boundsWS.empty() ? glm::dvec3(0.0) : 0.5 * (boundsWS.min + boundsWS.max);
-    double radiusMetres = boundsWS.empty() ? 0.0 : 0.5 * glm::length(boundsWS.max - boundsWS.min);
-    if (!std::isfinite(radiusMetres) || !std::isfinite(glm::length(centerWS))) {
-        throw InputError("scene '" + scene.name + "': its bounds are too large for a camera; check the nodes' scales");
-    }
-    if (radiusMetres == 0.0) radiusMetres = 1.0;
-
     Camera camera;
     camera.name = kDefaultName;
     camera.fovYRadians = std::numbers::pi / 4.0;
-    const double distanceMetres = kDistanceMargin * radiusMetres / std::sin(camera.fovYRadians / 2.0);
-    const glm::dvec3 eyeWS = centerWS + distanceMetres * glm::normalize(glm::dvec3(1.0, 0.7, 1.0));
-    camera.worldFromCamera = worldFromLookAt(eyeWS, centerWS);
-    camera.nearMetres = kNearShare * radiusMetres;
+    const Framing framing = framingOf(scene, camera.fovYRadians, aspect.value_or(aspectWished(scene)));
+    camera.worldFromCamera = worldFromLookAt(framing.eyeWS, framing.targetWS);
+    camera.nearMetres = kNearShare * framing.radiusMetres;
     scene.cameras.push_back(camera);
-    scene.warnings.push_back("the scene has no camera: looking at its whole through the camera 'default'");
+    scene.warnings.emplace_back(kDefaultCameraWarning);
+}
+
+bool isCameraSupplied(const Scene& scene) {
+    return std::ranges::find(scene.warnings, kDefaultCameraWarning) != scene.warnings.end();
 }
 
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "scenes/Scene.h"
 
 /// What a scene is given where its author left it out, so that everything loaded can be drawn and seen.
@@ -14,10 +16,16 @@ inline constexpr const char* kDefaultLightWarning =
 /// Name of a supplied camera.
 inline constexpr const char* kDefaultName = "default";
 
-/// A scene without a camera gets one of 45 degrees that looks along -(1, 0.7, 1) at the centre of the bounds from
-/// 1.2 r / sin(22.5 degrees), r being half the bounds' diagonal; a warning says so. An empty scene is seen as one of
-/// radius 1 m about the origin. Throws InputError when the bounds are too large to be numbers.
-void addDefaultCamera(Scene& scene);
+/// Of a scene that addDefaultCamera() gives one.
+inline constexpr const char* kDefaultCameraWarning =
+    "the scene has no camera: looking at its whole through the camera 'default'";
+
+/// A scene without a camera gets one of 45 degrees that sees all of it (framingOf()) in a picture of an aspect, width
+/// over height, else of that which its options ask for, else of 16:9; a warning says so. Its near plane does not depend
+/// on the aspect. Throws InputError when the bounds are too large to be numbers.
+void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
+/// Whether its camera is that one.
+bool isCameraSupplied(const Scene& scene);
 
 /// A scene without lights and environment gets the built-in studio with a blurred backdrop, unless every material in
 /// use is unlit; a warning says so. It is turned to stand around the scene's camera (the one its options name, else the

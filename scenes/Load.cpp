@@ -187,7 +187,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         throw InputError(nameOrPath + ": " + error.what());
     }
     goOn(options);
-    addDefaultCamera(scene);
+    addDefaultCamera(scene, options.aspect);
     // Who asks for no lights, or chooses an environment or none, gets what was asked for.
     if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
         !options.environment)

@@ -32,6 +32,8 @@ struct LoadOptions {
     /// Where it is given, the names of the files that are read are added to it.
     std::vector<std::string>* files = nullptr;
     bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
+    /// Width over height of the picture that a supplied camera is to fit the scene into; none: what the scene asks for.
+    std::optional<double> aspect;
     /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
     /// Where a stop is requested, LoadStopped is thrown.
     std::stop_token stop;

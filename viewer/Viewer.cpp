@@ -63,6 +63,7 @@ public:
           environments_([] { Window::wake(); }), scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
         state_.firstWindowSize = window_.sizeScreen();
+        layOut();
         scenes_.open(options.scene, options.load);
         if (const auto left = recovery_.left()) {
             state_.question = {Question::About::Recovering, left->string()};

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scenes/Defaults.h"
+#include "scenes/Framing.h"
 #include "scenes/Pose.h"
 #include "viewer/edit/Pick.h"
 
@@ -21,16 +22,20 @@ double lastSecondsOf(const scenes::Rig& rig) {
     return seconds;
 }
 
+/// Over the clips that play, which from here on move no light and no camera.
+scenes::Box3 boundsOfStill(scenes::Scene& scene) {
+    scenes::leaveLightsAndCameras(scene);
+    return scenes::boundsOverClips(scene);
+}
+
 } // namespace
 
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
-      boundsWS_(scenes::worldBounds(scene_)), cameras_(scene_.cameras),
+      boundsWS_(boundsOfStill(scene_)), cameras_(scene_.cameras),
       rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), lastSeconds_(lastSecondsOf(scene_.rig)),
-      filtered_(std::move(filtered)) {
-    scenes::leaveLightsAndCameras(scene_);
-}
+      filtered_(std::move(filtered)) {}
 
 bool OpenScene::showTime(double timeSeconds) {
     timeSeconds = std::min(timeSeconds, lastSeconds_);

@@ -68,7 +68,7 @@ public:
     std::uint64_t revision() const { return revision_; }
     std::uint64_t materialRevision() const { return materialRevision_; }
 
-    const scenes::Box3& boundsWS() const { return boundsWS_; }
+    const scenes::Box3& boundsWS() const { return boundsWS_; } ///< over the clips that play
     /// The cameras of the scene, without later movements.
     const std::vector<scenes::Camera>& cameras() const { return cameras_; }
     int camera() const { return camera_; }

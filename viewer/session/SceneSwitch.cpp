@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/ChooseView.h"
+#include "scenes/Defaults.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"
 
@@ -21,6 +22,8 @@ void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& loa
     wasAsked_ = true;
     scenes::LoadOptions options = load;
     options.defaultLight = load.defaultLight && options_.load.defaultLight;
+    const auto left = left_.find(identityOf(source));
+    if (!options.aspect) options.aspect = left != left_.end() ? left->second.aspect : state_.pictureAspect;
     loader_.start(source, options);
     state_.loading = source;
     log_.line("loading " + source);
@@ -37,10 +40,14 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     state_.loading.clear();
     if (!result->scene) throw std::runtime_error(result->error);
     const FirstLook first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
+    const bool isSupplied = scenes::isCameraSupplied(*result->scene);
     auto scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
                                              std::move(*result->origin), std::move(result->filtered));
     scene->useCamera(first.look.settings.camera);
-    scene->place(first.pose);
+    // A command of another size would supply another camera: so its place is said, and commands repeat it.
+    const bool isPlaced = first.pose != scenes::CameraChange() || !isSupplied;
+    const scenes::Camera& camera = scene->cameras()[std::size_t(first.look.settings.camera)];
+    scene->place(isPlaced ? first.pose : changeOf(poseOf(camera, scene->boundsWS()), camera));
     show(*scene);
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
@@ -72,7 +79,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {
-    Left left{scene.camera(), scene.cameras()[std::size_t(scene.camera())], scene.placed(), {}};
+    Left left{scene.camera(), scene.cameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
     if (scene.rig().isMoved()) left.pose = scene.rig().pose();
     left_[identityOf(scene.source())] = left;
 }

@@ -199,6 +199,26 @@ TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     EXPECT_FALSE(state_.open->load().defaultLight) << "and the command says so";
 }
 
+TEST_F(SceneSwitchTest, aSuppliedCameraFitsTheWindowAndItsPlaceIsSaidForCommandsOfAnySize) {
+    const std::string file = folder_.write("triangle.obj", "v 0 0 0\nv 9 0 1\nv 0 1 3\nf 1 2 3\n").string();
+    state_.pictureAspect = 0.5;
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(state_.open->load().aspect, 0.5);
+    const scenes::Camera seen = shown();
+    scenes::LoadOptions load;
+    for (const double aspect : {0.5, 4.0}) {
+        load.aspect = aspect;
+        const scenes::Camera supplied = scenes::loadScene(file, load).cameras.at(0);
+        EXPECT_EQ(scenes::changedCamera(supplied, state_.open->cameraChange()), seen) << aspect;
+    }
+    moveCamera();
+    const scenes::Camera moved = shown();
+    ASSERT_TRUE(open("room"));
+    state_.pictureAspect = 2.0;
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(shown(), moved) << "as it was left, whatever the window is now";
+}
+
 TEST_F(SceneSwitchTest, settingsThatCannotBeSavedGiveAWarning) {
     options_.preferencesFile = folder_.write("file", "") / "viewer.json";
     std::string told;
