@@ -181,6 +181,16 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->type_name("NAME")
         ->group("Reading");
     command
+        .add_option_function<std::string>(
+            "--light-units",
+            [&options](const std::string& name) {
+                options.import.lightUnits = rowNamed(scenes::kLightUnits, name, "unit of light").units;
+            },
+            "What the numbers of a glTF model's lights count: lumen, 683 for each watt, or watt [lumen for models that "
+            "Blender exported, else watt]")
+        ->type_name("NAME")
+        ->group("Reading");
+    command
         .add_flag("--strict", options.import.isStrict,
                   "Refuses a model of which a picture cannot be read; else a checkerboard is drawn for its colours")
         ->group("Reading");

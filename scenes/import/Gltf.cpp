@@ -15,6 +15,7 @@
 #include "scenes/import/GltfCamerasAndLights.h"
 #include "scenes/import/GltfGeometry.h"
 #include "scenes/import/GltfInstances.h"
+#include "scenes/import/GltfLightUnits.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/Importers.h"
@@ -330,8 +331,9 @@ void warnOfIgnoredFeatures(Context& context) {
 
 Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
-    const Document document = loadDocument(file, ledger);
+    Document document = loadDocument(file, ledger);
     Scene scene;
+    takeLightUnits(document, scene.notes);
     scene.name = file.stem().string();
     Buffers buffers(document);
     Accessors accessors(document, buffers);

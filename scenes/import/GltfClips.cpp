@@ -95,6 +95,7 @@ std::optional<Rigging::Animated> Rigging::animatedNumber(AnimatedOwner owner, st
     Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
     if (owner == AnimatedOwner::Light) {
         if (index >= model.lights.size()) return {};
+        if (info->property == AnimatedProperty::LightIntensity) animated.scale = model.lights[index].wattsPerUnit;
         for (const int light : lights_[static_cast<int>(index)])
             animated.targets.push_back(restNumber(info->property, light));
         return animated;
@@ -169,6 +170,8 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
             failValues(fmt::format("holds {} in element {}; every value must be finite", values.values[i],
                                    i / static_cast<std::size_t>(components)));
     sampler.values = std::move(values.values);
+    if (animated.scale != 1.0)
+        for (float& value : sampler.values) value = static_cast<float>(value * animated.scale);
     if (animated.property == AnimatedProperty::Rotation)
         for (std::size_t key = 0; key < sampler.timesSeconds.size(); ++key) {
             const std::size_t first =
@@ -186,7 +189,7 @@ Clip Rigging::clip(int index) {
     const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);
-    std::map<int, int> samplers;                                      // of the clip, by those of the document
+    std::map<std::pair<int, double>, int> samplers; // of the clip, by those of the document and their scale
     std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // of the clip, by what they change
     for (std::size_t i = 0; i < stored.channels.size(); ++i) {
         const model::AnimationChannel& channel = stored.channels[i];
@@ -199,7 +202,8 @@ Clip Rigging::clip(int index) {
         constexpr std::size_t kEntryBytes = 96; // of the map
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
-        const auto [entry, isNew] = samplers.try_emplace(channel.sampler, static_cast<int>(clip.samplers.size()));
+        const auto [entry, isNew] =
+            samplers.try_emplace({channel.sampler, what->scale}, static_cast<int>(clip.samplers.size()));
         if (isNew) clip.samplers.push_back(sampler(index, channel.sampler, *what));
         if (static_cast<std::size_t>(clip.samplers[static_cast<std::size_t>(entry->second)].width) != what->width)
             document.fail(

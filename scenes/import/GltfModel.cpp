@@ -49,6 +49,7 @@ constexpr std::string_view kUnreadTextures[] = {"extensions/KHR_materials_irides
 void Model::read(Object& object) {
     object.required("asset/version", unneeded<std::string>());
     object.optional("asset/minVersion", unneeded<std::string>());
+    object.optional("asset/generator", generator);
     object.optional("extensionsUsed", extensionsUsed);
     object.optional("extensionsRequired", extensionsRequired);
     object.required(kLights.array, lights);

@@ -219,6 +219,7 @@ struct Light {
     std::optional<float> range;
     double innerConeAngle = 0.0;
     double outerConeAngle = 0.7853981634; // pi/4
+    double wattsPerUnit = 1.0;            ///< in `intensity` already, not in clips (GltfLightUnits.h)
 
     void read(Object& object);
 };
@@ -263,6 +264,7 @@ struct Variant {
 };
 
 struct Model {
+    std::string generator; ///< the program that wrote it
     std::vector<std::string> extensionsUsed;
     std::vector<std::string> extensionsRequired;
     int scene = 0; ///< the default one

@@ -43,6 +43,7 @@ private:
         AnimatedProperty property{};
         std::vector<int> targets; ///< as AnimationChannel::target
         std::size_t width = 0;    ///< numbers of a value
+        double scale = 1.0;       ///< of the document's values
     };
 
     const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms);

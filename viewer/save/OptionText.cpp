@@ -44,6 +44,8 @@ std::string hookText(std::span<const scenes::HookValue> values) {
 std::string importText(const scenes::ImportWishes& wishes) {
     std::string text;
     if (wishes.variant) text += " --variant " + shellWord(*wishes.variant);
+    if (wishes.lightUnits)
+        text += fmt::format(" --light-units {}", scenes::kLightUnits[std::size_t(*wishes.lightUnits)].name);
     if (wishes.isStrict) text += " --strict";
     return text;
 }

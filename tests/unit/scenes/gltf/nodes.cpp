@@ -296,6 +296,59 @@ TEST(GltfLights, orderIsThatOfTheNodes) {
     EXPECT_EQ(scene.lights[1].name, "a");
 }
 
+TEST(GltfLights, thoseThatBlenderExportedAreReadInWatts) {
+    const auto builderOf = [](const char* generator, const char* type) {
+        Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = type;
+        if (*generator != '\0') builder.json["asset"]["generator"] = generator;
+        return builder;
+    };
+    struct Case {
+        const char* generator;
+        const char* type;
+        float watts;
+    };
+    for (const Case& one :
+         {Case{"Khronos glTF Blender I/O v4.2.57", "point", 10.0f},
+          Case{"Khronos glTF Blender I/O v3.6.28", "directional", 10.0f},
+          Case{"Khronos glTF Blender I/O v3.3.11", "directional", 6830.0f},
+          Case{"Khronos glTF Blender I/O v3.3.11", "point", 10.0f}, Case{"Khronos glTF Blender I/O", "point", 10.0f},
+          Case{"Another Blender", "point", 6830.0f}, Case{"", "point", 6830.0f}}) {
+        SCOPED_TRACE(std::string(one.generator) + " " + one.type);
+        Builder builder = builderOf(one.generator, one.type);
+        const Scene scene = builder.import();
+        EXPECT_FLOAT_EQ(scene.lights.at(0).intensity, one.watts);
+        EXPECT_EQ(scene.notes.size(), std::string(one.generator).find("I/O") == std::string::npos ? 0u : 1u);
+        builder.wishes.lightUnits = LightUnits::Watt;
+        EXPECT_EQ(builder.import().lights.at(0).intensity, 6830.0f);
+        EXPECT_TRUE(builder.import().notes.empty());
+        builder.wishes.lightUnits = LightUnits::Lumen;
+        EXPECT_FLOAT_EQ(builder.import().lights.at(0).intensity, 10.0f);
+    }
+}
+
+TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
+    Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
+    builder.wishes.lightUnits = LightUnits::Lumen;
+    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const int values = builder.add(std::vector<float>{683, 1366}, 5126, "SCALAR", 2);
+    Json& animation = builder.json["animations"][0];
+    animation["samplers"][0] = {{"input", times}, {"output", values}};
+    for (const char* property : {"intensity", "range"}) { // of one sampler, and only one of them counts lumens
+        const std::string pointer = std::string("/extensions/KHR_lights_punctual/lights/0/") + property;
+        animation["channels"].push_back(
+            {{"sampler", 0},
+             {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+    }
+    const Clip clip = builder.import().rig.clips.at(0);
+    ASSERT_EQ(clip.channels.size(), 2u);
+    for (const AnimationChannel& channel : clip.channels) {
+        const std::vector<float>& numbers = clip.samplers.at(std::size_t(channel.sampler)).values;
+        const bool isIntensity = channel.property == AnimatedProperty::LightIntensity;
+        EXPECT_FLOAT_EQ(numbers.at(1), isIntensity ? 2.0f : 1366.0f);
+    }
+}
+
 // ---- Instances -----------------------------------------------------------------------------------------------------
 
 /// Node 0 draws two instances of the triangle, the second turned by a quarter about Y and twice as large; node 1 after
