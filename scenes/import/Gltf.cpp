@@ -2,14 +2,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "scenes/Transform.h"
 #include "scenes/import/GltfCamerasAndLights.h"
@@ -18,6 +15,7 @@
 #include "scenes/import/GltfLightUnits.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
+#include "scenes/import/GltfVariants.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
@@ -274,39 +272,6 @@ void placeThicknesses(Context& context, const Materials& materials, const std::v
     }
 }
 
-/// Tells which variants there are, and imports the materials of the one that is asked for, after all others: so these
-/// keep their numbers, by which scene files name them.
-void importVariant(Context& context, Materials& materials) {
-    const std::optional<std::string>& wish = context.document.ledger.wishes().variant;
-    std::vector<std::string>& names = context.scene.variants;
-    std::unordered_set<std::string_view> known;
-    for (const model::Variant& variant : context.document.model.variants) {
-        if (!known.insert(variant.name).second) continue;
-        context.document.ledger.charge(2 * (sizeof(std::string) + variant.name.size()),
-                                       [&] { return context.document.file + ": its variants"; });
-        names.push_back(variant.name);
-    }
-    if (names.empty()) return;
-    constexpr std::size_t kMostTold = 20;
-    const std::span<const std::string> told = std::span(names).first(std::min(names.size(), kMostTold));
-    context.scene.notes.push_back(fmt::format("{}; its variants are {}{}",
-                                              wish && known.contains(*wish)
-                                                  ? fmt::format("shows the variant '{}'", *wish)
-                                                  : "shows its materials as they are without a variant",
-                                              fmt::join(told, ", "), told.size() < names.size() ? ", ..." : ""));
-    for (const auto& [sceneMesh, material] : context.variantMaterials) materials.material(material);
-}
-
-/// When all instances are there.
-void bindVariant(Context& context, Materials& materials) {
-    if (context.variantMaterials.empty()) return;
-    for (Node& node : context.scene.nodes)
-        for (MeshInstance& instance : node.instances) {
-            const auto found = context.variantMaterials.find(instance.mesh);
-            if (found != context.variantMaterials.end()) instance.material = materials.material(found->second);
-        }
-}
-
 /// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
 std::string_view drawnInstead(std::string_view extension) {
     return extension == "KHR_materials_diffuse_transmission" ? "; its materials let through only what their alpha does"
@@ -325,6 +290,17 @@ void warnOfIgnoredFeatures(Context& context) {
                 "textures of transmission, thickness and iridescence are not supported; those of material {} "
                 "were ignored, and its factors hold everywhere",
                 i));
+}
+
+/// Once for all, as drawings hold thousands.
+void warnOfUndrawn(Context& context) {
+    const auto warn = [&](const Context::Undrawn& undrawn, std::string_view what) {
+        if (undrawn.count > 0)
+            context.warn(fmt::format("{} primitive(s) of {} are left out, the first at {}; only triangles are drawn",
+                                     undrawn.count, what, undrawn.first));
+    };
+    warn(context.points, "points");
+    warn(context.lines, "lines");
 }
 
 } // namespace
@@ -382,6 +358,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     rigging.finish();
     bindVariant(context, materials);
     placeThicknesses(context, materials, allPlaced, instancing);
+    warnOfUndrawn(context);
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }

@@ -15,6 +15,12 @@ struct Context {
     Buffers& buffers;
     Accessors& accessors;
     Scene& scene;
+    /// Primitives that are no triangles: how many, and the place of the first.
+    struct Undrawn {
+        std::size_t count = 0;
+        std::string first;
+    };
+    Undrawn points = {}, lines = {};
     std::map<int, int> variantMaterials = {}; ///< of the document, by meshes of the scene, in the variant that is shown
     std::unordered_set<std::string> warned = {};             ///< the scene's warnings
     std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken

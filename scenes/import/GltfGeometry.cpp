@@ -356,8 +356,8 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     const std::uint64_t mark = ledger.usedBytes() - context.buffers.heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
     if (primitive.mode < kTriangles) {
-        context.warn(fmt::format("{}: mesh '{}' draws {}, which are left out", place, mesh.name,
-                                 primitive.mode == kPoints ? "points" : "lines"));
+        Context::Undrawn& undrawn = primitive.mode == kPoints ? context.points : context.lines;
+        if (undrawn.count++ == 0) undrawn.first = fmt::format("{} of mesh '{}'", place, mesh.name);
         return std::nullopt;
     }
     if (!reader.has("POSITION")) {
