@@ -61,7 +61,7 @@ int flatAxis(const glm::dvec3& sides) {
 }
 
 /// From the scene to the eye.
-glm::dvec3 backWS(const Scene& scene, const glm::dvec3& sides) {
+glm::dvec3 towardsEyeWS(const Scene& scene, const glm::dvec3& sides) {
     const int axis = flatAxis(sides);
     if (axis < 0) return glm::normalize(glm::dvec3(1.0, 0.7, 1.0));
     double facing = 0.0; // twice the area that is turned to the positive side, less that to the negative
@@ -134,7 +134,7 @@ Framing framingOf(Scene& scene, double fovYRadians, double aspect) {
 
     const bool hasSize = framing.radiusMetres > 0.0;
     if (!hasSize) framing.radiusMetres = 1.0;
-    const glm::dvec3 back = backWS(scene, sides);
+    const glm::dvec3 back = towardsEyeWS(scene, sides);
     const glm::dmat3 axes(worldFromLookAt(centerWS + back, centerWS));
     const double up = std::tan(0.5 * fovYRadians) / kMargin;
     Fit fit(up * aspect, up);

@@ -72,6 +72,29 @@ State unusualScene() {
     return state;
 }
 
+TEST_F(Panels, theVariantsOfModelsAreAListWhereThereAreAny) {
+    const auto textFor = [&](const std::vector<std::string>& variants, const std::optional<std::string>& shown) {
+        scenes::LoadOptions load;
+        load.import.variant = shown;
+        scenes::Scene scene = scenes::loadScene("room");
+        scene.variants = variants;
+        scene.notes = {"a note of the importer"};
+        State state;
+        state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
+        const std::string text = textOf([&] { scenePanel(state); });
+        EXPECT_NE(text.find("a note of the importer"), std::string::npos) << text;
+        EXPECT_FALSE(state.requests.variant) << "nobody chose one";
+        return text;
+    };
+    EXPECT_EQ(textFor({}, {}).find("Variant"), std::string::npos);
+    const std::string plain = textFor({"beach", "street"}, {});
+    EXPECT_NE(plain.find("Variant"), std::string::npos) << plain;
+    EXPECT_NE(plain.find("as the file has it"), std::string::npos) << plain;
+    const std::string street = textFor({"beach", "street"}, "street");
+    EXPECT_NE(street.find("street"), std::string::npos) << street;
+    EXPECT_EQ(street.find("as the file has it"), std::string::npos) << street;
+}
+
 TEST_F(Panels, drawingThePanelsChangesNoValue) {
     State state = unusualScene();
     const std::vector<scenes::Light> lights = state.open->scene().lights;
