@@ -32,6 +32,8 @@ TEST_F(BadOptions, unknownNamesAreAnsweredWithTheNearest) {
     expectRefused({"--light-on", "framgent"}, {"unknown light-on 'framgent'", "did you mean 'fragment'?"});
     expectRefused({"--prune", "maybe"}, {"--prune 'maybe'", "on, off"});
     expectRefused({"--specular", "0"}, {"--specular '0'", "on, off"});
+    expectRefused({"--light-units", "lux"}, {"unknown unit of light 'lux'", "valid are lumen, watt"});
+    expectRefused({"--variant", "red"}, {"room: no model of the scene has variants, so none is called 'red'"});
     expectRefused({"--context", "elg"}, {"unknown context 'elg'", "did you mean 'egl'?"});
     expectError(kBadInput, {"scenes", "--context", "elg"}, {"unknown context 'elg'"});
     expectError(kBadInput, {"compare", "room", "--techniques", "forward,defered"}, {"'defered'", "'deferred'"});
