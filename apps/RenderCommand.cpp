@@ -200,11 +200,14 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     filterEnvironment(request, renderer, global.quiet);
     // One picture is soon made.
     Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);
-    bool hasWarned = false, hasWarnedOfShadows = false;
+    bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         if (job.pose(one.timeSeconds)) renderer.geometryChanged();
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
+        if (const std::string missing = renderer.missingTextures();
+            !missing.empty() && !std::exchange(hasWarnedOfTextures, true))
+            spdlog::warn("{}", oneLine(path + ": " + missing));
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))

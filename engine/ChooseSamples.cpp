@@ -16,6 +16,7 @@ bool takesSamples(const TechniqueInfo& info, int samples) {
 frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::FrameSettings settings) {
     settings.softwareBackend = capabilities.isSoftware;
     settings.snapPixels = capabilities.snapPixels;
+    settings.texturesAStage = capabilities.texturesAStage;
     const std::vector<int>& given = capabilities.renderTargetSamples;
     const auto enough = std::lower_bound(given.begin(), given.end(), settings.samples);
     if (enough == given.end()) {

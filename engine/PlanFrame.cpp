@@ -12,6 +12,7 @@
 #include "engine/Renderer.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/RefineLayout.h"
+#include "renderer/frame/TextureRoom.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
 
@@ -118,6 +119,9 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                 {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
     if (!prepared.diffused.empty()) plan.choices.push_back(spreadChoice(prepared));
+    if (std::string missing = frame::missingTextures(prepared.spec); !missing.empty())
+        plan.choices.push_back(
+            {"textures", fmt::format("{} left out", prepared.spec.withoutTextures.size()), std::move(missing)});
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 

@@ -10,6 +10,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
 #include "passes/DiffusionPasses.h"
+#include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
 
 namespace tessera::engine {
@@ -255,6 +256,10 @@ DrawnLists Renderer::downloadLists(std::size_t view) const {
         all(lists->entries, drawn.lists.entries);
     }
     return drawn;
+}
+
+std::string Renderer::missingTextures(std::size_t view) const {
+    return frame::missingTextures(latest().views.at(view).prepared.spec);
 }
 
 DrawnShadows Renderer::shadows(std::size_t view) const {

@@ -92,6 +92,8 @@ public:
     DrawnLists downloadLists(std::size_t view = 0) const;
     /// How the lights of a view of the latest draw() cast shadows; waits for nothing.
     DrawnShadows shadows(std::size_t view = 0) const;
+    /// Which textures of materials a view of the latest draw() lacks, and why; empty: none.
+    std::string missingTextures(std::size_t view = 0) const;
 
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);

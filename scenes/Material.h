@@ -70,9 +70,10 @@ struct Material {
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
     /// KHR_materials_iridescence, metallic_roughness only: a thin film on the surface (docs/iridescence.md).
-    float iridescence = 0.0f;              ///< 0..1, the film's share
-    float iridescenceIor = 1.3f;           ///< at least 1
-    float iridescenceThicknessNm = 400.0f; ///< nanometres; 0: no film
+    float iridescence = 0.0f;                   ///< 0..1, the film's share
+    float iridescenceIor = 1.3f;                ///< at least 1
+    float iridescenceThicknessNm = 400.0f;      ///< nanometres; 0: no film
+    float iridescenceLeastThicknessNm = 100.0f; ///< nanometres, where its texture is 0; may be more than the other
     /// KHR_materials_transmission, _volume and _dispersion, metallic_roughness only (docs/glass.md).
     float transmission = 0.0f;              ///< 0..1, the share of what enters that passes
     float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: a sheet, which bends no light
@@ -91,7 +92,7 @@ struct Material {
     std::array<TextureUse, kTextureSlotCount> textures;
 
     TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
-    const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
+    constexpr const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
     bool operator==(const Material&) const = default;
 };
 
@@ -131,6 +132,8 @@ inline constexpr std::tuple kMaterialFields{
     Field{"iridescence", &Material::iridescence, "the iridescence", 0.0, 1.0},
     Field{"iridescenceIor", &Material::iridescenceIor, "the film's index of refraction", 1.0, kMostIor},
     Field{"iridescenceThicknessNm", &Material::iridescenceThicknessNm, "the film's thickness", 0.0, kAnyNumber},
+    Field{"iridescenceLeastThicknessNm", &Material::iridescenceLeastThicknessNm, "the film's least thickness", 0.0,
+          kAnyNumber},
     Field{"transmission", &Material::transmission, "the transmission", 0.0, 1.0},
     Field{"thicknessMetres", &Material::thicknessMetres, "the thickness", 0.0, kAnyNumber},
     Field{"attenuationColor", &Material::attenuationColor, "the attenuation's colour", 0.0, 1.0},
@@ -277,12 +280,19 @@ constexpr bool takesMasking(MaterialModel model, Masking masking) {
            info.anisotropy == Anisotropy::Alphas;
 }
 
-/// Whether a film covers surfaces with the material.
-constexpr bool isIridescent(const Material& material) {
-    return infoOf(material.model).hasLayers && material.iridescence > 0.0f && material.iridescenceThicknessNm > 0.0f;
+/// The film's greatest thickness in nanometres, which its texture may give.
+constexpr float mostFilmThicknessNm(const Material& material) {
+    const bool isTextured = material.texture(TextureSlot::IridescenceThickness).image != kNone;
+    const float least = material.iridescenceLeastThicknessNm;
+    return isTextured && least > material.iridescenceThicknessNm ? least : material.iridescenceThicknessNm;
 }
 
-/// Whether light passes through surfaces with the material.
+/// Whether a film may cover surfaces with the material. Textures may have any texel, here as below.
+constexpr bool isIridescent(const Material& material) {
+    return infoOf(material.model).hasLayers && material.iridescence > 0.0f && mostFilmThicknessNm(material) > 0.0f;
+}
+
+/// Whether light may pass through surfaces with the material.
 constexpr bool isTransmissive(const Material& material) {
     return infoOf(material.model).hasLayers && material.transmission > 0.0f;
 }

@@ -50,7 +50,9 @@ struct TextureUse {
     bool operator==(const TextureUse&) const = default;
 };
 
-/// Where a material may carry a texture. Every value is factor x texel; the channels used and the transfer function:
+/// Where a material may carry a texture. Every value is factor x texel; the channels used and the transfer function. In
+/// order of importance: where a stage of the driver samples too few textures, the last are left out first
+/// (leaveOutTextures() of renderer/frame/TextureRoom.h).
 enum class TextureSlot : std::uint8_t {
     BaseColor,          ///< RGB base colour, k_d or the unlit colour (sRGB); A opacity
     Normal,             ///< RGB normal, tangent or object space (linear)
@@ -68,6 +70,10 @@ enum class TextureSlot : std::uint8_t {
     SheenColor,         ///< RGB (sRGB)
     SheenRoughness,     ///< A perceptual roughness of the sheen (linear)
     Occlusion,          ///< R share of the environment's light that arrives (linear)
+    Transmission,       ///< R share of what enters that passes (linear)
+    Thickness,          ///< G thickness of the body, as a share of the material's (linear)
+    Iridescence,        ///< R share of the film (linear)
+    IridescenceThickness, ///< G thickness of the film, from the least at 0 to that of the material at 1 (linear)
     Count
 };
 inline constexpr std::size_t kTextureSlotCount = static_cast<std::size_t>(TextureSlot::Count);
@@ -96,6 +102,10 @@ inline constexpr std::array kTextureSlots{
     TextureSlotInfo{TextureSlot::SheenColor, "sheen_color", "sheen-colour texture", true},
     TextureSlotInfo{TextureSlot::SheenRoughness, "sheen_roughness", "sheen-roughness texture"},
     TextureSlotInfo{TextureSlot::Occlusion, "occlusion", "occlusion texture"},
+    TextureSlotInfo{TextureSlot::Transmission, "transmission", "transmission texture"},
+    TextureSlotInfo{TextureSlot::Thickness, "thickness", "thickness texture"},
+    TextureSlotInfo{TextureSlot::Iridescence, "iridescence", "iridescence texture"},
+    TextureSlotInfo{TextureSlot::IridescenceThickness, "iridescence_thickness", "film-thickness texture"},
 };
 static_assert(isInOrder(kTextureSlots, &TextureSlotInfo::slot, kTextureSlotCount));
 constexpr const TextureSlotInfo& infoOf(TextureSlot slot) {

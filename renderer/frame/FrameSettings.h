@@ -11,6 +11,7 @@
 #include "renderer/frame/GBufferLayout.h"
 #include "renderer/frame/LightingStage.h"
 #include "scenes/Shadows.h"
+#include "shaders/shared/slots.h"
 
 /// What a user may ask of a frame besides its technique, by rows of engine/Settings.cpp. Names are those of the
 /// command line; the tables are the only lists.
@@ -144,7 +145,9 @@ struct FrameSettings {
     EnvironmentSettings environment;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
-    float snapPixels = 0.0f;     ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets
+    float snapPixels = 0.0f; ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets
+    /// gpu::Capabilities::texturesAStage of the renderer's own backend, which it sets.
+    int texturesAStage = TEXTURE_UNITS_A_STAGE;
     bool softwareBackend = true; ///< decides the choices left open; the renderer sets it to its own backend
     bool display = true;         ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;

@@ -11,6 +11,7 @@
 #include "renderer/frame/RefineLayout.h"
 #include "renderer/frame/SeenLights.h"
 #include "renderer/frame/ShadowMaps.h"
+#include "renderer/frame/TextureRoom.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
 
@@ -91,6 +92,8 @@ std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const
         return "no environment lights surfaces";
     if (info.feature == Feature::SubsurfaceDepthMap && materialFeatures(scene, spec.settings.subsurface)[info.feature])
         return "no light casts shadows, by which the way inside is found";
+    const auto isLacking = [&](scenes::TextureSlot slot) { return featureOf(slot) == info.feature; };
+    if (std::ranges::any_of(spec.withoutTextures, isLacking)) return "a shader of this driver samples too few textures";
     return info.absent;
 }
 
@@ -148,6 +151,8 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.environment = environmentShape(scene.environment->map);
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
+    if (sampledTextures(spec) > std::size_t(settings.texturesAStage))
+        leaveOutTextures(spec, settings.prune ? surfaces : materialFeatures(scene, settings.subsurface));
     // A channel that is looked at is stored, and not as a number or beside one.
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene, settings.subsurface);

@@ -37,6 +37,9 @@ struct FrameSpec {
     std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
 
+    /// Slots that materials have textures in and shaders have no room for, the last first.
+    std::vector<scenes::TextureSlot> withoutTextures;
+
     /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
     std::vector<FrameSpec> diffused;
     std::optional<LightSpread> spread; ///< of such an object's own spec

@@ -170,7 +170,8 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
     packed.attenuation = glm::vec4(leftByBody(material), halfSpread(material));
     constexpr double kMicrometresPerNanometre = 1e-3;
     packed.film = glm::vec4(scenes::isIridescent(material) ? material.iridescence : 0.0f, material.iridescenceIor,
-                            float(kMicrometresPerNanometre * double(material.iridescenceThicknessNm)), 0.0f);
+                            float(kMicrometresPerNanometre * double(material.iridescenceThicknessNm)),
+                            float(kMicrometresPerNanometre * double(material.iridescenceLeastThicknessNm)));
     return packed;
 }
 

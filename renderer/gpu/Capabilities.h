@@ -22,6 +22,7 @@ struct Capabilities {
     bool indexesUniformBlocks = true; ///< false where an index that varies overruns the driver's memory
     int maxTextureSize = 0;           ///< texels, of a 2D texture's side
     int maxSamples = 0;               ///< of colour textures
+    int texturesAStage = 16;          ///< that a fragment shader may sample, at least 16
     /// Samples that textures of RGBA32F, R32F and D32F can all have, ascending from 1. A driver gives the next larger
     /// of its own numbers for one that it lacks.
     std::vector<int> renderTargetSamples{1};

@@ -100,6 +100,7 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.maxStorageBlockBytes = std::size_t(integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
     capabilities.maxTextureSize = int(integer(GL_MAX_TEXTURE_SIZE));
     capabilities.maxSamples = int(integer(GL_MAX_COLOR_TEXTURE_SAMPLES));
+    capabilities.texturesAStage = int(integer(GL_MAX_TEXTURE_IMAGE_UNITS));
     capabilities.renderTargetSamples = commonSamples();
     if (hasExtension("GL_ARB_texture_filter_anisotropic") || hasExtension("GL_EXT_texture_filter_anisotropic"))
         glGetFloatv(kMaxTextureMaxAnisotropy, &capabilities.maxAnisotropy);

@@ -280,16 +280,9 @@ std::string_view drawnInstead(std::string_view extension) {
 
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
 void warnOfIgnoredFeatures(Context& context) {
-    const model::Model& model = context.document.model;
     for (const std::string& extension : ignoredExtensions(context.document))
         context.warn(
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
-    for (std::size_t i = 0; i < model.materials.size(); ++i)
-        if (model.materials[i].hasUnreadTexture)
-            context.warn(fmt::format(
-                "textures of transmission, thickness and iridescence are not supported; those of material {} "
-                "were ignored, and its factors hold everywhere",
-                i));
 }
 
 /// Once for all, as drawings hold thousands.

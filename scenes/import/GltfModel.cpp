@@ -36,12 +36,6 @@ constexpr Choice<std::string_view, Projection> kProjections[] = {{"perspective",
 constexpr Choice<std::string_view, LightType> kLightTypes[] = {
     {"directional", LightType::Directional}, {"point", LightType::Point}, {"spot", LightType::Spot}};
 
-/// Shaders have no units left for them.
-constexpr std::string_view kUnreadTextures[] = {"extensions/KHR_materials_iridescence/iridescenceTexture",
-                                                "extensions/KHR_materials_iridescence/iridescenceThicknessTexture",
-                                                "extensions/KHR_materials_transmission/transmissionTexture",
-                                                "extensions/KHR_materials_volume/thicknessTexture"};
-
 } // namespace
 
 // Source of names, ranges and defaults: glTF 2.0 specification, section 5, and the extensions' README schemas.
@@ -240,7 +234,8 @@ void Material::read(Object& object) {
     object.optional("extensions/KHR_materials_sheen/sheenRoughnessFactor", layers.sheenPerceptualRoughness, kFraction);
     object.optional("extensions/KHR_materials_iridescence/iridescenceFactor", layers.iridescence, kFraction);
     object.optional("extensions/KHR_materials_iridescence/iridescenceIor", layers.iridescenceIor, kFromOne);
-    // The minimum is for where a texture says 0.
+    object.optional("extensions/KHR_materials_iridescence/iridescenceThicknessMinimum",
+                    layers.iridescenceLeastThicknessNm, kFromZero);
     object.optional("extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", layers.iridescenceThicknessNm,
                     kFromZero);
     object.optional("extensions/KHR_materials_transmission/transmissionFactor", layers.transmission, kFraction);
@@ -252,11 +247,6 @@ void Material::read(Object& object) {
     object.optional(kDistance, distance, kFromZero);
     if (distance && *distance == 0.0f) object.fail(kDistance, "is 0; more than 0 is needed");
     layers.attenuationDistanceMetres = distance.value_or(0.0f);
-    for (const std::string_view path : kUnreadTextures) {
-        std::optional<AnyObject> texture;
-        object.optional(path, texture);
-        hasUnreadTexture = hasUnreadTexture || texture.has_value();
-    }
 }
 
 // ---- Animation -----------------------------------------------------------------------------------------------------

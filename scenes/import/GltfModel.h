@@ -171,6 +171,10 @@ inline constexpr TexturePlace kTexturePlaces[] = {
     {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", TextureSlot::ClearcoatNormal},
     {"extensions/KHR_materials_sheen/sheenColorTexture", TextureSlot::SheenColor},
     {"extensions/KHR_materials_sheen/sheenRoughnessTexture", TextureSlot::SheenRoughness},
+    {"extensions/KHR_materials_transmission/transmissionTexture", TextureSlot::Transmission},
+    {"extensions/KHR_materials_volume/thicknessTexture", TextureSlot::Thickness},
+    {"extensions/KHR_materials_iridescence/iridescenceTexture", TextureSlot::Iridescence},
+    {"extensions/KHR_materials_iridescence/iridescenceThicknessTexture", TextureSlot::IridescenceThickness},
 };
 
 /// KHR_materials_pbrSpecularGlossiness, which takes the place of pbrMetallicRoughness.
@@ -190,7 +194,6 @@ struct Material {
     scenes::Material surface;                                    ///< but its textures and index of refraction
     std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
     double ior = 1.5;
-    bool hasUnreadTexture = false; ///< of transmission, thickness or iridescence
     float emissiveStrength = 1.0f; ///< in surface.emissive
     std::optional<SpecularGlossiness> specularGlossiness;
 

@@ -86,7 +86,11 @@ inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"b
                                                                               "clearcoatNormalTexture",
                                                                               "sheenColorTexture",
                                                                               "sheenRoughnessTexture",
-                                                                              "occlusionTexture"};
+                                                                              "occlusionTexture",
+                                                                              "transmissionTexture",
+                                                                              "thicknessTexture",
+                                                                              "iridescenceTexture",
+                                                                              "iridescenceThicknessTexture"};
 
 template <typename Visitor, typename... Materials>
 void visitMaterial(Visitor&& visit, Materials&... material) {

@@ -93,22 +93,25 @@ public:
         number("sheenPerceptualRoughness", TextureSlot::SheenRoughness, material_.sheenPerceptualRoughness, 0.0, 1.0);
     }
 
-    // Without textures: shaders have no units left for them.
-
     void single(const char* key, float Material::*member) {
         const auto& field = fieldOf(kMaterialFields, member);
         if (const auto value = object_.find(key)) material_.*member = value->single(field.least, field.most);
     }
+    void single(const char* key, TextureSlot slot, float Material::*member) {
+        const auto& field = fieldOf(kMaterialFields, member);
+        number(key, slot, material_.*member, field.least, field.most);
+    }
 
     void iridescence() {
-        single("iridescence", &Material::iridescence);
+        single("iridescence", TextureSlot::Iridescence, &Material::iridescence);
         single("iridescenceIor", &Material::iridescenceIor);
-        single("iridescenceThicknessNm", &Material::iridescenceThicknessNm);
+        single("iridescenceThicknessNm", TextureSlot::IridescenceThickness, &Material::iridescenceThicknessNm);
+        single("iridescenceLeastThicknessNm", &Material::iridescenceLeastThicknessNm);
     }
 
     void transmission() {
-        single("transmission", &Material::transmission);
-        single("thicknessMetres", &Material::thicknessMetres);
+        single("transmission", TextureSlot::Transmission, &Material::transmission);
+        single("thicknessMetres", TextureSlot::Thickness, &Material::thicknessMetres);
         if (const auto value = object_.find("attenuationColor")) {
             const std::vector<JsonValue> channels = value->elements(3, 3);
             for (glm::length_t i = 0; i < 3; ++i)

@@ -93,13 +93,14 @@ public:
             parameter("sheenPerceptualRoughness", material_.sheenPerceptualRoughness, TextureSlot::SheenRoughness);
         }
         if (material_.iridescence != 0.0f) {
-            factor("iridescence", material_.iridescence);
+            parameter("iridescence", material_.iridescence, TextureSlot::Iridescence);
             factor("iridescenceIor", material_.iridescenceIor);
-            factor("iridescenceThicknessNm", material_.iridescenceThicknessNm);
+            parameter("iridescenceThicknessNm", material_.iridescenceThicknessNm, TextureSlot::IridescenceThickness);
+            factor("iridescenceLeastThicknessNm", material_.iridescenceLeastThicknessNm);
         }
         if (material_.transmission != 0.0f) {
-            factor("transmission", material_.transmission);
-            factor("thicknessMetres", material_.thicknessMetres);
+            parameter("transmission", material_.transmission, TextureSlot::Transmission);
+            parameter("thicknessMetres", material_.thicknessMetres, TextureSlot::Thickness);
             json_["attenuationColor"] = numbers(material_.attenuationColor);
             factor("attenuationDistanceMetres", material_.attenuationDistanceMetres);
             factor("dispersion", material_.dispersion);

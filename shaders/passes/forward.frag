@@ -21,7 +21,7 @@ void main()
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
     takeDiffusedLight(fragment, surface);
-    coverWithFilm(surface);
+    coverWithFilm(fragment, surface);
     float depth = shadingDepth();
     if (coversNothing(baseColor)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);

@@ -11,7 +11,7 @@ void main()
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
     takeDiffusedLight(fragment, surface);
-    coverWithFilm(surface);
+    coverWithFilm(fragment, surface);
     if (materialCutOut(baseColor)) discard;
     writeGBuffer(surface);
 }

@@ -50,7 +50,8 @@ struct MaterialConstants {
                                      // where opacity covers, as of alpha-blended ones; z 1 where there is a body below
     vec4 attenuation;                // rgb what the body leaves of white light; a half the spread of its indices of
                                      // refraction over what they are above 1, 0 where all colours bend alike
-    vec4 film; // x share, 0 where there is none; y index of refraction; z thickness in micrometres
+    vec4 film; // x share, 0 where there is none; y index of refraction; z thickness in micrometres where its texture
+               // is 1 or there is none; w where the texture is 0
 };
 
 SHARED_END

@@ -44,26 +44,27 @@ SHARED_BEGIN
 #define STORAGE_HOOK_POINTS 0 // of what changes surfaces for the reference
 #define STORAGE_HOOK_SURFACES 1
 
-// Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. What needs no
-// environment, and so no occlusion texture, and no area lights keeps to 16, and programs that never sample both share a
-// number: renderer/gpu/Program.h refuses one that samples more than the driver lets it.
+// Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. A frame whose
+// programs would sample more than the driver lets a stage goes without some textures of materials
+// (renderer/frame/TextureRoom.h). Programs that never sample both share a number.
 #define TEXTURE_UNITS_A_STAGE 32
 #define TEXTURE_UNITS_GUARANTEED 16
+#define TEXTURE_UNITS_IN_ALL 80
 
 // What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
 // each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
-#define TEXTURE_UNIT_LIGHTS 14
-#define TEXTURE_UNIT_SHADOWS 15
-#define TEXTURE_UNIT_LIGHT_ENTRIES 16
-#define TEXTURE_UNIT_ENVIRONMENT 17
-#define TEXTURE_UNIT_ENVIRONMENT_SAMPLES 18
-#define TEXTURE_UNIT_ENVIRONMENT_FILTERED 19
-#define TEXTURE_UNIT_LOBES 20
-#define TEXTURE_UNIT_LOBE_SHAPES 21
+#define TEXTURE_UNIT_LIGHTS 18
+#define TEXTURE_UNIT_SHADOWS 19
+#define TEXTURE_UNIT_LIGHT_ENTRIES 20
+#define TEXTURE_UNIT_ENVIRONMENT 21
+#define TEXTURE_UNIT_ENVIRONMENT_SAMPLES 22
+#define TEXTURE_UNIT_ENVIRONMENT_FILTERED 23
+#define TEXTURE_UNIT_LOBES 24
+#define TEXTURE_UNIT_LOBE_SHAPES 25
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).
-#define TEXTURE_SLOT_COUNT 14
+#define TEXTURE_SLOT_COUNT 18
 
 // What reads stored surfaces and pictures.
 #define TEXTURE_UNIT_GBUFFER 0 // to 7
@@ -89,8 +90,7 @@ SHARED_BEGIN
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
 static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
-static_assert(TEXTURE_UNIT_LIGHT_ENTRIES <= TEXTURE_UNITS_GUARANTEED,
-              "without occlusion, more than OpenGL 4.5 guarantees a stage");
+static_assert(TEXTURE_UNIT_LOBE_SHAPES < TEXTURE_UNITS_IN_ALL, "more than OpenGL 4.5 guarantees all stages");
 #endif
 
 SHARED_END

@@ -74,6 +74,36 @@ TEST_F(GlassSheets, showWhatLiesBehindByChannel) {
     expectShown(scene, wanted * glm::dvec3(0.25, 1.0, 0.0));
 }
 
+/// Transmission by R, thickness by G; a texel of 0 leaves a body that absorbs nothing.
+TEST_F(GlassSheets, areScaledByTheirTextures) {
+    using scenes::TextureSlot;
+    Material sheet = clearGlass();
+    sheet.transmission = 0.8f;
+    sheet.thicknessMetres = 0.5f;
+    sheet.attenuationDistanceMetres = 0.25f;
+    sheet.attenuationColor = {0.5f, 0.8f, 0.0f};
+    const auto scaled = [&](float transmission, float thickness) {
+        Scene scene = flatScene(sheet);
+        scene.background = {0.25f, 0.5f, 0.75f};
+        scene.images = {floatImage({transmission, 0.7f, 0.3f, 0.1f}), floatImage({0.7f, thickness, 0.3f, 0.1f})};
+        scene.materials[0].texture(TextureSlot::Transmission).image = 0;
+        scene.materials[0].texture(TextureSlot::Thickness).image = 1;
+        return scene;
+    };
+    Scene plain = flatScene(sheet);
+    plain.background = {0.25f, 0.5f, 0.75f};
+    EXPECT_EQ(center(scaled(1.0f, 1.0f)), center(plain)) << "white changes no bit";
+    for (const float thickness : {0.0f, 0.25f, 0.5f}) {
+        const Scene scene = scaled(0.5f, thickness);
+        const glm::vec4 shown = center(scene);
+        for (int c = 0; c < 3; ++c) {
+            const double left = std::pow(double(sheet.attenuationColor[c]), 2.0 * double(thickness));
+            const double expected = 0.96 * double(sheet.transmission) * 0.5 * left * double(scene.background[c]);
+            EXPECT_NEAR(shown[c], expected, 1e-3 * expected + 1e-6) << thickness << ", " << c;
+        }
+    }
+}
+
 TEST_F(GlassSheets, behindEachOtherMultiply) {
     Material sheet = clearGlass();
     sheet.baseColor = {0.5f, 0.8f, 0.2f, 1.0f};
@@ -347,6 +377,8 @@ Scene sceneWithGlass() {
     coated.attenuationDistanceMetres = 0.2f;
     coated.attenuationColor = {0.9f, 0.4f, 0.2f};
     coated.dispersion = 1.0f;
+    for (const scenes::TextureSlot slot : {scenes::TextureSlot::Transmission, scenes::TextureSlot::Thickness})
+        coated.texture(slot).image = 0;
     return scene;
 }
 

@@ -85,6 +85,45 @@ TEST_F(FlatFilms, thatAreNoneChangeNothing) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(air[c], wanted[c], 1e-5f);
 }
 
+/// The share by R, the thickness from the least to that of the material by G.
+TEST_F(FlatFilms, haveTheShareAndTheThicknessThatTexturesSay) {
+    using scenes::TextureSlot;
+    Material film = filmOnMetal(500.0f, 1.5f);
+    film.iridescence = 0.8f;
+    film.iridescenceLeastThicknessNm = 100.0f;
+    const auto textured = [&](const Material& material, float share, float thickness) {
+        Scene scene = flatScene(material);
+        scene.environment = evenEnvironment(1.0);
+        scene.images = {floatImage({share, 0.7f, 0.3f, 0.1f}), floatImage({0.7f, thickness, 0.3f, 0.1f})};
+        scene.materials[0].texture(TextureSlot::Iridescence).image = 0;
+        scene.materials[0].texture(TextureSlot::IridescenceThickness).image = 1;
+        return center(scene);
+    };
+    EXPECT_EQ(textured(film, 1.0f, 1.0f), shown(film)) << "white changes no bit";
+    Material partly = film;
+    partly.iridescence = 0.4f;
+    for (const float texel : {0.0f, 0.25f, 0.75f}) {
+        partly.iridescenceThicknessNm = 100.0f + texel * 400.0f;
+        const glm::vec4 found = textured(film, 0.5f, texel), wanted = shown(partly);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 1e-5f) << texel << ", " << c;
+    }
+    Material bare = film;
+    bare.iridescence = 0.0f;
+    const auto expectBare = [&](const glm::vec4& found) {
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], shown(bare)[c], 1e-5f) << c;
+    };
+    expectBare(textured(film, 0.0f, 1.0f));
+    film.iridescenceLeastThicknessNm = 0.0f;
+    expectBare(textured(film, 1.0f, 0.0f)); // no thickness
+    // The other way round, with a film where the texture is dark alone.
+    film.iridescenceThicknessNm = 0.0f;
+    film.iridescenceLeastThicknessNm = 300.0f;
+    partly.iridescence = 0.8f;
+    partly.iridescenceThicknessNm = 300.0f;
+    const glm::vec4 dark = textured(film, 1.0f, 0.0f), wanted = shown(partly);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(dark[c], wanted[c], 1e-5f) << c;
+}
+
 class Films : public EnvironmentTest {
 protected:
     std::vector<float> drawn(const Scene& scene, const frame::FrameSettings& settings,
@@ -167,6 +206,25 @@ TEST_F(Films, underLightsAgreeWithTheReference) {
     }
 }
 
+/// A texture with other values in every channel and place.
+TEST_F(Films, withTexturesAgreeWithTheReference) {
+    Material film = filmOnMetal(600.0f, 1.6f);
+    film.iridescenceLeastThicknessNm = 200.0f;
+    Scene scene = ballUnderSky(film);
+    scene.environment = evenEnvironment(1.0);
+    const auto ramp = [](int x, int y) { return std::array<int, 4>{255 - 20 * x, 30 * y, 40 * (x ^ y) % 256, 90}; };
+    scene.images = {image8(ramp)};
+    scenes::Mesh& ball = scene.meshes[0];
+    ball.texCoords[0].clear();
+    for (const glm::vec3& position : ball.positionsOS) ball.texCoords[0].push_back(0.5f * glm::vec2(position) + 0.5f);
+    for (const auto slot : {scenes::TextureSlot::Iridescence, scenes::TextureSlot::IridescenceThickness})
+        scene.materials[0].texture(slot).image = 0;
+    const Judged found = judged(scene);
+    EXPECT_GT(found.pixels, 1000);
+    EXPECT_EQ(found.wrong, 0);
+    EXPECT_GT(found.colorful, 0.01);
+}
+
 /// Each colour that a film does not reflect passes.
 TEST_F(Films, onClearGlassInEvenLightShowExactlyThatLight) {
     constexpr int kFurnacePixels = 32;
@@ -193,6 +251,9 @@ Scene sceneWithFilms() {
     for (const std::size_t material : {3u, 4u, 5u, 6u, 11u}) {
         scene.materials[material].iridescence = 0.8f;
         scene.materials[material].iridescenceThicknessNm = 200.0f + 50.0f * float(material);
+        if (material % 2 == 0) continue;
+        for (const auto slot : {scenes::TextureSlot::Iridescence, scenes::TextureSlot::IridescenceThickness})
+            scene.materials[material].texture(slot).image = 0;
     }
     return scene;
 }

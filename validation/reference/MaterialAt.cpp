@@ -48,6 +48,18 @@ void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point)
     point.tangent = tangentAt(hit, point.normal, alongTangents(material, TextureSlot::Anisotropy, direction));
 }
 
+/// KHR_materials_iridescence. A film of no thickness is none.
+void setFilm(const Hit& hit, const Textures& textures, SurfacePoint& point) {
+    const scenes::Material& material = *hit.object->material;
+    point.filmIor = double(material.iridescenceIor);
+    point.filmThicknessNm = double(material.iridescenceThicknessNm);
+    if (material.texture(TextureSlot::IridescenceThickness).image != scenes::kNone)
+        point.filmThicknessNm = std::lerp(double(material.iridescenceLeastThicknessNm), point.filmThicknessNm,
+                                          texelOf(TextureSlot::IridescenceThickness, hit, textures).g);
+    if (point.filmThicknessNm > 0.0)
+        point.film = double(material.iridescence) * texelOf(TextureSlot::Iridescence, hit, textures).r;
+}
+
 void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
     const auto texel = [&](TextureSlot slot) { return texelOf(slot, hit, textures); };
@@ -55,23 +67,23 @@ void setLayers(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     point.coat = double(material.clearcoat) * texel(TextureSlot::Clearcoat).r;
     point.coatAlpha =
         squaredRoughness(double(material.clearcoatPerceptualRoughness) * texel(TextureSlot::ClearcoatRoughness).g);
-    if (scenes::isIridescent(material)) point.film = double(material.iridescence);
-    point.filmIor = double(material.iridescenceIor);
-    point.filmThicknessNm = double(material.iridescenceThicknessNm);
+    setFilm(hit, textures, point);
     if (point.coat > 0.0) point.coatNormal = coatNormalAt(hit, textures);
     point.sheenColor = glm::dvec3(material.sheenColor) * glm::dvec3(texel(TextureSlot::SheenColor));
     point.sheenAlpha =
         squaredRoughness(double(material.sheenPerceptualRoughness) * texel(TextureSlot::SheenRoughness).a);
 }
 
-void setTransmission(const scenes::Material& material, SurfacePoint& point) {
+void setTransmission(const Hit& hit, const Textures& textures, SurfacePoint& point) {
+    const scenes::Material& material = *hit.object->material;
     if (!scenes::isTransmissive(material)) return;
     if (material.alphaMode != scenes::AlphaMode::Blend) point.opacity = 1.0;
-    point.transmission = double(material.transmission);
-    const double thickness = double(material.thicknessMetres), distance = double(material.attenuationDistanceMetres);
-    point.hasBody = thickness > 0.0;
+    point.transmission = double(material.transmission) * texelOf(TextureSlot::Transmission, hit, textures).r;
+    point.hasBody = scenes::hasBody(material); // where its texture is 0 too, so that it bends light there
+    const double thickness = double(material.thicknessMetres) * texelOf(TextureSlot::Thickness, hit, textures).g;
+    const double distance = double(material.attenuationDistanceMetres);
     if (point.hasBody) point.dispersion = double(material.dispersion);
-    if (point.hasBody && distance > 0.0)
+    if (thickness > 0.0 && distance > 0.0)
         for (int c = 0; c < 3; ++c) {
             const double absorptionPerMetre = -std::log(double(material.attenuationColor[c])) / distance;
             point.leftByBody[c] = std::exp(-absorptionPerMetre * thickness);
@@ -113,7 +125,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
     if (change) change(point);
     setDirection(hit, textures, point);
     setLayers(hit, textures, point);
-    setTransmission(material, point);
+    setTransmission(hit, textures, point);
     if (hit.object->subsurface == scenes::SubsurfaceMethod::Wrap) {
         point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;

@@ -44,6 +44,9 @@ bool iridescenceRows(Material& material) {
     changed |= slider("Film index", material.iridescenceIor, 1.0f, kMostFilmIorShown);
     changed |= slider("Film nm", material.iridescenceThicknessNm, 0.0f, kMostFilmThicknessShown, "%.0f");
     tip("Thickness of the film in nanometres");
+    if (material.texture(scenes::TextureSlot::IridescenceThickness).image == scenes::kNone) return changed;
+    changed |= slider("Least nm", material.iridescenceLeastThicknessNm, 0.0f, kMostFilmThicknessShown, "%.0f");
+    tip("The same where the texture is 0");
     return changed;
 }
 

@@ -10,13 +10,26 @@
 // Source: KHR_materials_transmission and _volume. The alpha is that of the Khronos sample viewer, applyIorToRoughness():
 // the less the index of refraction bends light, the less a rough surface spreads it. An index of 0 is one without
 // bound.
-void setPassing(vec3 baseColor, float metallic, float ior, inout Surface surface)
+void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, inout Surface surface)
 {
-    precise float share = material.transmission.x * (1.0 - metallic);
-    precise vec3 passing = baseColor * material.attenuation.rgb * share;
+    precise float transmission = material.transmission.x;
+#if HAS_TRANSMISSION_TEXTURE
+    transmission *= sampleSlot(transmissionTexture, TEXTURE_SLOT_TRANSMISSION, fragment).r;
+#endif
+    precise vec3 left = material.attenuation.rgb;
+#if HAS_THICKNESS_TEXTURE
+    // Beer's law. 1 leaves the bits as they are. Drivers find powers of 0 by its logarithm, which has no bound.
+    float thickness = sampleSlot(thicknessTexture, TEXTURE_SLOT_THICKNESS, fragment).g;
+    if (!(thickness > 0.0))
+        left = vec3(1.0);
+    else if (thickness != 1.0)
+        left = mix(vec3(0.0), pow(max(left, vec3(1e-30)), vec3(thickness)), greaterThan(left, vec3(0.0)));
+#endif
+    precise float share = transmission * (1.0 - metallic);
+    precise vec3 passing = baseColor * left * share;
     precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;
     precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
-    surface.transmission = material.transmission.x;
+    surface.transmission = transmission;
     surface.passing = passing;
     surface.passingIor = ior;
     surface.passingAlpha = alpha;
@@ -71,7 +84,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
         surface.specular = f0;
 #endif
 #if HAS_PASSING_LIGHT
-        setPassing(baseColor.rgb, roughnessMetallic.y, ior, surface);
+        setPassing(fragment, baseColor.rgb, roughnessMetallic.y, ior, surface);
 #endif
     }
     if (IS_MICROFACET(surface.model)) {

@@ -31,6 +31,10 @@ layout(binding = TEXTURE_SLOT_CLEARCOAT_NORMAL) uniform sampler2D clearcoatNorma
 layout(binding = TEXTURE_SLOT_SHEEN_COLOR) uniform sampler2D sheenColorTexture;
 layout(binding = TEXTURE_SLOT_SHEEN_ROUGHNESS) uniform sampler2D sheenRoughnessTexture;
 layout(binding = TEXTURE_SLOT_OCCLUSION) uniform sampler2D occlusionTexture;
+layout(binding = TEXTURE_SLOT_TRANSMISSION) uniform sampler2D transmissionTexture;
+layout(binding = TEXTURE_SLOT_THICKNESS) uniform sampler2D thicknessTexture;
+layout(binding = TEXTURE_SLOT_IRIDESCENCE) uniform sampler2D iridescenceTexture;
+layout(binding = TEXTURE_SLOT_IRIDESCENCE_THICKNESS) uniform sampler2D iridescenceThicknessTexture;
 
 // What the rasteriser interpolates over a triangle.
 struct Fragment {

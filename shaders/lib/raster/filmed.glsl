@@ -1,6 +1,7 @@
 // A thin film on a surface as it is rasterised (docs/iridescence.md): the surface gets the reflectance f0 whose Schlick curve
 // goes through what the film reflects towards the viewer, so that lighting and the G-buffer know of no film.
 #pragma once
+#include "lib/material/material_values.glsl"
 #include "lib/surface/camera.glsl"
 #include "lib/surface/surface.glsl"
 #if HAS_IRIDESCENCE
@@ -11,14 +12,24 @@
 // Nearer to the horizon Schlick's curve is nearly 1 whatever f0 is, so that none would go through.
 const float kFilmLeastCosine = 0.1;
 
-void coverWithFilm(inout Surface surface)
+void coverWithFilm(Fragment fragment, inout Surface surface)
 {
     if (!(material.film.x > 0.0) || !HAS_METALLIC(surface.model)) return;
+    precise float share = material.film.x;
+#if HAS_IRIDESCENCE_TEXTURE
+    share *= sampleSlot(iridescenceTexture, TEXTURE_SLOT_IRIDESCENCE, fragment).r;
+#endif
+    precise float thickness = material.film.z;
+#if HAS_IRIDESCENCE_THICKNESS_TEXTURE
+    float texel = sampleSlot(iridescenceThicknessTexture, TEXTURE_SLOT_IRIDESCENCE_THICKNESS, fragment).g;
+    thickness += (1.0 - texel) * (material.film.w - material.film.z);
+#endif
+    if (!(thickness > 0.0)) share = 0.0; // its texture is dark there, or left out
     SeenSurface seen = seenSurface(surface, viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS);
     float cosine = clamp(seen.nv, kFilmLeastCosine, 1.0);
     vec3 bare = fresnelSchlick(seen.f0, seen.fresnelRise, cosine);
-    vec3 film = filmReflectance(seen.f0, cosine, material.film.y, material.film.z);
-    precise vec3 covered = bare + material.film.x * (film - bare);
+    vec3 film = filmReflectance(seen.f0, cosine, material.film.y, thickness);
+    precise vec3 covered = bare + share * (film - bare);
     float rise = fresnelSchlick(vec3(0.0), vec3(1.0), cosine).x;
     precise float f90 = surface.iorOrF90 + (1.0 - surface.iorOrF90) * surface.metallic;
     precise vec3 f0 = clamp((covered - f90 * rise) / (1.0 - rise), vec3(0.0), vec3(1.0));
@@ -29,7 +40,7 @@ void coverWithFilm(inout Surface surface)
     surface.metallic = 0.0; // it is in f0 and albedo
 }
 #else
-void coverWithFilm(inout Surface surface)
+void coverWithFilm(Fragment fragment, inout Surface surface)
 {
 }
 #endif

@@ -38,19 +38,19 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
                      filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                     shadowMaps, subsurface, diffusion, environment, culling, lightOn, snapPixels, softwareBackend,
-                     display, exposureEV, toneMap] = settings;
+                     shadowMaps, subsurface, diffusion, environment, culling, lightOn, snapPixels, texturesAStage,
+                     softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
-        return std::pair(
-            std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space, prune,
-                       specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples, widthTexels,
-                       resolutionTexels, budgetMiB, cascades, subsurface, sideTexels, gaussians, half, light,
-                       lightSamples, compensates, rotationDegrees, intensity, backdrop, method, tilePixels, builder,
-                       normals, lightOn, exposureEV, toneMap),
-            std::tuple(wholePixels, samplesGiven, eyeOffsetWS, snapPixels, softwareBackend, display, lanes));
+        return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
+                                    prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
+                                    widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
+                                    gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
+                                    backdrop, method, tilePixels, builder, normals, lightOn, exposureEV, toneMap),
+                         std::tuple(wholePixels, samplesGiven, eyeOffsetWS, snapPixels, texturesAStage, softwareBackend,
+                                    display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
         return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};

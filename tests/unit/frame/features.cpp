@@ -58,6 +58,10 @@ std::vector<Change> changes() {
         {featureOf(TextureSlot::ClearcoatNormal), texture(TextureSlot::ClearcoatNormal)},
         {featureOf(TextureSlot::SheenColor), texture(TextureSlot::SheenColor)},
         {featureOf(TextureSlot::SheenRoughness), texture(TextureSlot::SheenRoughness)},
+        {featureOf(TextureSlot::Transmission), texture(TextureSlot::Transmission)},
+        {featureOf(TextureSlot::Thickness), texture(TextureSlot::Thickness)},
+        {featureOf(TextureSlot::Iridescence), texture(TextureSlot::Iridescence)},
+        {featureOf(TextureSlot::IridescenceThickness), texture(TextureSlot::IridescenceThickness)},
         {featureOf(TextureSlot::Occlusion),
          [](scenes::Scene& scene) {
              addTexture(scene.materials[0], TextureSlot::Occlusion);

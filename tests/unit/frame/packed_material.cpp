@@ -101,7 +101,8 @@ TEST(PackedMaterial, aFilmIsStatedInMicrometres) {
     material.iridescence = 0.5f;
     material.iridescenceIor = 1.5f;
     material.iridescenceThicknessNm = 250.0f;
-    EXPECT_EQ(packMaterial(material).film, glm::vec4(0.5f, 1.5f, 0.25f, 0.0f));
+    material.iridescenceLeastThicknessNm = 125.0f;
+    EXPECT_EQ(packMaterial(material).film, glm::vec4(0.5f, 1.5f, 0.25f, 0.125f));
     material.model = MaterialModel::Lambert;
     EXPECT_EQ(packMaterial(material).film.x, 0.0f);
 }

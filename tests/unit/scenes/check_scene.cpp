@@ -121,6 +121,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"iridescence must", [](Scene& s) { s.materials[0].iridescence = 1.1f; }},
         {"film's index of refraction", [](Scene& s) { s.materials[0].iridescenceIor = 0.9f; }},
         {"film's thickness", [](Scene& s) { s.materials[0].iridescenceThicknessNm = kNaN; }},
+        {"film's least thickness", [](Scene& s) { s.materials[0].iridescenceLeastThicknessNm = -1.0f; }},
         {"transmission must", [](Scene& s) { s.materials[0].transmission = 1.1f; }},
         {"thickness must", [](Scene& s) { s.materials[0].thicknessMetres = -0.1f; }},
         {"attenuation's colour", [](Scene& s) { s.materials[0].attenuationColor.y = 1.5f; }},

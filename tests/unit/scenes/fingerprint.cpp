@@ -79,6 +79,7 @@ const std::vector<Change>& changes() {
         {"material.iridescence", [](Scene& s) { s.materials[0].iridescence = 0.5f; }},
         {"material.iridescenceIor", [](Scene& s) { s.materials[0].iridescenceIor = 1.5f; }},
         {"material.iridescenceThickness", [](Scene& s) { s.materials[0].iridescenceThicknessNm = 100.0f; }},
+        {"material.iridescenceLeastThickness", [](Scene& s) { s.materials[0].iridescenceLeastThicknessNm = 50.0f; }},
         {"material.transmission", [](Scene& s) { s.materials[0].transmission = 0.5f; }},
         {"material.thickness", [](Scene& s) { s.materials[0].thicknessMetres = 0.5f; }},
         {"material.attenuationColor", [](Scene& s) { s.materials[0].attenuationColor.z = 0.5f; }},

@@ -256,11 +256,7 @@ void expectValidPrograms() {
     int mostSampled = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(verdicts[i].faults, "");
-        const bool needsMore = std::ranges::any_of(work[i]->defines, [](const auto& define) {
-            return define.second == "1" && (define.first == "HAS_ENVIRONMENT" || define.first == "HAS_AREA_LIGHTS");
-        });
-        EXPECT_LE(verdicts[i].sampledTextures, needsMore ? TEXTURE_UNITS_A_STAGE : TEXTURE_UNITS_GUARANTEED)
-            << work[i]->key();
+        EXPECT_LE(verdicts[i].sampledTextures, TEXTURE_UNITS_A_STAGE) << work[i]->key();
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
     // Every texture of a material, lights, the entries of light lists and casters, the two tables of lobes, and the
@@ -273,6 +269,37 @@ void expectValidPrograms() {
 TEST(Offline, programsOfEveryBuiltinSceneAlwaysSatisfyTheReferenceCompilerAndSampleNoMoreThanAStageMay) {
     expectValidPrograms();
 }
+/// With every kind of light and texture, pruned and not, where a stage samples no more than OpenGL guarantees.
+TEST(Offline, programsKeepToTheFewestTexturesThatADriverMayOfferAStage) {
+    scenes::LoadOptions options;
+    options.useAssets = false;
+    scenes::Scene scene = scenes::loadScene("glass", options);
+    for (scenes::Material& material : scene.materials) {
+        if (scenes::isTransmissive(material)) material.iridescence = 1.0f;
+        for (scenes::TextureUse& use : material.textures) use.image = 0;
+    }
+    if (scene.images.empty()) scene.images.push_back({"texel", {}, 1, 1, std::vector<std::byte>(4)});
+    const ReferenceCompiler compiler;
+    for (const bool prune : {true, false}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {64, 36};
+        settings.prune = prune;
+        settings.shadows.kind = scenes::ShadowRequest::Kind::All;
+        settings.texturesAStage = TEXTURE_UNITS_GUARANTEED;
+        int mostSampled = 0;
+        for (const engine::Technique technique : {engine::Technique::Deferred, engine::Technique::ForwardPlus})
+            for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings)) {
+                const ReferenceCompiler::Verdict verdict = compiler.judge(desc);
+                EXPECT_EQ(verdict.faults, "");
+                EXPECT_LE(verdict.sampledTextures, TEXTURE_UNITS_GUARANTEED) << desc.key();
+                mostSampled = std::max(mostSampled, verdict.sampledTextures);
+            }
+        if (!prune) {
+            EXPECT_EQ(mostSampled, TEXTURE_UNITS_GUARANTEED) << "more than needed is left out";
+        }
+    }
+}
+
 TEST(OfflineSlow, programsOfEveryBuiltinSceneAlwaysSatisfyTheReferenceCompilerAndSampleNoMoreThanAStageMay) {
     expectValidPrograms();
 }

@@ -42,7 +42,7 @@ scenes::Material materialAtBounds(bool isMost) {
     material.thicknessMetres = material.attenuationDistanceMetres = isMost ? kMostThicknessShown : 0.0f;
     material.iridescence = share;
     material.iridescenceIor = isMost ? kMostFilmIorShown : 1.0f;
-    material.iridescenceThicknessNm = isMost ? kMostFilmThicknessShown : 0.0f;
+    material.iridescenceThicknessNm = material.iridescenceLeastThicknessNm = isMost ? kMostFilmThicknessShown : 0.0f;
     material.dispersion = isMost ? kMostDispersionShown : 0.0f;
     material.emissive = glm::vec3(isMost ? kMostRadiance : 0.0f);
     for (const scenes::MaterialModelInfo& model : scenes::materialModels()) {

@@ -287,6 +287,42 @@ TEST(SceneJsonMaterials, aFilmHasItsShareIndexAndThickness) {
               "/materials/0/iridescenceIor: is 0.5; at least 1 is needed");
 }
 
+TEST(SceneJsonMaterials, glassAndFilmsHaveTextures) {
+    const SceneFolder folder;
+    const Scene scene = sceneOf(folder, R"("model": "metallic_roughness",
+        "transmission": {"factor": 0.75, "texture": "pictures/albedo.tga"},
+        "thicknessMetres": {"factor": 0.5, "texture": {"file": "pictures/specular.tga", "texCoord": 1}},
+        "iridescence": {"factor": 0.25, "texture": "pictures/specular.tga"},
+        "iridescenceThicknessNm": {"factor": 250, "texture": "pictures/normal.tga"},
+        "iridescenceLeastThicknessNm": 50)");
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.transmission, 0.75f);
+    EXPECT_EQ(material.thicknessMetres, 0.5f);
+    EXPECT_EQ(material.iridescence, 0.25f);
+    EXPECT_EQ(material.iridescenceThicknessNm, 250.0f);
+    EXPECT_EQ(material.iridescenceLeastThicknessNm, 50.0f);
+    EXPECT_EQ(redOf(scene, TextureSlot::Transmission), 10);
+    EXPECT_EQ(redOf(scene, TextureSlot::Thickness), 40);
+    EXPECT_EQ(material.texture(TextureSlot::Thickness).texCoordSet, 1);
+    EXPECT_EQ(redOf(scene, TextureSlot::Iridescence), 40);
+    EXPECT_EQ(redOf(scene, TextureSlot::IridescenceThickness), 128);
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "transmission": {"factor": 2})"),
+              "/materials/0/transmission/factor: is 2; at most 1 is allowed");
+    EXPECT_EQ(errorOfMaterial(folder, R"("model": "metallic_roughness", "iridescenceLeastThicknessNm": -1)"),
+              "/materials/0/iridescenceLeastThicknessNm: is -1; at least 0 is needed");
+}
+
+TEST(SceneJsonMaterials, onlyATextureThatMayGiveAFilmAThicknessMakesOneOfNone) {
+    Material material;
+    material.iridescence = 0.5f;
+    material.iridescenceThicknessNm = 0.0f;
+    EXPECT_FALSE(isIridescent(material));
+    material.texture(TextureSlot::IridescenceThickness).image = 0;
+    EXPECT_TRUE(isIridescent(material)) << "as thick as the least where the texture is 0";
+    material.iridescenceLeastThicknessNm = 0.0f;
+    EXPECT_FALSE(isIridescent(material));
+}
+
 TEST(SceneJsonMaterials, onlyMetallicRoughnessHasAFilmAndNoSubsurfaceBelowIt) {
     Material material;
     material.subsurface.method = SubsurfaceMethod::DepthMap;

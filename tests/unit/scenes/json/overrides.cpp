@@ -143,7 +143,7 @@ TEST(SceneJsonOverrides, anOverrideThatMatchesNothingIsRefusedWithTheNearest) {
         "metallic, perceptualRoughness, ior, specularFactor, specularColor, metallicRoughnessTexture, "
         "anisotropyStrength, anisotropyRotationDegrees, anisotropyTexture, emissive, emissiveStrength, clearcoat, "
         "clearcoatPerceptualRoughness, clearcoatNormalMap, sheenColor, sheenPerceptualRoughness, iridescence, "
-        "iridescenceIor, iridescenceThicknessNm, transmission, "
+        "iridescenceIor, iridescenceThicknessNm, iridescenceLeastThicknessNm, transmission, "
         "thicknessMetres, attenuationColor, attenuationDistanceMetres, dispersion, normalMap, occlusionMap, tangents, "
         "subsurface, alphaMode, alphaCutoff, doubleSided, castsShadow, fields");
     EXPECT_EQ(folder.errorOf(threeParts(R"("overrides": [{"node": "left"}])")),

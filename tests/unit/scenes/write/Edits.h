@@ -84,6 +84,7 @@ public:
         material.ior = 1.0f + share();
         material.iridescenceIor = 1.0f + share();
         material.iridescenceThicknessNm = 1000.0f * share();
+        material.iridescenceLeastThicknessNm = 1000.0f * share();
         material.specularColor = color();
         material.sheenColor = color();
         material.attenuationColor = color();

@@ -1,0 +1,91 @@
+#include "renderer/frame/TextureRoom.h"
+
+#include <algorithm>
+#include <ranges>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "shaders/shared/slots.h"
+
+namespace tessera::frame {
+
+using scenes::TextureSlot;
+
+namespace {
+
+/// Whether programs with the features sample the slot: some do so only for what the texture is of.
+bool isSampled(const FeatureSet& features, TextureSlot slot) {
+    if (!features[slot]) return false;
+    switch (slot) {
+    case TextureSlot::Emissive:
+        return features[Feature::Emission];
+    case TextureSlot::Anisotropy:
+        return features.tangentFrame();
+    case TextureSlot::Clearcoat:
+    case TextureSlot::ClearcoatRoughness:
+    case TextureSlot::ClearcoatNormal:
+        return features[Feature::Clearcoat];
+    case TextureSlot::SheenColor:
+    case TextureSlot::SheenRoughness:
+        return features[Feature::Sheen];
+    case TextureSlot::Transmission:
+    case TextureSlot::Thickness:
+        return features[Feature::Transmission];
+    case TextureSlot::Iridescence:
+    case TextureSlot::IridescenceThickness:
+        return features[Feature::Iridescence];
+    default:
+        return true;
+    }
+}
+
+/// Beside those of materials.
+std::size_t sampledBeside(const FrameSpec& spec) {
+    const FeatureSet& features = spec.features;
+    std::size_t sampled = 2; // TEXTURE_UNIT_LIGHTS and _LIGHT_ENTRIES
+    const auto add = [&](bool isOne) { sampled += isOne ? 1 : 0; };
+    add(features[Feature::Shadows]);     // TEXTURE_UNIT_SHADOWS
+    add(features[Feature::Environment]); // TEXTURE_UNIT_ENVIRONMENT_SAMPLES or _FILTERED
+    add(spec.lightsByEnvironmentMap());  // TEXTURE_UNIT_ENVIRONMENT
+    add(spec.usesLobeTable());           // TEXTURE_UNIT_LOBES
+    add(spec.usesLobeShapes());          // TEXTURE_UNIT_LOBE_SHAPES
+    return sampled;
+}
+
+// Shaders count on these slots where a flag of the material says that it has a texture there. They always have room.
+constexpr std::size_t kMostBeside = 7;
+constexpr TextureSlot kLastKept = TextureSlot::Anisotropy;
+static_assert(std::size_t(kLastKept) + 1 + kMostBeside <= TEXTURE_UNITS_GUARANTEED);
+
+} // namespace
+
+std::size_t sampledTextures(const FrameSpec& spec) {
+    return sampledBeside(spec) +
+           std::size_t(std::ranges::count_if(scenes::kTextureSlots, [&](const scenes::TextureSlotInfo& info) {
+               return isSampled(spec.features, info.slot);
+           }));
+}
+
+void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
+    for (const bool read : {false, true})
+        for (const scenes::TextureSlotInfo& info : std::views::reverse(scenes::kTextureSlots)) {
+            // Without a normal map other features would have to go too.
+            const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;
+            if (info.slot <= lastKept || sampledTextures(spec) <= std::size_t(spec.settings.texturesAStage)) break;
+            if (!isSampled(spec.features, info.slot) || isSampled(used, info.slot) != read) continue;
+            spec.features.has.reset(std::size_t(featureOf(info.slot)));
+            if (read) spec.withoutTextures.push_back(info.slot);
+        }
+}
+
+std::string missingTextures(const FrameSpec& spec) {
+    if (spec.withoutTextures.empty()) return "";
+    std::vector<std::string_view> names;
+    for (const TextureSlot slot : std::views::reverse(spec.withoutTextures)) names.push_back(infoOf(slot).what);
+    return fmt::format("a shader of this driver samples at most {} textures, and the scene's materials and lights need "
+                       "more; left out, so that factors hold everywhere: {}",
+                       spec.settings.texturesAStage, fmt::join(names, ", "));
+}
+
+} // namespace tessera::frame
