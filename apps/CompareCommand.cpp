@@ -13,8 +13,10 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "base/PictureFile.h"
+#include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
+#include "renderer/frame/TextureRoom.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/pictures/HeatMap.h"
@@ -159,6 +161,11 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
         !missing.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     const std::unique_ptr<gpu::Context> context = makeContext(global);
+    const frame::FrameSettings onDriver = engine::settingsOn(context->capabilities(), prepared.spec.settings);
+    if (const std::string missing =
+            frame::missingTextures(engine::prepareView(request.scene, engine::Technique::Forward, onDriver).spec);
+        !missing.empty())
+        spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
     engine::Renderer renderer(*context, request.scene);
     filterEnvironment(request, renderer, global.quiet);
     Progress progress("comparing", validation::stepCount(request.scene, comparison), global.quiet);

@@ -29,7 +29,7 @@ struct Change {
     std::function<void(Scene&)> apply;
 };
 
-/// Each change alone, applied to the scene of every feature, must show.
+/// Each change alone, applied to the scene of every feature or another one, must show.
 class Features : public test::GlTest {
 protected:
     static frame::FrameSettings small() {
@@ -43,9 +43,8 @@ protected:
         return count;
     }
     /// Every fourth change in forward too. Without pruning, so that all share programs, which take most of the time.
-    void expectEachShows(const std::vector<Change>& changes) {
+    void expectEachShows(const std::vector<Change>& changes, const Scene& base = test::everythingScene()) {
         std::size_t turn = 0;
-        const Scene base = test::everythingScene();
         engine::Renderer baseRenderer(context(), base);
         const Picture before = engine::toPicture(baseRenderer.render(Technique::Deferred, small()));
         frame::FrameSettings settings = small();
@@ -110,6 +109,27 @@ TEST_F(Features, everyTextureSlotChangesThePicture) {
         material("base colour of single_color", kUnlit,
                  [](Material& m) { m.texture(TextureSlot::BaseColor).image = 0; }),
     });
+}
+
+TEST_F(Features, everyTextureOfGlassAndFilmsChangesThePicture) {
+    Scene base = test::everythingScene();
+    Material& metal = base.materials[kMetal];
+    metal.iridescence = 1.0f;
+    metal.texture(TextureSlot::Iridescence).image = metal.texture(TextureSlot::IridescenceThickness).image = 0;
+    Material& glass = base.materials[kGlass];
+    glass.transmission = 0.8f;
+    glass.thicknessMetres = glass.attenuationDistanceMetres = 1.0f;
+    glass.attenuationColor = {0.1f, 1.0f, 0.1f};
+    glass.texture(TextureSlot::Transmission).image = glass.texture(TextureSlot::Thickness).image = 0;
+    expectEachShows(
+        {
+            withoutTexture("iridescence", kMetal, TextureSlot::Iridescence),
+            withoutTexture("thickness of a film", kMetal, TextureSlot::IridescenceThickness),
+            material("least thickness of a film", kMetal, [](Material& m) { m.iridescenceLeastThicknessNm = 700.0f; }),
+            withoutTexture("transmission", kGlass, TextureSlot::Transmission),
+            withoutTexture("thickness of a body", kGlass, TextureSlot::Thickness),
+        },
+        base);
 }
 
 TEST_F(Features, everyTextureSettingChangesThePicture) {

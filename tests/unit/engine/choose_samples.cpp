@@ -64,6 +64,9 @@ TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
     EXPECT_EQ(settingsOn(fours, asking(2)).samplesGiven, 4);
     EXPECT_EQ(settingsOn(fours, asking(4)).samplesGiven, 4);
     EXPECT_EQ(settingsOn(giving({1, 2, 8}), asking(4)).samplesGiven, 8);
+    gpu::Capabilities roomy = fours;
+    roomy.texturesAStage = 48;
+    EXPECT_EQ(settingsOn(roomy, asking(1)).texturesAStage, 48);
     EXPECT_EQ(faultOf([] {
                   settingsOn(giving({1, 2}), asking(4));
               }),

@@ -85,6 +85,33 @@ std::string whyLeftOut(const scenes::Scene& scene, std::string_view what, const 
     return left == plan.leftOut.end() ? "not left out" : left->why;
 }
 
+TEST(PlanFrame, texturesThatADriverHasNoRoomForAreNamedWithTheReason) {
+    scenes::LoadOptions options;
+    options.useAssets = false;
+    scenes::Scene scene = scenes::loadScene("glass", options);
+    for (scenes::Material& material : scene.materials) {
+        material.iridescence = material.clearcoat = 1.0f;
+        material.sheenColor = glm::vec3(1.0f);
+        for (scenes::TextureUse& use : material.textures) use.image = 0;
+    }
+    if (scene.images.empty()) scene.images.push_back({"texel", {}, 1, 1, std::vector<std::byte>(4)});
+    const auto told = [&](const frame::FrameSettings& settings) {
+        const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
+        const auto found = std::ranges::find(plan.choices, "textures", &graph::Plan::Choice::what);
+        return found == plan.choices.end() ? "" : found->why;
+    };
+    frame::FrameSettings settings;
+    EXPECT_EQ(told(settings), "");
+    EXPECT_EQ(whyLeftOut(scene, "film-thickness texture", settings), "not left out");
+    settings.texturesAStage = TEXTURE_UNITS_GUARANTEED;
+    EXPECT_THAT(told(settings), testing::HasSubstr("samples at most 16 textures"));
+    EXPECT_THAT(told(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
+    EXPECT_EQ(whyLeftOut(scene, "film-thickness texture", settings),
+              "a shader of this driver samples too few textures");
+    settings.prune = false;
+    EXPECT_THAT(told(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
+}
+
 TEST(PlanFrame, theOneReasonIsGivenWhyThereAreNoShadows) {
     scenes::Scene scene = scenes::loadScene("room");
     frame::FrameSettings settings;
