@@ -519,6 +519,10 @@ private:
                                     drawn.passes[std::size_t(side)]});
             settleFrames_ = std::max(settleFrames_, 1); // the figures of this frame are shown by the next
             if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
+            if (drawn.missingTextures != missingTextures_) {
+                missingTextures_ = std::move(drawn.missingTextures);
+                if (!missingTextures_.empty() && !state_.notice.isError) state_.notice = {missingTextures_, false};
+            }
             const Look& look = wanted_.looks[0];
             log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
                                   drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
@@ -573,6 +577,7 @@ private:
     std::optional<std::string> loadingVariant_; ///< of load()
     std::string said_;                          ///< the latest notice
     std::string drawingFault_;                  ///< why the latest picture that failed did
+    std::string missingTextures_;               ///< of the latest picture; a notice has said so
     double saidUntil_ = 0.0;
     Saver saver_;
     Recovery recovery_;

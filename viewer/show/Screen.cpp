@@ -109,6 +109,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             result.ms += clock.elapsedMs();
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             result.shadows[std::size_t(side)] = renderer_->shadows();
+            result.missingTextures = renderer_->missingTextures();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "renderer/gpu/Commands.h"
 #include "viewer/session/State.h"
@@ -36,6 +37,7 @@ public:
         std::array<std::vector<gpu::PassTiming>, 2> passes; ///< by side
         std::array<double, 2> sideMs{};
         std::array<std::optional<engine::DrawnShadows>, 2> shadows;
+        std::string missingTextures; ///< of engine::Renderer, of the latest side
     };
 
     explicit Screen(gpu::Context& context);
