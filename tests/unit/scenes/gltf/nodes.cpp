@@ -356,11 +356,12 @@ TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
 Builder withInstances() {
     Builder builder =
         withNodes(R"([{"name": "tree", "mesh": 0, "translation": [0, 5, 0]}, {"name": "last"}])", "[0, 1]");
-    constexpr int kByte = 5120;
+    constexpr int kSignedByte = 5120;
     Json& attributes = builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
     const int translations = builder.add(std::vector<float>{1, 0, 0, 2, 0, 0}, 5126, "VEC3", 2);
     // Normalised bytes: 90 / 127 is about the sine of an eighth turn, and the quaternion's length does not matter.
-    const int rotations = builder.add(std::vector<std::int8_t>{0, 0, 0, 127, 0, 90, 0, 90}, kByte, "VEC4", 2, true);
+    const int rotations =
+        builder.add(std::vector<std::int8_t>{0, 0, 0, 127, 0, 90, 0, 90}, kSignedByte, "VEC4", 2, true);
     const int scales = builder.add(std::vector<float>{1, 1, 1, 2, 2, 2}, 5126, "VEC3", 2);
     attributes = {{"TRANSLATION", translations}, {"ROTATION", rotations}, {"SCALE", scales}};
     builder.json["extensionsRequired"] = builder.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
