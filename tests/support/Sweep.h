@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <ranges>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -15,13 +17,20 @@ inline bool isWholeSweep() {
     return std::string_view(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()).ends_with("Slow");
 }
 
-/// Every other technique that takes so many samples a pixel, but forward: these in even turns, those in odd ones. All
-/// in a whole sweep.
-inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1) {
+/// The one element of `all` whose turn it is, by turns from 0. All in a whole sweep.
+template <std::ranges::borrowed_range Range>
+auto inTurn(Range&& all, std::size_t turn) {
+    const std::span elements(all);
+    return isWholeSweep() ? elements.subspan(0) : elements.subspan(turn % elements.size(), 1);
+}
+
+/// Of the techniques that take so many samples a pixel, but forward, every other one, or each `every`th: so many turns
+/// one after the other have them all. All in a whole sweep.
+inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1, std::size_t every = 2) {
     std::vector<engine::Technique> techniques;
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         if (info.technique == engine::Technique::Forward || !engine::takesSamples(info, samples)) continue;
-        if (isWholeSweep() || turn++ % 2 == 0) techniques.push_back(info.technique);
+        if (isWholeSweep() || turn++ % every == 0) techniques.push_back(info.technique);
     }
     return techniques;
 }

@@ -124,6 +124,8 @@ void addLobes(std::vector<Material>& materials) {
     cloth.subsurface.wrapTint = {0.2f, 1.0f, 0.6f};
 }
 
+constexpr int kMetal = 3, kMaskedCard = 5, kPane = 6; ///< materials of everyMaterial(), all metallic-roughness
+
 std::vector<Material> everyMaterial() {
     std::vector<Material> materials;
     const auto add = [&](MaterialModel model, const char* name) -> Material& {
@@ -294,6 +296,14 @@ scenes::Scene evenScene() {
         }
     }
     for (scenes::Mesh& mesh : scene.meshes) mesh.colors.clear();
+    return scene;
+}
+
+Scene metalScene() {
+    Scene scene = everythingScene();
+    for (Node& node : scene.nodes)
+        for (MeshInstance& instance : node.instances)
+            if (instance.material != kMaskedCard && instance.material != kPane) instance.material = kMetal;
     return scene;
 }
 

@@ -15,6 +15,10 @@ scenes::Scene everythingScene();
 /// colours and no anisotropy.
 scenes::Scene evenScene();
 
+/// The same of metal alone, but for its masked card and its two panes of glass. Its shaders know one lobe and compile
+/// in a fraction of the time: for what does not depend on the lobes of a surface.
+scenes::Scene metalScene();
+
 /// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene() in front of
 /// its own, so that those have other numbers; behind them colours above 1, masking by the half vector, these materials
 /// on a mesh without triangles, and cameras.
