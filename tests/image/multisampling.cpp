@@ -1,5 +1,7 @@
+#include <iterator>
 #include <optional>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -34,14 +36,14 @@ protected:
         engine::Renderer renderer(context(), scene);
         return engine::toPicture(renderer.render(technique, settings));
     }
-    /// Programs are compiled once per renderer, for all sizes. With a turn of some techniques (Sweep.h).
+    /// Programs are compiled once per renderer, for all sizes. With a turn of a third of the techniques (Sweep.h).
     void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings,
                          std::optional<std::size_t> turn = {}) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
         request.techniques = validation::techniquesTaking(settings, leftOut);
         std::erase(request.techniques, Technique::Forward);
-        if (turn) request.techniques = test::techniquesInTurn(*turn, settings.samples);
+        if (turn) request.techniques = test::techniquesInTurn(*turn, settings.samples, 3);
         request.settings = settings;
         const validation::CompareRecord record =
             validation::compareTechniques(renderer, context().capabilities(), request).record;
@@ -56,64 +58,95 @@ protected:
         return alphas;
     }
 
-    /// Of random scenes, a sixth with every other tile unless the sweep is whole.
+    /// Of a scene of everything, with options added one by one, or after every second of them and the last, with every
+    /// third technique and one size in turn.
+    void expectOptionsAgree();
+    /// Of random scenes, with every technique, culling method and tile, or some with every fifth of these in turn.
     void expectForwardsPictureOfRandomScenes();
+    /// Of a scene of everything with two techniques, or of its metal with one in turn.
+    void expectViewsAgree();
     /// Each scene with every technique, or with one in turn.
     void expectPruningInvisible();
+    /// With every technique, or one in turn.
+    void expectNoBadPixel();
 };
 using MultisamplingSlow = Multisampling;
 
-TEST_F(Multisampling, hallIsExactlyTheSameInTheForwardFamily) {
+TEST_F(MultisamplingSlow, hallIsExactlyTheSameInTheForwardFamily) {
     const Scene scene = scenes::loadScene("hall");
     engine::Renderer renderer(context(), scene);
     for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(renderer, sampled(size));
 }
 
-TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
+void Multisampling::expectOptionsAgree() {
+    using Settings = frame::FrameSettings;
+    constexpr void (*kAddOption[])(Settings&) = {
+        [](Settings&) {}, [](Settings& settings) { settings.filter = frame::TextureFilter::Exact; },
+        [](Settings& settings) { settings.space = frame::LightingSpace::View; },
+        [](Settings& settings) { settings.prune = false; }};
+    constexpr glm::ivec2 kAllSizes[] = {{320, 180}, {321, 179}}, kSizesInTurn[] = {{160, 90}, {161, 89}};
     const Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
-    for (const glm::ivec2 size : {glm::ivec2(320, 180), glm::ivec2(321, 179)}) {
-        frame::FrameSettings settings = sampled(size);
-        std::size_t turn = 0;
-        expectAgreement(renderer, settings, turn++);
-        settings.filter = frame::TextureFilter::Exact;
-        expectAgreement(renderer, settings, turn++);
-        settings.space = frame::LightingSpace::View;
-        expectAgreement(renderer, settings, turn++);
-        settings.prune = false;
-        expectAgreement(renderer, settings, turn++);
+    Settings settings = sampled({});
+    std::size_t turn = 0;
+    for (std::size_t i = 0; i < std::size(kAddOption); ++i) {
+        kAddOption[i](settings);
+        if (!test::isWholeSweep() && i % 2 != 0 && i + 1 < std::size(kAddOption)) continue;
+        for (const glm::ivec2 size : test::inTurn(test::isWholeSweep() ? kAllSizes : kSizesInTurn, turn)) {
+            SCOPED_TRACE(fmt::format("{} options, {}x{}", i, size.x, size.y));
+            settings.sizePixels = size;
+            expectAgreement(renderer, settings, turn);
+        }
+        ++turn;
     }
-    Scene flat = scene;
+    Scene flat = test::isWholeSweep() ? scene : test::metalScene();
     flat.cameras[0].projection = scenes::Projection::Orthographic;
     flat.cameras[0].halfHeightMetres = 2.5;
     flat.cameras[0].farMetres = 20.0;
     engine::Renderer flatRenderer(context(), flat);
-    expectAgreement(flatRenderer, sampled({321, 179}));
+    expectAgreement(flatRenderer, sampled(test::isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]));
+}
+
+TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
+    expectOptionsAgree();
+}
+TEST_F(MultisamplingSlow, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
+    expectOptionsAgree();
 }
 
 void Multisampling::expectForwardsPictureOfRandomScenes() {
+    constexpr std::size_t kTurns = 5; // no more than there are scenes, so that each case has its turn
     std::vector<Scene> lit{test::everythingScene(), test::columnsBeforeWall(200)};
-    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 4); ++seed)
+    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 3); ++seed)
         lit.push_back(test::randomLitScene(seed));
-    std::size_t turn = 0;
+    ASSERT_GE(lit.size(), kTurns);
+    struct Case {
+        Technique technique;
+        culling::Method method;
+        int tilePixels;
+    };
     for (std::size_t i = 0; i < lit.size(); ++i) {
         engine::Renderer renderer(context(), lit[i]);
         frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
         settings = engine::settingsOn(context().capabilities(), settings);
         settings.prune = i % 4 == 0; // without pruning all scenes share their programs
-        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (!engine::takesSamples(technique, settings.samples)) continue;
-            for (const culling::Method method : technique.methods) {
-                settings.culling.method = method;
-                for (const int tile : culling::kTileSides) {
-                    if (!test::isWholeSweep() && method != culling::Method::None && turn++ % 2 != 0) continue;
-                    SCOPED_TRACE(fmt::format("scene {}, {} {} {}", i, technique.name, int(method), tile));
-                    settings.culling.tilePixels = tile;
-                    EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
-                    if (method == culling::Method::None) break;
-                }
+        std::vector<Case> cases;
+        for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+            if (!engine::takesSamples(info, settings.samples)) continue;
+            for (const culling::Method method : info.methods) {
+                const std::span<const int> tiles(culling::kTileSides);
+                for (const int tile : method == culling::Method::None ? tiles.first(1) : tiles)
+                    cases.push_back({info.technique, method, tile});
             }
+        }
+        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        for (std::size_t j = 0; j < cases.size(); ++j) {
+            const auto& [technique, method, tile] = cases[j];
+            if (!test::isWholeSweep() && j % kTurns != i % kTurns) continue;
+            SCOPED_TRACE(fmt::format("scene {}, {} {} {}", i, infoOf(technique).name, int(method), tile));
+            settings.culling.method = method;
+            settings.culling.tilePixels = tile;
+            EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
         }
     }
 }
@@ -192,18 +225,27 @@ TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWit
     }
 }
 
-TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
-    const Scene scene = test::everythingScene();
+void Multisampling::expectViewsAgree() {
+    const Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     engine::Renderer renderer(context(), scene);
+    constexpr Technique kOthers[] = {Technique::ForwardPrepass, Technique::ForwardPlus};
+    std::size_t turn = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
         if (view.ofTechnique) continue; // shows what each technique visits
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const Technique technique : {Technique::ForwardPrepass, Technique::ForwardPlus})
+        for (const Technique technique : test::inTurn(kOthers, turn++))
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
     }
+}
+
+TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
+    expectViewsAgree();
+}
+TEST_F(MultisamplingSlow, everyViewIsExactlyTheSameInTheForwardFamily) {
+    expectViewsAgree();
 }
 
 void Multisampling::expectPruningInvisible() {
@@ -213,7 +255,7 @@ void Multisampling::expectPruningInvisible() {
         for (const Technique technique : {Technique::ClusteredForward, Technique::ForwardPrepass, Technique::Forward}) {
             if (!test::isWholeSweep() && inTurn-- != 0) continue;
             SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));
-            frame::FrameSettings settings = sampled({161, 90});
+            frame::FrameSettings settings = sampled(test::isWholeSweep() ? glm::ivec2(161, 90) : glm::ivec2(97, 55));
             const Picture first = picture(scene, settings, technique);
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
             settings.prune = false;
@@ -229,7 +271,7 @@ TEST_F(MultisamplingSlow, pruningAndRunningAgainNeverChangeABitWithAnyTechnique)
     expectPruningInvisible();
 }
 
-TEST_F(Multisampling, aPixelIsNotNaNInfiniteOrNegative) {
+void Multisampling::expectNoBadPixel() {
     // A floor to the horizon and beyond what fp32 squares, under a light without range: pixels' centres lie above the
     // horizon where samples do not. Slivers with steep colours: pixels' centres lie outside most triangles.
     Scene scene = test::everythingScene();
@@ -251,12 +293,14 @@ TEST_F(Multisampling, aPixelIsNotNaNInfiniteOrNegative) {
     scene.nodes[1].instances = {{int(scene.meshes.size()), 1}};
     scene.nodes[1].parentFromNode = glm::dmat4(1.0);
     scene.meshes.push_back(slivers);
+    constexpr Technique kTechniques[] = {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward};
+    std::size_t turn = 0;
     for (double pitch : {0.0, 0.01, 0.05}) {
         scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
         scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
         scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
         scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
-        for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
+        for (const Technique technique : test::inTurn(kTechniques, turn++)) {
             const Picture shown = picture(scene, sampled({321, 179}), technique);
             const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
             EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;
@@ -265,6 +309,13 @@ TEST_F(Multisampling, aPixelIsNotNaNInfiniteOrNegative) {
             EXPECT_GT(figures.litShare, 0.1);
         }
     }
+}
+
+TEST_F(Multisampling, aPixelIsNotNaNInfiniteOrNegative) {
+    expectNoBadPixel();
+}
+TEST_F(MultisamplingSlow, aPixelIsNotNaNInfiniteOrNegativeWithAnyTechnique) {
+    expectNoBadPixel();
 }
 
 TEST_F(Multisampling, oneSampleIsDrawnAsWithoutThem) {

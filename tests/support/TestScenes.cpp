@@ -124,7 +124,8 @@ void addLobes(std::vector<Material>& materials) {
     cloth.subsurface.wrapTint = {0.2f, 1.0f, 0.6f};
 }
 
-constexpr int kMetal = 3, kMaskedCard = 5, kPane = 6; ///< materials of everyMaterial(), all metallic-roughness
+constexpr int kMetalMaterial = 3, kMaskedMaterial = 5,
+              kPaneMaterial = 6; ///< materials of everyMaterial(), all metallic-roughness
 
 std::vector<Material> everyMaterial() {
     std::vector<Material> materials;
@@ -303,7 +304,8 @@ Scene metalScene() {
     Scene scene = everythingScene();
     for (Node& node : scene.nodes)
         for (MeshInstance& instance : node.instances)
-            if (instance.material != kMaskedCard && instance.material != kPane) instance.material = kMetal;
+            if (instance.material != kMaskedMaterial && instance.material != kPaneMaterial)
+                instance.material = kMetalMaterial;
     return scene;
 }
 
