@@ -17,16 +17,26 @@ using engine::Technique;
 
 class LightingInCompute : public test::GlTest {
 protected:
-    void expectForwardsPicture(engine::Renderer& renderer, frame::FrameSettings settings) {
+    static std::vector<Technique> choosing() {
+        std::vector<Technique> techniques;
+        for (const engine::TechniqueInfo& info : engine::techniqueTable())
+            if (info.choosesStage) techniques.push_back(info.technique);
+        return techniques;
+    }
+    /// With those techniques.
+    void expectForwardsPicture(engine::Renderer& renderer, frame::FrameSettings settings,
+                               std::span<const Technique> techniques) {
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         settings.lightOn = frame::LightingStage::Compute;
-        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (!engine::infoOf(technique.technique).choosesStage) continue;
-            SCOPED_TRACE(technique.name);
-            EXPECT_TRUE(renderer.render(technique.technique, settings).radiance == truth);
+        for (const Technique technique : techniques) {
+            SCOPED_TRACE(engine::infoOf(technique).name);
+            EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
         }
     }
-    /// Every view in every layout, or in one in turn.
+    /// With every technique, or one in turn.
+    void expectEveryFeature();
+    /// Every view of a scene of everything in every layout, or of its metal in one layout in turn. Channels of the
+    /// G-buffer, which are not lit, then in `exact` alone.
     void expectEveryView();
 };
 using LightingInComputeSlow = LightingInCompute;
@@ -38,34 +48,42 @@ TEST_F(LightingInCompute, picturesAreThoseOfForward) {
         settings.sizePixels = {321, 179};
         const scenes::Scene scene = scenes::loadScene(name);
         engine::Renderer renderer(context(), scene);
-        expectForwardsPicture(renderer, settings);
+        expectForwardsPicture(renderer, settings, choosing());
     }
 }
 
-TEST_F(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward) {
+void LightingInCompute::expectEveryFeature() {
+    const std::vector<Technique> techniques = choosing();
     const scenes::Scene scene = test::everythingScene(), even = test::evenScene();
     frame::FrameSettings settings;
     settings.sizePixels = {160, 88};
     engine::Renderer renderer(context(), scene), rendererOfEven(context(), even);
-    expectForwardsPicture(rendererOfEven, settings);
+    std::size_t turn = 0;
+    expectForwardsPicture(rendererOfEven, settings, test::inTurn(techniques, turn++));
     for (const glm::ivec2 size : {glm::ivec2(160, 88), glm::ivec2(161, 91), glm::ivec2(7, 1)}) {
         SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
         settings.sizePixels = size;
+        // One for all sizes, each of which shares its programs.
         settings.prune = true;
-        expectForwardsPicture(renderer, settings);
+        expectForwardsPicture(renderer, settings, test::inTurn(techniques, turn));
         settings.prune = false;
-        expectForwardsPicture(renderer, settings);
+        expectForwardsPicture(renderer, settings, test::inTurn(techniques, turn + 1));
     }
 }
 
+TEST_F(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward) {
+    expectEveryFeature();
+}
+TEST_F(LightingInComputeSlow, aSceneOfEveryFeatureIsThePictureOfForwardWithEveryTechnique) {
+    expectEveryFeature();
+}
+
 void LightingInCompute::expectEveryView() {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     engine::Renderer renderer(context(), scene);
-    const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
     std::size_t turn = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
-        for (const frame::LayoutInfo& layout :
-             test::isWholeSweep() ? layouts : layouts.subspan(turn++ % layouts.size(), 1)) {
+        for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), view.needsGBuffer ? 0 : turn++)) {
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
             frame::FrameSettings settings;
             settings.sizePixels = {97, 55};
