@@ -9,6 +9,7 @@
 #include "scenes/Fingerprint.h"
 #include "scenes/Load.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/TestScenes.h"
 #include "validation/compare/TechniqueCompare.h"
@@ -54,31 +55,49 @@ protected:
         return engine::Renderer(context(), scene).render(technique, settings).radiance;
     }
 
+    /// With each technique and filter, or one filter in turn.
+    void expectNoChange();
+    /// Of a scene of everything and an even one with every technique, or of metal, and the even one with one in turn.
+    void expectTechniquesAgree();
+
     test::TempFolder folder;
     int files = 0;
 };
+using HooksSlow = Hooks;
 
-TEST_F(Hooks, oneThatChangesNothingChangesNoBit) {
+void Hooks::expectNoChange() {
+    constexpr frame::TextureFilter kFilters[] = {frame::TextureFilter::Hardware, frame::TextureFilter::Exact};
+    std::size_t turn = 0;
     for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
         const scenes::Scene same = hooked(scene, "{\n}\n");
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::ClusteredDeferred}) {
-            frame::FrameSettings settings = smallSettings();
-            EXPECT_EQ(drawn(same, settings, technique), drawn(scene, settings, technique)) << int(technique);
-            settings.filter = frame::TextureFilter::Exact;
-            EXPECT_EQ(drawn(same, settings, technique), drawn(scene, settings, technique)) << int(technique);
+            for (const frame::TextureFilter filter : test::inTurn(kFilters, turn++)) {
+                frame::FrameSettings settings = smallSettings();
+                settings.filter = filter;
+                EXPECT_EQ(drawn(same, settings, technique), drawn(scene, settings, technique))
+                    << int(technique) << ' ' << int(filter);
+            }
         }
     }
 }
+TEST_F(Hooks, oneThatChangesNothingChangesNoBit) {
+    expectNoChange();
+}
+TEST_F(HooksSlow, oneThatChangesNothingChangesNoBit) {
+    expectNoChange();
+}
 
-TEST_F(Hooks, everyTechniqueDrawsWhatTheyChangeAlike) {
+void Hooks::expectTechniquesAgree() {
     struct Case {
         scenes::Scene scene;
         frame::TextureFilter filter;
         bool castsShadows, prune;
+        std::size_t every; ///< of the techniques, where they are taken in turn
     };
-    for (const auto& [scene, filter, castsShadows, prune] :
-         {Case{test::everythingScene(), frame::TextureFilter::Exact, false, true},
-          Case{test::evenScene(), frame::TextureFilter::Hardware, true, false}}) {
+    const scenes::Scene first = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+    for (const auto& [scene, filter, castsShadows, prune, every] :
+         {Case{first, frame::TextureFilter::Exact, false, true, 1},
+          Case{test::evenScene(), frame::TextureFilter::Hardware, true, false, 4}}) {
         const scenes::Scene tinted = hooked(scene, kTint);
         engine::Renderer renderer(context(), tinted);
         frame::FrameSettings settings = smallSettings();
@@ -87,8 +106,14 @@ TEST_F(Hooks, everyTechniqueDrawsWhatTheyChangeAlike) {
         if (castsShadows) settings.shadows = test::kAllLightsCast;
         settings.prune = prune;
         EXPECT_NE(renderer.render(Technique::Forward, settings).radiance, drawn(scene, settings));
-        expectParity(renderer, settings);
+        expectParity(renderer, settings, test::techniquesInTurn(1, 1, every));
     }
+}
+TEST_F(Hooks, everyTechniqueDrawsWhatTheyChangeAlike) {
+    expectTechniquesAgree();
+}
+TEST_F(HooksSlow, everyTechniqueDrawsWhatTheyChangeAlike) {
+    expectTechniquesAgree();
 }
 
 TEST_F(Hooks, onlyTheMaterialsThatTheyNameChange) {
@@ -290,7 +315,12 @@ protected:
         settings.shadowFilter = filter;
         return settings;
     }
+    /// Of a scene of everything, or of its metal.
+    void expectMovedAsAMesh();
+    /// Of a scene of materials that do not vary, or of metal.
+    void expectAlikeAtAnyTime();
 };
+using VertexHooksSlow = VertexHooks;
 
 TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
     const scenes::Scene scene = test::everythingScene();
@@ -298,8 +328,8 @@ TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
     EXPECT_EQ(drawn(moving(scene, "{\n}\n", 0.0), settings), drawn(scene, settings));
 }
 
-TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
-    scenes::Scene scene = test::everythingScene();
+void VertexHooks::expectMovedAsAMesh() {
+    scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     const scenes::Scene hook =
         moving(scene, "{\n    positionOS += vec3(0.25, 0.0, 0.125);\n    normalOS = normalOS.yzx;\n}\n", 0.3);
     for (scenes::Mesh& mesh : scene.meshes) {
@@ -313,10 +343,17 @@ TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
             EXPECT_EQ(drawn(hook, settings, technique), drawn(scene, settings, technique)) << int(technique);
     }
 }
+TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    expectMovedAsAMesh();
+}
+TEST_F(VertexHooksSlow, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    expectMovedAsAMesh();
+}
 
-TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+void VertexHooks::expectAlikeAtAnyTime() {
+    const scenes::Scene still = test::isWholeSweep() ? test::evenScene() : test::metalScene();
     const scenes::Scene scene =
-        moving(test::evenScene(), "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n", 0.2);
+        moving(still, "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n", 0.2);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
     settings.timeSeconds = 0.5;
@@ -327,6 +364,12 @@ TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, first);
     EXPECT_EQ(drawn(scene, settings), first);
     expectParity(renderer, settings);
+}
+TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    expectAlikeAtAnyTime();
+}
+TEST_F(VertexHooksSlow, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    expectAlikeAtAnyTime();
 }
 
 TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
