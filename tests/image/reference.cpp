@@ -128,14 +128,13 @@ protected:
         EXPECT_GE(figures.relMse, 0.1 * bars.relMse);
     }
 
-    /// Or every other scene, if the sweep is not a whole one: the textures, models and lights of those left out are
-    /// found in these.
+    /// Or every other scene, if the sweep is not a whole one: those left out have no material model that these lack.
     void expectEverySceneAsGoodAsMeasured(std::span<const SceneBars> bars) {
         EXPECT_EQ(bars.size() + std::size(kAreaLitBars), scenes::builtinScenes().size()) << "a scene has no bars";
         for (std::size_t i = 0; i < bars.size(); i += test::isWholeSweep() ? 1 : 2) expectAsGoodAsMeasured(bars[i]);
     }
 
-    /// Of every scene with area lights, or of that with every shape of them.
+    /// Of every scene with area lights, or of that with the most shapes of them.
     void expectAreaLitScenesAsNearAsShapes();
 };
 using ReferenceSlow = Reference;
