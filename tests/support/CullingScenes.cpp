@@ -109,6 +109,21 @@ Scene randomLitScene(std::uint64_t seed) {
     return scene;
 }
 
+Scene withEveryKindOfLight(Scene scene) {
+    Light light = pointLight({0.0, 3.0, 0.0}, 1e-4f);
+    scene.lights.push_back(light);
+    light.falloff = Falloff::Attenuation;
+    scene.lights.push_back(light);
+    light.falloff = Falloff::InverseSquare;
+    light.type = LightType::Spot;
+    light.directionWS = glm::dvec3(0.0, -1.0, 0.0);
+    light.outerConeRadians = 1.0f;
+    scene.lights.push_back(light);
+    light.type = LightType::Directional;
+    scene.lights.push_back(light);
+    return scene;
+}
+
 Camera seenFromAfar(Camera camera, double times) {
     const glm::dvec3 backWS(camera.worldFromCamera[2]);
     const double nearEyeMetres = std::max(1.0, glm::length(glm::dvec3(camera.worldFromCamera[3])));

@@ -309,6 +309,24 @@ Scene metalScene() {
     return scene;
 }
 
+Scene lambertScene() {
+    Scene scene = everythingScene();
+    scene.name = "everything in lambert";
+    for (Material& material : scene.materials) {
+        if (material.model == MaterialModel::SingleColor) continue;
+        Material plain;
+        plain.name = material.name;
+        plain.model = MaterialModel::Lambert;
+        plain.baseColor = material.baseColor;
+        plain.texture(TextureSlot::BaseColor) = material.texture(TextureSlot::BaseColor);
+        plain.alphaMode = material.alphaMode;
+        plain.alphaCutoff = material.alphaCutoff;
+        plain.doubleSided = material.doubleSided;
+        material = std::move(plain);
+    }
+    return scene;
+}
+
 Scene withUnusedOfEverything(Scene scene) {
     const Scene spare = everythingScene();
     const int images = int(spare.images.size()), materials = int(spare.materials.size()),

@@ -19,6 +19,10 @@ scenes::Scene evenScene();
 /// in a fraction of the time: for what does not depend on the lobes of a surface.
 scenes::Scene metalScene();
 
+/// The same in Lambert materials that keep their colour, opacity and its texture: for tests of which lights, or which
+/// casters, a pixel has, whose subject is no model. Its shaders take a fraction of the time to compile.
+scenes::Scene lambertScene();
+
 /// The scene with one of everything that nothing draws: materials, pictures and meshes of everythingScene() in front of
 /// its own, so that those have other numbers; behind them colours above 1, masking by the half vector, these materials
 /// on a mesh without triangles, and cameras.
