@@ -135,8 +135,8 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = kSizes[random.index(int(std::size(kSizes)))];
-        // Without pruning all scenes share their programs, however large ones, which expect coats, whose normals no list
-        // knows.
+        // Without pruning all scenes share their programs, however large ones, which expect coats, whose normals no
+        // list knows.
         settings.prune = ofHorizon || !test::isWholeSweep();
         scene.lights = lightsByAHair(scene, settings, see(renderer, scene, settings), ofHorizon, random);
         if (scene.lights.empty()) continue;

@@ -1,13 +1,17 @@
 // The whole table of light culling: every method at every tile side, on scenes of different depth.
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "scenes/Load.h"
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 #include "validation/culling/LightTable.h"
 
 namespace tessera {
@@ -19,16 +23,16 @@ using Evaluated = std::map<std::pair<Method, int>, double>;
 class LightTable : public test::GlTest {
 protected:
     /// Prints the table and returns the pairs evaluated. TESSERA_TABLE_FULL asks for figures of full pictures.
-    Evaluated judge(const scenes::Scene& scene) {
+    Evaluated judge(const scenes::Scene& scene, std::span<const int> tileSides = culling::kTileSides) {
         frame::FrameSettings settings;
         settings.sizePixels =
             std::getenv("TESSERA_TABLE_FULL") != nullptr ? glm::ivec2(1280, 720) : glm::ivec2(321, 179);
         settings.culling.normals = culling::NormalTest::Off;
         engine::Renderer renderer(context(), scene);
-        const std::vector<validation::LightTableRow> rows = validation::judgeCulling(renderer, settings);
+        const std::vector<validation::LightTableRow> rows = validation::judgeCulling(renderer, settings, tileSides);
         fmt::print("{}, {} lights, {}x{}: {}\n", scene.name, scene.lights.size(), settings.sizePixels.x,
                    settings.sizePixels.y, validation::lightTable(rows));
-        EXPECT_EQ(rows.size(), 1 + 4 * std::size(culling::kTileSides));
+        EXPECT_EQ(rows.size(), 1 + 4 * tileSides.size());
         Evaluated evaluated;
         for (const validation::LightTableRow& row : rows) {
             SCOPED_TRACE(fmt::format("method {}, tile {}", int(row.method), row.tilePixels));
@@ -42,16 +46,32 @@ protected:
         }
         return evaluated;
     }
+    /// With every tile side, or with some.
+    void judgeSome(const scenes::Scene& scene, std::initializer_list<int> tileSides) {
+        judge(scene,
+              test::isWholeSweep() ? std::span<const int>(culling::kTileSides) : std::span<const int>(tileSides));
+    }
+    void judgeLattice() {
+        scenes::LoadOptions options;
+        options.lights = 1024;
+        judgeSome(scenes::loadScene("lattice", options), {8, 64});
+    }
+    void judgeHall() { judgeSome(scenes::loadScene("hall"), {16}); }
 };
+using LightTableSlow = LightTable;
 
 TEST_F(LightTable, everyMethodAndTileIsSoundOnTheLattice) {
-    scenes::LoadOptions options;
-    options.lights = 1024;
-    judge(scenes::loadScene("lattice", options));
+    judgeLattice();
+}
+TEST_F(LightTableSlow, everyMethodAndTileIsSoundOnTheLattice) {
+    judgeLattice();
 }
 
 TEST_F(LightTable, everyMethodAndTileIsSoundInTheHall) {
-    judge(scenes::loadScene("hall"));
+    judgeHall();
+}
+TEST_F(LightTableSlow, everyMethodAndTileIsSoundInTheHall) {
+    judgeHall();
 }
 
 TEST_F(LightTable, everyMethodAndTileIsSoundInSponza) {

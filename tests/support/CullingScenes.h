@@ -10,8 +10,8 @@ namespace tessera::test {
 /// some of which hold the camera or lie behind it. The same for the same seed.
 scenes::Scene randomLitScene(std::uint64_t seed);
 
-/// The scene with four faint lights without end besides its own, one of each kind: all such scenes are drawn by the same
-/// programs.
+/// The scene with four faint lights without end besides its own, one of each kind: all such scenes are drawn by the
+/// same programs.
 scenes::Scene withEveryKindOfLight(scenes::Scene scene);
 
 /// The same picture, nearly, from so many times as far away: the eye stands back along its axis, a perspective lens is
