@@ -106,6 +106,8 @@ protected:
     // A scene of everything with every builder on the GPU; or Lambert materials, and for pictures a builder in turn.
     void expectPicturesOfLists();
     void expectMultisampledLists();
+    void expectListsOfEveryLightType();
+    void expectOrthographicLists();
     void expectListsOfAnyCount();
 };
 using LightListsSlow = LightLists;
@@ -127,8 +129,8 @@ TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
     expectSameLists(latticeOf(256), settings, culling::kTileSides);
 }
 
-TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
-    const scenes::Scene scene = test::lambertScene();
+void LightLists::expectListsOfEveryLightType() {
+    const scenes::Scene scene = sceneOfLists();
     frame::FrameSettings settings;
     settings.sizePixels = {320, 180};
     expectSameLists(scene, settings, culling::kTileSides);
@@ -138,14 +140,26 @@ TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameO
     settings.prune = false;
     expectSameLists(scene, settings, std::array{8});
 }
+TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
+    expectListsOfEveryLightType();
+}
+TEST_F(LightListsSlow, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
+    expectListsOfEveryLightType();
+}
 
-TEST_F(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
-    scenes::Scene scene = test::lambertScene();
+void LightLists::expectOrthographicLists() {
+    scenes::Scene scene = sceneOfLists();
     scene.cameras[0].projection = scenes::Projection::Orthographic;
     scene.cameras[0].halfHeightMetres = 2.5;
     frame::FrameSettings settings;
     settings.sizePixels = {161, 91};
     expectSameLists(scene, settings, std::array{8, 32});
+}
+TEST_F(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
+    expectOrthographicLists();
+}
+TEST_F(LightListsSlow, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
+    expectOrthographicLists();
 }
 
 TEST_F(LightLists, listsOfSurfacesFarBeyondTheNearPlaneAreExactlyTheSameOnTheGpu) {

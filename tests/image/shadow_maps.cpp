@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,9 +20,30 @@ using frame::ShadowFilter;
 using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase, test::ShadowReference,
     test::shadowReference, test::WrongPixels, test::wrongPixels;
 
-class ShadowMapsTest : public test::ShadowTest {};
+class ShadowMapsTest : public test::ShadowTest {
+protected:
+    /// Of every scene with every filter and technique; or of each with one filter in turn and every other technique.
+    void expectSameLookups();
+    /// Of a scene of everything, or of Lambert materials, and then with every other technique.
+    void expectSameOnMasked();
+    /// With every technique, or every other one.
+    void expectShadowsWithinBudget();
+    /// Of every scene, or of the head.
+    void expectFewWrong();
+    /// Of every scene, or of the lattice.
+    void expectRightInViewSpace();
+    /// With every filter, each light's shares and two techniques; or with a filter, a light and a technique in turn,
+    /// and without the case of thousands of lights.
+    void expectExtremesFinite();
 
-TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
+    /// Every case, or `one` of them.
+    static std::span<const ShadowCase> casesOr(std::size_t one) {
+        return test::isWholeSweep() ? std::span(kShadowCases) : std::span(kShadowCases).subspan(one, 1);
+    }
+};
+using ShadowMapsSlow = ShadowMapsTest;
+
+void ShadowMapsTest::expectSameLookups() {
     std::size_t turn = 0;
     for (const ShadowCase& tried : kShadowCases) {
         scenes::Scene scene = sceneOf(tried);
@@ -30,16 +52,25 @@ TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
         frame::FrameSettings settings;
         settings.sizePixels = {161, 91};
         settings.shadows = tried.shadows;
-        for (const ShadowFilter filter : test::mapFilters()) {
-            settings.shadowFilter = filter;
-            SCOPED_TRACE(fmt::format("{}, {}", tried.scene, infoOf(filter).name));
-            expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        const std::vector<ShadowFilter> filters = test::mapFilters();
+        for (std::size_t i = 0; i < filters.size(); ++i) {
+            if (!test::isWholeSweep() && i != turn % filters.size()) continue;
+            settings.shadowFilter = filters[i];
+            SCOPED_TRACE(fmt::format("{}, {}", tried.scene, infoOf(filters[i]).name));
+            expectParity(renderer, settings, test::techniquesInTurn(turn));
         }
+        ++turn;
     }
 }
+TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
+    expectSameLookups();
+}
+TEST_F(ShadowMapsSlow, everyTechniqueLooksUpTheSameToTheLastBit) {
+    expectSameLookups();
+}
 
-TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
-    const scenes::Scene scene = test::everythingScene();
+void ShadowMapsTest::expectSameOnMasked() {
+    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::lambertScene();
     engine::Renderer renderer(context(), scene);
     const std::pair<int, ShadowFilter> tries[] = {{1, ShadowFilter::Hard}, {4, ShadowFilter::Pcf}};
     for (const auto& [samples, filter] : tries) {
@@ -51,9 +82,15 @@ TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurface
         expectParity(renderer, settings, test::techniquesInTurn(std::size_t(samples) / 4, samples));
     }
 }
+TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
+    expectSameOnMasked();
+}
+TEST_F(ShadowMapsSlow, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
+    expectSameOnMasked();
+}
 
-TEST_F(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels) {
-    for (const ShadowCase& tried : kShadowCases) {
+void ShadowMapsTest::expectFewWrong() {
+    for (const ShadowCase& tried : casesOr(1)) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = test::settingsOf(tried);
@@ -75,8 +112,12 @@ TEST_F(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels) {
         }
     }
 }
-
-using ShadowMapsSlow = ShadowMapsTest;
+TEST_F(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels) {
+    expectFewWrong();
+}
+TEST_F(ShadowMapsSlow, fewPixelsAreWrongAndFewerWithMoreTexels) {
+    expectFewWrong();
+}
 
 /// Light by light, so that every face has the side that is asked for: the atlas holds no more than 16 faces of 4096.
 TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
@@ -117,8 +158,8 @@ TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
     }
 }
 
-TEST_F(ShadowMapsTest, tracedOnesAreAsRightInViewSpace) {
-    for (const ShadowCase& tried : kShadowCases) {
+void ShadowMapsTest::expectRightInViewSpace() {
+    for (const ShadowCase& tried : casesOr(0)) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = settingsOf(tried);
@@ -128,6 +169,12 @@ TEST_F(ShadowMapsTest, tracedOnesAreAsRightInViewSpace) {
         EXPECT_EQ(count.wrong, 0u) << tried.scene;
         EXPECT_GE(count.hidden, count.covered / 200) << tried.scene << ": nothing to see";
     }
+}
+TEST_F(ShadowMapsTest, tracedOnesAreAsRightInViewSpace) {
+    expectRightInViewSpace();
+}
+TEST_F(ShadowMapsSlow, tracedOnesAreAsRightInViewSpace) {
+    expectRightInViewSpace();
 }
 
 // Of a lamp: cascades of a sun reach to the farthest of all that is drawn.
@@ -190,7 +237,7 @@ TEST_F(ShadowMapsTest, areAsRightInViewSpace) {
     EXPECT_GE(looked.hidden, looked.covered / 100) << "nothing to see";
 }
 
-TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
+void ShadowMapsTest::expectShadowsWithinBudget() {
     scenes::LoadOptions options;
     options.lights = 256;
     const scenes::Scene scene = scenes::loadScene("lattice", options);
@@ -210,16 +257,23 @@ TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
                    count.covered);
         EXPECT_LE(double(count.wrong), mostWrong * double(count.covered));
         EXPECT_GT(count.hidden, count.covered / 20);
-        if (mebibytes == 4.0) expectParity(renderer, settings);
+        if (mebibytes == 4.0) expectParity(renderer, settings, test::techniquesInTurn(1));
     }
+}
+TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
+    expectShadowsWithinBudget();
+}
+TEST_F(ShadowMapsSlow, aBudgetLeavesEveryLightItsShadow) {
+    expectShadowsWithinBudget();
 }
 
 /// The pictures of the stability suite's cases of shadows, and budgets too small for them.
-TEST_F(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
+void ShadowMapsTest::expectExtremesFinite() {
+    const bool isWhole = test::isWholeSweep();
+    const auto effort = isWhole ? validation::StressEffort::Full : validation::StressEffort::Quick;
     std::vector<validation::StressPicture> pictures;
     for (const validation::StressCase* row : validation::stressCasesNamed("shadow"))
-        for (validation::StressPicture& picture : row->pictures(validation::StressEffort::Full))
-            pictures.push_back(std::move(picture));
+        for (validation::StressPicture& picture : row->pictures(effort)) pictures.push_back(std::move(picture));
     for (const double mebibytes : {0.001, 0.002, 0.5}) {
         pictures.push_back(pictures.front());
         pictures.back().what = fmt::format("a budget of {:g} MiB", mebibytes);
@@ -243,26 +297,40 @@ TEST_F(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
         settings.shadowSamples = 16;
         SCOPED_TRACE(picture.what);
         engine::Renderer renderer(context(), picture.scene);
-        const ShadowFilter turn = filters[count++ % filters.size()];
+        const std::size_t turn = count++;
+        const ShadowFilter ofTurn = filters[turn % filters.size()];
+        std::vector<float> radiance; // of that filter
         for (const ShadowFilter filter : filters) {
+            if (!isWhole && filter != ofTurn) continue;
             settings.shadowFilter = filter;
             settings.view = frame::DebugView::Final;
             const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
             EXPECT_TRUE(std::ranges::all_of(seen, [](float x) { return x >= 0.0f && std::isfinite(x); }))
                 << infoOf(filter).name;
+            if (filter == ofTurn) radiance = seen;
         }
-        // The shares themselves, and another technique, for one filter of each picture in turn.
-        settings.shadowFilter = turn;
-        const std::vector<float> radiance = renderer.render(Technique::ClusteredDeferred, settings).radiance;
-        EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, radiance);
-        EXPECT_TRUE(std::ranges::all_of(radiance, [](float x) { return x >= 0.0f && std::isfinite(x); }));
+        // The shares themselves, and other techniques, for one filter of each picture in turn.
+        settings.shadowFilter = ofTurn;
+        settings.view = frame::DebugView::Final;
+        for (const Technique other : {Technique::ClusteredDeferred, Technique::Forward}) {
+            if (!isWhole && (turn % 2 == 0) != (other == Technique::Forward)) continue;
+            EXPECT_EQ(renderer.render(other, settings).radiance, radiance) << infoOf(other).name;
+        }
         settings.view = frame::DebugView::Shadow;
-        for (int light = 0; light < std::min(int(picture.scene.lights.size()), 3); ++light) {
+        const int lights = std::min(int(picture.scene.lights.size()), 3);
+        for (int light = 0; light < lights; ++light) {
+            if (!isWhole && light != int(turn / 2) % lights) continue;
             settings.soloLight = light;
             const std::vector<float> shares = renderer.render(Technique::Deferred, settings).radiance;
             EXPECT_TRUE(std::ranges::all_of(shares, [](float x) { return x >= 0.0f && x <= 1.0f; })) << light;
         }
     }
+}
+TEST_F(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
+    expectExtremesFinite();
+}
+TEST_F(ShadowMapsSlow, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
+    expectExtremesFinite();
 }
 
 TEST_F(ShadowMapsTest, penumbraeOfPcssAreThoseOfTracedShadows) {
