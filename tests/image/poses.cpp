@@ -1,6 +1,7 @@
 #include "engine/Rendering.h"
 #include "scenes/Pose.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
 namespace tessera {
@@ -53,19 +54,25 @@ scenes::Scene waving(scenes::Scene scene) {
 }
 
 /// Poses of a scene that a renderer already draws.
-class Poses : public test::ShadowTest {};
+class Poses : public test::ShadowTest {
+protected:
+    /// Of a scene of everything or, unless the sweep is a whole one, of a ball under a sun, whose programs are small.
+    void expectDrawnAsAnew();
+};
+using PosesSlow = Poses;
 
-TEST_F(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
+void Poses::expectDrawnAsAnew() {
     for (const auto& [filter, times] : std::vector<std::pair<ShadowFilter, std::vector<double>>>{
              {ShadowFilter::Traced, {1.0, 0.4}}, {ShadowFilter::Hard, {0.4}}}) {
         SCOPED_TRACE(int(filter));
-        scenes::Scene scene = waving(test::everythingScene());
+        scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::ballUnderSun());
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {160, 91};
         settings.shadows = test::kAllLightsCast;
         settings.shadowFilter = filter;
-        settings.prune = false; // else which lights reach what is in view decides on programs too
+        // Else which lights reach what is in view decides on programs too; a sun reaches all.
+        settings.prune = !test::isWholeSweep();
         const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
         const std::size_t programs = renderer.programs().size();
         for (const double time : times) {
@@ -83,7 +90,14 @@ TEST_F(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
     }
 }
 
-TEST_F(Poses, everyTechniqueDrawsThemAlike) {
+TEST_F(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
+    expectDrawnAsAnew();
+}
+TEST_F(PosesSlow, areDrawnAsByANewRendererWithoutCompilingAnything) {
+    expectDrawnAsAnew();
+}
+
+TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
     scenes::Scene scene = waving(test::everythingScene());
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
@@ -92,6 +106,9 @@ TEST_F(Poses, everyTechniqueDrawsThemAlike) {
     scenes::poseScene(scene, 0.7);
     renderer.geometryChanged();
     expectParity(renderer, settings);
+    engine::Renderer anew(context(), scene);
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
+              anew.render(Technique::Forward, settings).radiance);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <ranges>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,6 +34,15 @@ inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int sam
         if (isWholeSweep() || turn++ % every == 0) techniques.push_back(info.technique);
     }
     return techniques;
+}
+
+/// Of so many of a list's values one, from the first on. All in a whole sweep.
+template <typename Value>
+std::vector<Value> inTurn(std::vector<Value> values, std::size_t ofSoMany) {
+    std::vector<Value> taken;
+    for (std::size_t i = 0; i < values.size(); i += isWholeSweep() ? 1 : ofSoMany)
+        taken.push_back(std::move(values[i]));
+    return taken;
 }
 
 } // namespace tessera::test
