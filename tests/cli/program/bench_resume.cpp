@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "tests/cli/program/Cli.h"
+#include "tests/support/Sweep.h"
 #include "validation/bench/FolderLock.h"
 
 namespace tessera::test {
@@ -20,10 +21,16 @@ protected:
     BenchRuns() {
         folder_.write("m.json", R"({"technique": ["forward", "deferred", "tiled_deferred"],
                                     "layout": ["exact", "packed"], "lights": [4, 16]})");
+        folder_.write("fewer.json", R"({"technique": ["forward", "deferred"],
+                                        "layout": ["exact", "packed"], "lights": [4, 16]})");
         folder_.write("few.json", R"({"technique": ["forward", "deferred"]})");
     }
 
     static Words command(const std::string& out, const Words& more = {}) { return commandOf("m.json", out, more); }
+    /// Ten points, or outside of a whole sweep six: in two parts of the run, which two shards measure.
+    static Words sharedCommand(const std::string& out, const Words& more = {}) {
+        return commandOf(isWholeSweep() ? "m.json" : "fewer.json", out, more);
+    }
     /// Two points, for what is refused whatever was measured.
     static Words shortCommand(const std::string& out, const Words& more = {}) {
         return commandOf("few.json", out, more);
@@ -43,6 +50,8 @@ protected:
         return record;
     }
 
+    void expectShardsMerge() const;
+
 private:
     static Words commandOf(const char* matrix, const std::string& out, const Words& more) {
         Words words{"bench", "lattice", "--size", "64x36", "--frames", "3", "--matrix", matrix, "-o", out};
@@ -50,6 +59,7 @@ private:
         return words;
     }
 };
+using BenchRunsSlow = BenchRuns;
 
 TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedGivesTheSamePoints) {
     runGood(command("whole"));
@@ -82,14 +92,20 @@ TEST_F(BenchRuns, aRunThatIsKilledAnywhereAndResumedGivesTheSamePoints) {
     EXPECT_EQ(text("killed/bench.json"), before);
 }
 
-TEST_F(BenchRuns, twoShardsMergedEqualOneRun) {
-    runGood(command("whole"));
-    runGood(command("one", {"--shard", "1/2"}));
+void BenchRuns::expectShardsMerge() const {
+    runGood(sharedCommand("whole"));
+    runGood(sharedCommand("one", {"--shard", "1/2"}));
     EXPECT_EQ(json("one/bench.json")["complete"], false);
-    runGood(command("two", {"--shard", "2/2"}));
+    runGood(sharedCommand("two", {"--shard", "2/2"}));
     runGood({"bench", "--merge", "two", "one", "-o", "all"});
     EXPECT_EQ(withoutTimes("all/bench.json"), withoutTimes("whole/bench.json"));
     EXPECT_THAT(text("all/report.html"), HasSubstr("Error against run time"));
+}
+TEST_F(BenchRuns, twoShardsMergedEqualOneRun) {
+    expectShardsMerge();
+}
+TEST_F(BenchRunsSlow, twoShardsMergedEqualOneRun) {
+    expectShardsMerge();
 }
 
 TEST_F(BenchRuns, shardsThatCannotBeMergedAreRefusedInOneLine) {
