@@ -31,11 +31,10 @@ void Environment::expectAllTechniquesAlike() {
         std::vector<Technique> techniques; ///< besides forward; none: all
     };
     // Compiling takes nearly all of the time: where each technique has been seen, few suffice for all features.
-    scenes::Material coated;
-    coated.metallic = 0.3f;
-    coated.clearcoat = 0.5f;
-    coated.texture(scenes::TextureSlot::Occlusion).image = 0;
-    scenes::Scene ball = ballUnderSky(coated);
+    scenes::Material occluded;
+    occluded.metallic = 0.3f;
+    occluded.texture(scenes::TextureSlot::Occlusion).image = 0;
+    scenes::Scene ball = ballUnderSky(occluded);
     ball.images = {everythingScene().images[0]};
     std::vector<Case> cases{{ball, EnvironmentLight::SplitSum, 1, techniquesInTurn(0)},
                             {ball, EnvironmentLight::Sampled, 1, techniquesInTurn(1)},

@@ -1,5 +1,6 @@
 // Shaders with one fault each. All techniques share their lighting, so that comparing them with each other sees none of
 // these; the stability suite, which compares with formulas in double precision, must see every one.
+#include <algorithm>
 #include <set>
 #include <string_view>
 
@@ -155,7 +156,8 @@ void Mutants::expectHalvedMisses() {
             continue;
         }
         const std::vector<validation::StressPicture> pictures = row.pictures(request.effort);
-        for (std::size_t i = 0; i < (test::isWholeSweep() ? pictures.size() : 1); ++i) {
+        const std::size_t count = test::isWholeSweep() ? pictures.size() : std::min<std::size_t>(pictures.size(), 1);
+        for (std::size_t i = 0; i < count; ++i) {
             validation::StressCase one = row;
             one.name += ": " + pictures[i].what;
             // A picture that is compared with an earlier one brings that along, which counts for itself already.

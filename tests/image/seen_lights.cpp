@@ -170,9 +170,11 @@ scenes::Scene withSeenLights(scenes::Scene scene) {
 }
 
 /// The scene with materials of one kind, opaque and transparent: what shows a light does not look at others.
-scenes::Scene withPlainMaterials(scenes::Scene scene) {
+scenes::Scene withPlainMaterials(scenes::Scene scene,
+                                 scenes::MaterialModel model = scenes::MaterialModel::MetallicRoughness) {
     for (scenes::Material& material : scene.materials) {
         scenes::Material plain;
+        plain.model = model;
         plain.name = material.name;
         plain.baseColor = material.baseColor;
         plain.alphaMode = material.alphaMode;
@@ -188,18 +190,23 @@ void SeenLightPictures::expectAllTechniquesAlike() {
         scenes::Scene scene;
         int samples;
         frame::LightingSpace space;
-        std::vector<Technique> techniques; ///< besides forward
+        std::vector<Technique> techniques; ///< besides forward; none: all
     };
     const scenes::Scene plain = withSeenLights(withPlainMaterials(everythingScene()));
+    const scenes::Scene unlit =
+        withSeenLights(withPlainMaterials(everythingScene(), scenes::MaterialModel::SingleColor));
     scenes::Scene flat = plain;
     flat.cameras[0].projection = scenes::Projection::Orthographic;
     flat.cameras[0].halfHeightMetres = 2.0;
     using enum frame::LightingSpace;
-    std::vector<Case> cases{{"plain", plain, 1, World, techniquesInTurn(0)},
-                            {"plain, axes of the view", plain, 1, View, techniquesInTurn(1)},
+    // Compiling programs that light takes most of the time, and what shows a light does not look at materials.
+    std::vector<Case> cases{{"unlit", unlit, 1, World, techniquesInTurn(0)},
+                            {"unlit, axes of the view", unlit, 1, View, techniquesInTurn(1)},
+                            {"plain", plain, 1, World, {Technique::ClusteredDeferred}},
                             {"orthographic, 4 samples", flat, 4, View, {Technique::ClusteredForward}}};
-    // Compiling their programs takes most of the time, and what shows a light does not look at materials.
     if (isWholeSweep()) {
+        cases.push_back({"plain", plain, 1, World, {}});
+        cases.push_back({"plain, axes of the view", plain, 1, View, {}});
         cases.push_back({"orthographic", flat, 1, World, {Technique::DeferredVolumes}});
         cases.push_back({"everything", withSeenLights(everythingScene()), 1, World, {Technique::ClusteredDeferred}});
         cases.push_back({"even, 4 samples", withSeenLights(evenScene()), 4, World, {Technique::ForwardPlus}});
