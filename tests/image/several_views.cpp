@@ -66,11 +66,11 @@ protected:
 };
 using SeveralViewsSlow = SeveralViews;
 
-/// A scene of everything with all techniques, or with two where all have drawn one of a single material.
+/// A scene of everything with all techniques, or with two where all have drawn a plainer one.
 void SeveralViews::expectTwoCamerasAreTwoFrames() {
-    scenes::LoadOptions few;
-    few.lights = 40;
-    const scenes::Scene plain = withTwoCameras(scenes::loadScene("lattice", few));
+    scenes::LoadOptions options;
+    options.lights = 200;
+    const scenes::Scene plain = withTwoCameras(scenes::loadScene("lattice", options));
     const scenes::Scene everything = withTwoCameras(test::everythingScene());
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         const std::vector<View> views{view(info.technique, 0, {97, 55}), view(info.technique, 1, {97, 55})};
