@@ -108,7 +108,7 @@ void EnvironmentTruth::expectSamplesAgree() {
     settings.environment.light = EnvironmentLight::Sampled;
     settings.environment.samples = 256;
     engine::Renderer renderer(context(), scene);
-    for (const char* name : test::inTurn(std::vector{"studio", "sky"}, 2)) {
+    for (const char* name : test::everyNth(std::vector{"studio", "sky"}, 2)) {
         scene.environment = builtinEnvironment(name);
         renderer.environmentChanged();
         settings.environment.compensates = name == std::string_view("sky");

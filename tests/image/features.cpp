@@ -117,10 +117,10 @@ std::vector<Change> slotChanges() {
     };
 }
 TEST_F(Features, everyTextureSlotChangesThePicture) {
-    expectEachShows(test::inTurn(slotChanges(), 2));
+    expectEachShows(test::everyNth(slotChanges(), 2));
 }
 TEST_F(FeaturesSlow, everyTextureSlotChangesThePicture) {
-    expectEachShows(test::inTurn(slotChanges(), 2));
+    expectEachShows(test::everyNth(slotChanges(), 2));
 }
 
 Scene withTexturedGlassAndFilm() {
@@ -263,10 +263,10 @@ std::vector<Change> materialChanges() {
     };
 }
 TEST_F(Features, everyMaterialParameterChangesThePicture) {
-    expectEachShows(test::inTurn(materialChanges(), 3));
+    expectEachShows(test::everyNth(materialChanges(), 3));
 }
 TEST_F(FeaturesSlow, everyMaterialParameterChangesThePicture) {
-    expectEachShows(test::inTurn(materialChanges(), 3));
+    expectEachShows(test::everyNth(materialChanges(), 3));
 }
 
 std::vector<Change> vertexChanges() {

@@ -36,12 +36,11 @@ inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int sam
     return techniques;
 }
 
-/// Of so many of a list's values one, from the first on. All in a whole sweep.
+/// The first of `values` and every `n`th after it. All in a whole sweep.
 template <typename Value>
-std::vector<Value> inTurn(std::vector<Value> values, std::size_t ofSoMany) {
+std::vector<Value> everyNth(std::vector<Value> values, std::size_t n) {
     std::vector<Value> taken;
-    for (std::size_t i = 0; i < values.size(); i += isWholeSweep() ? 1 : ofSoMany)
-        taken.push_back(std::move(values[i]));
+    for (std::size_t i = 0; i < values.size(); i += isWholeSweep() ? 1 : n) taken.push_back(std::move(values[i]));
     return taken;
 }
 

@@ -317,7 +317,7 @@ void Sabotage::expectFaultsOfLobesMiss() {
         {"lib/material/material_frame.glsl", "* fragment.tangentLS.w;", "* -fragment.tangentLS.w;"},
         {"lib/reflectance/sheen.glsl", "(2.0 + inverse)", "(1.0 + inverse)"},
     };
-    for (const Fault& fault : inTurn(faults, 4)) {
+    for (const Fault& fault : everyNth(faults, 4)) {
         SCOPED_TRACE(fault.from);
         const std::string right = text("shaders/" + std::string(fault.file));
         replace(fault.file, fault.from, fault.to);
