@@ -23,6 +23,7 @@ struct Hit {
     glm::dvec3 weights{0.0};    ///< barycentric, of the triangle's corners
     double depthMetres = 0.0;   ///< ahead of the eye
     bool frontFacing = true;    ///< seen from its counter-clockwise side; a mirroring transform turns no side round
+    glm::dvec3 toViewer{0.0};   ///< unit, of a hit of the camera's ray; 0 where nobody looks
     /// Change of `weights` from the pixel to the next to the right, and to the one above.
     glm::dvec3 weightsDx{0.0}, weightsDy{0.0};
     double perspective = 0.0;    ///< relative difference of those changes one pixel further

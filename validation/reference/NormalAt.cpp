@@ -1,5 +1,8 @@
 #include "validation/reference/NormalAt.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "validation/reference/Slots.h"
 #include "validation/reference/TangentFrame.h"
 
@@ -35,7 +38,30 @@ glm::dvec3 directionOf(scenes::TextureSlot slot, const Hit& hit, const Textures&
     return 2.0 * glm::dvec3(texelOf(slot, hit, textures)) - 1.0;
 }
 
+/// The cosine between the triangle's own normal and the viewer's direction.
+double facetCosine(const Hit& hit) {
+    const glm::dvec3 a = hit.object->cornerRWS(hit.triangle, 0);
+    const glm::dvec3 area =
+        glm::cross(hit.object->cornerRWS(hit.triangle, 1) - a, hit.object->cornerRWS(hit.triangle, 2) - a);
+    return std::abs(glm::dot(glm::normalize(area), hit.toViewer));
+}
+
+/// As it is lit: on the side that is seen, and facing whoever looks.
+glm::dvec3 turnedTo(const Hit& hit, const glm::dvec3& normal) {
+    const glm::dvec3 front = facing(hit, normal);
+    if (hit.toViewer == glm::dvec3(0.0)) return front;
+    return bentToViewer(front, hit.toViewer, std::min(kLeastFacing, 0.5 * facetCosine(hit)));
+}
+
 } // namespace
+
+glm::dvec3 bentToViewer(const glm::dvec3& normal, const glm::dvec3& toViewer, double leastCosine) {
+    const double cosine = glm::dot(normal, toViewer);
+    if (cosine >= leastCosine) return normal;
+    // In the plane of both, by components along the viewer's direction and across it.
+    const glm::dvec3 across = normal - cosine * toViewer;
+    return unitOr(across + leastCosine * toViewer, normal);
+}
 
 glm::dvec3 normalAt(const Hit& hit, const Textures& textures) {
     const Object& object = *hit.object;
@@ -50,18 +76,19 @@ glm::dvec3 normalAt(const Hit& hit, const Textures& textures) {
                                       : fromTangentSpace(hit, texel * glm::dvec3(scale, scale, 1.0), vertexNormal),
                         vertexNormal);
     }
-    return facing(hit, normal);
+    return turnedTo(hit, normal);
 }
 
 glm::dvec3 coatNormalAt(const Hit& hit, const Textures& textures) {
     const scenes::Material& material = *hit.object->material;
     const glm::dvec3 vertexNormal = vertexNormalAt(hit);
-    if (material.texture(scenes::TextureSlot::ClearcoatNormal).image == scenes::kNone) return facing(hit, vertexNormal);
+    if (material.texture(scenes::TextureSlot::ClearcoatNormal).image == scenes::kNone)
+        return turnedTo(hit, vertexNormal);
     const glm::dvec3 texel = directionOf(scenes::TextureSlot::ClearcoatNormal, hit, textures);
     const double scale = material.clearcoatNormalScale;
     const glm::dvec2 leaning = alongTangents(material, scenes::TextureSlot::ClearcoatNormal, scale * glm::dvec2(texel));
     const glm::dvec3 mapped = fromTangentSpace(hit, {leaning, texel.z}, vertexNormal);
-    return facing(hit, unitOr(mapped, vertexNormal));
+    return turnedTo(hit, unitOr(mapped, vertexNormal));
 }
 
 glm::dvec3 tangentAt(const Hit& hit, const glm::dvec3& normal, const glm::dvec2& direction) {

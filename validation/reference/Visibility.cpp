@@ -36,6 +36,7 @@ std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Q
     if (query.masksHaveHoles && object.material->alphaMode == scenes::AlphaMode::Mask &&
         opacityAt(*hit, *query.textures) < double(object.material->alphaCutoff))
         return {};
+    hit->toViewer = -glm::normalize(query.ray->direction);
     return hit;
 }
 

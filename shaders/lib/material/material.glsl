@@ -137,7 +137,7 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     vec3 normalTexel = sampleSlot(normalTexture, TEXTURE_SLOT_NORMAL, fragment).rgb;
     if ((material.kind.y & MATERIAL_FLAG_NORMAL_MAP) != 0u) surface.normalTexel = normalTexel;
 #endif
-    surface.normalCode = encodeNormal(materialNormal(fragment, surface.normalTexel));
+    surface.normalCode = encodeNormal(bentToViewer(fragment, materialNormal(fragment, surface.normalTexel)));
     surface.normalLS = decodeNormal(surface.normalCode);
 #if HAS_SHADOWS
     surface.facetCode = encodeFacet(fragment.facetNormalLS);

@@ -17,6 +17,17 @@ vec3 facing(Fragment fragment, vec3 normal)
     return normal;
 }
 
+// Its part along the viewer's direction is raised until the normal faces the viewer (lib/raster/facing.glsl): a turn in the
+// plane of both, which goes on smoothly to a normal that points straight away. One that does keeps its bits and length.
+vec3 bentToViewer(Fragment fragment, vec3 normal)
+{
+    vec3 unit = safeNormalize(normal, vec3(0.0, 0.0, 1.0));
+    precise float along = dot(unit, fragment.toViewerLS);
+    if (!(along < fragment.leastFacing)) return normal;
+    precise vec3 bent = unit + (fragment.leastFacing - along) * fragment.toViewerLS;
+    return safeNormalize(bent, unit);
+}
+
 #if HAS_TANGENTS
 // A direction given by its components along tangent, bitangent and normal.
 vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)

@@ -64,7 +64,7 @@ void setClearcoat(Fragment fragment, inout Surface surface)
     if (materialFlag(MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP))
         normalLS = tangentSpaceNormal(fragment, normalLS, texel, material.clearcoat.z, material.clearcoatTurn.xyz);
 #endif
-    surface.coatNormalCode = encodeOctahedral(facing(fragment, normalLS));
+    surface.coatNormalCode = encodeOctahedral(bentToViewer(fragment, facing(fragment, normalLS)));
     surface.coatFactor = HAS_LAYERS(surface.model) ? factor : 0.0;
     precise float alpha = max(roughness * roughness, ALPHA_MIN);
     surface.coatAlpha = alpha;

@@ -47,6 +47,8 @@ struct Fragment {
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
+    vec3 toViewerLS;    // unit; 0 where nobody looks, as in an atlas
+    float leastFacing;  // the cosine that lit normals have to it at least; 0 where nobody looks
 #if HOOKED
     vec3 positionOS;
     int instance; // place of the mesh instance in the scene
@@ -77,6 +79,8 @@ Fragment plainFragment()
     fragment.color = vec4(1.0);
     fragment.normalFromObject = mat3(1.0);
     fragment.frontFacing = true;
+    fragment.toViewerLS = vec3(0.0);
+    fragment.leastFacing = 0.0;
 #if HOOKED
     fragment.positionOS = vec3(0.0);
     fragment.instance = 0;

@@ -8,8 +8,11 @@
 #else
 #define BY_TRIANGLE 0
 #endif
-#if HAS_SHADOWS && !DEPTH_ONLY
+#if !DEPTH_ONLY
+#include "lib/raster/facing.glsl"
+#if HAS_SHADOWS
 #include "lib/raster/facet_normal.glsl"
+#endif
 #endif
 
 #if !DEPTH_ONLY
@@ -68,6 +71,15 @@ Fragment rasterisedFragment()
     fragment.normalLS = triangleNormal(weights);
 #else
     fragment.normalLS = normalLS;
+#endif
+#if !IN_ATLAS
+    fragment.toViewerLS = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS; // whatever the depth
+#if BY_TRIANGLE
+    fragment.leastFacing = leastFacing(triangleCosine(gl_FragCoord.xy));
+#else
+    vec2 depthChange = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
+    fragment.leastFacing = leastFacing(facetCosineOf(gl_FragCoord.xy, gl_FragCoord.z, depthChange, fragment.toViewerLS));
+#endif
 #endif
 #if HAS_TANGENTS
     fragment.tangentLS = tangentLS;

@@ -41,6 +41,17 @@ dvec3 triangleWeights(vec2 pixel)
     return dvec3(1.0 - weight1 - weight2, weight1, weight2);
 }
 
+#if !DEPTH_ONLY
+// The cosine between the triangle's normal and that ray; NaN where it has no area.
+float triangleCosine(vec2 pixel)
+{
+    dvec3 direction = pixelRay(pixel).directionLS;
+    dvec3 area = cross(dvec3(triangleLS[1]) - dvec3(triangleLS[0]), dvec3(triangleLS[2]) - dvec3(triangleLS[0]));
+    double slope = dot(area, direction);
+    return sqrt(float(slope * slope / (dot(area, area) * dot(direction, direction))));
+}
+#endif
+
 #if HAS_MIXED_FILTERS
 // Change of those weights to the next pixel, whose ray lies `acrossChange` beside, a metre ahead of the eye or anywhere:
 // the quotient rule on Cramer's.
