@@ -6,8 +6,9 @@
 
 namespace tessera::reference {
 
-/// The least cosine between a lit normal and the viewer's direction, by the product's definition. Where the triangle
-/// itself is seen as obliquely, half of its own cosine counts.
+/// The least cosine between a lit normal and the viewer's direction, by the product's definition, before the bent one
+/// is made unit, which takes 1.2e-4 of it. Where the triangle itself is seen as obliquely, half of its own cosine
+/// counts.
 inline constexpr double kLeastFacing = 1.0 / 64.0;
 
 /// A unit normal whose cosine to the unit vector `toViewer` is less than `leastCosine`, with its part along that raised

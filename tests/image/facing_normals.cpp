@@ -1,0 +1,230 @@
+// Lit normals that turn away from the viewer on surfaces that face it.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "renderer/frame/GBufferLayout.h"
+#include "scenes/LookAt.h"
+#include "tests/image/EnvironmentTest.h"
+#include "validation/compare/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::EnvironmentLight;
+using namespace test;
+
+constexpr double kFacingLeast = 1.0 / 64.0; ///< kLeastFacing of shaders/lib/raster/facing.glsl
+constexpr int kBallPixels = 64;
+
+/// Coarse balls side by side before an orthographic camera, with interpolated normals, turned so that some of these
+/// turn away from the viewer; no triangle that is seen is within a cosine of 0.037 of the horizon.
+scenes::Scene coarseBalls(const std::vector<scenes::Material>& materials) {
+    constexpr double kHalfHeightMetres = 1.05;
+    scenes::Scene scene = quadScene({});
+    scene.meshes[0] = {};
+    scenes::builtin::appendSphere(scene.meshes[0], {}, 1.0, 8, 6);
+    scene.materials = materials;
+    scene.nodes.clear();
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const double x = kHalfHeightMetres * (2.0 * double(i) + 1.0 - double(materials.size()));
+        glm::dmat4 placed = glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.0, 0.0));
+        placed = glm::rotate(placed, 0.15, glm::dvec3(0.0, 1.0, 0.0));
+        placed = glm::rotate(placed, 0.2, glm::dvec3(1.0, 0.0, 0.0));
+        scenes::Node& node = scene.nodes.emplace_back();
+        node.parentFromNode = placed;
+        node.instances = {{0, int(i)}};
+    }
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = kHalfHeightMetres;
+    return scene;
+}
+
+scenes::Material whiteMetal() {
+    scenes::Material material;
+    material.metallic = 1.0f;
+    material.perceptualRoughness = 0.3f;
+    return material;
+}
+
+/// Lobes of each kind.
+std::vector<scenes::Material> glossyMaterials() {
+    scenes::Material brushed = whiteMetal();
+    brushed.anisotropyStrength = 0.7f;
+    scenes::Material coated;
+    coated.baseColor = glm::vec4(0.3f, 0.1f, 0.1f, 1.0f);
+    coated.metallic = 0.0f;
+    coated.clearcoat = 1.0f;
+    coated.clearcoatPerceptualRoughness = 0.2f;
+    scenes::Material cloth = coated;
+    cloth.clearcoat = 0.0f;
+    cloth.sheenColor = glm::vec3(0.8f);
+    cloth.sheenPerceptualRoughness = 0.5f;
+    scenes::Material plastic = coated;
+    plastic.model = scenes::MaterialModel::BlinnPhong;
+    plastic.exponent = 20.0f;
+    return {whiteMetal(), brushed, coated, cloth, plastic};
+}
+
+std::vector<scenes::Light> lightsAround() {
+    return {pointLight({4.0, 3.0, 2.0}, 30.0f), pointLight({-6.0, 1.0, -3.0}, 60.0f),
+            pointLight({0.0, -5.0, 1.0}, 20.0f)};
+}
+
+class FacingNormals : public EnvironmentTest {
+protected:
+    static frame::FrameSettings settingsFor(std::size_t balls) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {kBallPixels * int(balls), kBallPixels};
+        settings.environment.backdrop = frame::Backdrop::Off;
+        return settings;
+    }
+    /// Expects no pixel of a white metal in even light of radiance 1 to be dark.
+    void expectNoDarkPixel(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings,
+                           double least) {
+        const std::vector<float> seen = renderer.render(technique, settings).radiance;
+        std::vector<float> inside;
+        for (std::size_t i = 0; i < seen.size(); i += 4)
+            if (seen[i + 3] == 1.0f) inside.push_back(seen[i]);
+        ASSERT_GT(inside.size(), 2000u);
+        std::sort(inside.begin(), inside.end());
+        const float median = inside[inside.size() / 2];
+        EXPECT_GT(median, 0.9f);
+        EXPECT_GE(inside.front(), float(least) * median);
+    }
+};
+
+/// 46 pixels have an interpolated normal that turns away, and 9 more one that faces the viewer by less than the least.
+TEST_F(FacingNormals, faceTheViewerInEveryPixel) {
+    const scenes::Scene scene = coarseBalls({whiteMetal()});
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = settingsFor(1);
+    settings.view = frame::DebugView::Normal;
+    for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+        settings.filter = filter;
+        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+            const std::vector<float> normals = renderer.render(technique, settings).radiance;
+            int covered = 0, bent = 0;
+            for (std::size_t i = 0; i < normals.size(); i += 4) {
+                if (normals[i + 3] == 0.0f) continue;
+                const double cosine = double(normals[i + 2]); // the viewer is at +z
+                EXPECT_GE(cosine, kFacingLeast / std::hypot(1.0, kFacingLeast) - 1e-6) << i / 4;
+                ++covered;
+                bent += cosine < 1.1 * kFacingLeast ? 1 : 0; // by a turn from at most 24 degrees below the horizon
+            }
+            EXPECT_GT(covered, 2000);
+            EXPECT_GE(bent, 40);
+        }
+    }
+}
+
+/// A metal without a colour of its own reflects from 0.88 to 1 of even light at any angle, at this roughness (the table
+/// of EnvironmentTruth.aWhiteFurnaceLosesWhatThePublishedTableSays); 0.03 is for the renderer's own tables.
+TEST_F(FacingNormals, leaveNoDarkPixelOnACoarseBallOfMetalInEvenLight) {
+    scenes::Scene scene = coarseBalls({whiteMetal()});
+    scene.environment = evenEnvironment(1.0);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = settingsFor(1);
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+        SCOPED_TRACE(info.name);
+        expectNoDarkPixel(renderer, info.technique, settings, 0.85);
+    }
+    settings.environment.light = EnvironmentLight::Sampled;
+    settings.environment.samples = 256;
+    SCOPED_TRACE("by samples");
+    expectNoDarkPixel(renderer, Technique::Deferred, settings, 0.85);
+}
+
+/// The least cosine is beyond what a stored normal may be off by, so that no rounding turns one away again.
+TEST_F(FacingNormals, faceTheViewerInEveryLayoutOfTheGBuffer) {
+    scenes::Scene scene = coarseBalls({whiteMetal()});
+    scene.environment = evenEnvironment(1.0);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = settingsFor(1);
+    for (const frame::LayoutInfo& info : frame::layoutTable()) {
+        SCOPED_TRACE(info.name);
+        settings.layout = info.layout;
+        expectNoDarkPixel(renderer, Technique::Deferred, settings, 0.8);
+    }
+}
+
+TEST_F(FacingNormals, areTheSameInEveryTechniqueToTheLastBit) {
+    const std::vector<scenes::Material> materials = glossyMaterials();
+    scenes::Scene scene = coarseBalls(materials);
+    scene.lights = lightsAround();
+    scene.environment = builtinEnvironment("studio");
+    engine::Renderer renderer(context(), scene);
+    expectParity(renderer, settingsFor(materials.size()));
+}
+
+/// Of lights alone, which need no samples. As referenceTolerance() has it, and silhouettes aside.
+TEST_F(FacingNormals, areThoseOfTheReference) {
+    const std::vector<scenes::Material> materials = glossyMaterials();
+    scenes::Scene scene = coarseBalls(materials);
+    scene.lights = lightsAround();
+    engine::Renderer renderer(context(), scene);
+    validation::CompareRequest request;
+    request.techniques = {Technique::Forward, Technique::Deferred};
+    request.against = validation::Reference{};
+    request.settings = settingsFor(materials.size());
+    request.settings.filter = frame::TextureFilter::Exact;
+    request.hardwareFilter = false;
+    for (const validation::ComparePair& pair :
+         validation::compareTechniques(renderer, context().capabilities(), request).record.pairs) {
+        SCOPED_TRACE(pair.a);
+        EXPECT_TRUE(pair.verdict.ok) << testing::PrintToString(pair.verdict.missed);
+        EXPECT_LT(pair.figures.excluded, 0.02);
+    }
+}
+
+/// A floor whose normals are those of its triangles keeps them up to the horizon, where they face the viewer by less
+/// than the least. Bent ones would be off by up to 0.0156.
+TEST_F(FacingNormals, ofAFlatFloorStayAsTheyAreUpToItsHorizon) {
+    constexpr double kRollRadians = 0.3;
+    const glm::dvec3 up(-std::sin(kRollRadians), std::cos(kRollRadians), 0.0);
+    scenes::Scene scene = quadScene(whiteMetal());
+    scene.meshes[0] = {};
+    scenes::builtin::appendFloor(scene.meshes[0], {0.0, 0.0, -50.0}, {200.0, 100.0}, {4, 4});
+    scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), kRollRadians, glm::dvec3(0.0, 0.0, 1.0));
+    scene.lights = {pointLight({0.0, 5.0, -10.0}, 10.0f)};
+    scenes::Camera& camera = scene.cameras[0];
+    camera.nearMetres = 0.01;
+    camera.farMetres = 1000.0;
+    for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
+        camera.projection = projection;
+        if (projection == scenes::Projection::Perspective) {
+            camera.fovYRadians = 0.2; // the rows below the horizon are 0.2 degrees apart
+            camera.worldFromCamera = glm::translate(glm::dmat4(1.0), 0.05 * up);
+        } else {
+            constexpr double kCosine = 0.004, kDistanceMetres = 45.0;
+            const glm::dvec3 middle(0.0, 0.0, -50.0);
+            camera.halfHeightMetres = 0.15;
+            camera.worldFromCamera = scenes::worldFromLookAt(
+                middle + kDistanceMetres * (kCosine * up + std::sqrt(1.0 - kCosine * kCosine) * glm::dvec3(0, 0, 1)),
+                middle);
+        }
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = settingsFor(1);
+        settings.view = frame::DebugView::Normal;
+        for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+            settings.filter = filter;
+            const std::vector<float> normals = renderer.render(Technique::Deferred, settings).radiance;
+            int covered = 0;
+            double worst = 0.0;
+            for (std::size_t i = 0; i < normals.size(); i += 4) {
+                if (normals[i + 3] == 0.0f) continue;
+                ++covered;
+                worst = std::max(worst, glm::distance(glm::dvec3(normals[i], normals[i + 1], normals[i + 2]), up));
+            }
+            EXPECT_GT(covered, 1000);
+            EXPECT_LT(worst, 1e-5) << (projection == scenes::Projection::Perspective ? "perspective" : "orthographic")
+                                   << (filter == frame::TextureFilter::Exact ? ", exact" : ", hardware");
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera
