@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/frame/GBufferLayout.h"
@@ -18,7 +17,7 @@ using frame::EnvironmentLight;
 using namespace test;
 
 constexpr double kFacingLeast = 1.0 / 64.0; ///< kLeastFacing of shaders/lib/raster/facing.glsl
-constexpr int kBallPixels = 64;
+constexpr int kCoarseBallPixels = 64;
 
 /// Coarse balls side by side before an orthographic camera, with interpolated normals, turned so that some of these
 /// turn away from the viewer; no triangle that is seen is within a cosine of 0.037 of the horizon.
@@ -53,6 +52,7 @@ scenes::Material whiteMetal() {
 /// Lobes of each kind.
 std::vector<scenes::Material> glossyMaterials() {
     scenes::Material brushed = whiteMetal();
+    brushed.perceptualRoughness = 0.5f;
     brushed.anisotropyStrength = 0.7f;
     scenes::Material coated;
     coated.baseColor = glm::vec4(0.3f, 0.1f, 0.1f, 1.0f);
@@ -78,7 +78,7 @@ class FacingNormals : public EnvironmentTest {
 protected:
     static frame::FrameSettings settingsFor(std::size_t balls) {
         frame::FrameSettings settings;
-        settings.sizePixels = {kBallPixels * int(balls), kBallPixels};
+        settings.sizePixels = {kCoarseBallPixels * int(balls), kCoarseBallPixels};
         settings.environment.backdrop = frame::Backdrop::Off;
         return settings;
     }
