@@ -274,12 +274,14 @@ TEST(SceneText, theVariantThatIsShownIsSavedAlsoBySavedFilesOfSavedFiles) {
     red.import.variant = "red";
     Scene scene = loadScene(car, red);
     ASSERT_EQ(scene.materials.size(), 2u);
+    const SceneOrigin origin = originOf(car, red, scene);
     scene.materials[1].metallic = 0.25f; // a material that only the variant has
     const std::filesystem::path first = folder.path() / "first.json", second = folder.path() / "second.json";
-    expectSameScene(saved(scene, originOf(car, red, scene), first), scene);
+    expectSameScene(saved(scene, origin, first), scene);
     Scene again = loadScene(first.string());
+    const SceneOrigin originAgain = originOf(first.string(), {}, again);
     again.materials[0].metallic = 0.5f;
-    expectSameScene(saved(again, originOf(first.string(), {}, again), second), again);
+    expectSameScene(saved(again, originAgain, second), again);
 }
 
 TEST(SceneText, namesAreRelativeToTheNewFile) {
