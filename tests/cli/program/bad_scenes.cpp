@@ -134,7 +134,7 @@ TEST_F(BadScenes, aBrokenPngIsOneLine) {
         std::string bytes = whole;
         bytes[harmed] = char(bytes[harmed] ^ 0x55);
         folder_.write("b.png", bytes);
-        expectError(kBadInput, {"render", "m.obj", "-o", "a.png"}, {"m.mtl", "b.png", "broken"});
+        expectError(kBadInput, {"render", "m.obj", "--strict", "-o", "a.png"}, {"m.mtl", "b.png", "broken"});
     }
 }
 
