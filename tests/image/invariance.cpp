@@ -103,7 +103,7 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
 }
 
 void Invariance::expectUnusedInvisible() {
-    constexpr Technique kTechniques[] = {Technique::Deferred, Technique::Forward};
+    constexpr Technique kOneOfEachFamily[] = {Technique::Deferred, Technique::Forward};
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = test::builtinForSweep(builtin);
@@ -116,7 +116,7 @@ void Invariance::expectUnusedInvisible() {
         engine::Renderer renderer(context(), scene), rendererOfMore(context(), more),
             rendererOfLights(context(), moreLights);
         for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), turn)) {
-            for (const Technique technique : test::inTurn(kTechniques, turn)) {
+            for (const Technique technique : test::inTurn(kOneOfEachFamily, turn)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, int(technique), layout.name));
                 frame::FrameSettings settings = small();
                 if (!test::isWholeSweep()) settings.sizePixels = {160, 91};

@@ -293,14 +293,14 @@ void Multisampling::expectNoBadPixel() {
     scene.nodes[1].instances = {{int(scene.meshes.size()), 1}};
     scene.nodes[1].parentFromNode = glm::dmat4(1.0);
     scene.meshes.push_back(slivers);
-    constexpr Technique kTechniques[] = {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward};
+    constexpr Technique kForwardFamily[] = {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward};
     std::size_t turn = 0;
     for (double pitch : {0.0, 0.01, 0.05}) {
         scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
         scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
         scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
         scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
-        for (const Technique technique : test::inTurn(kTechniques, turn++)) {
+        for (const Technique technique : test::inTurn(kForwardFamily, turn++)) {
             const Picture shown = picture(scene, sampled({321, 179}), technique);
             const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
             EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;

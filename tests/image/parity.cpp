@@ -125,8 +125,9 @@ void Parity::expectPromisesKept() {
         std::optional<scenes::Scene> scene;
         std::optional<engine::Renderer> renderer;
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
-            const std::pair pair(builtin.name, layout.name);
-            if (!test::isWholeSweep() && std::ranges::find(kScenesOfLayouts, pair) == std::end(kScenesOfLayouts))
+            const std::pair sceneAndLayout(builtin.name, layout.name);
+            if (!test::isWholeSweep() &&
+                std::ranges::find(kScenesOfLayouts, sceneAndLayout) == std::end(kScenesOfLayouts))
                 continue;
             kept.insert(layout.name);
             if (!renderer) renderer.emplace(context(), scene.emplace(test::builtinForSweep(builtin)));
