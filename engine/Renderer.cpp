@@ -116,6 +116,7 @@ frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const fr
     const auto drawn = std::ranges::find_if(
         view.draws.seen, [&](int i) { return list.draws[std::size_t(i)].instance == object.instance; });
     const frame::FrameSpec& spec = view.prepared.spec;
+    if (spreadLimit_ && spreadLimit_->isOfAll) return frame::usedTiles(atlas.tiles);
     const bool seesAll = !spec.settings.prune || spec.samples > 1;
     if (drawn == view.draws.seen.end() || seesAll) return frame::usedTiles(atlas.tiles, drawn != view.draws.seen.end());
     const frame::CameraView& camera = view.prepared.camera;
@@ -130,6 +131,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
     if (prepared.diffused.empty()) return;
     view.diffusionMemory = &diffusionMemories_[number];
     if (!keepsSpreadLight_) view.diffusionMemory->forget();
+    view.diffusionMemory->limit(spreadLimit_ ? std::optional(spreadLimit_->tiles) : std::nullopt);
     const frame::DrawList& list = view.scene->drawList();
     for (std::size_t cell = 0; cell < prepared.diffused.size(); ++cell) {
         const frame::DiffusedObject& object = prepared.diffusedObjects[cell];
@@ -260,6 +262,22 @@ DrawnLists Renderer::downloadLists(std::size_t view) const {
 
 std::string Renderer::missingTextures(std::size_t view) const {
     return frame::missingTextures(latest().views.at(view).prepared.spec);
+}
+
+SpreadProgress Renderer::spreadProgress(std::size_t view) const {
+    const frame::DrawnView& drawn = latest().views.at(view);
+    SpreadProgress progress;
+    for (std::size_t cell = 0; cell < drawn.diffused.size(); ++cell) {
+        const frame::DrawnView::Diffused& own = drawn.diffused[cell];
+        const std::size_t tiles = own.seen.count();
+        if (tiles == 0) continue;
+        const std::size_t missing = drawn.diffusionMemory->missing(cell, own.key, own.seen).count();
+        ++progress.objects;
+        progress.doneObjects += missing == 0;
+        progress.tiles += tiles;
+        progress.doneTiles += tiles - missing;
+    }
+    return progress;
 }
 
 DrawnShadows Renderer::shadows(std::size_t view) const {

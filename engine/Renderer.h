@@ -56,6 +56,20 @@ struct DrawnShadows {
     std::string cut;                  ///< how shadows may have made pixels NaN, and what to do; empty: they have not
 };
 
+/// How much of the light that a frame lacks, since it was not yet spread over surfaces (docs/skin.md), it may add. What
+/// is missing then is drawn as if its light did not spread.
+struct SpreadLimit {
+    std::size_t tiles = 0; ///< of shared/diffusion.h, to be lit; spreading their light is counted in these too
+    bool isOfAll = false;  ///< also of what the frame does not see, for those that follow
+};
+
+/// How far light has spread over the objects of a view: those of which all is known that the view sees, or is to know.
+struct SpreadProgress {
+    std::size_t objects = 0, doneObjects = 0;
+    std::size_t tiles = 0, doneTiles = 0;
+    bool isDone() const { return doneTiles == tiles; }
+};
+
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
 /// from the scene is made once and kept.
 class Renderer {
@@ -119,6 +133,10 @@ public:
     /// Light that has spread over surfaces is kept until something changes that it depends on (docs/skin.md), unless
     /// this is off: then each frame spreads it anew, as measuring it asks for.
     void keepSpreadLight(bool keeps) { keepsSpreadLight_ = keeps; }
+    /// Of the frames that follow; none: they add all that they lack.
+    void limitSpreadLight(std::optional<SpreadLimit> limit) { spreadLimit_ = limit; }
+    /// After a view of the latest draw().
+    SpreadProgress spreadProgress(std::size_t view = 0) const;
 
     /// The scene as frames of this spec have it on the GPU.
     const frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
@@ -153,6 +171,7 @@ private:
     frame::DiffusionAtlases diffusionAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
+    std::optional<SpreadLimit> spreadLimit_;
     std::shared_ptr<const frame::FilteredEnvironment> filteredEnvironment_; ///< null: not yet, or on the GPU
     std::unique_ptr<frame::EnvironmentGpu> environment_; ///< made with the first frame that has use for it
     frame::LobesGpu lobes_;

@@ -127,7 +127,7 @@ struct ViewWiring {
         for (std::size_t cell = 0; cell < spec.diffused.size(); ++cell) {
             const frame::DrawnView::Diffused* const own = drawn ? &drawn->diffused[cell] : nullptr;
             // An atlas must be written before it is read.
-            const bool isIdle = own && drawn->diffusionMemory->missing(cell, own->key, own->seen).isEmpty();
+            const bool isIdle = own && drawn->diffusionMemory->isIdle(cell, own->key, own->seen);
             if (isIdle && (holdsAtlas || writes || cell + 1 < spec.diffused.size())) continue;
             const ViewSource object{view.technique, spec.diffused[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));

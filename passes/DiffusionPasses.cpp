@@ -1,5 +1,7 @@
 #include "passes/DiffusionPasses.h"
 
+#include <functional>
+
 #include <fmt/format.h>
 
 #include "renderer/gpu/Bands.h"
@@ -73,7 +75,8 @@ struct Object {
         TextureHandle entering, unblurred;
     };
     /// Lights some tiles anew.
-    Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles) const;
+    Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles,
+                const std::function<void()>& done) const;
 
     /// Light that has spread by some of the levels, and the sum of what leaves for it; none before the first.
     struct Spread {
@@ -85,8 +88,24 @@ struct Object {
     TextureHandle store(const Spread& spread, TextureHandle unblurred, TextureHandle atlas,
                         const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
+    /// Says there of some tiles that no light is known.
+    TextureHandle blank(TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+                        const frame::TileSet& tiles, const std::function<void()>& done) const;
 
 private:
+    /// What pixels ask of the object's cell: DiffusedCells::ofCell().
+    glm::vec4 cellValues(const frame::DiffusedCells& cells) const {
+        return {glm::vec3(spec.spread->inPixels), float(frame::borderTexels(spec.gutterTexels, cells.sideTexels))};
+    }
+    Rectangles rectanglesIn(const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles) const {
+        const glm::ivec2 corner = cells.corner(int(cell));
+        Rectangles rectangles = rectanglesOf(tiles);
+        for (gpu::Rectangle& rectangle : rectangles) {
+            rectangle.x += corner.x;
+            rectangle.y += corner.y;
+        }
+        return rectangles;
+    }
     Rectangles rectanglesOf(const frame::TileSet& tiles) const {
         return tiles.rectangles(frame::kDiffusionTileTexels, spec.spreadTexels());
     }
@@ -94,7 +113,8 @@ private:
     TextureHandle fill(const std::string& name, TextureHandle light, const frame::TileSet& tiles) const;
 };
 
-Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles) const {
+Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles,
+                            const std::function<void()>& done) const {
     struct Data {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
@@ -119,7 +139,7 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
                     out.mask = pass.create("diffusion_mask", square(side, graph::Format::Depth32Float),
                                            Access::DepthAttachment);
                 },
-                [side, rectangles = tiles.rectangles(frame::kDiffusionTileTexels * (isHalved ? 2 : 1), side),
+                [side, done, rectangles = tiles.rectangles(frame::kDiffusionTileTexels * (isHalved ? 2 : 1), side),
                  constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->inPixels, 0.0),
                                                              glm::vec4(spec.spread->inTexels, 0.0)}](
                     const Data& out, const graph::PassContext& context) {
@@ -141,6 +161,7 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
                     for (const auto kind :
                          {frame::SurfaceHandles::Kind::Opaque, frame::SurfaceHandles::Kind::Transparent})
                         gpu::drawInBands([&] { out.surfaces.draw(context, kind, state); });
+                    if (done) done();
                 })
             .light;
     return isHalved ? halve(lit, light, tiles) : lit;
@@ -203,13 +224,6 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, Textu
         std::optional<TextureHandle> sum;
     };
     const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
-    const glm::vec4 values(glm::vec3(spec.spread->inPixels),
-                           float(frame::borderTexels(spec.gutterTexels, cells.sideTexels)));
-    Rectangles rectangles = rectanglesOf(tiles);
-    for (gpu::Rectangle& rectangle : rectangles) {
-        rectangle.x += corner.x;
-        rectangle.y += corner.y;
-    }
     return graph
         .addPass<Data>(
             "diffusion_store" + suffix,
@@ -221,7 +235,8 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, Textu
                 if (spread.sum) out.sum = pass.read(*spread.sum);
                 out.atlas = pass.write(atlas);
             },
-            [corner, ofCell, rectangles, values, done](const Data& out, const graph::PassContext& context) {
+            [corner, ofCell, done, rectangles = rectanglesIn(cells, cell, tiles),
+             values = cellValues(cells)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
@@ -234,6 +249,28 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, Textu
                 gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
                 gpu::clearColor(0, values);
                 if (done) done();
+            })
+        .atlas;
+}
+
+TextureHandle Object::blank(TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+                            const frame::TileSet& tiles, const std::function<void()>& done) const {
+    struct Data {
+        TextureHandle atlas;
+    };
+    return graph
+        .addPass<Data>(
+            "diffusion_blank" + suffix, [&](graph::PassBuilder& pass, Data& out) { out.atlas = pass.write(atlas); },
+            [ofCell = cells.ofCell(int(cell)), done, rectangles = rectanglesIn(cells, cell, tiles),
+             values = cellValues(cells)](const Data&, const graph::PassContext& context) {
+                context.bindTargets();
+                for (const gpu::Rectangle& rectangle : rectangles) {
+                    gpu::setScissor(rectangle);
+                    gpu::clearColor(0, glm::vec4(0.0f));
+                }
+                gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
+                gpu::clearColor(0, values);
+                done();
             })
         .atlas;
 }
@@ -325,25 +362,35 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
 
     frame::DiffusionWork work;
     work.levels.resize(spec.spread->levels.size());
-    std::function<void()> done;
-    bool lights = true;
+    std::function<void()> lit, stored, blanked;
+    bool lights = true, spreads = true;
     if (drawn) {
         frame::DiffusionMemory* const memory = inputs.drawn->diffusionMemory;
         if (!graph.holds(light.entering) || !graph.holds(light.unblurred)) memory->forgetLit(cell);
         std::vector<double> variances;
         for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
-        work = frame::diffusionWork(atlas->tiles, variances, memory->missing(cell, drawn->key, drawn->seen));
-        work.light = memory->unlit(cell, drawn->key, work.light);
-        lights = !work.light.isEmpty() || !graph.holds(light.entering);
-        done = [memory, cell, key = drawn->key, lit = work.light, stored = work.store] {
-            memory->hold(cell, key, lit, stored);
-        };
+        work = memory->next(cell, drawn->key, atlas->tiles, variances, drawn->seen);
+        spreads = !memory->isLimited() || !work.store.isEmpty();
+        lights = !work.light.isEmpty() || (spreads && !graph.holds(light.entering));
+        lit = [memory, cell, key = drawn->key, tiles = work.light] { memory->hold(cell, key, tiles, {}); };
+        stored = [memory, cell, key = drawn->key, tiles = work.store] { memory->hold(cell, key, {}, tiles); };
+        blanked = [memory, cell, key = drawn->key, tiles = work.blank] { memory->holdBlank(cell, key, tiles); };
     }
-    if (lights) light = object.light(inputs, light, work.light);
+    if (lights) light = object.light(inputs, light, work.light, lit);
+    TextureHandle written = inputs.atlas;
+    if (!work.blank.isEmpty()) written = object.blank(written, view.diffusedCells(), cell, work.blank, blanked);
+    if (!spreads) {
+        // For a later frame.
+        if (lights) {
+            graph.output(light.entering);
+            graph.output(light.unblurred);
+        }
+        return {written};
+    }
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.unblurred, inputs.atlas, view.diffusedCells(), cell, work.store, done)};
+    return {object.store(spread, light.unblurred, written, view.diffusedCells(), cell, work.store, stored)};
 }
 
 } // namespace tessera::passes

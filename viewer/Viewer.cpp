@@ -97,6 +97,10 @@ private:
     double now() const { return Window::nowSeconds(); }
     bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays(state_)); }
     bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
+    /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
+    bool lacksLight() const {
+        return state_.open && screen_.shows(wanted_) && screen_.lacksLight(wanted_, Screen::Reach::All);
+    }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
     /// A minimised window shows nothing; a pending picture waits.
@@ -108,14 +112,14 @@ private:
     bool isDue() const {
         if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || settleFrames_ > 0) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
-        return hasPicturePlace() && (isMoving() || (!isWhole() && now() >= restAt_));
+        return hasPicturePlace() && (isMoving() || ((!isWhole() || lacksLight()) && now() >= restAt_));
     }
     /// How long nothing needs to happen; negative: until something does.
     double idleSeconds() const {
         if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
-        if (!isWhole() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
+        if ((!isWhole() || lacksLight()) && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
@@ -452,6 +456,8 @@ private:
         const gpu::Rectangle place = areaPixels();
         const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
         facts_.isPreparing = facts_.isSpreading = false;
+        const bool wasSpreading = std::exchange(facts_.spreading, std::nullopt).has_value();
+        if (wasSpreading) settleFrames_ = std::max(settleFrames_, 1); // until the line says so no more
         if (!wasAnnounced) announcements_ = 0;
         if (!state_.open || place.width < 1 || place.height < 1) return false;
         wanted_.looks = state_.looks;
@@ -462,15 +468,30 @@ private:
         wanted_.sceneRevision = state_.open->revision();
         wanted_.sceneEdits = state_.open->edits();
         const double have = screen_.scaleOf(wanted_);
-        if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
         const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
+        if (have >= restScale() && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
+            return spreadSlice(Screen::Reach::All);
+        if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
         if (have > 0.0 && !isAtRest) return false;
         if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
+        if (isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen)) return spreadSlice(Screen::Reach::Seen);
         if (have == 0.0) restAt_ = now() + kRestSeconds;
         // A scale that is fixed is that of all pictures: none is better.
         const Screen::Stay stay = isAtRest || !state_.automaticScale ? Screen::Stay::Stays : Screen::Stay::Passes;
         if (isToBeAnnounced(stay)) return false;
         return drawAt(isAtRest ? restScale() : movingScale(), stay, isAtRest);
+    }
+
+    /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
+    bool spreadSlice(Screen::Reach reach) {
+        attempt([&] {
+            const engine::SpreadProgress progress = screen_.spreadSlice(wanted_, reach);
+            if (progress.isDone())
+                log_.line(reach == Screen::Reach::All ? "spread light everywhere" : "spread light in view");
+            else
+                facts_.spreading = progress;
+        });
+        return false;
     }
 
     /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows

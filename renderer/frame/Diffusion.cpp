@@ -192,7 +192,7 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
 void DiffusionMemory::begin(std::size_t cells, bool holdsAtlas) {
     cells_.resize(cells);
     if (holdsAtlas) return;
-    for (Cell& cell : cells_) cell.stored = {};
+    for (Cell& cell : cells_) cell.stored = cell.blank = {};
 }
 
 namespace {
@@ -221,9 +221,45 @@ TileSet DiffusionMemory::unlit(std::size_t cell, std::uint64_t key, const TileSe
 
 void DiffusionMemory::hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread) {
     Cell& own = cells_[cell];
-    if (own.key != key) own = {key, {}, {}};
+    if (own.key != key) own = {key, {}, {}, {}};
     addTo(own.lit, lit);
     addTo(own.stored, spread);
+}
+
+void DiffusionMemory::holdBlank(std::size_t cell, std::uint64_t key, const TileSet& blank) {
+    hold(cell, key, {}, {});
+    addTo(cells_[cell].blank, blank);
+}
+
+TileSet DiffusionMemory::unwritten(std::size_t cell, std::uint64_t key, int side) const {
+    const Cell& own = cells_[cell];
+    const bool isKnown = own.key == key;
+    return without(without(TileSet(side, true), isKnown, own.stored), isKnown, own.blank);
+}
+
+bool DiffusionMemory::isIdle(std::size_t cell, std::uint64_t key, const TileSet& tiles) const {
+    if (missing(cell, key, tiles).isEmpty()) return true;
+    return tilesLeft_ == std::size_t(0) && unwritten(cell, key, tiles.side()).isEmpty();
+}
+
+DiffusionWork DiffusionMemory::next(std::size_t cell, std::uint64_t key, const std::vector<DiffusionTile>& atlas,
+                                    const std::vector<double>& variances, const TileSet& tiles) {
+    const TileSet lacking = missing(cell, key, tiles);
+    DiffusionWork work =
+        diffusionWork(atlas, variances, tilesLeft_ ? lacking.first(kSpreadTiles * *tilesLeft_) : lacking);
+    work.light = unlit(cell, key, work.light);
+    if (!tilesLeft_) return work;
+    const TileSet light = work.light.first(*tilesLeft_);
+    *tilesLeft_ -= light.count();
+    if (light == work.light) {
+        *tilesLeft_ -= std::min(*tilesLeft_, (work.store.count() + kSpreadTiles - 1) / kSpreadTiles);
+    } else { // light spreads once all of it is there
+        const TileSet none(tiles.side());
+        work = {light, std::vector<DiffusionWork::Level>(variances.size(), {none, none, none}), none};
+    }
+    work.blank = unwritten(cell, key, tiles.side());
+    work.blank.remove(work.store);
+    return work;
 }
 
 } // namespace tessera::frame

@@ -111,6 +111,11 @@ class DiffusionMemory {
 public:
     /// Forgets the light that leaves where the atlas is not held.
     void begin(std::size_t cells, bool holdsAtlas);
+    /// How many tiles the next frame may light, of those it lacks; none: all. Spreading kSpreadTiles takes the place of
+    /// lighting one.
+    void limit(std::optional<std::size_t> tiles) { tilesLeft_ = tiles; }
+    bool isLimited() const { return tilesLeft_.has_value(); }
+    static constexpr std::size_t kSpreadTiles = 8; ///< docs/skin.md, "What it costs"
     void forget() { cells_.assign(cells_.size(), {}); }
     void forgetLit(std::size_t cell) { cells_[cell].lit = {}; }
 
@@ -118,13 +123,27 @@ public:
     TileSet missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
     TileSet unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
     void hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread);
+    /// No light is known there, and the atlas says so.
+    void holdBlank(std::size_t cell, std::uint64_t key, const TileSet& blank);
+
+    /// Whether the frame has nothing to do for the tiles: they are known, or it may add no light and the atlas says
+    /// what is not.
+    bool isIdle(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
+    /// What the frame is to compute of those tiles, which is taken off its limit. `variancesSquareMetres` as of
+    /// diffusionWork().
+    DiffusionWork next(std::size_t cell, std::uint64_t key, const std::vector<DiffusionTile>& atlas,
+                       const std::vector<double>& variancesSquareMetres, const TileSet& tiles);
 
 private:
     struct Cell {
         std::optional<std::uint64_t> key;
-        TileSet lit, stored;
+        TileSet lit, stored, blank;
     };
+    /// Tiles of the atlas of which pixels may find what was never written.
+    TileSet unwritten(std::size_t cell, std::uint64_t key, int side) const;
+
     std::vector<Cell> cells_;
+    std::optional<std::size_t> tilesLeft_;
 };
 
 } // namespace tessera::frame

@@ -152,6 +152,16 @@ std::size_t TileSet::count() const {
     return std::size_t(std::ranges::count(has_, true));
 }
 
+TileSet TileSet::first(std::size_t most) const {
+    TileSet some(side_);
+    for (std::size_t tile = 0; tile < has_.size() && most > 0; ++tile) {
+        if (!has_[tile]) continue;
+        some.has_[tile] = true;
+        --most;
+    }
+    return some;
+}
+
 std::vector<gpu::Rectangle> TileSet::rectangles(int tileTexels, int sideTexels) const {
     std::vector<gpu::Rectangle> result;
     std::vector<std::size_t> above; // those that end with the row above

@@ -27,6 +27,7 @@ public:
     void remove(const TileSet& other);
     bool isEmpty() const;
     std::size_t count() const;
+    TileSet first(std::size_t most) const; ///< so many of them at most, row by row
     /// Disjoint rectangles that cover the set and nothing else, in texels of an atlas of `sideTexels`.
     std::vector<gpu::Rectangle> rectangles(int tileTexels, int sideTexels) const;
     bool operator==(const TileSet&) const = default;
@@ -65,6 +66,7 @@ struct DiffusionWork {
     };
     std::vector<Level> levels; ///< parallel to LightSpread::levels
     TileSet store;
+    TileSet blank = {}; ///< where no light is known, and pixels must be told so
 };
 DiffusionWork diffusionWork(const std::vector<DiffusionTile>& tiles, const std::vector<double>& variancesSquareMetres,
                             const TileSet& store);

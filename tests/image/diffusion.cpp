@@ -266,6 +266,91 @@ TEST_F(DiffusionSlow, lightingOnlyWhatIsSeenChangesNoBit) {
     expectAllLitAlike();
 }
 
+TEST_F(Diffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
+    scenes::Scene ball = sphereScene(0.03, 24);
+    for (scenes::Light& light : ball.lights) light.castsShadow = true;
+    ball.cameras[0].projection = scenes::Projection::Perspective;
+    ball.cameras[0].fovYRadians = 0.7;
+    ball.cameras[0].nearMetres = 1e-3;
+    const auto lookFrom = [&](double angle) {
+        const glm::dvec3 eyeWS(0.12 * std::sin(angle), 0.02, 0.12 * std::cos(angle));
+        ball.cameras[0].worldFromCamera = scenes::worldFromLookAt(eyeWS, glm::dvec3(0.0));
+    };
+    lookFrom(0.0);
+    for (const bool half : {false, true}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {120, 90};
+        settings.diffusion.sideTexels = 256;
+        settings.diffusion.half = half;
+        const auto fresh = [&] { return engine::Renderer(context(), ball).render(Technique::Deferred, settings); };
+        engine::Renderer renderer(context(), ball);
+        const auto addAll = [&](bool isOfAll) {
+            renderer.limitSpreadLight(engine::SpreadLimit{.tiles = 4, .isOfAll = isOfAll});
+            engine::SpreadProgress before;
+            int slices = 0;
+            do {
+                renderer.draw(Technique::Deferred, settings);
+                const engine::SpreadProgress progress = renderer.spreadProgress();
+                EXPECT_EQ(progress.objects, 1u);
+                EXPECT_GE(progress.doneTiles, before.doneTiles);
+                EXPECT_EQ(progress.doneObjects, progress.isDone() ? 1u : 0u);
+                before = progress;
+                if (++slices > 1000) FAIL() << "no end of slices";
+            } while (!before.isDone());
+            EXPECT_GT(slices, isOfAll ? 0 : 2) << "half " << half;
+        };
+        const auto drawKnown = [&] {
+            renderer.limitSpreadLight(engine::SpreadLimit{});
+            return renderer.render(Technique::Deferred, settings).radiance;
+        };
+        addAll(false);
+        EXPECT_EQ(drawKnown(), fresh().radiance);
+        EXPECT_TRUE(passesThatSpread(renderer).empty());
+
+        // Another camera sees what is not known yet.
+        lookFrom(2.5);
+        const std::vector<float> known = drawKnown(), whole = fresh().radiance;
+        EXPECT_FALSE(renderer.spreadProgress().isDone());
+        EXPECT_NE(known, whole);
+        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "what is not known was told in the first slice";
+        addAll(true);
+        EXPECT_EQ(drawKnown(), whole);
+        lookFrom(-1.8);
+        EXPECT_EQ(drawKnown(), fresh().radiance) << "all is known";
+        EXPECT_TRUE(renderer.spreadProgress().isDone());
+
+        renderer.limitSpreadLight({});
+        lookFrom(0.0);
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, fresh().radiance);
+    }
+}
+
+TEST_F(Diffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows) {
+    scenes::Scene ball = sphereScene(0.03, 24);
+    frame::FrameSettings settings;
+    settings.sizePixels = {120, 90};
+    settings.diffusion.sideTexels = 128;
+    engine::Renderer renderer(context(), ball);
+    const std::vector<float> spread = renderer.render(Technique::Deferred, settings).radiance;
+    const float intensity = ball.lights[0].intensity;
+    ball.lights[0].intensity = 3.0f * intensity;
+    renderer.limitSpreadLight(engine::SpreadLimit{});
+    const std::vector<float> limited = renderer.render(Technique::Deferred, settings).radiance;
+    engine::Renderer fresh(context(), ball);
+    fresh.limitSpreadLight(engine::SpreadLimit{});
+    EXPECT_EQ(limited, fresh.render(Technique::Deferred, settings).radiance);
+    EXPECT_EQ(fresh.spreadProgress().doneTiles, 0u);
+    settings.subsurface = SubsurfaceMethod::None;
+    const std::vector<float> none = fresh.render(Technique::Deferred, settings).radiance;
+    ASSERT_EQ(limited.size(), none.size());
+    for (std::size_t i = 0; i < none.size(); ++i) ASSERT_NEAR(limited[i], none[i], 1e-4f + 1e-3f * std::abs(none[i]));
+    // And back: what was told of the texels does not pass for light.
+    ball.lights[0].intensity = intensity;
+    settings.subsurface.reset();
+    renderer.limitSpreadLight({});
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, spread);
+}
+
 TEST_F(Diffusion, mapsHideLightFromTexelsAsRaysDo) {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
     scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};

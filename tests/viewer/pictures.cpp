@@ -66,6 +66,27 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
+TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
+    const std::string arguments = "head_skin --diffusion-texels 256";
+    DrivenViewer viewer = open({"head_skin", "--diffusion-texels", "256"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered(arguments, size));
+    viewer.waitFor("spread light in view", 0);
+    viewer.waitFor("spread light everywhere", 0);
+    // To another side: nothing is left to be spread.
+    std::size_t mark = viewer.mark();
+    viewer.drag(kMiddle, kMiddle + glm::ivec2(300, 20));
+    const Shot shown = pictureIn(viewer, viewer.waitForWhole(mark));
+    const std::vector<std::string> lines = viewer.lines();
+    for (std::size_t i = mark; i < lines.size(); ++i) EXPECT_FALSE(lines[i].starts_with("spread light")) << lines[i];
+    mark = viewer.mark();
+    viewer.key("ctrl+c");
+    std::string command = viewer.waitFor("command ", mark);
+    command = command.substr(command.find(' ') + 1);
+    shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.png");
+    EXPECT_TRUE(readShot(folder_.path() / "pasted.png") == shown) << command;
+}
+
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
     DrivenViewer viewer = open({"lattice", "--technique", "forward"});
     const glm::ivec2 size = viewer.waitForWhole(0);

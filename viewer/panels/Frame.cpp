@@ -62,6 +62,13 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::End();
 }
 
+/// Tiles are lit one by one, so that a single object has shares.
+std::string spreadText(const engine::SpreadProgress& progress) {
+    const std::size_t percent = progress.tiles > 0 ? 100 * progress.doneTiles / progress.tiles : 0;
+    return fmt::format("spreading light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,
+                       progress.objects == 1 ? "" : "s", percent);
+}
+
 /// What the status line says, the more important things first.
 std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     std::vector<std::string> parts;
@@ -71,6 +78,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
         parts.emplace_back("preparing shaders ...");
     else if (facts.isSpreading)
         parts.emplace_back("spreading light over surfaces ...");
+    else if (facts.spreading)
+        parts.push_back(spreadText(*facts.spreading));
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     const auto& [left, right] = facts.shown;
     if (state.compare == Compare::Off && left)

@@ -17,8 +17,9 @@ struct Facts {
     std::array<std::optional<engine::DrawnShadows>, 2> shadows; ///< of the same
     bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
     bool isSpreading = false; ///< the next frame computes anew how light spreads over surfaces
-    double ms = 0.0;          ///< of the latest frame, all sides
-    double scale = 0.0;       ///< its sides' share of the window's pixels
+    std::optional<engine::SpreadProgress> spreading; ///< of light that is spread slice by slice
+    double ms = 0.0;                                 ///< of the latest frame, all sides
+    double scale = 0.0;                              ///< its sides' share of the window's pixels
     glm::ivec2 sizePixels{0};
     std::string renderer;        ///< as the driver calls itself
     std::size_t targetBytes = 0; ///< of the frames' render targets

@@ -16,6 +16,8 @@ namespace {
 constexpr double kMovingMs = 36.0;
 /// The first picture of a kind, of which nothing is known.
 constexpr double kSoftwareGuess = 0.25;
+/// Height of the picture that a slice of light is drawn with, which nobody sees.
+constexpr int kSliceRows = 48;
 
 constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
 
@@ -31,8 +33,28 @@ std::span<const Look> looksOf(const Screen::Wanted& wanted) {
     return std::span(wanted.looks).first(std::size_t(wanted.sides));
 }
 
+/// Frames add no more light than that while one lives.
+class LimitedSpread {
+public:
+    LimitedSpread(engine::Renderer& renderer, std::optional<engine::SpreadLimit> limit) : renderer_(renderer) {
+        renderer_.limitSpreadLight(limit);
+    }
+    ~LimitedSpread() { renderer_.limitSpreadLight({}); }
+    LimitedSpread(const LimitedSpread&) = delete;
+    LimitedSpread& operator=(const LimitedSpread&) = delete;
+
+private:
+    engine::Renderer& renderer_;
+};
+
 glm::ivec2 scaled(glm::ivec2 size, double scale) {
     return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
+}
+
+/// At least as wide for its height as the whole picture, so that it sees all that that sees.
+glm::ivec2 sliceSize(glm::ivec2 whole) {
+    const int rows = std::min(kSliceRows, whole.y);
+    return {int(std::ceil(double(whole.x) * rows / whole.y)), rows};
 }
 
 } // namespace
@@ -50,7 +72,8 @@ void Screen::open(const OpenScene& scene) {
     environmentRevision_ = scene.environmentRevision();
     forget();
     kinds_.reset(); // its programs are yet to be compiled
-    spreadLight_.forget();
+    forgetSpreadLight();
+    pace_ = {};
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
@@ -68,6 +91,42 @@ void Screen::tellSpreadLight(const Wanted& drawn) {
     spreadLight_.drew(scene_->scene(), looksOf(drawn), drawn.sceneEdits, renderer_->backend().mostIdleFrames());
 }
 
+void Screen::forgetSpreadLight() {
+    spreadLight_.forget();
+    spreadFor_.reset();
+    isAllSpread_ = false;
+}
+
+bool Screen::lacksLight(const Wanted& wanted, Reach reach) const {
+    if (scene_ == nullptr || failed_ == wanted || !sharedSpread(scene_->scene(), looksOf(wanted))) return false;
+    return spreadsAnew(wanted) || (!isAllSpread_ && (reach == Reach::All || spreadFor_ != wanted));
+}
+
+engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
+    const Look look = sharedSpread(scene_->scene(), looksOf(wanted)).value();
+    if (spreadsAnew(wanted)) forgetSpreadLight();
+    Look small = look;
+    small.settings.wholePixels = look.settings.sizePixels;
+    small.settings.sizePixels = sliceSize(look.settings.sizePixels);
+    const std::size_t programs = renderer_->programs().size();
+    const LimitedSpread limited(*renderer_, engine::SpreadLimit{pace_.tiles(), reach == Reach::All});
+    const gpu::CpuTimer clock;
+    try {
+        renderer_->draw(small.technique, small.settings);
+        gpu::finish();
+    } catch (...) {
+        failed_ = wanted;
+        throw;
+    }
+    if (renderer_->programs().size() == programs) pace_.took(clock.elapsedMs());
+    // What is there is of use to pictures that pass.
+    spreadLight_.drew(scene_->scene(), {&look, 1}, wanted.sceneEdits, renderer_->backend().mostIdleFrames());
+    const engine::SpreadProgress progress = renderer_->spreadProgress();
+    if (progress.isDone()) spreadFor_ = wanted;
+    if (progress.isDone() && reach == Reach::All) isAllSpread_ = true;
+    return progress;
+}
+
 void Screen::takeEdits() {
     if (scene_ == nullptr) return;
     if (scene_->geometryRevision() != geometryRevision_) renderer_->geometryChanged();
@@ -81,7 +140,10 @@ void Screen::takeEdits() {
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp) {
     const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay == Stay::Passes;
-    if (isCoarse) scale = std::min(scale, kScales[1]); // so that a whole one follows
+    // Graphics cards light what comes into view within the frame.
+    const bool isLimited = !isAnew && stay == Stay::Passes && context_.capabilities().isSoftware;
+    const bool mayLack = isLimited && lacksLight(wanted, Reach::All);
+    if (isCoarse || mayLack) scale = std::min(scale, kScales[1]); // so that a whole one follows
     Drawn result;
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
@@ -89,10 +151,12 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     drawn_.reset();
     failed_.reset();
     if (isAnew)
-        spreadLight_.forget();
+        forgetSpreadLight();
     else
         tellSpreadLight(wanted);
     const std::size_t programs = renderer_->programs().size();
+    bool isLacking = false;
+    const LimitedSpread limited(*renderer_, isLimited ? std::optional(engine::SpreadLimit{}) : std::nullopt);
     try {
         std::optional<gpu::BandedDrawing> banded;
         if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
@@ -110,6 +174,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             result.shadows[std::size_t(side)] = renderer_->shadows();
             result.missingTextures = renderer_->missingTextures();
+            isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
@@ -124,7 +189,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     drawn_ = wanted;
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kinds_ = wanted.looks;
-    drawnScale_ = scale;
+    drawnScale_ = isLacking ? std::min(scale, kScales[1]) : scale;
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
     if (isNew || compiled || (isAnew && !isCoarse)) return result;

@@ -63,12 +63,20 @@ public:
     bool isNewKind(const Wanted& wanted) const;
     /// Whether light that spreads over surfaces is to be computed anew, which a whole picture takes seconds for.
     bool spreadsAnew(const Wanted& wanted) const;
+    /// Whether light is to be spread, slice by slice, before a picture that stays is drawn, or for those of other
+    /// cameras after it.
+    enum class Reach : std::uint8_t { Seen, All };
+    bool lacksLight(const Wanted& wanted, Reach reach) const;
+    /// Spreads a slice of it; the pictures stay as they are. Throws as Renderer::draw does; then the picture counts as
+    /// failed.
+    engine::SpreadProgress spreadSlice(const Wanted& wanted, Reach reach);
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
     /// Draws the wanted pictures at a scale; those that pass at a smaller one, with small atlases, where light must be
-    /// spread anew. `givesUp` may be null; where it ends the frame, or the frame fails, the pictures not yet drawn stay
-    /// as they were. Throws as Renderer::draw does.
+    /// spread anew, and on a software rasteriser without spreading the light of what has come into view. `givesUp` may
+    /// be null; where it ends the frame, or the frame fails, the pictures not yet drawn stay as they were. Throws as
+    /// Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp);
     /// Redraws the current pictures after a change of shaders.
     void forget() {
@@ -92,6 +100,7 @@ public:
 
 private:
     void tellSpreadLight(const Wanted& drawn);
+    void forgetSpreadLight();
 
     static constexpr double kSlowMs = 250.0;
 
@@ -105,6 +114,9 @@ private:
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
     SpreadLight spreadLight_;                  ///< of this scene
+    SpreadPace pace_;                          ///< likewise
+    std::optional<Wanted> spreadFor_;          ///< its light is there, as far as it is seen
+    bool isAllSpread_ = false;                 ///< light is there for all cameras
     std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;

@@ -36,7 +36,31 @@ bool hasSameSpread(const Look& a, const Look& b) {
     return like == b;
 }
 
+/// Of a slice, which is not given up: together with the picture that answers it is to fit into little more than 100 ms.
+constexpr double kSliceMs = 80.0;
+/// But what a slice costs besides its tiles, a frame and all of the mesh, is not to be more than half of it.
+constexpr double kOfLeast = 2.0;
+constexpr std::size_t kMostTiles = 65536;
+
 } // namespace
+
+std::optional<Look> sharedSpread(const scenes::Scene& scene, std::span<const Look> looks) {
+    std::optional<Look> shared;
+    for (const Look& look : looks) {
+        if (!spreads(scene, look)) continue;
+        if (shared && !hasSameSpread(*shared, look)) return {};
+        if (!shared) shared = look;
+    }
+    return shared;
+}
+
+void SpreadPace::took(double ms) {
+    leastMs_ = leastMs_ ? std::min(*leastMs_, ms) : ms;
+    const double wantedMs = std::max(kSliceMs, kOfLeast * *leastMs_);
+    // Tiles differ, so that one quick slice does not say that all will be.
+    const double factor = std::clamp(wantedMs / std::max(ms, 1e-3), 0.25, 2.0);
+    tiles_ = std::clamp(std::size_t(double(tiles_) * factor), std::size_t(1), kMostTiles);
+}
 
 bool SpreadLight::isAnew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits) const {
     const Look* kept = kept_ && kept_->edits == edits ? &kept_->look : nullptr;

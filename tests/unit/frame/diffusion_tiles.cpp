@@ -223,5 +223,59 @@ TEST(DiffusionMemory, knowsTilesForTheKeyTheyWereComputedUnder) {
     EXPECT_EQ(memory.missing(1, 9, all).count(), 4u);
 }
 
+/// Tiles that lie apart: each is computed from itself.
+std::vector<DiffusionTile> tilesApart(int side) {
+    std::vector<DiffusionTile> tiles(std::size_t(side) * std::size_t(side));
+    for (DiffusionTile& tile : tiles) tile.boxWS.extend(glm::dvec3(0.0));
+    return tiles;
+}
+
+TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
+    constexpr int kSide = 6;
+    const std::vector<DiffusionTile> tiles = tilesApart(kSide);
+    const TileSet all(kSide, true);
+    DiffusionMemory memory;
+    memory.begin(1, true);
+    int frames = 0;
+    for (; !memory.missing(0, 7, all).isEmpty(); ++frames) {
+        ASSERT_LT(frames, 100);
+        memory.limit(3);
+        const DiffusionWork work = memory.next(0, 7, tiles, {}, all);
+        EXPECT_LE(work.light.count(), 3u);
+        if (!work.store.isEmpty()) {
+            TileSet unlit = memory.unlit(0, 7, work.store);
+            unlit.remove(work.light);
+            EXPECT_TRUE(unlit.isEmpty()) << "light spreads that is not there";
+        }
+        EXPECT_EQ(work.blank.isEmpty(), frames > 0) << "the first frame tells what is not known";
+        memory.hold(0, 7, work.light, {});
+        memory.hold(0, 7, {}, work.store);
+        memory.holdBlank(0, 7, work.blank);
+    }
+    EXPECT_GE(frames, kSide * kSide / 3);
+
+    memory.limit(0);
+    EXPECT_FALSE(memory.isIdle(0, 8, all)) << "what is there is of another key";
+    const DiffusionWork none = memory.next(0, 8, tiles, {}, all);
+    EXPECT_TRUE(none.light.isEmpty() && none.store.isEmpty());
+    EXPECT_EQ(none.blank, all);
+    memory.holdBlank(0, 8, none.blank);
+    EXPECT_TRUE(memory.isIdle(0, 8, all)) << "no light may be added, and the atlas says so";
+    memory.begin(1, false);
+    EXPECT_FALSE(memory.isIdle(0, 8, all)) << "the atlas was freed";
+    memory.limit({});
+    EXPECT_EQ(memory.next(0, 8, tiles, {}, all).store, all);
+    EXPECT_TRUE(memory.next(0, 8, tiles, {}, all).blank.isEmpty());
+}
+
+TEST(TileSet, takesTheFirstOfItsTiles) {
+    TileSet some(3);
+    for (const int tile : {1, 4, 8}) some.add(tile);
+    EXPECT_TRUE(some.first(0).isEmpty());
+    EXPECT_TRUE(some.first(2).has(1) && some.first(2).has(4));
+    EXPECT_EQ(some.first(2).count(), 2u);
+    EXPECT_EQ(some.first(9), some);
+}
+
 } // namespace
 } // namespace tessera::frame

@@ -430,6 +430,16 @@ TEST_F(Panels, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
     EXPECT_TRUE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
 }
 
+TEST_F(Panels, theStatusLineSaysHowFarLightHasSpread) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    EXPECT_EQ(firstWindowText(state, facts).find("spreading"), std::string::npos);
+    facts.spreading = engine::SpreadProgress{.objects = 3, .doneObjects = 1, .tiles = 200, .doneTiles = 90};
+    const std::string status = firstWindowText(state, facts);
+    EXPECT_NE(status.find("spreading light: 1 of 3 objects, 45 %"), std::string::npos) << status;
+}
+
 TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
     State none;
     none.loading = "room";

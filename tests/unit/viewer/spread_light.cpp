@@ -107,5 +107,35 @@ TEST_F(SpreadLightTest, twoSidesShareOne) {
     EXPECT_TRUE(isAnewForBoth()) << "each picture replaces what the other side needs";
 }
 
+TEST_F(SpreadLightTest, slicesSpreadTheLightThatAllSidesShare) {
+    std::array<Look, 2> sides;
+    sides[0].settings.subsurface = SubsurfaceMethod::None;
+    sides[1].settings.camera = 3;
+    ASSERT_TRUE(sharedSpread(scene_, sides));
+    EXPECT_EQ(*sharedSpread(scene_, sides), sides[1]) << "the other side spreads none";
+    sides[0] = {};
+    EXPECT_TRUE(sharedSpread(scene_, sides)) << "cameras do not matter";
+    sides[0].settings.diffusion.gaussians = 1;
+    EXPECT_FALSE(sharedSpread(scene_, sides)) << "each needs its own";
+    scene_.nodes.clear();
+    EXPECT_FALSE(sharedSpread(scene_, sides));
+}
+
+TEST(SpreadPace, followsWhatSlicesTake) {
+    SpreadPace pace;
+    EXPECT_EQ(pace.tiles(), 1u);
+    pace.took(1.0);
+    EXPECT_EQ(pace.tiles(), 2u) << "twice at most";
+    for (int slice = 0; slice < 20; ++slice) pace.took(1.0 * double(pace.tiles()));
+    EXPECT_NEAR(double(pace.tiles()), 80.0, 4.0) << "of 1 ms a tile";
+    for (int slice = 0; slice < 20; ++slice) pace.took(1e4);
+    EXPECT_GE(pace.tiles(), 1u);
+    for (int slice = 0; slice < 40; ++slice) pace.took(0.0);
+    EXPECT_LE(pace.tiles(), 1u << 20) << "has an end";
+    SpreadPace ofLargeMesh;
+    for (int slice = 0; slice < 30; ++slice) ofLargeMesh.took(500.0 + 1.0 * double(ofLargeMesh.tiles()));
+    EXPECT_NEAR(double(ofLargeMesh.tiles()), 502.0, 5.0) << "small slices would cost the mesh again and again";
+}
+
 } // namespace
 } // namespace tessera::viewer
