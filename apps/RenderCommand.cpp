@@ -198,8 +198,17 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     if (job.pictures() == 0) return;
     engine::Renderer renderer(*context, request.scene);
     filterEnvironment(request, renderer, global.quiet);
-    // One picture is soon made.
+    // One picture is soon made, but for light that spreads over surfaces.
     Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);
+    std::optional<Progress> spreading;
+    if (!job.sequence)
+        renderer.tellSpread([&](std::size_t done, std::size_t objects) {
+            if (done == 0)
+                spreading.emplace("spreading light over objects", objects, global.quiet);
+            else
+                spreading->advance();
+            if (done == objects) spreading.reset();
+        });
     bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {

@@ -154,6 +154,23 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
     }
 }
 
+void Renderer::tellSpreadOf(std::vector<frame::DrawnView>& views) const {
+    if (!spreadTold_) return;
+    std::size_t objects = 0;
+    for (const frame::DrawnView& view : views)
+        for (std::size_t cell = 0; cell < view.diffused.size(); ++cell)
+            if (const auto& own = view.diffused[cell];
+                !view.diffusionMemory->missing(cell, own.key, own.seen).isEmpty())
+                ++objects;
+    if (objects == 0) return;
+    const auto told = [this, objects, done = std::make_shared<std::size_t>(0)] {
+        gpu::finish();
+        if (*done < objects) spreadTold_(++*done, objects);
+    };
+    for (frame::DrawnView& view : views) view.spreadOne = told;
+    spreadTold_(0, objects);
+}
+
 void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after) {
     requireOneFrame(views);
     const double timeSeconds = views.front().settings.timeSeconds;
@@ -191,6 +208,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);
+    tellSpreadOf(drawn->views);
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
     drawn->compiled = graph::compile(drawn->graph, {.cull = prune, .alias = prune});
     programs_.warm(drawn->compiled.programs);

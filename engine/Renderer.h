@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -135,6 +136,9 @@ public:
     void keepSpreadLight(bool keeps) { keepsSpreadLight_ = keeps; }
     /// Of the frames that follow; none: they add all that they lack.
     void limitSpreadLight(std::optional<SpreadLimit> limit) { spreadLimit_ = limit; }
+    /// Tells during draw(), of how many objects a view's light has spread of all that it spreads anew: first 0 of them,
+    /// where there are any, then after each. Once it has told, the GPU has done so much. May be empty.
+    void tellSpread(std::function<void(std::size_t done, std::size_t objects)> told) { spreadTold_ = std::move(told); }
     /// After a view of the latest draw().
     SpreadProgress spreadProgress(std::size_t view = 0) const;
 
@@ -158,6 +162,9 @@ private:
     /// The objects of a view that light spreads over.
     void addDiffused(std::size_t number, frame::DrawnView& view);
 
+    /// Has the frame's views tell, as tellSpread() asks for.
+    void tellSpreadOf(std::vector<frame::DrawnView>& views) const;
+
     void forgetGeometry();
 
     gpu::Context& context_;
@@ -172,6 +179,7 @@ private:
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
     std::optional<SpreadLimit> spreadLimit_;
+    std::function<void(std::size_t, std::size_t)> spreadTold_;
     std::shared_ptr<const frame::FilteredEnvironment> filteredEnvironment_; ///< null: not yet, or on the GPU
     std::unique_ptr<frame::EnvironmentGpu> environment_; ///< made with the first frame that has use for it
     frame::LobesGpu lobes_;

@@ -373,7 +373,10 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
         spreads = !memory->isLimited() || !work.store.isEmpty();
         lights = !work.light.isEmpty() || (spreads && !graph.holds(light.entering));
         lit = [memory, cell, key = drawn->key, tiles = work.light] { memory->hold(cell, key, tiles, {}); };
-        stored = [memory, cell, key = drawn->key, tiles = work.store] { memory->hold(cell, key, {}, tiles); };
+        stored = [memory, cell, key = drawn->key, tiles = work.store, &told = inputs.drawn->spreadOne] {
+            memory->hold(cell, key, {}, tiles);
+            if (told) told();
+        };
         blanked = [memory, cell, key = drawn->key, tiles = work.blank] { memory->holdBlank(cell, key, tiles); };
     }
     if (lights) light = object.light(inputs, light, work.light, lit);

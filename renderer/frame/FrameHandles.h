@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,6 +39,7 @@ struct DrawnView {
     struct Diffused;
     std::vector<Diffused> diffused = {};        ///< by cell of the view's atlas
     DiffusionMemory* diffusionMemory = nullptr; ///< where the view has any
+    std::function<void()> spreadOne = {};       ///< called when the light of an object was spread; may be empty
 };
 struct DrawnView::Diffused {
     DrawnView drawn;

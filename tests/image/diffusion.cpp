@@ -325,6 +325,26 @@ TEST_F(Diffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
     }
 }
 
+TEST_F(Diffusion, aFrameTellsOfHowManyObjectsTheLightHasSpread) {
+    scenes::Scene balls = sphereScene(0.03, 12);
+    scenes::Node other = balls.nodes[0];
+    other.parentFromNode[3] += glm::dvec4(0.01, 0.0, 0.0, 0.0);
+    balls.nodes.push_back(other);
+    frame::FrameSettings settings;
+    settings.sizePixels = {80, 60};
+    settings.diffusion.sideTexels = 64;
+    engine::Renderer renderer(context(), balls);
+    using Told = std::vector<std::pair<std::size_t, std::size_t>>;
+    Told told;
+    renderer.tellSpread([&](std::size_t done, std::size_t objects) { told.emplace_back(done, objects); });
+    const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
+    EXPECT_EQ(told, (Told{{0, 2}, {1, 2}, {2, 2}}));
+    told.clear();
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, first);
+    EXPECT_TRUE(told.empty()) << "nothing was spread anew";
+    EXPECT_EQ(engine::Renderer(context(), balls).render(Technique::Deferred, settings).radiance, first);
+}
+
 TEST_F(Diffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows) {
     scenes::Scene ball = sphereScene(0.03, 24);
     frame::FrameSettings settings;
