@@ -160,6 +160,8 @@ int compare(const CompareOptions& options, const GlobalOptions& global) {
             engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);
         !missing.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
+    if (const std::string unseen = engine::unseenSpread(request.scene, prepared); !unseen.empty())
+        spdlog::warn("{}", oneLine(request.scene.name + ": " + unseen));
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     const frame::FrameSettings onDriver = engine::settingsOn(context->capabilities(), prepared.spec.settings);
     if (const std::string missing =

@@ -209,7 +209,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
                 spreading->advance();
             if (done == objects) spreading.reset();
         });
-    bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false;
+    bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false, hasWarnedOfSpread = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         if (job.pose(one.timeSeconds)) renderer.geometryChanged();
@@ -217,6 +217,9 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
         if (const std::string missing = renderer.missingTextures();
             !missing.empty() && !std::exchange(hasWarnedOfTextures, true))
             spdlog::warn("{}", oneLine(path + ": " + missing));
+        if (const std::string unseen = renderer.unseenSpread();
+            !unseen.empty() && !std::exchange(hasWarnedOfSpread, true))
+            spdlog::warn("{}", oneLine(path + ": " + unseen));
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))

@@ -119,6 +119,8 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                 {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
     if (!prepared.diffused.empty()) plan.choices.push_back(spreadChoice(prepared));
+    if (std::string unseen = unseenSpread(scene, prepared); !unseen.empty())
+        plan.choices.push_back({"width of spread light", "less than a texel", std::move(unseen)});
     if (std::string missing = frame::missingTextures(prepared.spec); !missing.empty())
         plan.choices.push_back(
             {"textures", fmt::format("{} left out", prepared.spec.withoutTextures.size()), std::move(missing)});

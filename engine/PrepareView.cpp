@@ -94,6 +94,32 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
     return "";
 }
 
+std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared) {
+    std::string first;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < prepared.diffused.size(); ++i) {
+        const frame::DiffusedObject& object = prepared.diffusedObjects[i];
+        const scenes::Material& material = scene.materials[std::size_t(object.material)];
+        double widest = 0.0; // mm^2
+        for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(material.subsurface))
+            widest = std::max(widest, double(gaussian.varianceSquareMillimetres));
+        const frame::FrameSpec& spec = prepared.diffused[i].spec;
+        if (!spec.spread->levels.empty() || widest == 0.0) continue;
+        if (!first.empty()) {
+            ++others;
+            continue;
+        }
+        const double texelMetres = object.sideMetres / double(spec.spreadTexels()) * material.subsurface.scaleMetres;
+        first = fmt::format("light does not spread over {} (material '{}'): its widest Gaussian is {:.3g} mm, and a "
+                            "texel of its atlas {:.3g} mm; scaleMetres of the subsurface says how many metres a metre "
+                            "of the model is, and {} how many texels there are",
+                            object.name, material.name, std::sqrt(widest), 1e3 * texelMetres,
+                            settingOf("diffusionTexels").flag);
+    }
+    if (others > 0) first += fmt::format("; nor over {} other object{}", others, others == 1 ? "" : "s");
+    return first;
+}
+
 CutShadows cutShadows(const frame::PreparedView& prepared) {
     const frame::FrameSpec& spec = prepared.spec;
     if (!spec.mayCutShadows()) {

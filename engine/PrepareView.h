@@ -23,6 +23,9 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
 /// `bounds` are of everything drawn.
 std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
                            const frame::PreparedView& prepared);
+/// Over which objects light is asked to spread and does not, since their texels are larger than all widths of their
+/// profiles, and what to do; empty: over none.
+std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared);
 /// How shadows may take more iterations than Mesa lets loops make, and what to do; `why` is empty where they do not.
 struct CutShadows {
     std::string why;

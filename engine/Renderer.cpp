@@ -282,6 +282,10 @@ std::string Renderer::missingTextures(std::size_t view) const {
     return frame::missingTextures(latest().views.at(view).prepared.spec);
 }
 
+std::string Renderer::unseenSpread(std::size_t view) const {
+    return engine::unseenSpread(shown_, latest().views.at(view).prepared);
+}
+
 SpreadProgress Renderer::spreadProgress(std::size_t view) const {
     const frame::DrawnView& drawn = latest().views.at(view);
     SpreadProgress progress;

@@ -109,6 +109,8 @@ public:
     DrawnShadows shadows(std::size_t view = 0) const;
     /// Which textures of materials a view of the latest draw() lacks, and why; empty: none.
     std::string missingTextures(std::size_t view = 0) const;
+    /// Over which objects of a view of the latest draw() light is asked to spread and does not; empty: none.
+    std::string unseenSpread(std::size_t view = 0) const;
 
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);

@@ -540,10 +540,8 @@ private:
                                     drawn.passes[std::size_t(side)]});
             settleFrames_ = std::max(settleFrames_, 1); // the figures of this frame are shown by the next
             if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
-            if (drawn.missingTextures != missingTextures_) {
-                missingTextures_ = std::move(drawn.missingTextures);
-                if (!missingTextures_.empty() && !state_.notice.isError) state_.notice = {missingTextures_, false};
-            }
+            note(missingTextures_, std::move(drawn.missingTextures));
+            if (drawn.unseenSpread) note(unseenSpread_, std::move(*drawn.unseenSpread));
             const Look& look = wanted_.looks[0];
             log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
                                   drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
@@ -554,6 +552,13 @@ private:
             fail(drawingFault_);
             return false;
         }
+    }
+
+    /// Says what a picture lacks where the one before did not.
+    void note(std::string& said, std::string lacks) {
+        if (lacks == said) return;
+        said = std::move(lacks);
+        if (!said.empty() && !state_.notice.isError) state_.notice = {said, false};
     }
 
     void show() {
@@ -593,12 +598,12 @@ private:
     std::string title_;
     std::string recovering_; ///< the file of edits that is being opened
     double nextKeepAt_ = 0.0;
-    bool isDiscarding_ = false;                 ///< the window closes without another question
-    std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
-    std::optional<std::string> loadingVariant_; ///< of load()
-    std::string said_;                          ///< the latest notice
-    std::string drawingFault_;                  ///< why the latest picture that failed did
-    std::string missingTextures_;               ///< of the latest picture; a notice has said so
+    bool isDiscarding_ = false;                  ///< the window closes without another question
+    std::uint64_t editsLeft_ = 0;                ///< of the open scene, when the one that is loading was asked for
+    std::optional<std::string> loadingVariant_;  ///< of load()
+    std::string said_;                           ///< the latest notice
+    std::string drawingFault_;                   ///< why the latest picture that failed did
+    std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so
     double saidUntil_ = 0.0;
     Saver saver_;
     Recovery recovery_;

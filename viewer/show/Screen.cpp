@@ -174,6 +174,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             result.shadows[std::size_t(side)] = renderer_->shadows();
             result.missingTextures = renderer_->missingTextures();
+            if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
             pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);

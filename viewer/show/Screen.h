@@ -37,7 +37,9 @@ public:
         std::array<std::vector<gpu::PassTiming>, 2> passes; ///< by side
         std::array<double, 2> sideMs{};
         std::array<std::optional<engine::DrawnShadows>, 2> shadows;
-        std::string missingTextures; ///< of engine::Renderer, of the latest side
+        // Of engine::Renderer, of the latest side.
+        std::string missingTextures;
+        std::optional<std::string> unseenSpread; ///< none where small atlases stood in
     };
 
     explicit Screen(gpu::Context& context);

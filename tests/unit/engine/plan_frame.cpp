@@ -168,6 +168,25 @@ TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
     EXPECT_EQ(told("room").what, "");
 }
 
+TEST(PlanFrame, lightThatIsNarrowerThanATexelIsToldWithTheUnitOfTheModel) {
+    scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    const auto told = [&] {
+        const graph::Plan plan = planFrame(scene, Technique::Deferred, {});
+        const auto found = std::ranges::find(plan.choices, "width of spread light", &graph::Plan::Choice::what);
+        return found == plan.choices.end() ? std::string() : found->why;
+    };
+    EXPECT_EQ(told(), "") << "a texel is 0.04 mm";
+    for (scenes::Material& material : scene.materials) material.subsurface.scaleMetres = 1e3f;
+    const std::string why = told();
+    EXPECT_THAT(why, testing::HasSubstr("light does not spread over mesh '"));
+    EXPECT_THAT(why, testing::HasSubstr("(material 'skin')"));
+    EXPECT_THAT(why, testing::HasSubstr("its widest Gaussian is 2.72 mm, and a texel of its atlas"));
+    EXPECT_THAT(why, testing::HasSubstr("scaleMetres"));
+    EXPECT_THAT(why, testing::HasSubstr("nor over 1 other object"));
+    for (scenes::Material& material : scene.materials) material.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
+    EXPECT_EQ(told(), "");
+}
+
 TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     frame::FrameSettings settings;
     const auto told = [&](const scenes::Scene& scene) {
