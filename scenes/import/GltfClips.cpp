@@ -27,6 +27,22 @@ std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view 
     return index;
 }
 
+/// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
+std::string changedBy(const model::AnimationChannel& channel) {
+    if (channel.path != "pointer") return fmt::format("{}{}/{}", kNodesPointer, channel.node, channel.path);
+    for (const std::string_view array : {kNodesPointer, kMaterialsPointer, kLightsPointer}) {
+        std::string_view path = channel.pointer;
+        if (const auto index = cutIndex(path, array)) return fmt::format("{}{}/{}", array, *index, path);
+    }
+    return channel.pointer;
+}
+
+/// Channels that change one thing of the document, of which the last counts; the specification forbids others.
+struct Rivals {
+    std::size_t last = 0;
+    std::size_t count = 0;
+};
+
 const AnimatedPropertyInfo* propertyAt(std::string_view path, auto isOwner) {
     const auto rows = animatedProperties();
     const auto found = std::ranges::find_if(
@@ -191,15 +207,29 @@ Clip Rigging::clip(int index) {
     clip.name = nameOr(stored.name, "animation", index);
     std::map<std::pair<int, double>, int> samplers; // of the clip, by those of the document and their scale
     std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // of the clip, by what they change
+    constexpr std::size_t kEntryBytes = 96;                           // of a map
+    std::vector<Rivals> counting;                                     // by what they change, in document order
+    std::map<std::string, std::size_t> places;                        // in it
     for (std::size_t i = 0; i < stored.channels.size(); ++i) {
+        const auto [place, isNew] = places.try_emplace(changedBy(stored.channels[i]), counting.size());
+        if (isNew) {
+            document.charge(kEntryBytes + place->first.size() + sizeof(Rivals), "animations", index);
+            counting.emplace_back();
+        }
+        Rivals& rivals = counting[place->second];
+        rivals.last = i;
+        ++rivals.count;
+    }
+    // What one thing of the document is in the scene may be much, such as all lights that it stands for.
+    for (const auto& [i, count] : counting) {
         const model::AnimationChannel& channel = stored.channels[i];
         const std::optional<Animated> what = animated(channel);
         if (!what) {
-            if (leftOut_++ == 0) leftOutPath_ = channel.pointer.empty() ? channel.path : channel.pointer;
+            if (leftOut_ == 0) leftOutPath_ = channel.pointer.empty() ? channel.path : channel.pointer;
+            leftOut_ += count;
             continue;
         }
         if (what->targets.empty()) continue;
-        constexpr std::size_t kEntryBytes = 96; // of the map
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
         const auto [entry, isNew] =
@@ -211,7 +241,7 @@ Clip Rigging::clip(int index) {
                 fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
                             what->width, channel.sampler,
                             clip.samplers[static_cast<std::size_t>(entry->second)].width));
-        // Of channels that change the same thing, which the specification forbids, the last counts.
+        // Things of the document may be one of the scene's.
         for (const int target : what->targets) {
             const auto [same, isFirst] = channels.try_emplace({what->property, target}, clip.channels.size());
             if (isFirst)

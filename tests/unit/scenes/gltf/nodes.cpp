@@ -349,6 +349,45 @@ TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
     }
 }
 
+TEST(GltfLights, ofChannelsThatChangeTheSameThingTheLastCountsAndOnlyItIsCharged) {
+    // A light that many nodes carry, and as many channels that change it.
+    constexpr int kNodes = 2000, kChannels = 20000;
+    Builder builder = withLight(R"({"type": "point", "intensity": 3})");
+    const Json carrier = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+    for (int node = 1; node < kNodes; ++node) {
+        builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size());
+        builder.json["nodes"].push_back(carrier);
+    }
+    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    Json animation;
+    for (const float watts : {1.0f, 7.0f}) {
+        const int values = builder.add(std::vector<float>{watts, watts}, 5126, "SCALAR", 2);
+        animation["samplers"].push_back({{"input", times}, {"output", values}});
+    }
+    Json channel = {
+        {"sampler", 0},
+        {"target",
+         {{"path", "pointer"},
+          {"extensions",
+           {{"KHR_animation_pointer", {{"pointer", "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}}}}};
+    Json channels = Json::array();
+    for (int i = 0; i < kChannels; ++i) channels.push_back(channel);
+    // The same place, written another way.
+    channel["sampler"] = 1;
+    channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] =
+        "/extensions/KHR_lights_punctual/lights/00/intensity";
+    channels.push_back(channel);
+    animation["channels"] = channels;
+    builder.json["animations"] = Json::array({animation});
+    // 40 million channels of the scene would be refused.
+    const Scene scene = underLedger(importGltf, builder.folder.write("model.gltf", builder.json.dump()), 1024 * kMiB);
+    const Clip& clip = scene.rig.clips.at(0);
+    EXPECT_EQ(clip.channels.size(), scene.lights.size());
+    EXPECT_GE(clip.channels.size(), std::size_t(kNodes));
+    ASSERT_EQ(clip.samplers.size(), 1u) << "those that do not count are not read";
+    EXPECT_FLOAT_EQ(clip.samplers[0].values.at(0), 7.0f);
+}
+
 // ---- Instances -----------------------------------------------------------------------------------------------------
 
 /// Node 0 draws two instances of the triangle, the second turned by a quarter about Y and twice as large; node 1 after
