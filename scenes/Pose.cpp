@@ -355,8 +355,13 @@ std::string clipText(const Scene& scene) {
     std::string text;
     for (const int playing : rig.playing) {
         const Clip& clip = rig.clips[std::size_t(playing)];
-        text += fmt::format("{}clip {} '{}' of {}, {:.3g} s", text.empty() ? "" : "; ", playing, clip.name,
-                            rig.clips.size(), lengthSeconds(clip));
+        const double seconds = lengthSeconds(clip);
+        // "0 s" would look like a fault.
+        const std::string length = clip.channels.empty() ? "which moves nothing"
+                                   : seconds == 0.0      ? "a pose without duration"
+                                                         : fmt::format("{:.3g} s", seconds);
+        text += fmt::format("{}clip {} '{}' of {}, {}", text.empty() ? "" : "; ", playing, clip.name, rig.clips.size(),
+                            length);
     }
     return text;
 }

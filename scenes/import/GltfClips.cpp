@@ -141,6 +141,37 @@ std::optional<Rigging::Animated> Rigging::animated(const model::AnimationChannel
     return channel.node == kNone ? std::nullopt : animatedOfNode(channel.node, channel.path);
 }
 
+std::optional<int> Rigging::morphlessNode(const model::AnimationChannel& channel) const {
+    std::string_view path = channel.pointer;
+    std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
+    if (channel.path != "pointer") {
+        path = channel.path;
+        node = channel.node == kNone ? std::nullopt : std::optional(static_cast<std::size_t>(channel.node));
+    }
+    if (!node || *node >= sceneNodes_.size() || path != "weights") return {};
+    const int index = static_cast<int>(*node);
+    const bool hasTargets = context_.document.model.nodes[*node].mesh != kNone && !restWeights(index).empty();
+    return hasTargets ? std::nullopt : std::optional(index);
+}
+
+void Rigging::warnOfMorphless() {
+    if (morphless_.empty()) return;
+    const model::Model& model = context_.document.model;
+    const int first = *morphless_.begin();
+    const model::Node& node = model.nodes[static_cast<std::size_t>(first)];
+    const auto named = [](const char* kind, const std::string& name, int index) {
+        return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+    };
+    std::string which = named("node", node.name, first);
+    if (const std::size_t others = morphless_.size() - 1; others > 0)
+        which += fmt::format(" and {} other node{}", others, others == 1 ? "" : "s");
+    std::string why = "it has no mesh";
+    if (node.mesh != kNone)
+        why = fmt::format("its {} has no morph targets",
+                          named("mesh", model.meshes[static_cast<std::size_t>(node.mesh)].name, node.mesh));
+    context_.warn(fmt::format("/animations: weights of {} are animated, but {}; they are left out", which, why));
+}
+
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
     const Document& document = context_.document;
     const model::AnimationSampler& stored =
@@ -224,6 +255,10 @@ Clip Rigging::clip(int index) {
     for (const auto& [i, count] : counting) {
         const model::AnimationChannel& channel = stored.channels[i];
         const std::optional<Animated> what = animated(channel);
+        if (const std::optional<int> node = morphlessNode(channel); !what && node) {
+            morphless_.insert(*node);
+            continue;
+        }
         if (!what) {
             if (leftOut_ == 0) leftOutPath_ = channel.pointer.empty() ? channel.path : channel.pointer;
             leftOut_ += count;

@@ -174,6 +174,7 @@ void Rigging::finish() {
         rig.clips.push_back(clip(static_cast<int>(i)));
     takeRest(context_.scene);
     if (!rig.clips.empty()) rig.playing.push_back(0);
+    warnOfMorphless();
     if (leftOut_ > 0)
         context_.warn(fmt::format("/animations: {} {} that cannot be animated, such as {}, and {} left out", leftOut_,
                                   leftOut_ == 1 ? "channel changes something" : "channels change things", leftOutPath_,

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,6 +58,9 @@ private:
     std::optional<Animated> animatedByPointer(const std::string& pointer);
     std::optional<Animated> animatedOfNode(int node, std::string_view path);
     std::optional<Animated> animatedNumber(AnimatedOwner owner, std::size_t index, std::string_view path);
+    /// The node whose weights a channel changes though its mesh has no morph targets; none: another channel.
+    std::optional<int> morphlessNode(const model::AnimationChannel& channel) const;
+    void warnOfMorphless();
     int restNode(int node);
     int restNumber(AnimatedProperty property, int element);
     AnimationSampler sampler(int animation, int index, const Animated& animated);
@@ -75,6 +79,7 @@ private:
     std::vector<Carried> carriedLights_, carriedCameras_;
     std::size_t leftOut_ = 0; ///< channels
     std::string leftOutPath_; ///< of the first of these
+    std::set<int> morphless_; ///< nodes of morphlessNode(), of the document
 };
 
 } // namespace tessera::scenes::gltf

@@ -61,7 +61,10 @@ void animationPanel(State& state) {
             tip("From the beginning again at the end of the clip, with all else that moves");
         }
     } else {
-        paragraph("Nothing moves: no clip plays, no light moves or flickers by itself, and the scene has no hook.");
+        const char* const clip =
+            state.open->scene().rig.playing.empty() ? "no clip plays" : "the clip is a pose without duration";
+        paragraph(
+            fmt::format("Nothing moves: {}, no light moves or flickers by itself, and the scene has no hook.", clip));
         return;
     }
     timeRow(state);

@@ -353,6 +353,19 @@ TEST(Clips, areChosenByNameThenByNumber) {
     }
 }
 
+TEST(Clips, thoseWithoutDurationAreCalledPoses) {
+    Scene scene = riggedScene();
+    Clip& clip = scene.rig.clips.at(0);
+    for (AnimationSampler& sampler : clip.samplers) {
+        sampler.timesSeconds = {0.0f};
+        sampler.values.resize(sampler.valuesPerKey() * std::size_t(sampler.width));
+    }
+    playClip(scene, "0");
+    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, a pose without duration");
+    clip.channels.clear();
+    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, which moves nothing");
+}
+
 TEST(Clips, aSceneWithoutAnyHasNoPoses) {
     Scene scene = tinyScene();
     const std::uint64_t before = fingerprint(scene);

@@ -153,6 +153,25 @@ TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
     expectPlace(drawnAt(scene, 1.0)[0], {2.0, 0.0, 0.0});
 }
 
+TEST(GltfAnimation, weightsOfMeshesWithoutTargetsAreLeftOutWithOneWarningByName) {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0, "name": "face"}, {"name": "bone"}], "scenes": [{"nodes": [0, 1]}]})");
+    builder.json["meshes"][0]["name"] = "head";
+    const int output = builder.add(std::vector<float>{0, 1}, kFloatType, "SCALAR", 2);
+    for (int clip = 0; clip < 2; ++clip) addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "weights"}});
+    Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0],
+                HasSubstr("/animations: weights of node 'face' are animated, but its mesh 'head' has "
+                          "no morph targets; they are left out"));
+    EXPECT_TRUE(scene.rig.clips.at(0).channels.empty());
+    addClip(builder, {0, 1}, output,
+            {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", "/nodes/1/weights"}}}}}});
+    scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("weights of node 'face' and 1 other node are animated"));
+}
+
 TEST(GltfAnimation, pointersReachLightsAndMaterials) {
     Builder builder;
     builder.material();
