@@ -23,6 +23,7 @@
 #include "apps/Interrupt.h"
 #include "apps/ParseMessage.h"
 #include "base/Error.h"
+#include "renderer/frame/EnvironmentCache.h"
 
 namespace {
 
@@ -162,7 +163,10 @@ int runProgram(int argc, char** argv) {
         fmt::print("{}", app.help());
         return kGood;
     }
-    return run();
+    const int code = run();
+    if (const std::string fault = frame::takeCacheFault(); !fault.empty() && !global.quiet)
+        printProblem("note: " + fault);
+    return code;
 }
 
 } // namespace

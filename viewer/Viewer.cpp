@@ -12,6 +12,7 @@
 
 #include "base/EndRequest.h"
 #include "base/Extension.h"
+#include "renderer/frame/EnvironmentCache.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
 #include "viewer/edit/Pick.h"
@@ -315,6 +316,10 @@ private:
         settleFrames_ = std::max(settleFrames_ - 1, 0);
         attempt([this] { adoptLoaded(); });
         attempt([this] { adoptEnvironment(); });
+        if (std::string fault = frame::takeCacheFault(); !fault.empty()) {
+            log_.line("note " + fault);
+            if (!state_.notice.isError) state_.notice = {std::move(fault), false};
+        }
         for (const std::string& file : window_.takeDrops())
             (isEnvironmentFile(file) ? state_.requests.environment : state_.requests.open) = file;
         if (!isVisible()) return; // input waits, so that no key that is let go is missed

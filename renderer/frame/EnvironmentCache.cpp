@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,6 +66,27 @@ bool read(const std::filesystem::path& file, std::uint64_t key, const Parts& par
     return in.peek() == std::ifstream::traits_type::eof() && found[1] == hashOf(key, parts);
 }
 
+/// The first fault, until it is taken; none is noted after it.
+struct CacheFault {
+    std::mutex mutex;
+    std::string text;
+    bool isNoted = false;
+};
+CacheFault& cacheFault() {
+    static CacheFault fault;
+    return fault;
+}
+
+void noteFault(const std::filesystem::path& file, const std::string& reason) {
+    CacheFault& fault = cacheFault();
+    const std::lock_guard lock(fault.mutex);
+    if (std::exchange(fault.isNoted, true)) return;
+    fault.text =
+        fmt::format("{} cannot be kept, so that it is computed anew each time: {}; make its folder writable, or "
+                    "name another with XDG_CACHE_HOME",
+                    file.string(), reason);
+}
+
 void write(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
     const std::uint64_t head[] = {key, hashOf(key, parts)};
     std::string bytes(reinterpret_cast<const char*>(head), sizeof(head));
@@ -72,7 +95,10 @@ void write(const std::filesystem::path& file, std::uint64_t key, const Parts& pa
     try {
         std::filesystem::create_directories(file.parent_path());
         writeFileAtomically(file.string(), bytes);
-    } catch (const std::exception&) { // it is computed anew next time
+    } catch (const std::filesystem::filesystem_error& error) { // it is computed anew next time
+        noteFault(file, error.code().message());
+    } catch (const std::exception& error) {
+        noteFault(file, error.what());
     }
 }
 
@@ -112,6 +138,12 @@ std::optional<std::filesystem::path> cacheFolder() {
     if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
         return std::filesystem::path(home) / ".cache" / "tessera";
     return {};
+}
+
+std::string takeCacheFault() {
+    CacheFault& fault = cacheFault();
+    const std::lock_guard lock(fault.mutex);
+    return std::exchange(fault.text, {});
 }
 
 FilteredEnvironment cachedEnvironment(const scenes::Image& map, const std::optional<std::filesystem::path>& folder,

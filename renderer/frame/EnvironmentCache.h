@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -9,7 +10,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 
 /// What takes seconds to compute and never changes, kept in files: in a folder that may be deleted at any time. One
-/// that cannot be written or read is no error.
+/// that cannot be written or read is no error; takeCacheFault() tells of it.
 namespace tessera::frame {
 
 /// $XDG_CACHE_HOME/tessera where that is absolute, else ~/.cache/tessera; none where neither is known.
@@ -23,5 +24,9 @@ FilteredEnvironment cachedEnvironment(
 
 /// As makeLobeTable(), likewise.
 std::vector<glm::vec4> cachedLobeTable(const std::optional<std::filesystem::path>& folder);
+
+/// Where and why a file could not be left in its folder, the first time that one could not: given once to whoever asks
+/// first, from any thread; else empty.
+std::string takeCacheFault();
 
 } // namespace tessera::frame

@@ -253,6 +253,22 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     EXPECT_TRUE(computed);
 }
 
+TEST(EnvironmentFilter, aFolderThatCannotBeWrittenIsToldOnce) {
+    takeCacheFault(); // of other tests
+    test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "file";
+    std::ofstream(file) << "in the way";
+    const scenes::Image map = mapOf(32, 16, [](int x, int) { return 2.0 + x; });
+    const FilteredEnvironment fresh = filterEnvironment(map);
+    EXPECT_EQ(cachedEnvironment(map, file / "cache").irradiance.texels, fresh.irradiance.texels);
+    const std::string fault = takeCacheFault();
+    EXPECT_NE(fault.find((file / "cache").string()), std::string::npos) << fault;
+    EXPECT_NE(fault.find("Not a directory"), std::string::npos) << fault;
+    EXPECT_EQ(takeCacheFault(), "");
+    cachedEnvironment(map, file / "cache");
+    EXPECT_EQ(takeCacheFault(), "") << "it was said";
+}
+
 /// Made once for all tests.
 const std::vector<glm::vec4>& lobeTable() {
     static const std::vector<glm::vec4> table = makeLobeTable();
