@@ -242,9 +242,11 @@ Clip Rigging::clip(int index) {
     std::vector<Rivals> counting;                                     // by what they change, in document order
     std::map<std::string, std::size_t> places;                        // in it
     for (std::size_t i = 0; i < stored.channels.size(); ++i) {
-        const auto [place, isNew] = places.try_emplace(changedBy(stored.channels[i]), counting.size());
-        if (isNew) {
-            document.charge(kEntryBytes + place->first.size() + sizeof(Rivals), "animations", index);
+        std::string changed = changedBy(stored.channels[i]);
+        auto place = places.find(changed);
+        if (place == places.end()) {
+            document.charge(kEntryBytes + changed.size() + 2 * sizeof(Rivals), "animations", index);
+            place = places.emplace(std::move(changed), counting.size()).first;
             counting.emplace_back();
         }
         Rivals& rivals = counting[place->second];
