@@ -38,11 +38,15 @@ double meanOf(const glm::dvec3& weight) {
 } // namespace
 
 bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
-    return std::ranges::any_of(scene.nodes, [&](const scenes::Node& node) {
-        return std::ranges::any_of(node.instances, [&](const scenes::MeshInstance& instance) {
-            return diffuses(scene, instance, subsurface);
-        });
+    // Asked often, of scenes that have far more nodes than materials.
+    const bool mayDiffuse = std::ranges::any_of(scene.materials, [&](const scenes::Material& material) {
+        return scenes::subsurfaceOf(material, subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
     });
+    return mayDiffuse && std::ranges::any_of(scene.nodes, [&](const scenes::Node& node) {
+               return std::ranges::any_of(node.instances, [&](const scenes::MeshInstance& instance) {
+                   return diffuses(scene, instance, subsurface);
+               });
+           });
 }
 
 std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
