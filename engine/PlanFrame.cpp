@@ -60,13 +60,10 @@ graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
     if (prepared.diffused.size() > kMostNamed)
         words.push_back(fmt::format("{} more", prepared.diffused.size() - kMostNamed));
     const frame::FrameSpec& spec = prepared.spec;
-    const glm::dvec2 texels(spec.diffusedCells().texels());
-    const double side = double(spec.spreadTexels());
-    // The atlas, and of each object the light that enters and the part of it that leaves at once.
-    const double bytes = 16.0 * (texels.x * texels.y + 2.0 * side * side * double(prepared.diffused.size()));
     return {"spread light",
             fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.diffused.size(),
-                        prepared.diffused.size() == 1 ? "" : "s", spec.spreadTexels(), bytes / 1048576.0),
+                        prepared.diffused.size() == 1 ? "" : "s", spec.spreadTexels(),
+                        spec.diffusedBytes() / 1048576.0),
             fmt::format("{}; only tiles that are seen are lit and spread", fmt::join(words, ", "))};
 }
 

@@ -116,7 +116,7 @@ frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const fr
     const auto drawn = std::ranges::find_if(
         view.draws.seen, [&](int i) { return list.draws[std::size_t(i)].instance == object.instance; });
     const frame::FrameSpec& spec = view.prepared.spec;
-    if (spreadLimit_ && spreadLimit_->isOfAll) return frame::usedTiles(atlas.tiles);
+    if (spreadsAll(view.prepared)) return frame::usedTiles(atlas.tiles);
     const bool seesAll = !spec.settings.prune || spec.samples > 1;
     if (drawn == view.draws.seen.end() || seesAll) return frame::usedTiles(atlas.tiles, drawn != view.draws.seen.end());
     const frame::CameraView& camera = view.prepared.camera;
@@ -289,6 +289,7 @@ std::string Renderer::unseenSpread(std::size_t view) const {
 SpreadProgress Renderer::spreadProgress(std::size_t view) const {
     const frame::DrawnView& drawn = latest().views.at(view);
     SpreadProgress progress;
+    progress.isOfAll = spreadsAll(drawn.prepared);
     for (std::size_t cell = 0; cell < drawn.diffused.size(); ++cell) {
         const frame::DrawnView::Diffused& own = drawn.diffused[cell];
         const std::size_t tiles = own.seen.count();

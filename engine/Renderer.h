@@ -61,11 +61,15 @@ struct DrawnShadows {
 /// is missing then is drawn as if its light did not spread.
 struct SpreadLimit {
     std::size_t tiles = 0; ///< of shared/diffusion.h, to be lit; spreading their light is counted in these too
-    bool isOfAll = false;  ///< also of what the frame does not see, for those that follow
+    bool isOfAll = false;  ///< also of what the frame does not see, for those that follow, up to kMostOfAllBytes
 };
+
+/// Light of more is kept only where it is seen: FrameSpec::diffusedBytes().
+constexpr double kMostOfAllBytes = double(1u << 30u);
 
 /// How far light has spread over the objects of a view: those of which all is known that the view sees, or is to know.
 struct SpreadProgress {
+    bool isOfAll = false; ///< whatever it sees
     std::size_t objects = 0, doneObjects = 0;
     std::size_t tiles = 0, doneTiles = 0;
     bool isDone() const { return doneTiles == tiles; }
@@ -159,6 +163,10 @@ public:
 private:
     struct Drawn;
     const Drawn& latest() const;
+    /// Whether a view is to know all light that spreads, seen or not.
+    bool spreadsAll(const frame::PreparedView& view) const {
+        return spreadLimit_ && spreadLimit_->isOfAll && view.spec.diffusedBytes() <= kMostOfAllBytes;
+    }
     frame::TileSet seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
                              const frame::DrawnView& view) const;
     /// The objects of a view that light spreads over.

@@ -492,7 +492,7 @@ private:
         attempt([&] {
             const engine::SpreadProgress progress = screen_.spreadSlice(wanted_, reach);
             if (progress.isDone())
-                log_.line(reach == Screen::Reach::All ? "spread light everywhere" : "spread light in view");
+                log_.line(progress.isOfAll ? "spread light everywhere" : "spread light in view");
             else
                 facts_.spreading = progress;
         });

@@ -49,6 +49,12 @@ struct FrameSpec {
     /// Texels along the side of an object's atlas that light is spread in.
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
     DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }
+    /// Bytes of the view's atlas, and of each object's light that enters and the part of it that leaves at once.
+    double diffusedBytes() const {
+        const glm::dvec2 texels(diffusedCells().texels());
+        const double side = double(spreadTexels());
+        return double(sizeof(glm::vec4)) * (texels.x * texels.y + 2.0 * side * side * double(diffused.size()));
+    }
 
     bool usesEnvironmentMap() const;     ///< at full resolution
     bool lightsByEnvironmentMap() const; ///< surfaces, with samples or mirrors

@@ -292,6 +292,7 @@ TEST_F(Diffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
                 renderer.draw(Technique::Deferred, settings);
                 const engine::SpreadProgress progress = renderer.spreadProgress();
                 EXPECT_EQ(progress.objects, 1u);
+                EXPECT_EQ(progress.isOfAll, isOfAll);
                 EXPECT_GE(progress.doneTiles, before.doneTiles);
                 EXPECT_EQ(progress.doneObjects, progress.isDone() ? 1u : 0u);
                 before = progress;

@@ -94,12 +94,13 @@ void Screen::tellSpreadLight(const Wanted& drawn) {
 void Screen::forgetSpreadLight() {
     spreadLight_.forget();
     spreadFor_.reset();
-    isAllSpread_ = false;
+    isAllSpread_ = isAllTooMuch_ = false;
 }
 
 bool Screen::lacksLight(const Wanted& wanted, Reach reach) const {
     if (scene_ == nullptr || failed_ == wanted || !sharedSpread(scene_->scene(), looksOf(wanted))) return false;
-    return spreadsAnew(wanted) || (!isAllSpread_ && (reach == Reach::All || spreadFor_ != wanted));
+    if (spreadsAnew(wanted)) return true;
+    return !isAllSpread_ && (reach == Reach::All ? !isAllTooMuch_ : spreadFor_ != wanted);
 }
 
 engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
@@ -123,7 +124,7 @@ engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
     spreadLight_.drew(scene_->scene(), {&look, 1}, wanted.sceneEdits, renderer_->backend().mostIdleFrames());
     const engine::SpreadProgress progress = renderer_->spreadProgress();
     if (progress.isDone()) spreadFor_ = wanted;
-    if (progress.isDone() && reach == Reach::All) isAllSpread_ = true;
+    if (progress.isDone() && reach == Reach::All) (progress.isOfAll ? isAllSpread_ : isAllTooMuch_) = true;
     return progress;
 }
 
@@ -142,7 +143,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay == Stay::Passes;
     // Graphics cards light what comes into view within the frame.
     const bool isLimited = !isAnew && stay == Stay::Passes && context_.capabilities().isSoftware;
-    const bool mayLack = isLimited && lacksLight(wanted, Reach::All);
+    const bool mayLack = isLimited && lacksLight(wanted, Reach::Seen);
     if (isCoarse || mayLack) scale = std::min(scale, kScales[1]); // so that a whole one follows
     Drawn result;
     result.scale = scale;

@@ -118,7 +118,8 @@ private:
     SpreadLight spreadLight_;                  ///< of this scene
     SpreadPace pace_;                          ///< likewise
     std::optional<Wanted> spreadFor_;          ///< its light is there, as far as it is seen
-    bool isAllSpread_ = false;                 ///< light is there for all cameras
+    bool isAllSpread_ = false;                 ///< light is there for all cameras,
+    bool isAllTooMuch_ = false;                ///< or would take too much memory
     std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
