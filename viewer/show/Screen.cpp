@@ -192,6 +192,10 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kinds_ = wanted.looks;
     drawnScale_ = isLacking ? std::min(scale, kScales[1]) : scale;
+    if (isLacking) { // whatever took it away
+        spreadFor_.reset();
+        isAllSpread_ = false;
+    }
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
     if (isNew || compiled || (isAnew && !isCoarse)) return result;
