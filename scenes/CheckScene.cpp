@@ -192,6 +192,39 @@ Box3 boxOf(const Mesh& mesh) {
     return boxOS;
 }
 
+/// Values between keys stay within the bounds of their member, so those of keys need only be numbers.
+void checkKeys(const Element& element, const LightKeys& keys) {
+    const std::vector<double>& times = keys.timesSeconds;
+    const std::string_view name = infoOf(keys.of).name;
+    element.require(!times.empty() && times.size() == keys.values.size(),
+                    fmt::format("has {} key times for {} keys of its {}; give as many of both, at least one",
+                                times.size(), keys.values.size(), name));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        element.require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]), "its key times must ascend");
+    }
+    element.require(std::isfinite(times.back() - times.front()), "its key times lie too far apart");
+    for (const glm::dvec3& value : keys.values) {
+        element.require(allFinite(value), fmt::format("a key of its {} is not finite", name));
+        element.require(!infoOf(keys.of).isOnSphere || isUnit(value),
+                        fmt::format("a key of its {} must be of unit length", name));
+        element.require(keys.of != LightKeyed::Position || isNearEnough(value),
+                        fmt::format("a key leads more than {:g} m from the origin; keep it nearer", kFarthestMetres));
+    }
+    if (keys.interpolation != Interpolation::CubicSpline) return;
+    element.require(keys.inTangents.size() == times.size() && keys.outTangents.size() == times.size(),
+                    fmt::format("has {} in-tangents and {} out-tangents for {} key times; give as many",
+                                keys.inTangents.size(), keys.outTangents.size(), times.size()));
+    // A spline strays from its keys by less than its tangents lead within the time between two keys.
+    const double seconds = std::max(1.0, times.back() - times.front());
+    for (const std::vector<glm::dvec3>* tangents : {&keys.inTangents, &keys.outTangents})
+        for (const glm::dvec3& tangent : *tangents) {
+            element.require(allFinite(tangent * seconds), "a tangent of its keys leads too far; make it shorter");
+            element.require(
+                keys.of != LightKeyed::Position || isNearEnough(tangent * seconds),
+                fmt::format("a tangent of its keys leads more than {:g} m away; make it shorter", kFarthestMetres));
+        }
+}
+
 void checkAnimation(const Element& element, const LightAnimation& animation) {
     element.require(std::isfinite(animation.periodSeconds) && animation.periodSeconds > 0.0,
                     "the period of its animation must be positive");
@@ -212,28 +245,9 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
         element.require(animation.pointsWS.size() >= 2, "its path needs at least two points");
     }
     if (animation.kind == LightAnimationKind::Keyframes) {
-        const std::vector<double>& times = animation.timesSeconds;
-        element.require(!times.empty() && times.size() == animation.pointsWS.size(),
-                        fmt::format("has {} key times for {} key points; give as many of both, at least one",
-                                    times.size(), animation.pointsWS.size()));
-        for (std::size_t i = 0; i < times.size(); ++i) {
-            element.require(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]),
-                            "its key times must ascend");
-        }
-        element.require(std::isfinite(times.back() - times.front()), "its key times lie too far apart");
-        if (animation.interpolation == Interpolation::CubicSpline) {
-            element.require(animation.inTangentsWS.size() == times.size() &&
-                                animation.outTangentsWS.size() == times.size(),
-                            fmt::format("has {} in-tangents and {} out-tangents for {} key times; give as many",
-                                        animation.inTangentsWS.size(), animation.outTangentsWS.size(), times.size()));
-            // A spline strays from its points by less than its tangents lead within the time between two keys.
-            const double seconds = std::max(1.0, times.back() - times.front());
-            for (const std::vector<glm::dvec3>* tangents : {&animation.inTangentsWS, &animation.outTangentsWS})
-                for (const glm::dvec3& tangentWS : *tangents)
-                    element.require(allFinite(tangentWS) && isNearEnough(tangentWS * seconds),
-                                    fmt::format("a tangent of its keys leads more than {:g} m away; make it shorter",
-                                                kFarthestMetres));
-        }
+        element.require(animation.keys.of == LightKeyed::Position,
+                        "the keyframes of its animation must be of position");
+        checkKeys(element, animation.keys);
     }
 }
 
@@ -266,6 +280,13 @@ void checkLight(const Element& element, const Light& light) {
         fmt::format("its inner cone of {:g} radians is wider than its outer cone of {:g} radians; make it narrower",
                     light.innerConeRadians, light.outerConeRadians));
     if (light.animation) checkAnimation(element, *light.animation);
+    std::set<LightKeyed> keyed;
+    for (const LightKeys& keys : light.keyframes) {
+        element.require(keys.of != LightKeyed::Position, "keyframes of its position belong into its animation");
+        element.require(keyed.insert(keys.of).second,
+                        fmt::format("has keyframes of its {} twice; keep one of them", infoOf(keys.of).name));
+        checkKeys(element, keys);
+    }
     if (!light.flicker) return;
     const LightFlicker& flicker = *light.flicker;
     element.require(flicker.amplitude >= 0.0 && flicker.amplitude <= 1.0,

@@ -91,11 +91,13 @@ public:
         const auto& [name, parent, parentFromNode, instances] = node;
         addAll(name, parent, parentFromNode, instances);
     }
+    void add(const LightKeys& keys) {
+        const auto& [of, timesSeconds, values, interpolation, repeat, inTangents, outTangents] = keys;
+        addAll(of, timesSeconds, values, interpolation, repeat, inTangents, outTangents);
+    }
     void add(const LightAnimation& animation) {
-        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS, isOpen,
-                     interpolation, repeat, inTangentsWS, outTangentsWS] = animation;
-        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, timesSeconds, pointsWS, isOpen,
-               interpolation, repeat, inTangentsWS, outTangentsWS);
+        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, isOpen, keys] = animation;
+        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, isOpen, keys);
     }
     void add(const LightFlicker& flicker) {
         const auto& [amplitude, frequencyHz, seed] = flicker;

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -51,14 +52,29 @@ enum class LightAnimationKind : std::uint8_t {
     Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
     Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
     Path,     ///< runs along the polyline `points` at constant speed once in `periodSeconds`: around, or there and back
-    Keyframes ///< through (times, points), by `interpolation`, and beyond the ends by `repeat`
+    Keyframes ///< as `keys` say
 };
 
 /// What follows the last key time, and what is before the first.
 enum class KeyRepeat : std::uint8_t {
-    Once,    ///< the light stands still there
+    Once,    ///< all stays as it is there
     Loop,    ///< from the first key again
     PingPong ///< backwards to the first key, and again
+};
+
+/// What keyframes can say of a light; keyedMembers() says what each of them is.
+enum class LightKeyed : std::uint8_t { Position, Direction, Color, Intensity, Count };
+
+/// Keyframes of a member of a light.
+struct LightKeys {
+    LightKeyed of = LightKeyed::Position;
+    std::vector<double> timesSeconds; ///< ascending, at least one
+    std::vector<glm::dvec3> values;   ///< by key, as the member; x where that is a number
+    Interpolation interpolation = Interpolation::Linear;
+    KeyRepeat repeat = KeyRepeat::Once;
+    std::vector<glm::dvec3> inTangents; ///< by key, per second, as glTF's; these two are of CubicSpline
+    std::vector<glm::dvec3> outTangents;
+    bool operator==(const LightKeys&) const = default;
 };
 
 /// Moves the position of a light that has one, as a closed function of time, so that any time can be asked for
@@ -70,13 +86,9 @@ struct LightAnimation {
     glm::dvec3 centerWS{0.0};
     glm::dvec3 axisWS{0.0, 1.0, 0.0};
     glm::dvec3 amplitudeMetres{0.0};
-    std::vector<double> timesSeconds;
-    std::vector<glm::dvec3> pointsWS;
-    bool isOpen = false; ///< Path: from the first point to the last and back, rather than around
-    Interpolation interpolation = Interpolation::Linear;
-    KeyRepeat repeat = KeyRepeat::Once;
-    std::vector<glm::dvec3> inTangentsWS; ///< by key, in m/s, as glTF's; these two are of CubicSpline
-    std::vector<glm::dvec3> outTangentsWS;
+    std::vector<glm::dvec3> pointsWS; ///< Path
+    bool isOpen = false;              ///< Path: from the first point to the last and back, rather than around
+    LightKeys keys;                   ///< Keyframes: of the position
     bool operator==(const LightAnimation&) const = default;
 };
 
@@ -136,6 +148,7 @@ struct Light {
     bool isSeen = true;                      ///< with an area: pictures show the surface
     std::optional<LightAnimation> animation;
     std::optional<LightFlicker> flicker;
+    std::vector<LightKeys> keyframes; ///< of anything but the position, each once
     bool operator==(const Light&) const = default;
 };
 
@@ -170,6 +183,7 @@ inline constexpr std::tuple kLightFields{
     Field{"isSeen", &Light::isSeen},
     Field{"animation", &Light::animation},
     Field{"flicker", &Light::flicker},
+    Field{"keyframes", &Light::keyframes},
 };
 static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<Light>(),
               "kLightFields lacks a member of Light");
@@ -278,6 +292,48 @@ constexpr const LightTypeInfo& infoOf(LightType type) {
 constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
     if (type.isTurned()) return nullptr;
     return type.hasPosition() ? &detail::kRadius : &detail::kAngularRadius;
+}
+
+// ---- Keyframes -----------------------------------------------------------------------------------------------------
+
+struct LightKeyedInfo {
+    LightKeyed member;
+    std::string_view name; ///< in a light's "keyframes" of scene files
+    std::variant<glm::dvec3 Light::*, glm::vec3 Light::*, float Light::*> at; ///< its field's bounds hold between keys
+    /// Linear keys are joined along great circles, at constant speed, and values are unit vectors.
+    bool isOnSphere = false;
+
+    constexpr std::size_t width() const { return std::holds_alternative<float Light::*>(at) ? 1 : 3; }
+    /// Whether lights of the type have the member.
+    constexpr bool isOf(const LightTypeInfo& type) const {
+        return member == LightKeyed::Position    ? type.hasPosition()
+               : member == LightKeyed::Direction ? type.hasDirection
+                                                 : true;
+    }
+};
+
+namespace detail {
+inline constexpr std::array kKeyedMembers{
+    LightKeyedInfo{LightKeyed::Position, "position", &Light::positionWS},
+    LightKeyedInfo{LightKeyed::Direction, "direction", &Light::directionWS, true},
+    LightKeyedInfo{LightKeyed::Color, "color", &Light::color},
+    LightKeyedInfo{LightKeyed::Intensity, "intensity", &Light::intensity},
+};
+consteval bool areKeyedMembersSound() {
+    for (std::size_t i = 0; i < kKeyedMembers.size(); ++i)
+        if (kKeyedMembers[i].member != LightKeyed(i)) return false;
+    return kKeyedMembers.size() == std::size_t(LightKeyed::Count);
+}
+static_assert(areKeyedMembersSound(), "the table of members with keyframes follows the enumeration");
+} // namespace detail
+
+/// The only list of them; row i is that of member i. The position's keyframes are those of LightAnimation, all others
+/// stand in Light::keyframes.
+constexpr std::span<const LightKeyedInfo> keyedMembers() {
+    return detail::kKeyedMembers;
+}
+constexpr const LightKeyedInfo& infoOf(LightKeyed member) {
+    return detail::kKeyedMembers[std::size_t(member)];
 }
 
 } // namespace tessera::scenes

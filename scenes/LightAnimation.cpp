@@ -4,7 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <type_traits>
+#include <variant>
 
+#include "scenes/AreaLight.h"
+#include "scenes/Direction.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -45,39 +49,65 @@ glm::dvec3 alongPolyline(const std::vector<glm::dvec3>& pointsWS, bool isOpen, d
     return isOpen ? pointsWS.back() : pointsWS.front();
 }
 
-/// The time between the first key and the last at which a light is as at `timeSeconds`.
-double withinKeys(const LightAnimation& animation, double timeSeconds) {
-    const double first = animation.timesSeconds.front();
-    const double length = animation.timesSeconds.back() - first;
-    if (animation.repeat == KeyRepeat::Once || length <= 0.0) return timeSeconds;
+/// The time between the first key and the last at which all is as at `timeSeconds`.
+double withinKeys(const LightKeys& keys, double timeSeconds) {
+    const double first = keys.timesSeconds.front();
+    const double length = keys.timesSeconds.back() - first;
+    if (keys.repeat == KeyRepeat::Once || length <= 0.0) return timeSeconds;
     const double turns = (timeSeconds - first) / length;
     const double share = shareOf(turns);
-    const bool isBackward = animation.repeat == KeyRepeat::PingPong && shareOf(0.5 * turns) >= 0.5;
+    const bool isBackward = keys.repeat == KeyRepeat::PingPong && shareOf(0.5 * turns) >= 0.5;
     return first + (isBackward ? 1.0 - share : share) * length;
 }
 
-glm::dvec3 betweenKeyframes(const LightAnimation& animation, double anyTimeSeconds) {
-    const std::vector<double>& times = animation.timesSeconds;
-    const std::vector<glm::dvec3>& pointsWS = animation.pointsWS;
-    const double timeSeconds = withinKeys(animation, anyTimeSeconds);
+/// Between unit vectors the shortest way at constant speed; between opposite ones any way, always the same.
+glm::dvec3 alongGreatCircle(const glm::dvec3& from, const glm::dvec3& to, double share) {
+    const glm::dvec3 normal = glm::cross(from, to);
+    const double sine = glm::length(normal), cosine = glm::dot(from, to);
+    if (sine > 1e-12) return rotated(from, normal / sine, share * std::atan2(sine, cosine));
+    return cosine < 0.0 ? rotated(from, usualAlong(from), share * std::numbers::pi) : from;
+}
+
+glm::dvec3 betweenKeys(const LightKeys& keys, double anyTimeSeconds) {
+    const std::vector<double>& times = keys.timesSeconds;
+    const double timeSeconds = withinKeys(keys, anyTimeSeconds);
     const auto next = std::upper_bound(times.begin(), times.end(), timeSeconds);
-    if (next == times.begin()) return pointsWS.front();
-    if (next == times.end()) return pointsWS.back();
+    if (next == times.begin()) return keys.values.front();
+    if (next == times.end()) return keys.values.back();
     const auto i = static_cast<std::size_t>(next - times.begin());
+    const glm::dvec3 &from = keys.values[i - 1], &to = keys.values[i];
     const double seconds = times[i] - times[i - 1];
     const double share = (timeSeconds - times[i - 1]) / seconds;
-    switch (animation.interpolation) {
+    const bool isOnSphere = infoOf(keys.of).isOnSphere;
+    switch (keys.interpolation) {
     case Interpolation::Step:
-        return pointsWS[i - 1];
+        return from;
     case Interpolation::CubicSpline: {
         const std::array<double, 4> weights = splineWeights(share, seconds);
-        return weights[0] * pointsWS[i - 1] + weights[1] * animation.outTangentsWS[i - 1] + weights[2] * pointsWS[i] +
-               weights[3] * animation.inTangentsWS[i];
+        const glm::dvec3 value = weights[0] * from + weights[1] * keys.outTangents[i - 1] + weights[2] * to +
+                                 weights[3] * keys.inTangents[i];
+        return isOnSphere ? directionOf(value).value_or(from) : value; // through the middle there is no direction
     }
     case Interpolation::Linear:
         break;
     }
-    return glm::mix(pointsWS[i - 1], pointsWS[i], share);
+    return isOnSphere ? alongGreatCircle(from, to, share) : glm::mix(from, to, share);
+}
+
+/// Splines go past their keys: a member with bounds stays within them.
+void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value) {
+    std::visit(
+        [&](auto at) {
+            const auto field = fieldOf(kLightFields, at);
+            auto& own = light.*at;
+            if constexpr (std::is_same_v<std::decay_t<decltype(own)>, float>)
+                own = float(std::clamp(value.x, field.least, field.most));
+            else if constexpr (std::is_same_v<std::decay_t<decltype(own)>, glm::vec3>)
+                own = glm::vec3(glm::clamp(value, field.least, field.most));
+            else
+                own = value;
+        },
+        infoOf(member).at);
 }
 
 /// Source: Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators" (SplitMix64). 0 <= share < 1.
@@ -102,10 +132,18 @@ double flickerAt(const LightFlicker& flicker, double timeSeconds) {
     return 1.0 + flicker.amplitude / double(kHarmonics.size()) * sum;
 }
 
+bool movesByItself(const Light& light) {
+    return light.animation || light.flicker || !light.keyframes.empty();
+}
+
 Light lightAtTime(const Light& light, double timeSeconds) {
     assert(std::isfinite(timeSeconds));
     Light moved = light;
-    if (light.flicker) moved.intensity = float(double(light.intensity) * flickerAt(*light.flicker, timeSeconds));
+    for (const LightKeys& keys : light.keyframes)
+        if (infoOf(keys.of).isOf(infoOf(light.type))) setKeyed(moved, keys.of, betweenKeys(keys, timeSeconds));
+    if (moved.directionWS != light.directionWS && infoOf(light.type).isTurned())
+        moved.alongWS = acrossFrom(moved.directionWS, light.alongWS).value_or(usualAlong(moved.directionWS));
+    if (light.flicker) moved.intensity = float(double(moved.intensity) * flickerAt(*light.flicker, timeSeconds));
     if (!light.animation || !infoOf(light.type).hasPosition()) return moved;
     const LightAnimation& animation = *light.animation;
     switch (animation.kind) {
@@ -123,7 +161,7 @@ Light lightAtTime(const Light& light, double timeSeconds) {
         moved.positionWS = alongPolyline(animation.pointsWS, animation.isOpen, periodShare(animation, timeSeconds));
         break;
     case LightAnimationKind::Keyframes:
-        moved.positionWS = betweenKeyframes(animation, timeSeconds);
+        moved.positionWS = betweenKeys(animation.keys, timeSeconds);
         break;
     }
     return moved;

@@ -18,6 +18,11 @@ std::uint64_t bytesOf(const std::vector<Element>& elements) {
     return elements.size() * sizeof(Element);
 }
 
+/// Beside the object itself.
+std::uint64_t bytesWithin(const LightKeys& keys) {
+    return bytesOf(keys.timesSeconds) + bytesOf(keys.values) + bytesOf(keys.inTangents) + bytesOf(keys.outTangents);
+}
+
 } // namespace
 
 std::uint64_t defaultMemoryLimitBytes() {
@@ -121,9 +126,9 @@ std::uint64_t bytesOf(const Scene& scene) {
     for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);
     for (const Light& light : scene.lights) {
         bytes += light.name.size();
-        if (light.animation)
-            bytes += bytesOf(light.animation->timesSeconds) + bytesOf(light.animation->pointsWS) +
-                     bytesOf(light.animation->inTangentsWS) + bytesOf(light.animation->outTangentsWS);
+        if (light.animation) bytes += bytesOf(light.animation->pointsWS) + bytesWithin(light.animation->keys);
+        bytes += bytesOf(light.keyframes);
+        for (const LightKeys& keys : light.keyframes) bytes += bytesWithin(keys);
     }
     for (const Camera& camera : scene.cameras) bytes += camera.name.size();
     for (const auto& [key, wish] : scene.options.wishes) {

@@ -58,7 +58,11 @@ struct Node {
 /// of the seed. Its mean over 64 / frequency seconds, after which it repeats, is 1.
 double flickerAt(const LightFlicker& flicker, double timeSeconds);
 
-/// The light as it is at `timeSeconds`: its animation applied to its position, its flicker to its intensity.
+/// Whether a light is not the same at all times.
+bool movesByItself(const Light& light);
+
+/// The light as it is at `timeSeconds`: its animation applied to its position, its keyframes to what they are of, its
+/// flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);
 
 // ---- Cameras, options, scene ---------------------------------------------------------------------------------------

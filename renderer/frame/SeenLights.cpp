@@ -113,12 +113,13 @@ bool turnsAway(const scenes::Light& light, const scenes::Camera& camera) {
 
 /// The light at the frame's time, if any camera may see it.
 std::optional<scenes::Light> shownLight(const scenes::Scene& scene, std::size_t index, const FrameSettings& settings) {
-    const scenes::Light& own = scene.lights[index];
-    if (!scenes::infoOf(own.type).isArea || !own.isSeen || !own.enabled) return {};
+    const scenes::Light& still = scene.lights[index];
+    if (!scenes::infoOf(still.type).isArea || !still.isSeen || !still.enabled) return {};
     if (settings.soloLight && *settings.soloLight != int(index)) return {};
+    const scenes::Light own = lightAtTime(still, settings.timeSeconds);
     if (!scenes::hasSurface(own) || glm::vec3(lightColor(own)) == glm::vec3(0.0f)) return {};
     if (!(reachMetres(own, settings.rangeTolerance) > 0.0)) return {};
-    return lightAtTime(own, settings.timeSeconds);
+    return own;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,23 @@ glm::dvec3 movedDirection(const glm::dvec3& vector, const char* what, const std:
     return *direction;
 }
 
+void moveTangents(LightKeys& keys, const glm::dmat3& linear) {
+    for (std::vector<glm::dvec3>* tangents : {&keys.inTangents, &keys.outTangents})
+        for (glm::dvec3& tangentWS : *tangents) tangentWS = linear * tangentWS;
+}
+
+/// Each key's direction becomes of unit length again, and its tangents are scaled with it.
+void moveDirections(LightKeys& keys, const glm::dmat3& linear, const std::string& name) {
+    moveTangents(keys, linear);
+    for (std::size_t i = 0; i < keys.values.size(); ++i) {
+        const glm::dvec3 movedWS = linear * keys.values[i];
+        keys.values[i] = movedDirection(movedWS, "light", name);
+        const double shrinks = 1.0 / glm::length(movedWS);
+        if (i < keys.inTangents.size()) keys.inTangents[i] *= shrinks;
+        if (i < keys.outTangents.size()) keys.outTangents[i] *= shrinks;
+    }
+}
+
 void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     const glm::dmat3 linear(worldFromPart);
     light.positionWS = movedPoint(worldFromPart, light.positionWS);
@@ -48,6 +66,8 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     // Mirrored, what was across is on the other side.
     if (infoOf(light.type).hasCorners() && glm::determinant(linear) < 0.0)
         for (std::size_t i = 0; i < light.corners.count; ++i) light.corners.metres[i].y *= -1.0f;
+    for (LightKeys& keys : light.keyframes)
+        if (infoOf(keys.of).isOnSphere) moveDirections(keys, linear, light.name);
     if (!light.animation) return;
     LightAnimation& animation = *light.animation;
     animation.centerWS = movedPoint(worldFromPart, animation.centerWS);
@@ -55,8 +75,8 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
                                       light.name); // mirrored, an orbit runs the other way
     animation.amplitudeMetres = linear * animation.amplitudeMetres;
     for (glm::dvec3& pointWS : animation.pointsWS) pointWS = movedPoint(worldFromPart, pointWS);
-    for (glm::dvec3& tangentWS : animation.inTangentsWS) tangentWS = linear * tangentWS;
-    for (glm::dvec3& tangentWS : animation.outTangentsWS) tangentWS = linear * tangentWS;
+    for (glm::dvec3& valueWS : animation.keys.values) valueWS = movedPoint(worldFromPart, valueWS);
+    moveTangents(animation.keys, linear);
 }
 
 /// View direction and position go along exactly; up follows as far as a rotation allows.

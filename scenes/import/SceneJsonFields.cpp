@@ -8,6 +8,7 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
+void read(const JsonValue& value, LightKeys& keys);
 void read(const JsonValue& value, LightAnimation& animation);
 void read(const JsonValue& value, LightFlicker& flicker);
 void read(const JsonValue& value, TextureUse& use);
@@ -77,6 +78,12 @@ auto readerOf(JsonObject& object) {
     return [&object](const char* key, auto& member) {
         if (const auto value = object.find(key)) read(*value, member);
     };
+}
+
+void read(const JsonValue& value, LightKeys& keys) {
+    JsonObject object = value.object();
+    visitKeys(readerOf(object), keys);
+    object.done("the fields of keyframes");
 }
 
 void read(const JsonValue& value, LightAnimation& animation) {

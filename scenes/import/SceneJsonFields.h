@@ -8,6 +8,17 @@
 /// type or model. A visitor is called with a member's name and that member of each of the objects.
 namespace tessera::scenes::scenejson {
 
+template <typename Visitor, typename... Keys>
+void visitKeys(Visitor&& visit, Keys&... keys) {
+    visit("of", keys.of...);
+    visit("timesSeconds", keys.timesSeconds...);
+    visit("values", keys.values...);
+    visit("interpolation", keys.interpolation...);
+    visit("repeat", keys.repeat...);
+    visit("inTangents", keys.inTangents...);
+    visit("outTangents", keys.outTangents...);
+}
+
 template <typename Visitor, typename... Animations>
 void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("kind", animation.kind...);
@@ -16,13 +27,9 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("centerWS", animation.centerWS...);
     visit("axisWS", animation.axisWS...);
     visit("amplitudeMetres", animation.amplitudeMetres...);
-    visit("timesSeconds", animation.timesSeconds...);
     visit("pointsWS", animation.pointsWS...);
     visit("isOpen", animation.isOpen...);
-    visit("interpolation", animation.interpolation...);
-    visit("repeat", animation.repeat...);
-    visit("inTangentsWS", animation.inTangentsWS...);
-    visit("outTangentsWS", animation.outTangentsWS...);
+    visit("keys", animation.keys...);
 }
 
 template <typename Visitor, typename... Flickers>

@@ -61,31 +61,63 @@ std::vector<glm::dvec3> readPoints(const JsonValue& value, std::size_t least) {
     return points;
 }
 
-void readKeyframes(JsonObject& object, LightAnimation& animation) {
+/// A key's value, or by how much it changes per second.
+glm::dvec3 readKey(const JsonValue& value, const LightKeyedInfo& member, bool isTangent) {
+    if (member.isOnSphere && !isTangent) return value.direction();
+    if (member.member == LightKeyed::Position || isTangent)
+        return member.width() == 3 ? value.vector3() : glm::dvec3(value.number(), 0.0, 0.0);
+    if (member.width() == 1) return {value.number(0.0, kAnyNumber), 0.0, 0.0};
+    const std::vector<JsonValue> channels = value.elements(3, 3);
+    return {channels[0].number(0.0, kAnyNumber), channels[1].number(0.0, kAnyNumber),
+            channels[2].number(0.0, kAnyNumber)};
+}
+
+/// `valuesKey` is what the object calls its values.
+LightKeys readKeys(JsonObject& object, LightKeyed of, const char* valuesKey) {
+    LightKeys keys;
+    keys.of = of;
     const JsonValue times = object.require("times");
     for (const JsonValue& time : times.elements(1)) {
-        animation.timesSeconds.push_back(time.number());
-        const std::size_t count = animation.timesSeconds.size();
-        if (count > 1 && !(animation.timesSeconds[count - 1] > animation.timesSeconds[count - 2]))
-            time.fail(fmt::format("is {}, which does not follow {}; times must ascend",
-                                  animation.timesSeconds[count - 1], animation.timesSeconds[count - 2]));
+        keys.timesSeconds.push_back(time.number());
+        const std::size_t count = keys.timesSeconds.size();
+        if (count > 1 && !(keys.timesSeconds[count - 1] > keys.timesSeconds[count - 2]))
+            time.fail(fmt::format("is {}, which does not follow {}; times must ascend", keys.timesSeconds[count - 1],
+                                  keys.timesSeconds[count - 2]));
     }
-    const auto readByKey = [&](const char* key) {
+    const auto readByKey = [&](const char* key, bool isTangent) {
         const JsonValue value = object.require(key);
-        std::vector<glm::dvec3> points = readPoints(value, 1);
-        if (points.size() != animation.timesSeconds.size())
-            value.fail(fmt::format("has {} elements for {} times; give one for each", points.size(),
-                                   animation.timesSeconds.size()));
-        return points;
+        std::vector<glm::dvec3> values;
+        for (const JsonValue& element : value.elements(1)) values.push_back(readKey(element, infoOf(of), isTangent));
+        if (values.size() != keys.timesSeconds.size())
+            value.fail(fmt::format("has {} elements for {} times; give one for each", values.size(),
+                                   keys.timesSeconds.size()));
+        return values;
     };
-    animation.pointsWS = readByKey("points");
+    keys.values = readByKey(valuesKey, false);
     if (const auto interpolation = object.find("interpolation"))
-        animation.interpolation = interpolation->oneOf<Interpolation>("interpolation", kInterpolations);
-    if (animation.interpolation == Interpolation::CubicSpline) {
-        animation.inTangentsWS = readByKey("inTangents");
-        animation.outTangentsWS = readByKey("outTangents");
+        keys.interpolation = interpolation->oneOf<Interpolation>("interpolation", kInterpolations);
+    if (keys.interpolation == Interpolation::CubicSpline) {
+        keys.inTangents = readByKey("inTangents", true);
+        keys.outTangents = readByKey("outTangents", true);
     }
-    if (const auto repeat = object.find("repeat")) animation.repeat = repeat->oneOf<KeyRepeat>("repeat", kKeyRepeats);
+    if (const auto repeat = object.find("repeat")) keys.repeat = repeat->oneOf<KeyRepeat>("repeat", kKeyRepeats);
+    return keys;
+}
+
+/// Of each member of the light's type but its position, which moves by "animation".
+std::vector<LightKeys> readKeyframes(const JsonValue& value, const LightTypeInfo& type) {
+    JsonObject object = value.object();
+    std::vector<LightKeys> all;
+    for (const LightKeyedInfo& member : keyedMembers()) {
+        if (member.member == LightKeyed::Position || !member.isOf(type)) continue;
+        const auto keys = object.find(member.name);
+        if (!keys) continue;
+        JsonObject ofMember = keys->object();
+        all.push_back(readKeys(ofMember, member.member, "values"));
+        ofMember.done(fmt::format("an object of keys of {}", member.name));
+    }
+    object.done(fmt::format("an object of keyframes of a {} light", type.name));
+    return all;
 }
 
 LightAnimation readAnimation(const JsonValue& value) {
@@ -94,7 +126,7 @@ LightAnimation readAnimation(const JsonValue& value) {
     const JsonValue type = object.require("type");
     animation.kind = type.oneOf<LightAnimationKind>("animation", kAnimations);
     if (animation.kind == LightAnimationKind::Keyframes) {
-        readKeyframes(object, animation);
+        animation.keys = readKeys(object, LightKeyed::Position, "points");
     } else {
         animation.periodSeconds = object.require("periodSeconds").positive();
         if (const auto phase = object.find("phase")) animation.phase = phase->number(0.0, 1.0);
@@ -195,6 +227,7 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (const auto intensity = object.find("intensity")) light.intensity = intensity->single(0.0);
     if (const auto flicker = object.find("flicker")) light.flicker = readFlicker(*flicker);
     const LightTypeInfo& info = infoOf(light.type);
+    if (const auto keyframes = object.find("keyframes")) light.keyframes = readKeyframes(*keyframes, info);
     if (info.hasPosition()) {
         light.positionWS = object.require("position").vector3();
         if (const auto falloff = object.find("falloff")) readFalloff(*falloff, light);

@@ -61,6 +61,11 @@ inline constexpr std::array kInterpolations = {Named<Interpolation>{"linear", In
 inline constexpr std::array kKeyRepeats = {Named<KeyRepeat>{"once", KeyRepeat::Once},
                                            Named<KeyRepeat>{"loop", KeyRepeat::Loop},
                                            Named<KeyRepeat>{"ping_pong", KeyRepeat::PingPong}};
+inline constexpr auto kKeyedMembers = [] {
+    std::array<Named<LightKeyed>, std::size_t(LightKeyed::Count)> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {keyedMembers()[i].name, keyedMembers()[i].member};
+    return names;
+}();
 inline constexpr std::array kProjections = {Named<Projection>{"perspective", Projection::Perspective},
                                             Named<Projection>{"orthographic", Projection::Orthographic}};
 
@@ -103,6 +108,9 @@ inline std::span<const Named<Interpolation>> choicesOf(Interpolation) {
 }
 inline std::span<const Named<KeyRepeat>> choicesOf(KeyRepeat) {
     return kKeyRepeats;
+}
+inline std::span<const Named<LightKeyed>> choicesOf(LightKeyed) {
+    return kKeyedMembers;
 }
 inline std::span<const Named<Projection>> choicesOf(Projection) {
     return kProjections;

@@ -11,6 +11,7 @@
 namespace tessera::scenes::write {
 namespace {
 
+Json fieldOf(const LightKeys& keys);
 Json fieldOf(const LightAnimation& animation);
 Json fieldOf(const LightFlicker& flicker);
 Json fieldOf(const TextureUse& use);
@@ -74,6 +75,13 @@ auto differencesInto(Json& json) {
     return [&json](const char* key, const auto& wanted, const auto& got) {
         if (!(wanted == got)) json[key] = fieldOf(wanted);
     };
+}
+
+Json fieldOf(const LightKeys& keys) {
+    Json json = Json::object();
+    const LightKeys none;
+    scenejson::visitKeys(differencesInto(json), keys, none);
+    return json;
 }
 
 Json fieldOf(const LightAnimation& animation) {

@@ -35,6 +35,27 @@ Json cornersJson(const LightCorners& corners) {
     return json;
 }
 
+Json valuesJson(const std::vector<glm::dvec3>& values, const LightKeyedInfo& member) {
+    if (member.width() == 3) return pointsJson(values);
+    Json json = Json::array();
+    for (const glm::dvec3& value : values) json.push_back(number(value.x));
+    return json;
+}
+
+Json keysJson(const LightKeys& keys, const char* valuesKey) {
+    const LightKeyedInfo& member = infoOf(keys.of);
+    Json json;
+    json["times"] = keys.timesSeconds;
+    json[valuesKey] = valuesJson(keys.values, member);
+    if (keys.interpolation != Interpolation::Linear) json["interpolation"] = scenejson::nameOf(keys.interpolation);
+    if (keys.interpolation == Interpolation::CubicSpline) {
+        json["inTangents"] = valuesJson(keys.inTangents, member);
+        json["outTangents"] = valuesJson(keys.outTangents, member);
+    }
+    if (keys.repeat != KeyRepeat::Once) json["repeat"] = scenejson::nameOf(keys.repeat);
+    return json;
+}
+
 Json animationJson(const LightAnimation& animation) {
     Json json;
     json["type"] = scenejson::nameOf(animation.kind);
@@ -51,15 +72,7 @@ Json animationJson(const LightAnimation& animation) {
         if (animation.isOpen) json["open"] = true;
         break;
     case LightAnimationKind::Keyframes:
-        json["times"] = animation.timesSeconds;
-        json["points"] = pointsJson(animation.pointsWS);
-        if (animation.interpolation != Interpolation::Linear)
-            json["interpolation"] = scenejson::nameOf(animation.interpolation);
-        if (animation.interpolation == Interpolation::CubicSpline) {
-            json["inTangents"] = pointsJson(animation.inTangentsWS);
-            json["outTangents"] = pointsJson(animation.outTangentsWS);
-        }
-        if (animation.repeat != KeyRepeat::Once) json["repeat"] = scenejson::nameOf(animation.repeat);
+        json.update(keysJson(animation.keys, "points"));
         return json;
     }
     json["periodSeconds"] = number(animation.periodSeconds);
@@ -79,6 +92,8 @@ Json byKeys(const Light& light) {
                            {"frequencyHz", number(light.flicker->frequencyHz)},
                            {"seed", light.flicker->seed}};
     const LightTypeInfo& info = infoOf(light.type);
+    for (const LightKeys& keys : light.keyframes)
+        if (infoOf(keys.of).isOf(info)) json["keyframes"][std::string(infoOf(keys.of).name)] = keysJson(keys, "values");
     if (info.hasPosition()) {
         json["position"] = numbers(light.positionWS);
         const bool isDefault = light.falloff == Falloff::InverseSquare && std::isinf(light.rangeMetres);

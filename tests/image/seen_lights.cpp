@@ -424,8 +424,8 @@ TEST_F(SeenLightPictures, animatedLightsAreSeenWhereTheyAre) {
     light.radiusMetres = 0.1f;
     scenes::LightAnimation animation;
     animation.kind = scenes::LightAnimationKind::Keyframes;
-    animation.timesSeconds = {0.0, 1.0};
-    animation.pointsWS = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}};
+    animation.keys.timesSeconds = {0.0, 1.0};
+    animation.keys.values = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}};
     light.animation = animation;
     const scenes::Scene scene = lightsAlone({light});
     frame::FrameSettings settings = settingsOfSize({3, 3});

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <unordered_set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -128,7 +129,8 @@ void placeLight(scenes::Light& light, double timeSeconds, const glm::dvec3& posi
     const glm::dvec3 stepWS = positionWS - scenes::lightAtTime(light, timeSeconds).positionWS;
     light.positionWS += stepWS;
     light.animation->centerWS += stepWS;
-    for (glm::dvec3& pointWS : light.animation->pointsWS) pointWS += stepWS;
+    for (std::vector<glm::dvec3>* places : {&light.animation->pointsWS, &light.animation->keys.values})
+        for (glm::dvec3& placeWS : *places) placeWS += stepWS;
 }
 
 void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose, const scenes::Camera& lens,
@@ -155,8 +157,11 @@ void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds,
 }
 
 void stopLight(scenes::Light& light, double timeSeconds) {
-    light.positionWS = scenes::lightAtTime(light, timeSeconds).positionWS; // and the intensity flickers on
+    const std::optional<scenes::LightFlicker> flicker = std::exchange(light.flicker, {}); // it flickers on
+    light = scenes::lightAtTime(light, timeSeconds);
+    light.flicker = flicker;
     light.animation.reset();
+    light.keyframes.clear();
 }
 
 } // namespace tessera::viewer

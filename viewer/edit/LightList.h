@@ -64,7 +64,7 @@ void moveLight(scenes::Light& light, double timeSeconds, const CameraPose& pose,
 /// Lets a light circle about the vertical axis through a centre beside it, from where it is at this time.
 void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds, double timeSeconds);
 
-/// Ends an animation: the light stays where it is at this time.
+/// Ends an animation and keyframes: the light stays as it is at this time, and flickers on.
 void stopLight(scenes::Light& light, double timeSeconds);
 
 } // namespace tessera::viewer

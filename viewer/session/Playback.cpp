@@ -8,8 +8,7 @@ namespace {
 
 /// Whether anything but a clip moves.
 bool movesByItself(const OpenScene& open) {
-    const auto moves = [](const scenes::Light& light) { return light.animation || light.flicker; };
-    return open.scene().hook || std::ranges::any_of(open.scene().lights, moves);
+    return open.scene().hook || std::ranges::any_of(open.scene().lights, scenes::movesByItself);
 }
 
 } // namespace

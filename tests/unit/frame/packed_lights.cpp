@@ -288,8 +288,8 @@ TEST(PackedLights, anAnimatedLightIsPackedWhereItIsAtThatTime) {
     Light moving = light(LightType::Point);
     moving.animation = scenes::LightAnimation{};
     moving.animation->kind = scenes::LightAnimationKind::Keyframes;
-    moving.animation->timesSeconds = {0.0, 2.0};
-    moving.animation->pointsWS = {{0, 0, -5}, {4, 0, -5}};
+    moving.animation->keys.timesSeconds = {0.0, 2.0};
+    moving.animation->keys.values = {{0, 0, -5}, {4, 0, -5}};
     FrameSettings settings;
     settings.timeSeconds = 1.0;
     EXPECT_EQ(glm::vec3(pack({moving}, settings).texels.at(0).position), glm::vec3(2, 0, -5));

@@ -176,13 +176,27 @@ TEST(SeenLights, anAnimatedLightIsSeenWhereItIs) {
     scenes::Light light = lamp(LightType::Sphere);
     scenes::LightAnimation animation;
     animation.kind = scenes::LightAnimationKind::Keyframes;
-    animation.timesSeconds = {0.0, 1.0};
-    animation.pointsWS = {{0.0, 0.0, -5.0}, {0.0, 0.0, 5.0}};
+    animation.keys.timesSeconds = {0.0, 1.0};
+    animation.keys.values = {{0.0, 0.0, -5.0}, {0.0, 0.0, 5.0}};
     light.animation = animation;
     FrameSettings settings;
     EXPECT_EQ(seenOf(light, {}, settings).size(), 1u);
     settings.timeSeconds = 1.0;
     EXPECT_TRUE(seenOf(light, {}, settings).empty());
+}
+
+TEST(SeenLights, aLightThatKeyframesLightIsSeenOnceItShines) {
+    scenes::Light light = lamp(LightType::Sphere);
+    light.positionWS = {0.0, 0.0, -5.0};
+    light.intensity = 0.0f;
+    scenes::LightKeys& keys = light.keyframes.emplace_back();
+    keys.of = scenes::LightKeyed::Intensity;
+    keys.timesSeconds = {0.0, 1.0};
+    keys.values = {glm::dvec3(0.0), glm::dvec3(5.0)};
+    FrameSettings settings;
+    EXPECT_TRUE(seenOf(light, {}, settings).empty());
+    settings.timeSeconds = 0.5;
+    EXPECT_EQ(seenOf(light, {}, settings).size(), 1u);
 }
 
 TEST(SeenLights, aFarViewHasTheDepthsOfItsLights) {

@@ -20,12 +20,12 @@ Environment sky(float radiance, float intensity, float rotationDegrees) {
 }
 
 /// At the origin, at those times.
-LightAnimation& giveKeyframes(Light& light, std::vector<double> timesSeconds) {
+LightKeys& giveKeyframes(Light& light, std::vector<double> timesSeconds) {
     LightAnimation& animation = light.animation.emplace();
     animation.kind = LightAnimationKind::Keyframes;
-    animation.pointsWS.assign(timesSeconds.size(), glm::dvec3(0.0));
-    animation.timesSeconds = std::move(timesSeconds);
-    return animation;
+    animation.keys.values.assign(timesSeconds.size(), glm::dvec3(0.0));
+    animation.keys.timesSeconds = std::move(timesSeconds);
+    return animation.keys;
 }
 
 /// The message checkScene() gives for the tiny scene after `spoil`, or "" when it passes.
@@ -232,10 +232,28 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
          [](Scene& s) { giveKeyframes(s.lights[0], {1.0}).interpolation = Interpolation::CubicSpline; }},
         {"a tangent of its keys",
          [](Scene& s) {
-             LightAnimation& animation = giveKeyframes(s.lights[0], {1.0});
-             animation.interpolation = Interpolation::CubicSpline;
-             animation.inTangentsWS.assign(1, glm::dvec3(kNaN));
-             animation.outTangentsWS.assign(1, glm::dvec3(0.0));
+             LightKeys& keys = giveKeyframes(s.lights[0], {1.0});
+             keys.interpolation = Interpolation::CubicSpline;
+             keys.inTangents.assign(1, glm::dvec3(kNaN));
+             keys.outTangents.assign(1, glm::dvec3(0.0));
+         }},
+        {"of unit length",
+         [](Scene& s) {
+             LightKeys& keys = s.lights[0].keyframes.emplace_back(giveKeyframes(s.lights[0], {1.0}));
+             keys.of = LightKeyed::Direction;
+         }},
+        {"has keyframes of its color twice",
+         [](Scene& s) {
+             s.lights[0].keyframes.assign(2, giveKeyframes(s.lights[0], {1.0}));
+             for (LightKeys& keys : s.lights[0].keyframes) keys.of = LightKeyed::Color;
+         }},
+        {"belong into its animation", [](Scene& s) { s.lights[0].keyframes = {giveKeyframes(s.lights[0], {1.0})}; }},
+        {"must be of position", [](Scene& s) { giveKeyframes(s.lights[0], {1.0}).of = LightKeyed::Color; }},
+        {"a key of its intensity is not finite",
+         [](Scene& s) {
+             LightKeys& keys = s.lights[0].keyframes.emplace_back(giveKeyframes(s.lights[0], {1.0}));
+             keys.of = LightKeyed::Intensity;
+             keys.values[0].x = kNaN;
          }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = 2.0; }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = -1.0; }},

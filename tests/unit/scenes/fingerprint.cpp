@@ -23,8 +23,10 @@ Scene sceneOfEverything() {
     scene.materials[0].texture(TextureSlot::BaseColor).image = 0;
     Light& light = scene.lights[0];
     light.animation.emplace();
-    light.animation->timesSeconds = {0.0, 1.0};
+    light.animation->keys.timesSeconds = {0.0, 1.0};
     light.animation->pointsWS = {glm::dvec3(0.0), glm::dvec3(1.0)};
+    light.animation->keys.values = light.animation->pointsWS;
+    light.keyframes.emplace_back().of = LightKeyed::Color;
     return scene;
 }
 
@@ -159,12 +161,15 @@ const std::vector<Change>& changes() {
         {"animation.center", [](Scene& s) { s.lights[0].animation->centerWS.x = 1.0; }},
         {"animation.axis", [](Scene& s) { s.lights[0].animation->axisWS.x = 1.0; }},
         {"animation.amplitude", [](Scene& s) { s.lights[0].animation->amplitudeMetres.x = 1.0; }},
-        {"animation.times", [](Scene& s) { s.lights[0].animation->timesSeconds[1] = 2.0; }},
+        {"animation.times", [](Scene& s) { s.lights[0].animation->keys.timesSeconds[1] = 2.0; }},
         {"animation.isOpen", [](Scene& s) { s.lights[0].animation->isOpen = true; }},
-        {"animation.interpolation", [](Scene& s) { s.lights[0].animation->interpolation = Interpolation::Step; }},
-        {"animation.repeat", [](Scene& s) { s.lights[0].animation->repeat = KeyRepeat::Loop; }},
-        {"animation.inTangents", [](Scene& s) { s.lights[0].animation->inTangentsWS.emplace_back(1.0); }},
-        {"animation.outTangents", [](Scene& s) { s.lights[0].animation->outTangentsWS.emplace_back(1.0); }},
+        {"animation.interpolation", [](Scene& s) { s.lights[0].animation->keys.interpolation = Interpolation::Step; }},
+        {"animation.repeat", [](Scene& s) { s.lights[0].animation->keys.repeat = KeyRepeat::Loop; }},
+        {"animation.inTangents", [](Scene& s) { s.lights[0].animation->keys.inTangents.emplace_back(1.0); }},
+        {"animation.outTangents", [](Scene& s) { s.lights[0].animation->keys.outTangents.emplace_back(1.0); }},
+        {"animation.values", [](Scene& s) { s.lights[0].animation->keys.values[1].z = 2.0; }},
+        {"light.keyframes", [](Scene& s) { s.lights[0].keyframes.clear(); }},
+        {"keyframes.of", [](Scene& s) { s.lights[0].keyframes[0].of = LightKeyed::Intensity; }},
         {"animation.points", [](Scene& s) { s.lights[0].animation->pointsWS[1].z = 2.0; }},
         {"camera.name", [](Scene& s) { s.cameras[0].name += 'x'; }},
         {"camera.projection", [](Scene& s) { s.cameras[0].projection = Projection::Orthographic; }},

@@ -37,9 +37,9 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     std::set<std::string_view> names, fields;
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
-        std::set<std::string_view> keys{"type",      "name",     "enabled", "fields",    "color",
-                                        "intensity", "position", "falloff", "animation", "direction",
-                                        "target",    "along",    "corners", "twoSided",  "seen"};
+        std::set<std::string_view> keys{"type",     "name",     "enabled",   "fields",    "color",    "intensity",
+                                        "position", "falloff",  "animation", "direction", "target",   "along",
+                                        "corners",  "twoSided", "seen",      "flicker",   "keyframes"};
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
@@ -73,6 +73,26 @@ TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
             EXPECT_EQ(light.corners.count, type.hasCorners() ? 3u : LightCorners().count);
         }
     }
+}
+
+TEST(LightTypes, everyTypeTakesKeyframesOfTheMembersThatItHas) {
+    const test::SceneFolder folder;
+    for (const LightTypeInfo& type : lightTypes())
+        for (const LightKeyedInfo& member : keyedMembers()) {
+            SCOPED_TRACE(fmt::format("{} {}", type.name, member.name));
+            const std::string text = document(
+                keysOf(type, 0.5f) + fmt::format(R"(, "keyframes": {{"{}": {{"times": [1], "values": [{}]}}}})",
+                                                 member.name, member.width() == 1 ? "3" : "[0, 1, 0]"));
+            const bool isTaken = member.member != LightKeyed::Position && member.isOf(type);
+            EXPECT_EQ(test::schemaAccepts(text), isTaken);
+            if (!isTaken) {
+                EXPECT_NE(folder.errorOf(text), "");
+                continue;
+            }
+            const LightKeys keys = folder.import(text).lights[0].keyframes.at(0);
+            EXPECT_EQ(keys.of, member.member);
+            EXPECT_EQ(keys.values.at(0), member.width() == 1 ? glm::dvec3(3, 0, 0) : glm::dvec3(0, 1, 0));
+        }
 }
 
 TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {

@@ -1,6 +1,9 @@
 #include "scenes/Scene.h"
 
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -90,8 +93,8 @@ TEST(LightAnimation, pathRunsAtConstantSpeedAndCloses) {
 
 TEST(LightAnimation, keyframesAreClampedAtTheirEnds) {
     Light light = animatedLight(LightAnimationKind::Keyframes);
-    light.animation->timesSeconds = {1.0, 2.0, 4.0};
-    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 8.0, 0.0}};
+    light.animation->keys.timesSeconds = {1.0, 2.0, 4.0};
+    light.animation->keys.values = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 8.0, 0.0}};
     EXPECT_EQ(lightAtTime(light, -9.0).positionWS, glm::dvec3(0.0));
     EXPECT_EQ(lightAtTime(light, 1.5).positionWS, glm::dvec3(0.5, 0.0, 0.0));
     EXPECT_EQ(lightAtTime(light, 2.0).positionWS, glm::dvec3(1.0, 0.0, 0.0));
@@ -101,23 +104,23 @@ TEST(LightAnimation, keyframesAreClampedAtTheirEnds) {
 
 TEST(LightAnimation, stepsKeepEachPointUntilTheNextKey) {
     Light light = animatedLight(LightAnimationKind::Keyframes);
-    light.animation->interpolation = Interpolation::Step;
-    light.animation->timesSeconds = {1.0, 2.0};
-    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+    light.animation->keys.interpolation = Interpolation::Step;
+    light.animation->keys.timesSeconds = {1.0, 2.0};
+    light.animation->keys.values = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
     EXPECT_EQ(lightAtTime(light, 1.999).positionWS, glm::dvec3(0.0));
     EXPECT_EQ(lightAtTime(light, 2.0).positionWS, glm::dvec3(1.0, 0.0, 0.0));
 }
 
 TEST(LightAnimation, splinesFollowACubicWhoseSlopesAreTheirTangents) {
     Light light = animatedLight(LightAnimationKind::Keyframes);
-    light.animation->interpolation = Interpolation::CubicSpline;
-    light.animation->timesSeconds = {1.0, 3.0, 4.0};
+    light.animation->keys.interpolation = Interpolation::CubicSpline;
+    light.animation->keys.timesSeconds = {1.0, 3.0, 4.0};
     const auto cubic = [](double t) { return glm::dvec3(t * t * t, 2.0 - t, t * t); };
-    for (const double t : light.animation->timesSeconds) {
-        light.animation->pointsWS.push_back(cubic(t));
-        light.animation->inTangentsWS.emplace_back(3.0 * t * t, -1.0, 2.0 * t);
+    for (const double t : light.animation->keys.timesSeconds) {
+        light.animation->keys.values.push_back(cubic(t));
+        light.animation->keys.inTangents.emplace_back(3.0 * t * t, -1.0, 2.0 * t);
     }
-    light.animation->outTangentsWS = light.animation->inTangentsWS;
+    light.animation->keys.outTangents = light.animation->keys.inTangents;
     for (const double t : {1.0, 1.25, 2.0, 2.9, 3.0, 3.5, 4.0})
         expectNear(lightAtTime(light, t).positionWS, cubic(t), 1e-12); // rounding of numbers up to 64
     EXPECT_EQ(lightAtTime(light, 1e9).positionWS, cubic(4.0));
@@ -125,24 +128,24 @@ TEST(LightAnimation, splinesFollowACubicWhoseSlopesAreTheirTangents) {
 
 TEST(LightAnimation, keyframesLoopOrTurnBackBeyondTheirEnds) {
     Light light = animatedLight(LightAnimationKind::Keyframes);
-    light.animation->timesSeconds = {1.0, 3.0};
-    light.animation->pointsWS = {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
+    light.animation->keys.timesSeconds = {1.0, 3.0};
+    light.animation->keys.values = {{0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
     const auto xAt = [&](double seconds) { return lightAtTime(light, seconds).positionWS.x; };
-    light.animation->repeat = KeyRepeat::Loop;
+    light.animation->keys.repeat = KeyRepeat::Loop;
     EXPECT_EQ(xAt(2.5), 1.5);
     EXPECT_EQ(xAt(3.0), 0.0);
     EXPECT_EQ(xAt(3.5), 0.5);
     EXPECT_EQ(xAt(0.5), 1.5);
     EXPECT_EQ(xAt(1e9 + 1.5), 0.5);
-    light.animation->repeat = KeyRepeat::PingPong;
+    light.animation->keys.repeat = KeyRepeat::PingPong;
     EXPECT_EQ(xAt(2.5), 1.5);
     EXPECT_EQ(xAt(3.0), 2.0);
     EXPECT_EQ(xAt(3.5), 1.5);
     EXPECT_EQ(xAt(0.5), 0.5);
     EXPECT_EQ(xAt(5.5), 0.5);
     EXPECT_EQ(xAt(1e9 + 1.5), 0.5);
-    light.animation->timesSeconds = {1.0};
-    light.animation->pointsWS.resize(1);
+    light.animation->keys.timesSeconds = {1.0};
+    light.animation->keys.values.resize(1);
     EXPECT_EQ(xAt(7.0), 0.0) << "one key is a place";
 }
 
@@ -172,8 +175,9 @@ TEST(LightAnimation, timesFarBeyondThePeriodLeaveLightsInTheirPlace) {
         light.animation->periodSeconds = 1e-300;
         light.animation->amplitudeMetres = {1.0, 2.0, 3.0};
         light.animation->pointsWS = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
-        light.animation->timesSeconds = {0.0, 1e-300};
-        light.animation->repeat = KeyRepeat::PingPong;
+        light.animation->keys.values = light.animation->pointsWS;
+        light.animation->keys.timesSeconds = {0.0, 1e-300};
+        light.animation->keys.repeat = KeyRepeat::PingPong;
         light.flicker.emplace().frequencyHz = LightFlicker::kMostHertz;
         for (const double seconds : {1e10, -1e10, 1e300, -1e308}) {
             const Light then = lightAtTime(light, seconds);
@@ -215,6 +219,92 @@ TEST(LightAnimation, flickerScalesTheIntensityOfEveryType) {
     }
     light.flicker->amplitude = 0.0;
     EXPECT_EQ(lightAtTime(light, 0.3).intensity, 10.0f);
+}
+
+LightKeys keysOf(LightKeyed of, std::vector<glm::dvec3> values) {
+    LightKeys keys;
+    keys.of = of;
+    for (std::size_t i = 0; i < values.size(); ++i) keys.timesSeconds.push_back(2.0 * double(i));
+    keys.values = std::move(values);
+    return keys;
+}
+
+TEST(LightKeys, directionsTurnAlongGreatCirclesAtConstantSpeed) {
+    Light light;
+    light.type = LightType::Directional;
+    light.keyframes = {keysOf(LightKeyed::Direction, {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}})};
+    for (const double share : {0.0, 0.1, 1.0 / 3.0, 0.5, 0.9, 1.0}) {
+        const double angle = 0.5 * std::numbers::pi * share;
+        expectNear(lightAtTime(light, 2.0 * share).directionWS, {std::cos(angle), -std::sin(angle), 0.0}, kRounding);
+    }
+    light.keyframes[0].values[1] = {-1.0, 0.0, 0.0}; // any way, but with constant speed
+    for (const double share : {0.0, 0.25, 0.5, 1.0}) {
+        const glm::dvec3 directionWS = lightAtTime(light, 2.0 * share).directionWS;
+        EXPECT_NEAR(glm::length(directionWS), 1.0, kRounding);
+        EXPECT_NEAR(directionWS.x, std::cos(std::numbers::pi * share), kRounding);
+    }
+    light.keyframes[0].values[1] = light.keyframes[0].values[0];
+    EXPECT_EQ(lightAtTime(light, 0.7).directionWS, glm::dvec3(1.0, 0.0, 0.0));
+}
+
+TEST(LightKeys, splinesOfDirectionsStayOfUnitLength) {
+    Light light;
+    light.type = LightType::Spot;
+    LightKeys keys = keysOf(LightKeyed::Direction, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}});
+    keys.interpolation = Interpolation::CubicSpline;
+    keys.inTangents = keys.outTangents = {glm::dvec3(0.0), glm::dvec3(0.0)};
+    light.keyframes = {keys};
+    expectNear(lightAtTime(light, 1.0).directionWS, glm::dvec3(1.0, 1.0, 0.0) * std::sqrt(0.5), kRounding);
+    // Without slopes, a quarter on is 1 - 3/16 + 2/64 = 27/32 of the one and 5/32 of the other.
+    expectNear(lightAtTime(light, 0.5).directionWS, glm::normalize(glm::dvec3(27.0, 5.0, 0.0)), kRounding);
+    light.keyframes[0].values[1] = {-1.0, 0.0, 0.0};
+    EXPECT_EQ(lightAtTime(light, 1.0).directionWS, glm::dvec3(1.0, 0.0, 0.0)) << "in the middle there is none";
+}
+
+TEST(LightKeys, whatIsTurnedTurnsWithItsDirection) {
+    Light light;
+    light.type = LightType::Rectangle;
+    light.directionWS = {0.0, 0.0, -1.0};
+    light.alongWS = {1.0, 0.0, 0.0};
+    light.keyframes = {keysOf(LightKeyed::Direction, {{0.0, 0.0, -1.0}, {1.0, 0.0, 0.0}})};
+    for (const double seconds : {0.0, 0.5, 1.0, 1.9, 2.0}) {
+        const Light then = lightAtTime(light, seconds);
+        EXPECT_NEAR(glm::dot(then.alongWS, then.directionWS), 0.0, kRounding) << seconds;
+        EXPECT_NEAR(glm::length(then.alongWS), 1.0, kRounding) << seconds;
+    }
+    expectNear(lightAtTime(light, 1.0).alongWS, glm::dvec3(1.0, 0.0, 1.0) * std::sqrt(0.5), kRounding);
+}
+
+TEST(LightKeys, coloursAndIntensitiesAreLinearAndNeverNegative) {
+    Light light;
+    light.color = {0.25f, 0.25f, 0.25f};
+    light.flicker = LightFlicker{.amplitude = 0.5, .frequencyHz = 3.0, .seed = 5};
+    light.keyframes = {keysOf(LightKeyed::Color, {{0.0, 1.0, 0.5}, {1.0, 0.0, 0.5}}),
+                       keysOf(LightKeyed::Intensity, {{4.0, 0.0, 0.0}, {8.0, 0.0, 0.0}})};
+    const Light then = lightAtTime(light, 0.5);
+    EXPECT_EQ(then.color, glm::vec3(0.25f, 0.75f, 0.5f));
+    EXPECT_EQ(then.intensity, float(5.0 * flickerAt(*light.flicker, 0.5))) << "flicker multiplies";
+    EXPECT_EQ(then.positionWS, light.positionWS);
+    EXPECT_EQ(then.directionWS, light.directionWS);
+    light.flicker.reset();
+    for (LightKeys& keys : light.keyframes) {
+        keys.interpolation = Interpolation::CubicSpline;
+        keys.outTangents.assign(2, glm::dvec3(-100.0));
+        keys.inTangents.assign(2, glm::dvec3(0.0));
+    }
+    EXPECT_EQ(lightAtTime(light, 0.5).intensity, 0.0f) << "a spline that dips below 0";
+    EXPECT_EQ(lightAtTime(light, 0.5).color, glm::vec3(0.0f));
+    EXPECT_EQ(lightAtTime(light, 2.0).intensity, 8.0f);
+}
+
+TEST(LightKeys, whatATypeLacksIsNeverChanged) {
+    for (const LightTypeInfo& type : lightTypes()) {
+        Light light;
+        light.type = type.type;
+        light.keyframes = {keysOf(LightKeyed::Direction, {{0.0, 1.0, 0.0}})};
+        EXPECT_EQ(lightAtTime(light, 1.0).directionWS != light.directionWS, type.hasDirection) << type.name;
+        EXPECT_TRUE(movesByItself(light));
+    }
 }
 
 TEST(LightAnimation, directionalAndStillLightsNeverMove) {

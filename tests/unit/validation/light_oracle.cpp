@@ -233,8 +233,8 @@ TEST_F(LightOracle, aMovingLightIsWhereItIsAtTheFramesTime) {
     scenes::Light moving = lightAt({0.0, 0.0, 0.0}, 1.0f);
     moving.animation = scenes::LightAnimation{};
     moving.animation->kind = scenes::LightAnimationKind::Keyframes;
-    moving.animation->timesSeconds = {0.0, 1.0};
-    moving.animation->pointsWS = {{0.0, 0.0, 5.0}, {0.0, 0.0, -5.0}};
+    moving.animation->keys.timesSeconds = {0.0, 1.0};
+    moving.animation->keys.values = {{0.0, 0.0, 5.0}, {0.0, 0.0, -5.0}};
     EXPECT_EQ(needed(moving), 0u);
     settings_.timeSeconds = 1.0;
     EXPECT_EQ(needed(moving), 1u);

@@ -32,8 +32,9 @@ scenes::Light movingLight(int kind) {
     animation.kind = scenes::LightAnimationKind(kind);
     animation.periodSeconds = 3.0;
     animation.amplitudeMetres = {1, 1, 0};
-    animation.timesSeconds = {0.0, 1.0};
+    animation.keys.timesSeconds = {0.0, 1.0};
     animation.pointsWS = {{0, 0, 0}, {1, 1, 1}};
+    animation.keys.values = animation.pointsWS;
     return light;
 }
 
@@ -133,6 +134,22 @@ TEST(LightList, aStoppedLightKeepsItsIntensityAndItsFlicker) {
     stopLight(light, 0.3);
     EXPECT_EQ(light.intensity, before.intensity);
     EXPECT_EQ(light.flicker, before.flicker);
+}
+
+TEST(LightList, aStoppedLightKeepsWhatItsKeyframesSaidThen) {
+    scenes::Light light;
+    light.type = scenes::LightType::Directional;
+    for (const auto of : {scenes::LightKeyed::Direction, scenes::LightKeyed::Intensity}) {
+        scenes::LightKeys& keys = light.keyframes.emplace_back();
+        keys.of = of;
+        keys.timesSeconds = {0.0, 1.0};
+        keys.values = {{1, 0, 0}, {0, 1, 0}};
+    }
+    const scenes::Light then = scenes::lightAtTime(light, 0.25);
+    stopLight(light, 0.25);
+    EXPECT_FALSE(scenes::movesByItself(light));
+    EXPECT_EQ(light.directionWS, then.directionWS);
+    EXPECT_EQ(light.intensity, 0.75f);
 }
 
 TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {

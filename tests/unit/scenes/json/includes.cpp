@@ -98,11 +98,17 @@ TEST(SceneJsonInclude, animationsMoveAlong) {
         {"type": "point", "position": [1, 0, 0],
          "animation": {"type": "wobble", "amplitude": [0, 1, 0], "periodSeconds": 4}},
         {"type": "point", "position": [0, 0, 0],
-         "animation": {"type": "keyframes", "times": [0, 2], "points": [[0, 0, 0], [2, 0, 0]]}}]})");
+         "animation": {"type": "keyframes", "times": [0, 2], "points": [[0, 0, 0], [2, 0, 0]]}},
+        {"type": "directional", "direction": [0, 0, 1],
+         "keyframes": {"direction": {"times": [0, 2], "values": [[0, 0, 1], [1, 0, 0]]}}}]})");
     const Scene alone = folder.import(including(R"({"file": "parts/moving.json"})"));
     // Mirrored, turned and moved: at every time, the moved light is the light, moved.
     const Scene moved = folder.import(
         including(R"({"file": "parts/moving.json", "matrix": [0, 1, 0, 0,  1, 0, 0, 0,  0, 0, 1, 0,  5, 6, 7, 1]})"));
+    const glm::dvec3 turnedWS = lightAtTime(alone.lights.at(3), 0.3).directionWS;
+    EXPECT_LT(
+        glm::distance(lightAtTime(moved.lights.at(3), 0.3).directionWS, glm::dvec3(turnedWS.y, turnedWS.x, turnedWS.z)),
+        1e-12);
     for (std::size_t i = 0; i < 3; ++i) {
         for (const double seconds : {0.0, 0.3, 1.0, 2.5}) {
             const glm::dvec3 at = lightAtTime(alone.lights.at(i), seconds).positionWS;

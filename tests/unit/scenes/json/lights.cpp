@@ -178,6 +178,47 @@ TEST(SceneJsonLights, everyAnimationMovesTheLight) {
                {0.5, 0, 0});
 }
 
+TEST(SceneJsonLights, keyframesAreOfDirectionColourAndIntensity) {
+    const SceneFolder folder;
+    const Light light =
+        lightOf(folder, R"({"type": "spot", "position": [0, 0, 0], "direction": [0, -1, 0], "keyframes": {
+        "intensity": {"times": [0, 1], "values": [2, 4], "repeat": "loop"},
+        "direction": {"times": [0, 2], "values": [[3, 0, 0], [0, 0, 5]]},
+        "color": {"times": [1, 2], "values": [[0, 0, 0], [1, 0.5, 0]], "interpolation": "cubic_spline",
+                  "inTangents": [[0, 0, 0], [0, 0, 0]], "outTangents": [[0, 0, 0], [0, 0, 0]]}}})");
+    ASSERT_EQ(light.keyframes.size(), 3u);
+    const Light then = lightAtTime(light, 1.5);
+    EXPECT_EQ(then.intensity, 3.0f);
+    EXPECT_EQ(then.color, glm::vec3(0.5f, 0.25f, 0.0f));
+    // Rounding of sine and cosine.
+    EXPECT_LT(glm::distance(then.directionWS,
+                            glm::dvec3(std::cos(0.375 * std::numbers::pi), 0.0, std::sin(0.375 * std::numbers::pi))),
+              1e-15);
+}
+
+TEST(SceneJsonLights, brokenKeyframesAreRefused) {
+    const SceneFolder folder;
+    const auto error = [&](const std::string& keyframes) {
+        return errorOfLight(folder, point(R"("keyframes": )" + keyframes));
+    };
+    EXPECT_EQ(error(R"({"direction": {"times": [0], "values": [[0, 1, 0]]}})"),
+              "/lights/0/keyframes: an object of keyframes of a point light has no key 'direction'; valid are color, "
+              "intensity");
+    EXPECT_EQ(error(R"({"intensity": {"times": [0], "values": [-1]}})"),
+              "/lights/0/keyframes/intensity/values/0: is -1; at least 0 is needed");
+    EXPECT_EQ(error(R"({"color": {"times": [0], "values": [[1, -1, 1]]}})"),
+              "/lights/0/keyframes/color/values/0/1: is -1; at least 0 is needed");
+    EXPECT_EQ(error(R"({"intensity": {"times": [0]}})"),
+              "/lights/0/keyframes/intensity: lacks the key 'values'; add it");
+    EXPECT_EQ(errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "keyframes": {
+                  "direction": {"times": [0], "values": [[0, 0, 0]]}}})"),
+              "/lights/0/keyframes/direction/values/0: has no length; give a direction");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" +
+                                         point(R"("keyframes": {"intensity": {"times": [3, 2], "values": [1, 2]}})") +
+                                         "]}"),
+              "/lights/0/keyframes/intensity/times/1: is 2, which does not follow 3; times must ascend");
+}
+
 TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     const SceneFolder folder;
     EXPECT_EQ(lightOf(folder, point(R"("flicker": {"amplitude": 0.25, "seed": 7})")).flicker,
@@ -220,8 +261,7 @@ TEST(SceneJsonLights, brokenAnimationsAreRefused) {
     EXPECT_EQ(
         errorOfLight(folder, R"({"type": "directional", "direction": [1, 0, 0], "animation": {"type": "orbit"}})"),
         "/lights/0: a directional light has no key 'animation'; valid are type, name, enabled, color, intensity, "
-        "flicker, "
-        "direction, castsShadow, angularRadiusDegrees, fields");
+        "flicker, keyframes, direction, castsShadow, angularRadiusDegrees, fields");
 }
 
 } // namespace

@@ -65,8 +65,7 @@ TEST(SceneJson, anUnknownKeyIsRefusedWithTheNearest) {
               "/lights/0: a point light has no key 'intensty'; did you mean 'intensity'?");
     EXPECT_EQ(folder.errorOfMembers(R"("lights": [{"type": "point", "position": [0, 0, 0], "target": [1, 0, 0]}])"),
               "/lights/0: a point light has no key 'target'; valid are type, name, enabled, color, intensity, flicker, "
-              "position, "
-              "falloff, animation, castsShadow, radius, fields");
+              "keyframes, position, falloff, animation, castsShadow, radius, fields");
 }
 
 TEST(SceneJson, aWrongTypeIsRefused) {

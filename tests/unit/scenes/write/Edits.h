@@ -26,14 +26,27 @@ public:
         animation.centerWS = point();
         animation.axisWS = direction();
         animation.amplitudeMetres = point();
-        animation.timesSeconds = {share(), 2.0 + share()};
         animation.pointsWS = {point(), point()};
         animation.isOpen = random_.unit() < 0.5;
-        animation.interpolation = Interpolation(std::min(2.0, 3.0 * random_.unit()));
-        animation.repeat = KeyRepeat(std::min(2.0, 3.0 * random_.unit()));
-        animation.inTangentsWS = {point(), point()};
-        animation.outTangentsWS = {point(), point()};
+        animation.keys = keys(LightKeyed::Position);
         return animation;
+    }
+
+    LightKeys keys(LightKeyed of) {
+        LightKeys keys;
+        keys.of = of;
+        keys.timesSeconds = {share(), 2.0 + share()};
+        const auto value = [&]() -> glm::dvec3 {
+            if (infoOf(of).isOnSphere) return direction();
+            if (infoOf(of).width() == 1) return {random_.unit(), 0.0, 0.0};
+            return of == LightKeyed::Position ? point() : glm::dvec3(random_.unit(), random_.unit(), random_.unit());
+        };
+        keys.values = {value(), value()};
+        keys.interpolation = Interpolation(std::min(2.0, 3.0 * random_.unit()));
+        keys.repeat = KeyRepeat(std::min(2.0, 3.0 * random_.unit()));
+        keys.inTangents = {point(), point()};
+        keys.outTangents = {point(), point()};
+        return keys;
     }
 
     Light light(LightType type, Falloff falloff) {
@@ -44,6 +57,8 @@ public:
         light.color = color();
         light.intensity = 100.0f * share();
         light.flicker = LightFlicker{.amplitude = random_.unit(), .frequencyHz = 1.0 + share(), .seed = 3};
+        for (const LightKeyedInfo& member : keyedMembers())
+            if (member.member != LightKeyed::Position && share() < 0.5f) light.keyframes.push_back(keys(member.member));
         light.positionWS = point();
         light.directionWS = direction();
         light.falloff = falloff;
