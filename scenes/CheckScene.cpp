@@ -243,6 +243,7 @@ void checkAnimation(const Element& element, const LightAnimation& animation) {
         fmt::format("its animation leads more than {:g} m from the origin; keep it nearer", kFarthestMetres));
     if (animation.kind == LightAnimationKind::Path) {
         element.require(animation.pointsWS.size() >= 2, "its path needs at least two points");
+        element.require(hasLength(animation), "its path has no length; move one of its points");
     }
     if (animation.kind == LightAnimationKind::Keyframes) {
         element.require(animation.keys.of == LightKeyed::Position,
@@ -287,6 +288,8 @@ void checkLight(const Element& element, const Light& light) {
                         fmt::format("has keyframes of its {} twice; keep one of them", infoOf(keys.of).name));
         checkKeys(element, keys);
     }
+    element.require(!light.animation || !light.animation->looksAhead || !hasKeys(light, LightKeyed::Direction),
+                    "looks ahead on its path and has keyframes of its direction; keep one of both");
     if (!light.flicker) return;
     const LightFlicker& flicker = *light.flicker;
     element.require(flicker.amplitude >= 0.0 && flicker.amplitude <= 1.0,

@@ -96,8 +96,9 @@ public:
         addAll(of, timesSeconds, values, interpolation, repeat, inTangents, outTangents);
     }
     void add(const LightAnimation& animation) {
-        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, isOpen, keys] = animation;
-        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, isOpen, keys);
+        const auto& [kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, line, isOpen, looksAhead,
+                     keys] = animation;
+        addAll(kind, periodSeconds, phase, centerWS, axisWS, amplitudeMetres, pointsWS, line, isOpen, looksAhead, keys);
     }
     void add(const LightFlicker& flicker) {
         const auto& [amplitude, frequencyHz, seed] = flicker;

@@ -18,4 +18,10 @@ constexpr std::array<double, 4> splineWeights(double share, double seconds) {
     return {2.0 * s3 - 3.0 * s2 + 1.0, seconds * (s3 - 2.0 * s2 + share), 3.0 * s2 - 2.0 * s3, seconds * (s3 - s2)};
 }
 
+/// What the slope of a cubic spline by `share` takes of the same four, where they are 1 s apart.
+constexpr std::array<double, 4> splineSlopeWeights(double share) {
+    const double s = share, s2 = share * share;
+    return {6.0 * s2 - 6.0 * s, 3.0 * s2 - 4.0 * s + 1.0, 6.0 * s - 6.0 * s2, 3.0 * s2 - 2.0 * s};
+}
+
 } // namespace tessera::scenes

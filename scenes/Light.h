@@ -49,10 +49,16 @@ enum class Falloff : std::uint8_t {
 };
 
 enum class LightAnimationKind : std::uint8_t {
-    Orbit,    ///< circles `axis` through `center` once in `periodSeconds`
-    Wobble,   ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
-    Path,     ///< runs along the polyline `points` at constant speed once in `periodSeconds`: around, or there and back
+    Orbit,  ///< circles `axis` through `center` once in `periodSeconds`
+    Wobble, ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
+    Path,   ///< runs along a line through `points` at constant speed once in `periodSeconds`: around, or there and back
     Keyframes ///< as `keys` say
+};
+
+/// How a path runs through its points.
+enum class PathLine : std::uint8_t {
+    Straight,  ///< from each to the next
+    CatmullRom ///< a smooth curve without loops or cusps between points: centripetal
 };
 
 /// What follows the last key time, and what is before the first.
@@ -86,9 +92,11 @@ struct LightAnimation {
     glm::dvec3 centerWS{0.0};
     glm::dvec3 axisWS{0.0, 1.0, 0.0};
     glm::dvec3 amplitudeMetres{0.0};
-    std::vector<glm::dvec3> pointsWS; ///< Path
-    bool isOpen = false;              ///< Path: from the first point to the last and back, rather than around
-    LightKeys keys;                   ///< Keyframes: of the position
+    std::vector<glm::dvec3> pointsWS; ///< Path: not all in one place
+    PathLine line = PathLine::Straight;
+    bool isOpen = false;     ///< Path: from the first point to the last and back, rather than around
+    bool looksAhead = false; ///< Path: the light's direction, where it has one, is the way it goes
+    LightKeys keys;          ///< Keyframes: of the position
     bool operator==(const LightAnimation&) const = default;
 };
 

@@ -32,21 +32,85 @@ glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& unitAxis, double 
     return vector * c + glm::cross(unitAxis, vector) * s + unitAxis * (glm::dot(unitAxis, vector) * (1.0 - c));
 }
 
-/// An open line is run along there and back.
-glm::dvec3 alongPolyline(const std::vector<glm::dvec3>& pointsWS, bool isOpen, double share) {
-    const std::size_t sides = pointsWS.size() - (isOpen ? 1 : 0);
-    double lengthMetres = 0.0;
-    for (std::size_t i = 0; i < sides; ++i)
-        lengthMetres += glm::distance(pointsWS[i], pointsWS[(i + 1) % pointsWS.size()]);
-    double leftMetres = (isOpen ? 1.0 - std::abs(1.0 - 2.0 * share) : share) * lengthMetres;
-    for (std::size_t i = 0; i < sides; ++i) {
-        const glm::dvec3& from = pointsWS[i];
-        const glm::dvec3& to = pointsWS[(i + 1) % pointsWS.size()];
-        const double sideMetres = glm::distance(from, to);
-        if (leftMetres < sideMetres) return glm::mix(from, to, leftMetres / sideMetres);
-        leftMetres -= sideMetres;
+/// A stretch of a path from a point to the next.
+struct PathSide {
+    glm::dvec3 fromWS, toWS;
+    glm::dvec3 fromSlopeWS, toSlopeWS; ///< by the share of the side
+    PathLine line;
+
+    glm::dvec3 placeAt(double share) const {
+        if (line == PathLine::Straight) return glm::mix(fromWS, toWS, share);
+        const std::array<double, 4> weights = splineWeights(share, 1.0);
+        return weights[0] * fromWS + weights[1] * fromSlopeWS + weights[2] * toWS + weights[3] * toSlopeWS;
     }
-    return isOpen ? pointsWS.back() : pointsWS.front();
+    /// Of any length, the way from the one point to the other.
+    glm::dvec3 tangentAt(double share) const {
+        if (line == PathLine::Straight) return toWS - fromWS;
+        const std::array<double, 4> weights = splineSlopeWeights(share);
+        return weights[0] * fromWS + weights[1] * fromSlopeWS + weights[2] * toWS + weights[3] * toSlopeWS;
+    }
+};
+
+/// The time from a point to the next is the root of their distance, so that curves neither loop nor have cusps.
+/// Source: Yuksel, Schaefer and Keyser 2011, "Parameterization and Applications of Catmull-Rom Curves".
+double centripetalTime(const glm::dvec3& fromWS, const glm::dvec3& toWS) {
+    return std::sqrt(glm::distance(fromWS, toWS));
+}
+
+/// By that time, at a point between two others. Points in one place count once.
+glm::dvec3 velocityAt(const glm::dvec3& beforeWS, const glm::dvec3& hereWS, const glm::dvec3& afterWS) {
+    const double before = centripetalTime(beforeWS, hereWS), after = centripetalTime(hereWS, afterWS);
+    if (!(before > 0.0)) return after > 0.0 ? (afterWS - hereWS) / after : glm::dvec3(0.0);
+    if (!(after > 0.0)) return (hereWS - beforeWS) / before;
+    return (hereWS - beforeWS) / before - (afterWS - beforeWS) / (before + after) + (afterWS - hereWS) / after;
+}
+
+/// Side `i` of a path. Beyond its ends an open one goes on as a mirror would show it.
+PathSide sideOf(const LightAnimation& path, std::size_t i) {
+    const std::vector<glm::dvec3>& pointsWS = path.pointsWS;
+    const std::size_t count = pointsWS.size();
+    PathSide side{pointsWS[i], pointsWS[(i + 1) % count], {}, {}, path.line};
+    if (path.line == PathLine::Straight) return side;
+    const bool isFirst = path.isOpen && i == 0, isLast = path.isOpen && i + 2 == count;
+    const glm::dvec3 beforeWS = isFirst ? 2.0 * side.fromWS - side.toWS : pointsWS[(i + count - 1) % count];
+    const glm::dvec3 afterWS = isLast ? 2.0 * side.toWS - side.fromWS : pointsWS[(i + 2) % count];
+    const double time = centripetalTime(side.fromWS, side.toWS);
+    side.fromSlopeWS = time * velocityAt(beforeWS, side.fromWS, side.toWS);
+    side.toSlopeWS = time * velocityAt(side.fromWS, side.toWS, afterWS);
+    return side;
+}
+
+struct OnPath {
+    glm::dvec3 placeWS;
+    glm::dvec3 aheadWS; ///< of any length
+};
+
+/// An open path is run along there and back. Speed is constant by chords, of which a curved side has many.
+OnPath alongPath(const LightAnimation& path, double share) {
+    const std::size_t sides = path.pointsWS.size() - (path.isOpen ? 1 : 0);
+    const std::size_t chords = path.line == PathLine::Straight ? 1 : 64;
+    std::vector<double> endMetres; // by chord, from the path's beginning
+    double lengthMetres = 0.0;
+    for (std::size_t i = 0; i < sides; ++i) {
+        const PathSide side = sideOf(path, i);
+        glm::dvec3 fromWS = side.fromWS;
+        for (std::size_t k = 1; k <= chords; ++k) {
+            const glm::dvec3 toWS = side.placeAt(double(k) / double(chords));
+            lengthMetres += glm::distance(fromWS, toWS);
+            endMetres.push_back(lengthMetres);
+            fromWS = toWS;
+        }
+    }
+    const bool isBackward = path.isOpen && share >= 0.5;
+    const double metres = (path.isOpen ? 1.0 - std::abs(1.0 - 2.0 * share) : share) * lengthMetres;
+    const auto next = std::ranges::upper_bound(endMetres, metres);
+    const auto chord = std::min(std::size_t(next - endMetres.begin()), endMetres.size() - 1);
+    const double startMetres = chord == 0 ? 0.0 : endMetres[chord - 1];
+    const double ofChord = next == endMetres.end() ? 1.0 : (metres - startMetres) / (endMetres[chord] - startMetres);
+    const PathSide side = sideOf(path, chord / chords);
+    const double ofSide = (double(chord % chords) + ofChord) / double(chords);
+    const glm::dvec3 onwardWS = directionOf(side.tangentAt(ofSide)).value_or(side.toWS - side.fromWS);
+    return {side.placeAt(ofSide), isBackward ? -onwardWS : onwardWS};
 }
 
 /// The time between the first key and the last at which all is as at `timeSeconds`.
@@ -110,6 +174,32 @@ void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value) {
         infoOf(member).at);
 }
 
+/// A light as it is without its animation.
+void animate(Light& light, const LightAnimation& animation, double timeSeconds) {
+    switch (animation.kind) {
+    case LightAnimationKind::Orbit: {
+        const double angleRadians = 2.0 * std::numbers::pi * periodShare(animation, timeSeconds);
+        const glm::dvec3 armMetres = light.positionWS - animation.centerWS;
+        light.positionWS = animation.centerWS + rotated(armMetres, glm::normalize(animation.axisWS), angleRadians);
+        break;
+    }
+    case LightAnimationKind::Wobble:
+        light.positionWS +=
+            animation.amplitudeMetres * std::sin(2.0 * std::numbers::pi * periodShare(animation, timeSeconds));
+        break;
+    case LightAnimationKind::Path: {
+        const OnPath onPath = alongPath(animation, periodShare(animation, timeSeconds));
+        light.positionWS = onPath.placeWS;
+        if (animation.looksAhead && infoOf(light.type).hasDirection)
+            light.directionWS = directionOf(onPath.aheadWS).value_or(light.directionWS);
+        break;
+    }
+    case LightAnimationKind::Keyframes:
+        light.positionWS = betweenKeys(animation.keys, timeSeconds);
+        break;
+    }
+}
+
 /// Source: Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators" (SplitMix64). 0 <= share < 1.
 double hashedShare(std::uint64_t number) {
     std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
@@ -136,34 +226,25 @@ bool movesByItself(const Light& light) {
     return light.animation || light.flicker || !light.keyframes.empty();
 }
 
+bool hasLength(const LightAnimation& path) {
+    const std::vector<glm::dvec3>& pointsWS = path.pointsWS;
+    return std::ranges::any_of(pointsWS, [&](const glm::dvec3& pointWS) { return pointWS != pointsWS.front(); });
+}
+
+bool hasKeys(const Light& light, LightKeyed of) {
+    return std::ranges::find(light.keyframes, of, &LightKeys::of) != light.keyframes.end();
+}
+
 Light lightAtTime(const Light& light, double timeSeconds) {
     assert(std::isfinite(timeSeconds));
+    const LightTypeInfo& type = infoOf(light.type);
     Light moved = light;
     for (const LightKeys& keys : light.keyframes)
-        if (infoOf(keys.of).isOf(infoOf(light.type))) setKeyed(moved, keys.of, betweenKeys(keys, timeSeconds));
-    if (moved.directionWS != light.directionWS && infoOf(light.type).isTurned())
-        moved.alongWS = acrossFrom(moved.directionWS, light.alongWS).value_or(usualAlong(moved.directionWS));
+        if (infoOf(keys.of).isOf(type)) setKeyed(moved, keys.of, betweenKeys(keys, timeSeconds));
     if (light.flicker) moved.intensity = float(double(moved.intensity) * flickerAt(*light.flicker, timeSeconds));
-    if (!light.animation || !infoOf(light.type).hasPosition()) return moved;
-    const LightAnimation& animation = *light.animation;
-    switch (animation.kind) {
-    case LightAnimationKind::Orbit: {
-        const double angleRadians = 2.0 * std::numbers::pi * periodShare(animation, timeSeconds);
-        const glm::dvec3 armMetres = light.positionWS - animation.centerWS;
-        moved.positionWS = animation.centerWS + rotated(armMetres, glm::normalize(animation.axisWS), angleRadians);
-        break;
-    }
-    case LightAnimationKind::Wobble:
-        moved.positionWS +=
-            animation.amplitudeMetres * std::sin(2.0 * std::numbers::pi * periodShare(animation, timeSeconds));
-        break;
-    case LightAnimationKind::Path:
-        moved.positionWS = alongPolyline(animation.pointsWS, animation.isOpen, periodShare(animation, timeSeconds));
-        break;
-    case LightAnimationKind::Keyframes:
-        moved.positionWS = betweenKeys(animation.keys, timeSeconds);
-        break;
-    }
+    if (light.animation && type.hasPosition()) animate(moved, *light.animation, timeSeconds);
+    if (moved.directionWS != light.directionWS && type.isTurned())
+        moved.alongWS = acrossFrom(moved.directionWS, light.alongWS).value_or(usualAlong(moved.directionWS));
     return moved;
 }
 

@@ -61,6 +61,12 @@ double flickerAt(const LightFlicker& flicker, double timeSeconds);
 /// Whether a light is not the same at all times.
 bool movesByItself(const Light& light);
 
+/// Whether a path's points are not all in one place.
+bool hasLength(const LightAnimation& path);
+
+/// Whether there are keyframes of a member but the position.
+bool hasKeys(const Light& light, LightKeyed of);
+
 /// The light as it is at `timeSeconds`: its animation applied to its position, its keyframes to what they are of, its
 /// flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);

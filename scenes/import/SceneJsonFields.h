@@ -28,7 +28,9 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("axisWS", animation.axisWS...);
     visit("amplitudeMetres", animation.amplitudeMetres...);
     visit("pointsWS", animation.pointsWS...);
+    visit("line", animation.line...);
     visit("isOpen", animation.isOpen...);
+    visit("looksAhead", animation.looksAhead...);
     visit("keys", animation.keys...);
 }
 

@@ -120,7 +120,7 @@ std::vector<LightKeys> readKeyframes(const JsonValue& value, const LightTypeInfo
     return all;
 }
 
-LightAnimation readAnimation(const JsonValue& value) {
+LightAnimation readAnimation(const JsonValue& value, const Light& light) {
     JsonObject object = value.object();
     LightAnimation animation;
     const JsonValue type = object.require("type");
@@ -137,8 +137,18 @@ LightAnimation readAnimation(const JsonValue& value) {
     } else if (animation.kind == LightAnimationKind::Wobble) {
         animation.amplitudeMetres = object.require("amplitude").vector3();
     } else if (animation.kind == LightAnimationKind::Path) {
-        animation.pointsWS = readPoints(object.require("points"), 2);
+        const JsonValue points = object.require("points");
+        animation.pointsWS = readPoints(points, 2);
+        if (!hasLength(animation)) points.fail("are all one place, and a path needs a length; move one of them");
+        if (const auto line = object.find("line")) animation.line = line->oneOf<PathLine>("line of a path", kPathLines);
         if (const auto open = object.find("open")) animation.isOpen = open->boolean();
+        if (const auto ahead = object.find("lookAhead")) {
+            animation.looksAhead = ahead->boolean();
+            if (animation.looksAhead && !infoOf(light.type).hasDirection)
+                ahead->fail(fmt::format("a {} light has no direction; leave this out", infoOf(light.type).name));
+            if (animation.looksAhead && hasKeys(light, LightKeyed::Direction))
+                ahead->fail("the light's direction has keyframes; keep one of both");
+        }
     }
     object.done(fmt::format("a {} animation", type.text()));
     return animation;
@@ -231,7 +241,7 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (info.hasPosition()) {
         light.positionWS = object.require("position").vector3();
         if (const auto falloff = object.find("falloff")) readFalloff(*falloff, light);
-        if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation);
+        if (const auto animation = object.find("animation")) light.animation = readAnimation(*animation, light);
     }
     if (info.hasDirection) readDirection(object, light);
     if (info.isTurned()) readAlong(object, light);

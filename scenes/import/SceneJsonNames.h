@@ -55,6 +55,8 @@ inline constexpr std::array kAnimations = {Named<LightAnimationKind>{"orbit", Li
                                            Named<LightAnimationKind>{"wobble", LightAnimationKind::Wobble},
                                            Named<LightAnimationKind>{"path", LightAnimationKind::Path},
                                            Named<LightAnimationKind>{"keyframes", LightAnimationKind::Keyframes}};
+inline constexpr std::array kPathLines = {Named<PathLine>{"straight", PathLine::Straight},
+                                          Named<PathLine>{"catmull_rom", PathLine::CatmullRom}};
 inline constexpr std::array kInterpolations = {Named<Interpolation>{"linear", Interpolation::Linear},
                                                Named<Interpolation>{"step", Interpolation::Step},
                                                Named<Interpolation>{"cubic_spline", Interpolation::CubicSpline}};
@@ -102,6 +104,9 @@ inline std::span<const Named<Falloff>> choicesOf(Falloff) {
 }
 inline std::span<const Named<LightAnimationKind>> choicesOf(LightAnimationKind) {
     return kAnimations;
+}
+inline std::span<const Named<PathLine>> choicesOf(PathLine) {
+    return kPathLines;
 }
 inline std::span<const Named<Interpolation>> choicesOf(Interpolation) {
     return kInterpolations;

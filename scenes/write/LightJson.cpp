@@ -69,7 +69,9 @@ Json animationJson(const LightAnimation& animation) {
         break;
     case LightAnimationKind::Path:
         json["points"] = pointsJson(animation.pointsWS);
+        if (animation.line != PathLine::Straight) json["line"] = scenejson::nameOf(animation.line);
         if (animation.isOpen) json["open"] = true;
+        if (animation.looksAhead) json["lookAhead"] = true;
         break;
     case LightAnimationKind::Keyframes:
         json.update(keysJson(animation.keys, "points"));

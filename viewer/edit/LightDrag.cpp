@@ -51,11 +51,12 @@ bool LightDrag::drag(scenes::Light& light, double timeSeconds, const PictureView
     const scenes::Light was = light;
     const SightLine line = view.sightLineAt(pointer - grip_);
     const bool hasPosition = scenes::infoOf(before_.type).hasPosition();
-    const glm::dvec3 middleWS = hasPosition ? scenes::lightAtTime(before_, timeSeconds).positionWS : middleWS_;
+    const scenes::Light shown = scenes::lightAtTime(before_, timeSeconds);
+    const glm::dvec3 middleWS = hasPosition ? shown.positionWS : middleWS_;
     if (handle_.parameter == nullptr)
         turn(light, middleWS, line);
     else
-        resize(light, timeSeconds, middleWS, line, isOneSided);
+        resize(light, timeSeconds, {middleWS, shown.directionWS}, line, isOneSided);
     return light != was;
 }
 
@@ -70,20 +71,21 @@ void LightDrag::turn(scenes::Light& light, const glm::dvec3& middleWS, const Sig
     turnLight(light, point.directionWS);
 }
 
-std::optional<double> LightDrag::draggedMetres(const glm::dvec3& middleWS, const SightLine& line) const {
+std::optional<double> LightDrag::draggedMetres(const SightLine& axis, const SightLine& line) const {
+    const glm::dvec3& middleWS = axis.originWS;
     if (!handle_.isRound) return metresAlongAxis(line, middleWS, handle_.axisWS);
     const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
     if (before_.type != scenes::LightType::Tube) return glm::length(partAcross(fromMiddleWS, line.directionWS));
     // From the tube's axis to the line.
-    const glm::dvec3 normalWS = glm::cross(line.directionWS, before_.directionWS);
+    const glm::dvec3 normalWS = glm::cross(line.directionWS, axis.directionWS);
     const double sineSquare = glm::dot(normalWS, normalWS);
     if (sineSquare < kLeastSineSquare) return std::nullopt;
     return std::abs(glm::dot(fromMiddleWS, normalWS)) / std::sqrt(sineSquare);
 }
 
-void LightDrag::resize(scenes::Light& light, double timeSeconds, const glm::dvec3& middleWS, const SightLine& line,
+void LightDrag::resize(scenes::Light& light, double timeSeconds, const SightLine& axis, const SightLine& line,
                        bool isOneSided) const {
-    const std::optional<double> metres = draggedMetres(middleWS, line);
+    const std::optional<double> metres = draggedMetres(axis, line);
     if (!metres) return;
     const scenes::LightParameter& parameter = *handle_.parameter;
     const double before = before_.*parameter.member;
@@ -93,7 +95,7 @@ void LightDrag::resize(scenes::Light& light, double timeSeconds, const glm::dvec
     light.*parameter.member = float(value);
     light.positionWS = before_.positionWS;
     light.animation = before_.animation;
-    if (movesMiddle) placeLight(light, timeSeconds, middleWS + handle_.share * (value - before) * handle_.axisWS);
+    if (movesMiddle) placeLight(light, timeSeconds, axis.originWS + handle_.share * (value - before) * handle_.axisWS);
 }
 
 std::string LightDrag::text(const scenes::Light& light) const {

@@ -37,10 +37,11 @@ public:
 
 private:
     void turn(scenes::Light& light, const glm::dvec3& middleWS, const SightLine& line);
-    void resize(scenes::Light& light, double timeSeconds, const glm::dvec3& middleWS, const SightLine& line,
+    /// `axis` is the light's middle and direction, as it is shown.
+    void resize(scenes::Light& light, double timeSeconds, const SightLine& axis, const SightLine& line,
                 bool isOneSided) const;
     /// From the light's middle to where the pointer has the handle.
-    std::optional<double> draggedMetres(const glm::dvec3& middleWS, const SightLine& line) const;
+    std::optional<double> draggedMetres(const SightLine& axis, const SightLine& line) const;
 
     LightHandle handle_;
     scenes::Light before_;

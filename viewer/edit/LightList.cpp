@@ -108,7 +108,12 @@ bool removeCorner(scenes::Light& light) {
 }
 
 void turnLight(scenes::Light& light, const glm::dvec3& directionWS) {
-    light.directionWS = glm::normalize(directionWS);
+    const glm::dvec3 turnedWS = glm::normalize(directionWS);
+    if (turnedWS != light.directionWS) { // by hand
+        std::erase_if(light.keyframes, [](const auto& keys) { return keys.of == scenes::LightKeyed::Direction; });
+        if (light.animation) light.animation->looksAhead = false;
+    }
+    light.directionWS = turnedWS;
     if (scenes::infoOf(light.type).isTurned() && !layLight(light, light.alongWS))
         light.alongWS = scenes::usualAlong(light.directionWS);
 }

@@ -70,15 +70,19 @@ void lightList(State& state) {
 }
 
 bool brightnessRows(scenes::Light& light) {
+    ImGui::BeginDisabled(scenes::hasKeys(light, scenes::LightKeyed::Color));
     bool changed = colorRow("Colour", light.color, kMostLightColor);
+    ImGui::EndDisabled();
     const std::string format = light.falloff == scenes::Falloff::Attenuation
                                    ? "%.4g"
                                    : fmt::format("%.4g {}", scenes::infoOf(light.type).unit);
     row("Intensity");
+    ImGui::BeginDisabled(scenes::hasKeys(light, scenes::LightKeyed::Intensity));
     changed |= edit(light.intensity, 0.0f, kMostIntensity, [&](float& intensity) {
         return ImGui::DragFloat("##Intensity", &intensity, 0.01f * std::max(intensity, 0.01f), 0.0f, kMostIntensity,
                                 format.c_str());
     });
+    ImGui::EndDisabled();
     return changed;
 }
 
@@ -180,15 +184,16 @@ bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
 
 bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
     bool changed = false;
+    const scenes::Light shown = scenes::lightAtTime(light, timeSeconds);
     if (scenes::infoOf(light.type).hasPosition()) {
-        glm::dvec3 positionWS = scenes::lightAtTime(light, timeSeconds).positionWS;
+        glm::dvec3 positionWS = shown.positionWS;
         if (dragVector("Position", positionWS, float(0.001 * sceneSizeMetres), kMostMetres)) {
             placeLight(light, timeSeconds, positionWS);
             changed = true;
         }
     }
     if (scenes::infoOf(light.type).hasDirection) {
-        glm::dvec3 directionWS = light.directionWS;
+        glm::dvec3 directionWS = shown.directionWS;
         if (dragVector("Direction", directionWS, 0.01f, kMostDirection) && glm::length(directionWS) > 1e-3) {
             turnLight(light, directionWS);
             changed = true;
@@ -251,9 +256,9 @@ void scatterRows(State& state) {
 }
 
 bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
-    if (!scenes::infoOf(light.type).hasPosition()) return false;
+    bool moves = light.animation || !light.keyframes.empty();
+    if (!moves && !scenes::infoOf(light.type).hasPosition()) return false;
     row("Moves");
-    bool moves = light.animation.has_value();
     if (!ImGui::Checkbox("by itself", &moves)) return false;
     constexpr double kPeriodSeconds = 6.0;
     if (moves) {

@@ -21,6 +21,10 @@ constexpr ChangeVerb<Light> kLightVerbs[] = {
     {"change type of", [](const Light& a, const Light& b) { return a.type != b.type; }},
     {"switch on", [](const Light& a, const Light& b) { return !a.enabled && b.enabled; }},
     {"switch off", [](const Light& a, const Light& b) { return a.enabled && !b.enabled; }},
+    {"stop",
+     [](const Light& a, const Light& b) {
+         return (a.animation && !b.animation) || (!a.keyframes.empty() && b.keyframes.empty());
+     }},
     {"colour", [](const Light& a, const Light& b) { return a.color != b.color; }},
     {"change intensity of", [](const Light& a, const Light& b) { return a.intensity != b.intensity; }},
     {"resize",
@@ -30,7 +34,6 @@ constexpr ChangeVerb<Light> kLightVerbs[] = {
                 a.lengthMetres != b.lengthMetres || !(a.corners == b.corners);
      }},
     {"animate", [](const Light& a, const Light& b) { return !a.animation && b.animation; }},
-    {"stop", [](const Light& a, const Light& b) { return a.animation && !b.animation; }},
     {"move",
      [](const Light& a, const Light& b) { return a.positionWS != b.positionWS || !(a.animation == b.animation); }},
     {"turn", [](const Light& a, const Light& b) { return a.directionWS != b.directionWS || a.alongWS != b.alongWS; }},

@@ -220,6 +220,20 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"period", [](Scene& s) { s.lights[0].animation.emplace().periodSeconds = 0.0; }},
         {"axis of its orbit", [](Scene& s) { s.lights[0].animation.emplace().axisWS = glm::dvec3(0.0); }},
         {"two points", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Path; }},
+        {"its path has no length",
+         [](Scene& s) {
+             LightAnimation& animation = s.lights[0].animation.emplace();
+             animation.kind = LightAnimationKind::Path;
+             animation.pointsWS.assign(3, glm::dvec3(1.0));
+         }},
+        {"keep one of both",
+         [](Scene& s) {
+             LightKeys keys = giveKeyframes(s.lights[0], {1.0});
+             keys.of = LightKeyed::Direction;
+             keys.values = {{0.0, 1.0, 0.0}};
+             s.lights[0].keyframes = {keys};
+             s.lights[0].animation->looksAhead = true;
+         }},
         {"key times", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Keyframes; }},
         {"ascend",
          [](Scene& s) {

@@ -162,6 +162,8 @@ const std::vector<Change>& changes() {
         {"animation.axis", [](Scene& s) { s.lights[0].animation->axisWS.x = 1.0; }},
         {"animation.amplitude", [](Scene& s) { s.lights[0].animation->amplitudeMetres.x = 1.0; }},
         {"animation.times", [](Scene& s) { s.lights[0].animation->keys.timesSeconds[1] = 2.0; }},
+        {"animation.line", [](Scene& s) { s.lights[0].animation->line = PathLine::CatmullRom; }},
+        {"animation.looksAhead", [](Scene& s) { s.lights[0].animation->looksAhead = true; }},
         {"animation.isOpen", [](Scene& s) { s.lights[0].animation->isOpen = true; }},
         {"animation.interpolation", [](Scene& s) { s.lights[0].animation->keys.interpolation = Interpolation::Step; }},
         {"animation.repeat", [](Scene& s) { s.lights[0].animation->keys.repeat = KeyRepeat::Loop; }},

@@ -1,5 +1,6 @@
 #include "scenes/Scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -158,6 +159,89 @@ TEST(LightAnimation, openPathsGoThereAndBackAtConstantSpeed) {
     expectNear(lightAtTime(light, 5.0).positionWS, {3.0, 2.0, 0.0}, kRounding);
     expectNear(lightAtTime(light, 7.0).positionWS, {3.0, 4.0, 0.0}, kRounding);
     expectNear(lightAtTime(light, 13.0).positionWS, {1.0, 0.0, 0.0}, kRounding);
+}
+
+/// A spot light on a path; a period of 1 s, so that seconds are shares of it.
+Light lightOnPath(std::vector<glm::dvec3> pointsWS, PathLine line) {
+    Light light = animatedLight(LightAnimationKind::Path);
+    light.type = LightType::Spot;
+    light.animation->periodSeconds = 1.0;
+    light.animation->pointsWS = std::move(pointsWS);
+    light.animation->line = line;
+    return light;
+}
+
+TEST(LightAnimation, curvesRoundASquareAreThoseOfTheirClosedForm) {
+    // Between equally distant points slopes are half the way between the neighbours: here (1, -1) and (1, 1), and the
+    // middle of the lower side is (0, -1) + ((1, -1) - (1, 1)) / 8.
+    const Light light =
+        lightOnPath({{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {1.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}}, PathLine::CatmullRom);
+    for (int i = 0; i < 4; ++i) // all sides are of one length
+        expectNear(lightAtTime(light, 0.25 * i).positionWS, light.animation->pointsWS[std::size_t(i)], 1e-12);
+    expectNear(lightAtTime(light, 0.125).positionWS, {0.0, -1.25, 0.0}, 1e-12);
+    expectNear(lightAtTime(light, 0.625).positionWS, {0.0, 1.25, 0.0}, 1e-12);
+    // Constant speed, but for chords of a 64th of a side: steps of equal times are equally long.
+    double least = 1e9, most = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const double metres =
+            glm::distance(lightAtTime(light, i / 1000.0).positionWS, lightAtTime(light, (i + 1) / 1000.0).positionWS);
+        least = std::min(least, metres);
+        most = std::max(most, metres);
+    }
+    EXPECT_GT(least, 0.97 * most);
+}
+
+TEST(LightAnimation, curvesThroughPointsOnALineAreTheLine) {
+    // Distances of 1, 4 and 9 m: by roots of distances slopes differ, and the place still never leaves the line.
+    Light light =
+        lightOnPath({{0.0, 2.0, 0.0}, {1.0, 2.0, 0.0}, {5.0, 2.0, 0.0}, {14.0, 2.0, 0.0}}, PathLine::CatmullRom);
+    light.animation->isOpen = true;
+    double x = 0.0;
+    for (int i = 1; i <= 50; ++i) {
+        const glm::dvec3 placeWS = lightAtTime(light, i / 100.0).positionWS;
+        EXPECT_NEAR(placeWS.y, 2.0, kRounding);
+        EXPECT_NEAR(placeWS.x, 14.0 * i / 50.0, 1e-2) << "constant speed, but for chords";
+        EXPECT_GT(placeWS.x, x) << "never back";
+        x = placeWS.x;
+    }
+    expectNear(lightAtTime(light, 0.5).positionWS, {14.0, 2.0, 0.0}, 1e-12);
+    expectNear(lightAtTime(light, 0.75).positionWS, lightAtTime(light, 0.25).positionWS, 1e-12);
+}
+
+TEST(LightAnimation, curvesPassThroughAllPointsAlsoWhereSomeAreTheSame) {
+    Light light = lightOnPath({{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {3.0, 1.0, 0.0}, {2.0, 5.0, 1.0}, {2.0, 5.0, 1.0}},
+                              PathLine::CatmullRom);
+    for (const bool isOpen : {false, true}) {
+        light.animation->isOpen = isOpen;
+        for (const glm::dvec3& pointWS : light.animation->pointsWS) {
+            double nearest = 1e9;
+            for (int i = 0; i < 2000; ++i)
+                nearest = std::min(nearest, glm::distance(lightAtTime(light, i / 2000.0).positionWS, pointWS));
+            EXPECT_LT(nearest, 1e-2) << isOpen; // a step of about 16 m / 2000
+        }
+    }
+}
+
+TEST(LightAnimation, lightsThatLookAheadFaceTheWayTheyGo) {
+    for (const PathLine line : {PathLine::Straight, PathLine::CatmullRom})
+        for (const bool isOpen : {false, true}) {
+            Light light = lightOnPath({{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {3.0, 4.0, 1.0}}, line);
+            light.animation->isOpen = isOpen;
+            EXPECT_EQ(lightAtTime(light, 0.1).directionWS, light.directionWS) << "only those that look ahead";
+            light.animation->looksAhead = true;
+            for (const double share : {0.05, 0.2, 0.35, 0.62, 0.9}) {
+                constexpr double kStep = 1e-5;
+                const glm::dvec3 stepWS =
+                    lightAtTime(light, share + kStep).positionWS - lightAtTime(light, share - kStep).positionWS;
+                const glm::dvec3 directionWS = lightAtTime(light, share).directionWS;
+                EXPECT_NEAR(glm::length(directionWS), 1.0, kRounding);
+                EXPECT_GT(glm::dot(glm::normalize(stepWS), directionWS), 1.0 - 1e-6) << isOpen << ' ' << share;
+            }
+        }
+    Light light = lightOnPath({{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}}, PathLine::Straight);
+    light.animation->looksAhead = true;
+    EXPECT_EQ(lightAtTime(light, 0.2).directionWS, glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(lightAtTime(light, 0.7).directionWS, glm::dvec3(-1.0, 0.0, 0.0));
 }
 
 TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {

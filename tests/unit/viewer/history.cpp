@@ -252,6 +252,12 @@ TEST(History, textsSayWhatWasDoneAndToWhat) {
     EXPECT_EQ(text([](scenes::Light& l) { l.color.x = 0.5f; }), "colour light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.widthMetres = 3.0f; }), "resize light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.animation.emplace(); }), "animate light 'lamp 3'");
+    scenes::Light keyed = light;
+    keyed.keyframes.emplace_back().of = scenes::LightKeyed::Color;
+    scenes::Light stopped = keyed;
+    stopped.color.x = 0.5f;
+    stopped.keyframes.clear();
+    EXPECT_EQ(changeText(keyed, stopped, "lamp"), "stop light 'lamp'");
     EXPECT_EQ(text([](scenes::Light& l) { l.castsShadow = true; }), "change light 'lamp 3'");
     scenes::Material material, glowing;
     glowing.emissive.x = 1.0f;

@@ -152,6 +152,21 @@ TEST(LightList, aStoppedLightKeepsWhatItsKeyframesSaidThen) {
     EXPECT_EQ(light.intensity, 0.75f);
 }
 
+TEST(LightList, turningALightByHandEndsWhatTurnsItByItself) {
+    scenes::Light light;
+    light.type = scenes::LightType::Spot;
+    light.animation.emplace().looksAhead = true;
+    light.keyframes.emplace_back().of = scenes::LightKeyed::Direction;
+    light.keyframes.emplace_back().of = scenes::LightKeyed::Color;
+    const scenes::Light before = light;
+    turnLight(light, light.directionWS);
+    EXPECT_TRUE(light == before) << "no turn";
+    turnLight(light, {1, 0, 0});
+    EXPECT_FALSE(light.animation->looksAhead);
+    EXPECT_FALSE(scenes::hasKeys(light, scenes::LightKeyed::Direction));
+    EXPECT_TRUE(scenes::hasKeys(light, scenes::LightKeyed::Color));
+}
+
 TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     for (const scenes::LightTypeInfo& first : scenes::lightTypes()) {
         for (const scenes::LightTypeInfo& second : scenes::lightTypes()) {

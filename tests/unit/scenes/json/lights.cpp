@@ -165,6 +165,17 @@ TEST(SceneJsonLights, everyAnimationMovesTheLight) {
     expectNear(
         positionAt(R"({"type": "path", "points": [[0, 0, 0], [2, 0, 0]], "open": true, "periodSeconds": 4})", 2.0),
         {2, 0, 0});
+    // The middle of a square's side is an eighth of it farther out on the curve.
+    expectNear(positionAt(R"({"type": "path", "points": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]],
+                              "line": "catmull_rom", "periodSeconds": 8})",
+                          1.0),
+               {0, -1.25, 0});
+    EXPECT_EQ(lightAtTime(lightOf(folder, R"({"type": "spot", "position": [0, 0, 0], "direction": [0, -1, 0],
+                  "animation": {"type": "path", "points": [[0, 0, 0], [2, 0, 0]], "lookAhead": true,
+                                "periodSeconds": 4}})"),
+                          3.0)
+                  .directionWS,
+              glm::dvec3(-1, 0, 0));
     expectNear(positionAt(R"({"type": "keyframes", "times": [1, 3], "points": [[0, 0, 0], [2, 0, 0]],
                               "interpolation": "cubic_spline", "inTangents": [[0, 0, 0], [0, 4, 0]],
                               "outTangents": [[0, 4, 0], [0, 0, 0]], "repeat": "ping_pong"})",
@@ -240,6 +251,19 @@ TEST(SceneJsonLights, brokenAnimationsAreRefused) {
               "/lights/0/animation/axis: has no length; give a direction");
     EXPECT_EQ(animationError(R"({"type": "path", "points": [[0, 0, 0]], "periodSeconds": 1})"),
               "/lights/0/animation/points: has 1 elements; at least 2 are needed");
+    EXPECT_EQ(beyondSchema(R"({"type": "path", "points": [[1, 2, 3], [1, 2, 3], [1, 2, 3]], "periodSeconds": 1})"),
+              "/lights/0/animation/points: are all one place, and a path needs a length; move one of them");
+    EXPECT_EQ(animationError(R"({"type": "path", "points": [[0, 0, 0], [1, 0, 0]], "periodSeconds": 1, "line": "b"})"),
+              "/lights/0/animation/line: there is no line of a path 'b'; valid are straight, catmull_rom");
+    const std::string ahead =
+        R"("animation": {"type": "path", "points": [[0, 0, 0], [1, 0, 0]], "periodSeconds": 1, "lookAhead": true})";
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "lights": [)" + point(ahead) + "]}"),
+              "/lights/0/animation/lookAhead: a point light has no direction; leave this out");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(
+                  R"({"tessera": 1, "lights": [{"type": "spot", "position": [0, 0, 0], "direction": [0, 1, 0],
+                  "keyframes": {"direction": {"times": [0], "values": [[0, 1, 0]]}}, )" +
+                  ahead + "}]}"),
+              "/lights/0/animation/lookAhead: the light's direction has keyframes; keep one of both");
     EXPECT_EQ(animationError(R"({"type": "wobble", "periodSeconds": 1})"),
               "/lights/0/animation: lacks the key 'amplitude'; add it");
     EXPECT_EQ(animationError(R"({"type": "keyframes", "periodSeconds": 1, "times": [0], "points": [[0, 0, 0]]})"),

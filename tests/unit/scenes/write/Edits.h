@@ -27,7 +27,9 @@ public:
         animation.axisWS = direction();
         animation.amplitudeMetres = point();
         animation.pointsWS = {point(), point()};
+        animation.line = random_.unit() < 0.5 ? PathLine::Straight : PathLine::CatmullRom;
         animation.isOpen = random_.unit() < 0.5;
+        animation.looksAhead = random_.unit() < 0.5;
         animation.keys = keys(LightKeyed::Position);
         return animation;
     }
