@@ -164,6 +164,20 @@ void setNumber(Owner& owner, const AnimatedMember& member, const glm::dvec4& num
         member);
 }
 
+/// Lets no inner cone be wider than its outer one. What the pose says of the outer one counts where it says both.
+void nestCones(Scene& scene, const Pose& pose) {
+    for (const AnimatedProperty cone : {AnimatedProperty::LightInnerCone, AnimatedProperty::LightOuterCone})
+        for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
+            const RestNumber& rest = scene.rig.numbers[i];
+            if (rest.property != cone || rest.element == kNone || !pose.numbers[i]) continue;
+            Light& light = scene.lights[std::size_t(rest.element)];
+            if (cone == AnimatedProperty::LightInnerCone)
+                light.innerConeRadians = std::min(light.innerConeRadians, light.outerConeRadians);
+            else
+                light.outerConeRadians = std::max(light.outerConeRadians, light.innerConeRadians);
+        }
+}
+
 glm::vec4 numberOf(const auto& owner, const AnimatedMember& member) {
     glm::vec4 number(0.0f);
     std::visit(
@@ -275,6 +289,7 @@ void applyPose(Scene& scene, const Pose& pose) {
         else
             setNumber(scene.materials[std::size_t(rest.element)], info.member, *number);
     }
+    nestCones(scene, pose);
     deformAll(scene, pose);
     if (!rig.lights.empty() || !rig.cameras.empty()) {
         const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);

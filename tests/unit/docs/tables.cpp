@@ -105,6 +105,12 @@ TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
     expectTable("docs/animation.md", {"path", "of", "numbers"}, rows);
 }
 
+TEST(Documentation, everyMemberWithKeyframesHasARow) {
+    const std::string text = test::textOf(test::kRepository / "docs" / "scene-format.md");
+    for (const scenes::LightKeyedInfo& member : scenes::keyedMembers().subspan(1)) // the position moves by "animation"
+        EXPECT_NE(text.find("\n| " + code(member.name) + " |"), std::string::npos) << member.name;
+}
+
 TEST(Documentation, everySettingHasARow) {
     const std::string text = test::textOf(test::kRepository / "docs" / "command-line.md");
     for (const engine::Setting& setting : engine::settingTable())

@@ -199,6 +199,38 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
     EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 1.0f);
 }
 
+TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}], "scenes": [{"nodes": [0]}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 3, "range": 9,
+                          "spot": {"innerConeAngle": 0.125, "outerConeAngle": 0.25}}]}}})");
+    const auto add = [&](const char* path, const std::vector<float>& values, const char* type) {
+        const std::string pointer = std::string("/extensions/KHR_lights_punctual/lights/0/") + path;
+        const int output = builder.add(values, kFloatType, type, 2);
+        addClip(builder, {0, 1}, output,
+                {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}});
+    };
+    add("color", {0, 0, 0, 1, 0.5f, 0}, "VEC3");
+    add("range", {2, 4}, "SCALAR");
+    add("spot/innerConeAngle", {0, 1}, "SCALAR");
+    add("spot/outerConeAngle", {0.5f, 1}, "SCALAR");
+    Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    const auto cones = [&](std::vector<int> playing, double timeSeconds) {
+        scene.rig.playing = std::move(playing);
+        poseScene(scene, timeSeconds);
+        EXPECT_NO_THROW(checkScene(scene));
+        return glm::vec2(scene.lights[0].innerConeRadians, scene.lights[0].outerConeRadians);
+    };
+    EXPECT_EQ(cones({0, 1, 2, 3}, 0.5), glm::vec2(0.5f, 0.75f));
+    EXPECT_EQ(scene.lights[0].color, glm::vec3(0.5f, 0.25f, 0.0f));
+    EXPECT_EQ(scene.lights[0].rangeMetres, 3.0f);
+    playClip(scene, "none");
+    EXPECT_EQ(cones({}, 0.0), glm::vec2(0.125f, 0.25f)) << "at rest again";
+    EXPECT_EQ(cones({2}, 1.0), glm::vec2(0.25f)) << "the inner cone stays within the outer one";
+    EXPECT_EQ(cones({2}, 0.0), glm::vec2(0.0f, 0.25f));
+}
+
 TEST(GltfAnimation, lightsAndCamerasOnMovingNodesMove) {
     Builder builder = movingTriangle();
     builder.merge(R"({"nodes": [{"children": [1]}, {"mesh": 0, "camera": 0, "extensions":
