@@ -77,6 +77,28 @@ TEST_F(ShadowCache, timesInAnyOrderHaveThePicturesThatTheyHaveAlone) {
     }
 }
 
+TEST_F(ShadowCache, keyframesThatTurnALightDrawItsMapAgainAndThoseOfItsColourDoNot) {
+    settings.prune = false; // turned away, it still has a map
+    scenes::Light& light = scene.lights[1];
+    light.type = scenes::LightType::Spot;
+    scenes::LightKeys& keys = light.keyframes.emplace_back();
+    keys.of = scenes::LightKeyed::Direction;
+    keys.timesSeconds = {0.0, 1.0};
+    keys.values = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}};
+    engine::Renderer renderer(context(), scene);
+    for (const double timeSeconds : {0.0, 0.25, 1.0}) {
+        SCOPED_TRACE(timeSeconds);
+        settings.timeSeconds = timeSeconds;
+        EXPECT_TRUE(drawsMapsRightly(renderer)) << "the light looks elsewhere";
+        EXPECT_FALSE(drawsMapsRightly(renderer)) << "the same time again";
+    }
+    keys.of = scenes::LightKeyed::Color;
+    keys.values = {{1.0, 1.0, 1.0}, {0.5, 1.0, 0.5}};
+    EXPECT_TRUE(drawsMapsRightly(renderer)) << "it looks as it did at rest";
+    settings.timeSeconds = 0.25;
+    EXPECT_FALSE(drawsMapsRightly(renderer)) << "another colour";
+}
+
 TEST_F(ShadowCache, settingsThatAreDrawnInTurnKeepAnAtlasEachAndGiveItBack) {
     engine::Renderer renderer(context(), scene);
     const auto draw = [&](ShadowFilter filter, int side) {

@@ -1,5 +1,7 @@
 #include "renderer/frame/PackedLights.h"
 
+#include <tuple>
+
 #include <gmock/gmock.h>
 
 #include "tests/support/Random.h"
@@ -282,6 +284,32 @@ TEST(PackedLights, positionsKeepTheirDigitsFarFromTheOrigin) {
     camera.worldFromCamera[3] = {1e7, 0, 0, 1};
     const PackedLights packed = pack({light(LightType::Point, {1e7 + 0.125, 0.0, -1.0})}, {}, camera);
     EXPECT_EQ(glm::vec3(packed.texels.at(0).position), glm::vec3(0.125f, 0.0f, -1.0f));
+}
+
+TEST(PackedLights, keyframesArePackedAsALightThatStandsStillAsTheySay) {
+    Light keyed = light(LightType::Spot);
+    keyed.intensity = 0.0f; // they light it
+    for (const auto& [of, first, last] :
+         {std::tuple(scenes::LightKeyed::Direction, glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0)),
+          std::tuple(scenes::LightKeyed::Color, glm::dvec3(1), glm::dvec3(1, 0, 0)),
+          std::tuple(scenes::LightKeyed::Intensity, glm::dvec3(0), glm::dvec3(8, 0, 0))}) {
+        scenes::LightKeys& keys = keyed.keyframes.emplace_back();
+        keys.of = of;
+        keys.timesSeconds = {0.0, 1.0};
+        keys.values = {first, last};
+    }
+    FrameSettings settings;
+    settings.prune = true;
+    EXPECT_EQ(pack({keyed}, settings).dark, 1u);
+    settings.timeSeconds = 0.5;
+    Light still = light(LightType::Spot);
+    still.directionWS = glm::normalize(glm::dvec3(0, -1, -1));
+    still.color = {1.0f, 0.5f, 0.5f};
+    still.intensity = 4.0f;
+    const PackedLights moving = pack({keyed}, settings), standing = pack({still}, settings);
+    ASSERT_EQ(moving.texels.size(), 1u);
+    EXPECT_EQ(moving.texels[0].color, standing.texels[0].color);
+    EXPECT_LT(glm::distance(moving.shapes.at(0).axis, standing.shapes.at(0).axis), 1e-6f); // a rounding to single
 }
 
 TEST(PackedLights, anAnimatedLightIsPackedWhereItIsAtThatTime) {
