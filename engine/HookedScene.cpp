@@ -139,19 +139,31 @@ HookedScene::Changed HookedScene::update(double timeSeconds, Excess excess, shad
         changed.colors = changed.colors || mesh.colors != all[i].colors;
         mesh.colors = std::move(all[i].colors);
     }
-    moved_.materials = scene_.materials;
-    moved_.nodes = scene_.nodes;
-    moved_.lights = scene_.lights;
-    moved_.cameras = scene_.cameras;
-    moved_.background = scene_.background;
-    moved_.options = scene_.options;
-    moved_.hook = scene_.hook;
-    moved_.hook->movesVertices = false;
-    if (moved_.environment && scene_.environment) { // how its map lies and shines
-        moved_.environment->intensity = scene_.environment->intensity;
-        moved_.environment->rotationDegrees = scene_.environment->rotationDegrees;
-    }
+    takeOthers();
     return changed;
+}
+
+void HookedScene::takeOthers() {
+    // Every member of a scene is named here, so that a new one is either taken or left.
+    const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background, options,
+                 variants, notes, warnings] = scene_;
+    moved_.name = name;
+    moved_.materials = materials;
+    moved_.nodes = nodes;
+    moved_.lights = lights;
+    moved_.cameras = cameras;
+    moved_.background = background;
+    moved_.options = options;
+    moved_.hook = hook;
+    moved_.hook->movesVertices = false;
+    if (moved_.environment && environment) { // how its map lies and shines
+        moved_.environment->intensity = environment->intensity;
+        moved_.environment->rotationDegrees = environment->rotationDegrees;
+    }
+    static_cast<void>(meshes); // moved, or taken by takeMeshes()
+    static_cast<void>(images); // texels stay as they were loaded
+    static_cast<void>(rig);    // has posed the scene already
+    for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // nothing of the picture
 }
 
 void HookedScene::takeMeshes() {

@@ -40,6 +40,9 @@ public:
     void takeEnvironment() { moved_.environment = scene_.environment; }
 
 private:
+    /// All of the scene that is neither moved nor large.
+    void takeOthers();
+
     const scenes::Scene& scene_;
     scenes::Scene moved_;
     std::vector<std::size_t> meshes_; ///< that the hook moves
