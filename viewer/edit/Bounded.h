@@ -15,6 +15,7 @@ inline constexpr float kMostIntensity = 1e9f;   ///< in the light's own unit
 inline constexpr float kMostAttenuation = 1e6f; ///< of A, B and C
 inline constexpr float kLeastRangeMetres = 1e-3f;
 inline constexpr float kMostRangeMetres = 1e6f;
+inline constexpr double kLeastFlickerHertz = 0.1;
 inline constexpr double kMostDirection = 1e9; ///< of its components, either way, before it has unit length
 
 // Materials; those of a model's parameters stand in scenes::materialModels().

@@ -169,4 +169,9 @@ void stopLight(scenes::Light& light, double timeSeconds) {
     light.keyframes.clear();
 }
 
+void letFlicker(scenes::Light& light, bool flickers, std::size_t index) {
+    light.flicker.reset();
+    if (flickers) light.flicker.emplace().seed = int(index);
+}
+
 } // namespace tessera::viewer

@@ -67,4 +67,7 @@ void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds,
 /// Ends an animation and keyframes: the light stays as it is at this time, and flickers on.
 void stopLight(scenes::Light& light, double timeSeconds);
 
+/// Begins or ends its flicker, which is not that of lights of other indices.
+void letFlicker(scenes::Light& light, bool flickers, std::size_t index);
+
 } // namespace tessera::viewer

@@ -269,6 +269,30 @@ bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMet
     return true;
 }
 
+/// Lights whose flicker is switched on one after another flicker differently.
+bool flickerRows(scenes::Light& light, std::size_t index) {
+    row("Flickers");
+    bool flickers = light.flicker.has_value();
+    bool changed = ImGui::Checkbox("##flickers", &flickers);
+    if (changed) letFlicker(light, flickers, index);
+    if (!light.flicker) return changed;
+    row("Flicker amount");
+    changed |= edit(light.flicker->amplitude, 0.0, 1.0, [](double& amplitude) {
+        constexpr double kLeast = 0.0, kMost = 1.0;
+        return ImGui::SliderScalar("##FlickerAmount", ImGuiDataType_Double, &amplitude, &kLeast, &kMost, "%.2f");
+    });
+    tip("The intensity stays within 1 - amount and 1 + amount times the light's own");
+    row("Flicker speed");
+    changed |=
+        edit(light.flicker->frequencyHz, kLeastFlickerHertz, scenes::LightFlicker::kMostHertz, [](double& hertz) {
+            constexpr double kMostShown = 30.0; // half of what most displays show in a second
+            return ImGui::SliderScalar("##FlickerSpeed", ImGuiDataType_Double, &hertz, &kLeastFlickerHertz, &kMostShown,
+                                       "%.2f Hz", ImGuiSliderFlags_Logarithmic);
+        });
+    tip("Nothing in the flicker is faster");
+    return changed;
+}
+
 } // namespace
 
 void lightsPanel(State& state) {
@@ -286,6 +310,7 @@ void lightsPanel(State& state) {
         scenes::Light edited = lights[index];
         bool changed = lightRows(edited, timeSeconds, size);
         changed |= animationRows(edited, timeSeconds, size);
+        changed |= flickerRows(edited, index);
         if (changed) open.changeLight(index, std::move(edited), widgetGesture());
     }
     ImGui::Separator();

@@ -34,6 +34,7 @@ constexpr ChangeVerb<Light> kLightVerbs[] = {
                 a.lengthMetres != b.lengthMetres || !(a.corners == b.corners);
      }},
     {"animate", [](const Light& a, const Light& b) { return !a.animation && b.animation; }},
+    {"change flicker of", [](const Light& a, const Light& b) { return a.flicker != b.flicker; }},
     {"move",
      [](const Light& a, const Light& b) { return a.positionWS != b.positionWS || !(a.animation == b.animation); }},
     {"turn", [](const Light& a, const Light& b) { return a.directionWS != b.directionWS || a.alongWS != b.alongWS; }},

@@ -252,6 +252,7 @@ TEST(History, textsSayWhatWasDoneAndToWhat) {
     EXPECT_EQ(text([](scenes::Light& l) { l.color.x = 0.5f; }), "colour light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.widthMetres = 3.0f; }), "resize light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.animation.emplace(); }), "animate light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.flicker.emplace(); }), "change flicker of light 'lamp 3'");
     scenes::Light keyed = light;
     keyed.keyframes.emplace_back().of = scenes::LightKeyed::Color;
     scenes::Light stopped = keyed;

@@ -167,6 +167,15 @@ TEST(LightList, turningALightByHandEndsWhatTurnsItByItself) {
     EXPECT_TRUE(scenes::hasKeys(light, scenes::LightKeyed::Color));
 }
 
+TEST(LightList, lightsThatBeginToFlickerDoSoDifferently) {
+    scenes::Light first, second;
+    letFlicker(first, true, 0);
+    letFlicker(second, true, 1);
+    EXPECT_NE(scenes::lightAtTime(first, 0.3).intensity, scenes::lightAtTime(second, 0.3).intensity);
+    letFlicker(first, false, 0);
+    EXPECT_TRUE(first == scenes::Light());
+}
+
 TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     for (const scenes::LightTypeInfo& first : scenes::lightTypes()) {
         for (const scenes::LightTypeInfo& second : scenes::lightTypes()) {

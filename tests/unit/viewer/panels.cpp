@@ -48,9 +48,11 @@ State unusualScene() {
     spot.intensity = 1e12f;
     spot.rangeMetres = 1e-5f;
     spot.directionWS = glm::normalize(glm::dvec3(0.1, -0.7, 0.2));
+    spot.flicker = scenes::LightFlicker{.amplitude = 1.0 / 3.0, .frequencyHz = 900.0, .seed = 7};
     scenes::Light& attenuated = scene.lights.emplace_back();
     attenuated.falloff = scenes::Falloff::Attenuation;
     attenuated.attenuation = glm::vec3(1e8f, 0.1f, 0.0f);
+    attenuated.flicker = scenes::LightFlicker{.amplitude = 0.1, .frequencyHz = 0.01, .seed = 3};
     attenuated.animation.emplace().amplitudeMetres = {1.0, 0.0, 0.0};
     scene.lights.emplace_back().type = scenes::LightType::Directional;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes())
@@ -116,6 +118,18 @@ TEST_F(Panels, drawingThePanelsChangesNoValue) {
     EXPECT_TRUE(state.open->scene().materials == materials);
     EXPECT_FALSE(state.open->isEdited());
     EXPECT_EQ(state.looks[0], look);
+}
+
+TEST_F(Panels, aLightThatFlickersHasRowsOfItsAmountAndSpeed) {
+    State state = unusualScene();
+    const std::vector<scenes::Light> lights = state.open->scene().lights;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        state.selectedLight = int(i);
+        const std::string text = textOf([&] { lightsPanel(state); });
+        EXPECT_NE(text.find("Flickers"), std::string::npos) << text;
+        for (const char* row : {"Flicker amount", "Flicker speed"})
+            EXPECT_EQ(text.find(row) != std::string::npos, lights[i].flicker.has_value()) << row << " of " << i;
+    }
 }
 
 TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
