@@ -381,20 +381,78 @@ std::string clipText(const Scene& scene) {
     return text;
 }
 
+LightLinks lightLinks(const Rig& rig) {
+    LightLinks links{rig.lights, {}};
+    for (const RestNumber& rest : rig.numbers)
+        links.numbers.push_back(infoOf(rest.property).owner == AnimatedOwner::Light ? rest.element : kNone);
+    return links;
+}
+
+void setLightLinks(Rig& rig, const LightLinks& links) {
+    assert(links.numbers.size() == rig.numbers.size());
+    rig.lights = links.carried;
+    for (std::size_t i = 0; i < rig.numbers.size(); ++i)
+        if (infoOf(rig.numbers[i].property).owner == AnimatedOwner::Light) rig.numbers[i].element = links.numbers[i];
+}
+
+LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after) {
+    LightLinks links = lightLinks(rig);
+    if (before.positionWS != after.positionWS || before.directionWS != after.directionWS)
+        std::erase_if(links.carried, [&](const Carried& carried) { return std::size_t(carried.element) == light; });
+    for (std::size_t i = 0; i < rig.numbers.size(); ++i) {
+        if (links.numbers[i] != int(light)) continue;
+        const AnimatedMember& member = infoOf(rig.numbers[i].property).member;
+        if (numberOf(before, member) != numberOf(after, member)) links.numbers[i] = kNone;
+    }
+    return links;
+}
+
+LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put) {
+    LightLinks links = lightLinks(rig);
+    const auto replace = [&](int& light) {
+        if (light >= int(first + taken))
+            light += int(put) - int(taken);
+        else if (light >= int(first))
+            light = kNone;
+    };
+    for (Carried& carried : links.carried) replace(carried.element);
+    std::erase_if(links.carried, [](const Carried& carried) { return carried.element == kNone; });
+    for (int& light : links.numbers) replace(light);
+    return links;
+}
+
+void restLights(Scene& scene) {
+    for (const RestNumber& rest : scene.rig.numbers) {
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        if (info.owner == AnimatedOwner::Light && rest.element != kNone)
+            setNumber(scene.lights[std::size_t(rest.element)], info.member, rest.number);
+    }
+}
+
+bool movesCamera(const Scene& scene, int camera) {
+    const Rig& rig = scene.rig;
+    std::vector<bool> moves(scene.nodes.size());
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels)
+            if (infoOf(channel.property).owner == AnimatedOwner::Node)
+                moves[std::size_t(rig.nodes[std::size_t(channel.target)].node)] = true;
+    return std::ranges::any_of(rig.cameras, [&](const Carried& carried) {
+        if (carried.element != camera) return false;
+        for (int node = carried.node; node != kNone; node = scene.nodes[std::size_t(node)].parent)
+            if (moves[std::size_t(node)]) return true;
+        return false;
+    });
+}
+
 void keepLights(Scene& scene, std::size_t count) {
     if (count >= scene.lights.size()) return;
+    setLightLinks(scene.rig, linksAfterReplacing(scene.rig, count, scene.lights.size() - count, 0));
     scene.lights.resize(count);
-    std::erase_if(scene.rig.lights, [&](const Carried& carried) { return std::size_t(carried.element) >= count; });
-    for (RestNumber& rest : scene.rig.numbers)
-        if (infoOf(rest.property).owner == AnimatedOwner::Light && std::size_t(rest.element) >= count)
-            rest.element = kNone;
 }
 
 void leaveLightsAndCameras(Scene& scene) {
-    scene.rig.lights.clear();
+    setLightLinks(scene.rig, linksAfterReplacing(scene.rig, 0, scene.lights.size(), 0));
     scene.rig.cameras.clear();
-    for (RestNumber& rest : scene.rig.numbers)
-        if (infoOf(rest.property).owner == AnimatedOwner::Light) rest.element = kNone;
 }
 
 void dropCameras(Scene& scene) {

@@ -60,7 +60,25 @@ void keepLights(Scene& scene, std::size_t count);
 /// Takes away all cameras, and what the rig knows of them.
 void dropCameras(Scene& scene);
 
-/// Lets lights and cameras stay as they are whatever clips play: who edits them may then add and take away some.
+/// Which lights clips change and nodes carry.
+struct LightLinks {
+    std::vector<Carried> carried; ///< Rig::lights
+    std::vector<int> numbers;     ///< by Rig::numbers: the light, else kNone
+};
+LightLinks lightLinks(const Rig& rig);
+void setLightLinks(Rig& rig, const LightLinks& links);
+/// What is left of the links when a light is edited: who gives it another place, direction or number, owns that.
+LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after);
+/// The same when `put` lights have come in the place of `taken` ones from `first` on, which all are without links.
+LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put);
+
+/// Puts all numbers of lights that clips may change to rest.
+void restLights(Scene& scene);
+
+/// Whether a clip that plays moves a camera.
+bool movesCamera(const Scene& scene, int camera);
+
+/// Lets lights and cameras stay as they are whatever clips play, as those of a scene file do.
 void leaveLightsAndCameras(Scene& scene);
 
 } // namespace tessera::scenes

@@ -67,6 +67,11 @@ void animationPanel(State& state) {
             fmt::format("Nothing moves: {}, no light moves or flickers by itself, and the scene has no hook.", clip));
         return;
     }
+    if (state.open->clipMovesCamera()) {
+        bool follows = state.open->followsClipCamera();
+        if (ImGui::Checkbox("Follow the clip's camera", &follows)) state.open->followClipCamera(follows);
+        tip("A camera that you move stays where you move it");
+    }
     timeRow(state);
     logarithmicSlider("Speed", state.speed, kSlowest, kFastest, "%.2fx");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/frame/EnvironmentFilter.h"
+#include "scenes/Pose.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/session/CameraRig.h"
 
@@ -18,6 +19,7 @@ namespace tessera::viewer {
 struct LightsEdit {
     std::size_t first = 0, count = 0;
     Lights others;
+    scenes::LightLinks links = {}; ///< which of the lights clips move with them
 };
 
 struct MaterialEdit {

@@ -22,10 +22,9 @@ double lastSecondsOf(const scenes::Rig& rig) {
     return seconds;
 }
 
-/// Over the clips that play, which from here on move no light and no camera.
-scenes::Box3 boundsOfStill(scenes::Scene& scene) {
-    scenes::leaveLightsAndCameras(scene);
-    return scenes::boundsOverClips(scene);
+/// Whether a change says where a camera is or looks.
+bool places(const scenes::CameraChange& change) {
+    return change.eyeWS || change.targetWS || change.upWS;
 }
 
 } // namespace
@@ -33,7 +32,7 @@ scenes::Box3 boundsOfStill(scenes::Scene& scene) {
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
-      boundsWS_(boundsOfStill(scene_)), cameras_(scene_.cameras),
+      boundsWS_(scenes::boundsOverClips(scene_)), cameras_(scene_.cameras), loadedCameras_(cameras_),
       rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), lastSeconds_(lastSecondsOf(scene_.rig)),
       filtered_(std::move(filtered)) {}
 
@@ -43,9 +42,9 @@ bool OpenScene::showTime(double timeSeconds) {
     askedSeconds_ = timeSeconds;
     if (timeSeconds == shownSeconds_) return false; // after one that was refused
     try {
-        scenes::poseScene(scene_, timeSeconds);
+        pose(timeSeconds);
     } catch (...) {
-        scenes::poseScene(scene_, shownSeconds_);
+        pose(shownSeconds_);
         throw;
     }
     shownSeconds_ = timeSeconds;
@@ -56,10 +55,12 @@ bool OpenScene::showTime(double timeSeconds) {
 
 void OpenScene::playClip(const std::string& nameOrNumber) {
     const std::vector<int> before = scene_.rig.playing;
+    const Lights lights = scene_.lights;
     try {
         scenes::playClip(scene_, nameOrNumber);
-        scenes::poseScene(scene_, 0.0);
+        pose(0.0);
     } catch (...) {
+        scene_.lights = lights;
         scene_.materials = scenes::restingMaterials(scene_);
         scene_.rig.playing = before;
         poseAgain();
@@ -71,6 +72,39 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
     ++revision_;
     ++geometryRevision_;
     ++materialRevision_;
+}
+
+bool OpenScene::isLed() const {
+    return mayFollow_ && !rig_.isMoved() && rig_.isAtRest() && !places(placed_);
+}
+
+void OpenScene::followClipCamera(bool follows) {
+    mayFollow_ = follows;
+    if (!follows || followsClipCamera()) return;
+    CameraView before = view();
+    placed_ = {};
+    begin(sceneCamera(), poseOf(sceneCamera(), rig_.home().focusMetres));
+    keepJump("follow the clip's camera", std::move(before));
+}
+
+void OpenScene::pose(double timeSeconds) {
+    scenes::poseScene(scene_, timeSeconds);
+    for (const scenes::Carried& carried : scene_.rig.cameras) {
+        const auto camera = std::size_t(carried.element);
+        cameras_[camera].worldFromCamera = scene_.cameras[camera].worldFromCamera;
+    }
+    placeShownCamera();
+}
+
+void OpenScene::placeShownCamera() {
+    const auto isShown = [&](const scenes::Carried& carried) { return carried.element == camera_; };
+    if (std::ranges::none_of(scene_.rig.cameras, isShown)) return;
+    if (places(placed_)) return applyRig();
+    const scenes::Camera start = scenes::changedCamera(sceneCamera(), placed_);
+    const CameraPose home = poseOf(start, rig_.home().focusMetres);
+    if (isLed()) return begin(start, home);
+    rig_.startAt(start, home); // it is where it was, and the clip's camera is home
+    applyRig();
 }
 
 CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
@@ -128,6 +162,7 @@ void OpenScene::changeLight(std::size_t index, scenes::Light changed, Gesture ge
     if (changed == now) return;
     const std::string label = lightLabel(scene_.lights, index);
     LightsEdit edit{index, 1, {std::move(changed)}};
+    edit.links = scenes::linksAfterEdit(scene_.rig, index, now, edit.others.front());
     const Edit* const begun = history_.continued(edit, gesture);
     const scenes::Light& before = begun != nullptr ? std::get<LightsEdit>(*begun).others.front() : now;
     std::string what = changeText(before, edit.others.front(), label);
@@ -151,7 +186,9 @@ void OpenScene::changeHookParameter(std::size_t parameter, float value, Gesture 
 }
 
 void OpenScene::replaceLights(std::string what, std::size_t first, std::size_t count, Lights others) {
-    apply(std::move(what), LightsEdit{first, count, std::move(others)});
+    LightsEdit edit{first, count, std::move(others)};
+    edit.links = scenes::linksAfterReplacing(scene_.rig, first, count, edit.others.size());
+    apply(std::move(what), std::move(edit));
 }
 
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
@@ -168,21 +205,21 @@ void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
 }
 
 const Edit* OpenScene::undo() {
-    return history_.undo([this](Edit& edit) {
-        exchange(edit);
-        if (std::holds_alternative<MaterialEdit>(edit)) poseAgain();
-    });
+    return history_.undo([this](Edit& edit) { exchangeLater(edit); });
 }
 
 const Edit* OpenScene::redo() {
-    return history_.redo([this](Edit& edit) {
-        exchange(edit);
-        if (std::holds_alternative<MaterialEdit>(edit)) poseAgain();
-    });
+    return history_.redo([this](Edit& edit) { exchangeLater(edit); });
+}
+
+void OpenScene::exchangeLater(Edit& edit) {
+    exchange(edit);
+    if (std::holds_alternative<LightsEdit>(edit)) scenes::restLights(scene_); // another clip may play now
+    if (!std::holds_alternative<CameraEdit>(edit)) poseAgain();
 }
 
 void OpenScene::poseAgain() {
-    if (scenes::isPlaying(scene_)) scenes::poseScene(scene_, shownSeconds_);
+    if (scenes::hasPoses(scene_)) pose(shownSeconds_);
 }
 
 void OpenScene::exchange(Edit& edit) {
@@ -204,6 +241,9 @@ void OpenScene::exchange(LightsEdit& edit) {
                       std::make_move_iterator(edit.others.end()));
     edit.count = put;
     edit.others = std::move(taken);
+    scenes::LightLinks links = scenes::lightLinks(scene_.rig);
+    scenes::setLightLinks(scene_.rig, edit.links);
+    edit.links = std::move(links);
 }
 
 void OpenScene::exchange(MaterialEdit& edit) {
@@ -231,6 +271,7 @@ void OpenScene::exchange(CameraEdit& edit) {
     rig_ = std::move(edit.other.rig);
     rig_.setMode(before.rig.mode()); // how one moves is no matter of where one is
     applyRig();
+    placeShownCamera(); // the clip may have gone on
     edit.other = std::move(before);
 }
 
@@ -244,10 +285,13 @@ void OpenScene::becomes(const std::string& file) {
     load.import.variant.reset();
     load_ = std::move(load);
     history_.markSaved();
-    cameras_ = scene_.cameras;
+    cameras_ = loadedCameras_ = scene_.cameras;
     placed_ = {};
     rig_.startHere(sceneCamera());
-    history_.forEach([this](Edit& edit) {
+    scenes::leaveLightsAndCameras(scene_); // the file has them as they are
+    const scenes::LightLinks none = scenes::lightLinks(scene_.rig);
+    history_.forEach([&](Edit& edit) {
+        if (auto* const lights = std::get_if<LightsEdit>(&edit)) lights->links = none;
         auto* const jump = std::get_if<CameraEdit>(&edit);
         if (jump == nullptr || jump->other.camera != camera_) return;
         jump->other.placed = {}; // the file's camera is what it starts as now

@@ -50,15 +50,21 @@ public:
     /// From now on its edits are not saved, whatever is undone: what it was opened from is no scene of the user's.
     void markUnsaved() { history_.markUnsaved(); }
 
-    /// Shows the scene at a time of the clip that plays, but its lights and cameras, which are edited here. True where
-    /// something may have moved. Throws InputError where something then lies too far away; the pose before then stays,
-    /// and the next time is tried anew.
+    /// Shows the scene at a time of the clip that plays, but what was edited of its lights, and the camera that is
+    /// shown unless it follows the clip. True where something may have moved. Throws InputError where something then
+    /// lies too far away; the pose before then stays, and the next time is tried anew.
     bool showTime(double timeSeconds);
     /// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
     double clipSeconds() const { return std::max(lastSeconds_, 0.0); }
     /// Plays another clip, as --clip takes it, from its beginning. Throws InputError where that does not exist, or
     /// moves something too far away; the one before then stays.
     void playClip(const std::string& nameOrNumber);
+    /// Whether the clip that plays moves the camera that is shown, or would.
+    bool clipMovesCamera() const { return scenes::movesCamera(scene_, camera_); }
+    /// Whether that camera goes with the clip: one that was moved by hand, or placed, stays the user's.
+    bool followsClipCamera() const { return isLed() && clipMovesCamera(); }
+    /// Goes to the clip's camera and along with it, or stays here.
+    void followClipCamera(bool follows);
     /// Counts changes of what clips move.
     std::uint64_t geometryRevision() const { return geometryRevision_; }
     std::uint64_t environmentRevision() const { return environmentRevision_; }
@@ -69,8 +75,10 @@ public:
     std::uint64_t materialRevision() const { return materialRevision_; }
 
     const scenes::Box3& boundsWS() const { return boundsWS_; } ///< over the clips that play
-    /// The cameras of the scene, without later movements.
+    /// The cameras of the scene at the time that is shown, without later movements.
     const std::vector<scenes::Camera>& cameras() const { return cameras_; }
+    /// The same as its file begins with them.
+    const std::vector<scenes::Camera>& loadedCameras() const { return loadedCameras_; }
     int camera() const { return camera_; }
     CameraRig& rig() { return rig_; }
     const CameraRig& rig() const { return rig_; }
@@ -99,6 +107,8 @@ private:
     CameraPose poseThrough(const scenes::Camera& camera) const;
     void apply(std::string what, Edit edit, Gesture gesture = Gesture::Once);
     void exchange(Edit& edit);
+    /// The same of an edit that was made at another time of the clip.
+    void exchangeLater(Edit& edit);
     void exchange(LightsEdit& edit);
     void exchange(MaterialEdit& edit);
     void exchange(HookEdit& edit);
@@ -107,8 +117,14 @@ private:
     CameraView view() const { return {camera_, placed_, rig_}; }
     /// Keeps where the camera was before a jump that has begun.
     void keepJump(std::string what, CameraView before);
-    /// Puts what clips move of edited materials to where it is at the time that is shown.
+    /// Whether the camera that is shown goes where the scene has it.
+    bool isLed() const;
+    /// Poses the scene, and leaves the user's camera to the user.
+    void pose(double timeSeconds);
+    /// Puts what clips move of edited lights and materials to where it is at the time that is shown.
     void poseAgain();
+    /// Puts the camera that is shown to where the clip has it, or else back to where the rig is.
+    void placeShownCamera();
     /// Begins anew with a camera and its pose.
     void begin(const scenes::Camera& start, const CameraPose& home);
 
@@ -117,7 +133,8 @@ private:
     scenes::Scene scene_;
     scenes::SceneOrigin origin_;
     scenes::Box3 boundsWS_;
-    std::vector<scenes::Camera> cameras_;
+    std::vector<scenes::Camera> cameras_, loadedCameras_;
+    bool mayFollow_ = true; ///< the clip's camera
     int camera_ = 0;
     scenes::CameraChange placed_; ///< made the camera that the rig started as
     CameraRig rig_;

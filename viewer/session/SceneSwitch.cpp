@@ -79,7 +79,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {
-    Left left{scene.camera(), scene.cameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
+    Left left{scene.camera(), scene.loadedCameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
     if (scene.rig().isMoved()) left.pose = scene.rig().pose();
     left_[identityOf(scene.source())] = left;
 }
@@ -88,7 +88,7 @@ void SceneSwitch::comeBack(OpenScene& scene) {
     const auto found = left_.find(identityOf(scene.source()));
     if (found == left_.end()) return;
     const Left& left = found->second;
-    const std::vector<scenes::Camera>& cameras = scene.cameras(); // of a file that may have changed since
+    const std::vector<scenes::Camera>& cameras = scene.loadedCameras(); // of a file that may have changed since
     if (left.index >= int(cameras.size()) || cameras[std::size_t(left.index)] != left.camera) return;
     scene.useCamera(left.index);
     scene.place(left.placed);

@@ -173,9 +173,10 @@ TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     EXPECT_EQ(scenes::changedCamera(saved, opened.open.cameraChange()), opened.shown());
 }
 
-/// riggedScene(), which a camera looks at.
+/// riggedScene(), which a camera looks at that no node carries.
 scenes::Scene riggedAndSeen() {
     scenes::Scene scene = scenes::riggedScene();
+    scene.rig.cameras.clear();
     scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
     return scene;
 }
@@ -196,6 +197,123 @@ TEST(OpenScene, clipsMoveMeshesAndLeaveWhatIsEditedHere) {
     EXPECT_EQ(open.scene().cameras[0].worldFromCamera, scene.cameras[0].worldFromCamera);
     Opened still;
     EXPECT_FALSE(still.open.showTime(1.0)) << "it has no clip";
+}
+
+/// The clip moves the node of the light, and of the camera, from (1, 0, 0) to (3, 0, 0) within its second, and doubles
+/// the light's intensity.
+scenes::Scene riggedAndMoving() {
+    scenes::Scene scene = scenes::riggedScene();
+    scenes::Clip& clip = scene.rig.clips[0];
+    clip.samplers.push_back({scenes::Interpolation::Linear, 3, {0.0f, 1.0f}, {1, 0, 0, 3, 0, 0}});
+    clip.channels.push_back({scenes::AnimatedProperty::Translation, 0, 3});
+    return scene;
+}
+
+TEST(OpenScene, clipsMoveLightsAsFarAsTheyAreNotEdited) {
+    OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
+    const auto expectLight = [&](std::size_t index, const glm::dvec3& positionWS, float intensity) {
+        const scenes::Light& light = open.scene().lights[index];
+        EXPECT_LT(glm::distance(light.positionWS, positionWS), 1e-12);
+        EXPECT_FLOAT_EQ(light.intensity, intensity);
+    };
+    const auto change = [&](auto edit) {
+        scenes::Light light = open.scene().lights[0];
+        edit(light);
+        open.changeLight(0, light);
+    };
+    open.showTime(1.0);
+    expectLight(0, {3, 0, 0}, 2.0f);
+    EXPECT_FALSE(open.isEdited()) << "a pose is no edit";
+    change([](scenes::Light& light) { light.castsShadow = !light.castsShadow; });
+    open.showTime(0.5);
+    expectLight(0, {2, 0, 0}, 1.5f);
+    change([](scenes::Light& light) { light.positionWS = {0, 9, 0}; });
+    open.showTime(1.0);
+    expectLight(0, {0, 9, 0}, 2.0f);
+    change([](scenes::Light& light) { light.intensity = 7.0f; });
+    open.showTime(0.25);
+    expectLight(0, {0, 9, 0}, 7.0f);
+    open.undo();
+    expectLight(0, {0, 9, 0}, 1.25f);
+    open.undo();
+    expectLight(0, {1.5, 0, 0}, 1.25f);
+    open.redo();
+    open.showTime(1.0);
+    expectLight(0, {0, 9, 0}, 2.0f);
+    open.playClip("none");
+    open.undo();
+    expectLight(0, {1, 0, 0}, 1.0f);
+}
+
+TEST(OpenScene, clipsMoveTheirLightsWhileOthersComeAndGo) {
+    OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
+    const auto xOf = [&](std::size_t index) { return open.scene().lights[index].positionWS.x; };
+    open.replaceLights("add", 0, 0, {scenes::Light()});
+    open.showTime(0.5);
+    EXPECT_EQ(xOf(0), 0.0);
+    EXPECT_DOUBLE_EQ(xOf(1), 2.0);
+    open.replaceLights("delete", 1, 1, {});
+    open.showTime(1.0);
+    EXPECT_EQ(open.scene().lights.size(), 1u);
+    EXPECT_EQ(xOf(0), 0.0);
+    open.undo();
+    EXPECT_DOUBLE_EQ(xOf(1), 3.0) << "it is where it is by now";
+    open.undo();
+    open.showTime(0.5);
+    EXPECT_DOUBLE_EQ(xOf(0), 2.0);
+    open.becomes("/saved.json");
+    open.showTime(1.0);
+    EXPECT_DOUBLE_EQ(xOf(0), 2.0) << "the file has it there";
+}
+
+TEST(OpenScene, aCameraFollowsItsClipUnlessItIsTheUsers) {
+    OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
+    const auto eyeWS = [&] { return glm::dvec3(open.scene().cameras[0].worldFromCamera[3]); };
+    const auto expectEye = [&](const glm::dvec3& expectedWS) { EXPECT_LT(glm::distance(eyeWS(), expectedWS), 1e-9); };
+    EXPECT_TRUE(open.clipMovesCamera());
+    EXPECT_TRUE(open.followsClipCamera());
+    open.showTime(1.0);
+    expectEye({3, 0, 0});
+    EXPECT_EQ(open.cameraChange(), scenes::CameraChange()) << "a command with the same time has it there";
+    open.rig().rotate({120.0, 30.0}, kHeightPixels);
+    open.rig().advance(10.0, kHeightPixels);
+    open.applyRig();
+    const glm::dvec3 handWS = eyeWS();
+    EXPECT_GT(glm::distance(handWS, glm::dvec3(3, 0, 0)), 1e-3);
+    open.showTime(0.5);
+    EXPECT_FALSE(open.followsClipCamera());
+    expectEye(handWS);
+    open.followClipCamera(true);
+    EXPECT_TRUE(open.followsClipCamera());
+    expectEye({2, 0, 0});
+    open.undo();
+    expectEye(handWS);
+    open.redo();
+    expectEye({2, 0, 0});
+    open.followClipCamera(false);
+    open.showTime(1.0);
+    EXPECT_FALSE(open.followsClipCamera());
+    expectEye({2, 0, 0});
+    open.playClip("none");
+    EXPECT_FALSE(open.clipMovesCamera()) << "there is nothing to follow";
+    expectEye({2, 0, 0});
+    open.playClip("0");
+    open.followClipCamera(true);
+    open.showTime(1.0);
+    expectEye({3, 0, 0});
+    open.playClip("none");
+    expectEye({1, 0, 0});
+}
+
+TEST(OpenScene, aPlacedCameraStandsStill) {
+    OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
+    scenes::CameraChange change;
+    change.eyeWS = glm::dvec3(0, 0, 9);
+    open.place(change);
+    const scenes::Camera placed = open.scene().cameras[0];
+    open.showTime(1.0);
+    EXPECT_FALSE(open.followsClipCamera());
+    EXPECT_EQ(open.scene().cameras[0], placed);
 }
 
 TEST(OpenScene, savingKeepsTheClipThatWasAskedFor) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Legend.h"
@@ -118,6 +119,19 @@ TEST_F(Panels, drawingThePanelsChangesNoValue) {
     EXPECT_TRUE(state.open->scene().materials == materials);
     EXPECT_FALSE(state.open->isEdited());
     EXPECT_EQ(state.looks[0], look);
+}
+
+TEST_F(Panels, theClipsCameraIsOfferedOnlyWhereAClipMovesIt) {
+    for (const bool moves : {false, true}) {
+        scenes::Scene scene = scenes::riggedScene();
+        if (!moves) scene.rig.cameras.clear();
+        State state;
+        state.open =
+            std::make_unique<OpenScene>("rigged.gltf", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        const std::string text = textOf([&] { animationPanel(state); });
+        EXPECT_EQ(text.find("Follow the clip's camera") != std::string::npos, moves) << text;
+        EXPECT_EQ(state.open->followsClipCamera(), moves) << "drawing it changes nothing";
+    }
 }
 
 TEST_F(Panels, aLightThatFlickersHasRowsOfItsAmountAndSpeed) {
