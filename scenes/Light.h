@@ -15,7 +15,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scenes/Interpolation.h"
+#include "scenes/LightAnimation.h"
 #include "scenes/Material.h"
 
 /// Lights as plain data, their members as a table, and their types as a table. Everything that names a type or one of
@@ -46,67 +46,6 @@ enum class LightType : std::uint8_t {
 enum class Falloff : std::uint8_t {
     InverseSquare, ///< candela x clamp(1 - (d/range)^4, 0, 1)^2 / max(d^2, 1e-4 m^2)
     Attenuation    ///< colour / max(A + B d + C d^2, 1e-4)
-};
-
-enum class LightAnimationKind : std::uint8_t {
-    Orbit,  ///< circles `axis` through `center` once in `periodSeconds`
-    Wobble, ///< position + amplitude * sin(2 pi (t / period + phase)), each axis
-    Path,   ///< runs along a line through `points` at constant speed once in `periodSeconds`: around, or there and back
-    Keyframes ///< as `keys` say
-};
-
-/// How a path runs through its points.
-enum class PathLine : std::uint8_t {
-    Straight,  ///< from each to the next
-    CatmullRom ///< a smooth curve without loops or cusps between points: centripetal
-};
-
-/// What follows the last key time, and what is before the first.
-enum class KeyRepeat : std::uint8_t {
-    Once,    ///< all stays as it is there
-    Loop,    ///< from the first key again
-    PingPong ///< backwards to the first key, and again
-};
-
-/// What keyframes can say of a light; keyedMembers() says what each of them is.
-enum class LightKeyed : std::uint8_t { Position, Direction, Color, Intensity, Count };
-
-/// Keyframes of a member of a light.
-struct LightKeys {
-    LightKeyed of = LightKeyed::Position;
-    std::vector<double> timesSeconds; ///< ascending, at least one
-    std::vector<glm::dvec3> values;   ///< by key, as the member; x where that is a number
-    Interpolation interpolation = Interpolation::Linear;
-    KeyRepeat repeat = KeyRepeat::Once;
-    std::vector<glm::dvec3> inTangents; ///< by key, per second, as glTF's; these two are of CubicSpline
-    std::vector<glm::dvec3> outTangents;
-    bool operator==(const LightKeys&) const = default;
-};
-
-/// Moves the position of a light that has one, as a closed function of time, so that any time can be asked for
-/// directly.
-struct LightAnimation {
-    LightAnimationKind kind = LightAnimationKind::Orbit;
-    double periodSeconds = 1.0;
-    double phase = 0.0; ///< share of the period, 0..1
-    glm::dvec3 centerWS{0.0};
-    glm::dvec3 axisWS{0.0, 1.0, 0.0};
-    glm::dvec3 amplitudeMetres{0.0};
-    std::vector<glm::dvec3> pointsWS; ///< Path: not all in one place
-    PathLine line = PathLine::Straight;
-    bool isOpen = false;     ///< Path: from the first point to the last and back, rather than around
-    bool looksAhead = false; ///< Path: the light's direction, where it has one, is the way it goes
-    LightKeys keys;          ///< Keyframes: of the position
-    bool operator==(const LightAnimation&) const = default;
-};
-
-/// Multiplies a light's intensity by flickerAt().
-struct LightFlicker {
-    static constexpr double kMostHertz = 1000.0;
-    double amplitude = 0.5;   ///< 0..1: the factor stays within 1 - amplitude and 1 + amplitude
-    double frequencyHz = 8.0; ///< above 0: nothing in it is faster
-    int seed = 0;             ///< >= 0: lights of different seeds flicker differently
-    bool operator==(const LightFlicker&) const = default;
 };
 
 /// The corners of an outline in the order of its edges, in metres from the light's position: x along Light::alongWS, y
