@@ -288,8 +288,6 @@ void checkLight(const Element& element, const Light& light) {
                         fmt::format("has keyframes of its {} twice; keep one of them", infoOf(keys.of).name));
         checkKeys(element, keys);
     }
-    element.require(!light.animation || !light.animation->looksAhead || !hasKeys(light, LightKeyed::Direction),
-                    "looks ahead on its path and has keyframes of its direction; keep one of both");
     if (!light.flicker) return;
     const LightFlicker& flicker = *light.flicker;
     element.require(flicker.amplitude >= 0.0 && flicker.amplitude <= 1.0,

@@ -56,7 +56,7 @@ struct LightAnimation {
     std::vector<glm::dvec3> pointsWS; ///< Path: not all in one place
     PathLine line = PathLine::Straight;
     bool isOpen = false;     ///< Path: from the first point to the last and back, rather than around
-    bool looksAhead = false; ///< Path: the light's direction, where it has one, is the way it goes
+    bool looksAhead = false; ///< Path: a light's direction is the way it goes, whatever keyframes say
     LightKeys keys;          ///< Keyframes: of the position
     bool operator==(const LightAnimation&) const = default;
 };

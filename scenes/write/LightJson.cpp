@@ -56,7 +56,8 @@ Json keysJson(const LightKeys& keys, const char* valuesKey) {
     return json;
 }
 
-Json animationJson(const LightAnimation& animation) {
+Json animationJson(const Light& light) {
+    const LightAnimation& animation = *light.animation;
     Json json;
     json["type"] = scenejson::nameOf(animation.kind);
     switch (animation.kind) {
@@ -71,7 +72,8 @@ Json animationJson(const LightAnimation& animation) {
         json["points"] = pointsJson(animation.pointsWS);
         if (animation.line != PathLine::Straight) json["line"] = scenejson::nameOf(animation.line);
         if (animation.isOpen) json["open"] = true;
-        if (animation.looksAhead) json["lookAhead"] = true;
+        if (animation.looksAhead && infoOf(light.type).hasDirection && !hasKeys(light, LightKeyed::Direction))
+            json["lookAhead"] = true;
         break;
     case LightAnimationKind::Keyframes:
         json.update(keysJson(animation.keys, "points"));
@@ -100,7 +102,7 @@ Json byKeys(const Light& light) {
         json["position"] = numbers(light.positionWS);
         const bool isDefault = light.falloff == Falloff::InverseSquare && std::isinf(light.rangeMetres);
         if (!isDefault) json["falloff"] = falloffJson(light);
-        if (light.animation) json["animation"] = animationJson(*light.animation);
+        if (light.animation) json["animation"] = animationJson(light);
     }
     if (info.hasDirection) json["direction"] = numbers(light.directionWS);
     if (info.isTurned() && light.alongWS != usualAlong(light.directionWS)) json["along"] = numbers(light.alongWS);

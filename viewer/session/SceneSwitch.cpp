@@ -79,7 +79,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {
-    Left left{scene.camera(), scene.loadedCameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
+    Left left{
+        scene.camera(), scene.loadedCameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
     if (scene.rig().isMoved()) left.pose = scene.rig().pose();
     left_[identityOf(scene.source())] = left;
 }

@@ -226,14 +226,6 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              animation.kind = LightAnimationKind::Path;
              animation.pointsWS.assign(3, glm::dvec3(1.0));
          }},
-        {"keep one of both",
-         [](Scene& s) {
-             LightKeys keys = giveKeyframes(s.lights[0], {1.0});
-             keys.of = LightKeyed::Direction;
-             keys.values = {{0.0, 1.0, 0.0}};
-             s.lights[0].keyframes = {keys};
-             s.lights[0].animation->looksAhead = true;
-         }},
         {"key times", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Keyframes; }},
         {"ascend",
          [](Scene& s) {

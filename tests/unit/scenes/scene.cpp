@@ -30,6 +30,14 @@ Light animatedLight(LightAnimationKind kind) {
     return light;
 }
 
+LightKeys keysOf(LightKeyed of, std::vector<glm::dvec3> values) {
+    LightKeys keys;
+    keys.of = of;
+    for (std::size_t i = 0; i < values.size(); ++i) keys.timesSeconds.push_back(2.0 * double(i));
+    keys.values = std::move(values);
+    return keys;
+}
+
 TEST(Scene, texelBytesAreFourChannelsOfTheFormat) {
     EXPECT_EQ(texelBytes(TexelFormat::Rgba8Unorm), 4u);
     EXPECT_EQ(texelBytes(TexelFormat::Rgba16Unorm), 8u);
@@ -242,6 +250,8 @@ TEST(LightAnimation, lightsThatLookAheadFaceTheWayTheyGo) {
     light.animation->looksAhead = true;
     EXPECT_EQ(lightAtTime(light, 0.2).directionWS, glm::dvec3(1.0, 0.0, 0.0));
     EXPECT_EQ(lightAtTime(light, 0.7).directionWS, glm::dvec3(-1.0, 0.0, 0.0));
+    light.keyframes = {keysOf(LightKeyed::Direction, {{0.0, 1.0, 0.0}})};
+    EXPECT_EQ(lightAtTime(light, 0.2).directionWS, glm::dvec3(1.0, 0.0, 0.0)) << "whatever keyframes say";
 }
 
 TEST(LightAnimation, anyTimeIsTheSameModuloThePeriod) {
@@ -303,14 +313,6 @@ TEST(LightAnimation, flickerScalesTheIntensityOfEveryType) {
     }
     light.flicker->amplitude = 0.0;
     EXPECT_EQ(lightAtTime(light, 0.3).intensity, 10.0f);
-}
-
-LightKeys keysOf(LightKeyed of, std::vector<glm::dvec3> values) {
-    LightKeys keys;
-    keys.of = of;
-    for (std::size_t i = 0; i < values.size(); ++i) keys.timesSeconds.push_back(2.0 * double(i));
-    keys.values = std::move(values);
-    return keys;
 }
 
 TEST(LightKeys, directionsTurnAlongGreatCirclesAtConstantSpeed) {

@@ -204,7 +204,7 @@ TEST(SceneJsonLights, keyframesAreOfDirectionColourAndIntensity) {
     // Rounding of sine and cosine.
     EXPECT_LT(glm::distance(then.directionWS,
                             glm::dvec3(std::cos(0.375 * std::numbers::pi), 0.0, std::sin(0.375 * std::numbers::pi))),
-              1e-15);
+              1e-14);
 }
 
 TEST(SceneJsonLights, brokenKeyframesAreRefused) {
