@@ -63,7 +63,7 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
         scene_.lights = lights;
         scene_.materials = scenes::restingMaterials(scene_);
         scene_.rig.playing = before;
-        poseAgain();
+        pose(shownSeconds_);
         throw;
     }
     load_.clip = nameOrNumber;
@@ -88,6 +88,7 @@ void OpenScene::followClipCamera(bool follows) {
 }
 
 void OpenScene::pose(double timeSeconds) {
+    if (!scenes::hasPoses(scene_)) return;
     scenes::poseScene(scene_, timeSeconds);
     for (const scenes::Carried& carried : scene_.rig.cameras) {
         const auto camera = std::size_t(carried.element);
@@ -215,11 +216,7 @@ const Edit* OpenScene::redo() {
 void OpenScene::exchangeLater(Edit& edit) {
     exchange(edit);
     if (std::holds_alternative<LightsEdit>(edit)) scenes::restLights(scene_); // another clip may play now
-    if (!std::holds_alternative<CameraEdit>(edit)) poseAgain();
-}
-
-void OpenScene::poseAgain() {
-    if (scenes::hasPoses(scene_)) pose(shownSeconds_);
+    if (!std::holds_alternative<CameraEdit>(edit)) pose(shownSeconds_);
 }
 
 void OpenScene::exchange(Edit& edit) {

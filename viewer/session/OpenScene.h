@@ -119,10 +119,8 @@ private:
     void keepJump(std::string what, CameraView before);
     /// Whether the camera that is shown goes where the scene has it.
     bool isLed() const;
-    /// Poses the scene, and leaves the user's camera to the user.
+    /// Poses a scene that has poses, and leaves the user's camera to the user.
     void pose(double timeSeconds);
-    /// Puts what clips move of edited lights and materials to where it is at the time that is shown.
-    void poseAgain();
     /// Puts the camera that is shown to where the clip has it, or else back to where the rig is.
     void placeShownCamera();
     /// Begins anew with a camera and its pose.
