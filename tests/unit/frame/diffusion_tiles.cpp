@@ -231,9 +231,9 @@ std::vector<DiffusionTile> tilesApart(int side) {
 }
 
 TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
-    constexpr int kSide = 6;
-    const std::vector<DiffusionTile> tiles = tilesApart(kSide);
-    const TileSet all(kSide, true);
+    constexpr int kTilesASide = 6;
+    const std::vector<DiffusionTile> tiles = tilesApart(kTilesASide);
+    const TileSet all(kTilesASide, true);
     DiffusionMemory memory;
     memory.begin(1, true);
     int frames = 0;
@@ -252,7 +252,7 @@ TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
         memory.hold(0, 7, {}, work.store);
         memory.holdBlank(0, 7, work.blank);
     }
-    EXPECT_GE(frames, kSide * kSide / 3);
+    EXPECT_GE(frames, kTilesASide * kTilesASide / 3);
 
     memory.limit(0);
     EXPECT_FALSE(memory.isIdle(0, 8, all)) << "what is there is of another key";
