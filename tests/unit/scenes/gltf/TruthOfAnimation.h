@@ -73,6 +73,18 @@ public:
         return all;
     }
 
+    std::size_t skins() const { return listOf(json_, "skins").size(); }
+    /// Of the first skin.
+    std::size_t joints() const { return json_["skins"][0]["joints"].size(); }
+    /// What the matrix of a joint of the first skin makes of a place (`w` 1) or a direction (0) of the space in which
+    /// the mesh was bound, at the time of the latest corners().
+    Point byJoint(std::size_t joint, const Point& p, double w) const {
+        const Json& skin = json_["skins"][0];
+        const bool isBound = skin.contains("inverseBindMatrices");
+        return outOf(skin["joints"].at(joint).get<int>(),
+                     isBound ? byMatrix(accessor(skin["inverseBindMatrices"].get<int>()).at(joint), p, w) : p, w);
+    }
+
 private:
     using Numbers = std::vector<double>;
 

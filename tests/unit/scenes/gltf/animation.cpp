@@ -139,6 +139,21 @@ TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
                 HasSubstr("has 2 elements, but 2 keys of scale need 6"));
 }
 
+TEST(GltfAnimation, aHundredThousandKeysOfAFileAreFollowed) {
+    constexpr std::size_t kKeys = 100'000;
+    Builder builder;
+    std::vector<float> times, values;
+    for (std::size_t key = 0; key < kKeys; ++key) {
+        times.push_back(float(key));
+        values.insert(values.end(), {float(key % 1000), 0.0f, 0.0f});
+    }
+    addClip(builder, times, builder.add(values, kFloatType, "VEC3", kKeys), {{"node", 0}, {"path", "translation"}});
+    const Scene scene = builder.import();
+    for (const auto& [seconds, x] :
+         {std::pair(-1.0, 0.0), std::pair(0.25, 0.25), std::pair(54'321.5, 321.5), std::pair(1e9, 999.0)})
+        expectPlace(drawnAt(scene, seconds)[0], {x, 0.0, 0.0});
+}
+
 TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
     Builder builder = movingTriangle();
     Json& channels = builder.json["animations"][0]["channels"];
@@ -280,6 +295,29 @@ TEST(GltfSkins, aVertexMayFollowEightJoints) {
         builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByteType, "VEC4", 3, true); // four thirds in all
     // 1 of joint 2 and 4/3 of joint 1.
     expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
+}
+
+/// A chain of them, 1 mm each, whose middle one turns.
+TEST(GltfSkins, tenThousandJointsAreFollowed) {
+    constexpr int kJoints = 10'000, kMiddle = 5'000;
+    Builder builder = skinnedTriangle();
+    Json joints = Json::array(), nodes = Json::array({Json::object({{"mesh", 0}, {"skin", 0}})});
+    for (int joint = 1; joint <= kJoints; ++joint) {
+        Json& node = nodes.emplace_back(Json::object({{"translation", {0.001, 0, 0}}}));
+        if (joint < kJoints) node["children"] = Json::array({joint + 1});
+        joints.push_back(joint);
+    }
+    builder.json["nodes"] = nodes;
+    builder.json["skins"][0]["joints"] = joints;
+    std::vector<std::uint16_t> followed(12, 0);
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) followed[4 * vertex] = kJoints - 1;
+    builder.primitive()["attributes"]["JOINTS_0"] = builder.add(followed, kUnsignedShortType, "VEC4", 3);
+    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}, kFloatType, "VEC4", 2);
+    addClip(builder, {0, 1}, output, {{"node", kMiddle}, {"path", "rotation"}});
+    const Scene scene = builder.import();
+    expectPlace(drawnAt(scene, 0.0)[1], {11.0, 0.0, 0.0});
+    expectPlace(drawnAt(scene, 1.0)[1], {-1.0, 0.0, 0.0}); // half a turn about (5, 0)
+    expectPlace(drawnAt(scene, 0.5)[1], {5.0, 6.0, 0.0});
 }
 
 TEST(GltfSkins, jointsOutsideOfTheSceneAreFollowedAndNotDrawn) {

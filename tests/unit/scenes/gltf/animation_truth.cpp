@@ -1,9 +1,10 @@
-#include <cstdlib>
+#include <iterator>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "scenes/Pose.h"
+#include "tests/support/AnimatedModels.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 #include "tests/unit/scenes/gltf/TruthOfAnimation.h"
 
@@ -40,6 +41,29 @@ glm::dvec3 vectorOf(const TruthOfAnimation::Point& point) {
 struct Difference {
     double place = 0.0, normal = 0.0, normalOfEitherSide = 0.0;
 };
+
+/// The largest distance of a joint's matrix from the truth of the latest corners(), as a share of the matrix: of a
+/// model that has one skin.
+double differenceOfJoints(const Scene& scene, const TruthOfAnimation& truth) {
+    if (truth.skins() != 1 || scene.rig.skins.empty()) return 0.0;
+    const Skin& skin = scene.rig.skins.front();
+    EXPECT_EQ(skin.joints.size(), truth.joints());
+    if (skin.joints.size() != truth.joints()) return 0.0;
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    double most = 0.0;
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+        const glm::dmat4 found = worldFromNode[std::size_t(skin.joints[joint])] * skin.jointFromBind[joint];
+        double difference = 0.0, size = 0.0;
+        for (int column = 0; column < 4; ++column) {
+            const auto axis = [column](int c) { return column == c ? 1.0 : 0.0; };
+            const glm::dvec3 wanted = vectorOf(truth.byJoint(joint, {axis(0), axis(1), axis(2)}, axis(3)));
+            difference = std::max(difference, glm::distance(glm::dvec3(found[column]), wanted));
+            size = std::max(size, glm::length(wanted));
+        }
+        most = std::max(most, difference / size);
+    }
+    return most;
+}
 
 Difference differenceAt(Scene& scene, TruthOfAnimation& truth, int clip, double time) {
     scene.rig.playing.clear();
@@ -85,6 +109,7 @@ void expectTrue(const std::filesystem::path& file) {
             const Difference difference = differenceAt(scene, truth, clip, time);
             EXPECT_LT(difference.place, 1e-5) << "clip " << clip << " at " << time << " s";
             EXPECT_LT(difference.normal, 1e-3) << "clip " << clip << " at " << time << " s";
+            EXPECT_LT(differenceOfJoints(scene, truth), 1e-5) << "clip " << clip << " at " << time << " s";
         }
     }
 }
@@ -174,6 +199,7 @@ TEST(AnimationTruth, randomSkinsAndTargetsAreWhereASecondComputationPutsThem) {
             const Difference difference = differenceAt(scene, truth, clip, time);
             EXPECT_LT(difference.place, 1e-5) << "clip " << clip << " at " << time << " s";
             EXPECT_LT(difference.normalOfEitherSide, 1e-3) << "clip " << clip << " at " << time << " s";
+            EXPECT_LT(differenceOfJoints(scene, truth), 1e-5) << "clip " << clip << " at " << time << " s";
         };
         for (const double time : {-1e9, 0.0, 0.1, 0.41, 1.0, 1.7, 2.79, 1e9}) expectNear(0, time);
         expectNear(-1, 0.0);
@@ -181,27 +207,8 @@ TEST(AnimationTruth, randomSkinsAndTargetsAreWhereASecondComputationPutsThem) {
 }
 
 TEST(AnimationTruth, modelsOfTheAssetsFolderAreWhereASecondComputationPutsThem) {
-    const char* named = std::getenv("TESSERA_ASSETS");
-    const std::filesystem::path folder = named != nullptr && *named != '\0'
-                                             ? std::filesystem::path(named)
-                                             : std::filesystem::path(TESSERA_SOURCE_DIR) / ".." / "shared" / "assets";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "there is no folder of third-party models";
-    std::vector<std::string> models{"Fox/Fox.glb",
-                                    "SimpleSkin/SimpleSkin.gltf",
-                                    "RiggedSimple/RiggedSimple.glb",
-                                    "RiggedFigure/RiggedFigure.glb",
-                                    "CesiumMan/CesiumMan.glb",
-                                    "BrainStem/BrainStem.glb",
-                                    "InterpolationTest/InterpolationTest.glb",
-                                    "SimpleMorph/SimpleMorph.gltf",
-                                    "AnimatedMorphCube/AnimatedMorphCube.glb",
-                                    "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf",
-                                    "AnimatedMorphSphere/AnimatedMorphSphere.glb",
-                                    "MorphStressTest/MorphStressTest.glb",
-                                    "AnimatedTriangle/AnimatedTriangle.gltf",
-                                    "AnimatedCube/AnimatedCube.gltf",
-                                    "AnimatedColorsCube/AnimatedColorsCube.glb",
-                                    "BoxAnimated/BoxAnimated.glb"};
+    std::vector<std::string> models(std::begin(tessera::test::kAnimatedModels),
+                                    std::end(tessera::test::kAnimatedModels));
     for (int i = 0; i < 12; ++i) {
         const std::string two = (i < 10 ? "0" : "") + std::to_string(i);
         models.push_back("AssetGenerator/Positive/Animation_Skin/Animation_Skin_" + two + ".gltf");
@@ -209,11 +216,12 @@ TEST(AnimationTruth, modelsOfTheAssetsFolderAreWhereASecondComputationPutsThem) 
     }
     int compared = 0;
     for (const std::string& model : models) {
-        if (!std::filesystem::exists(folder / model)) continue;
-        expectTrue(folder / model);
+        const std::optional<std::filesystem::path> file = tessera::test::fileOfAssets(model);
+        if (!file) continue;
+        expectTrue(*file);
         ++compared;
     }
-    if (compared == 0) GTEST_SKIP() << folder << " has none of the animated models";
+    if (compared == 0) GTEST_SKIP() << "there is no folder of third-party models that has any of them";
 }
 
 } // namespace

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace tessera::test {
+
+/// Models of Khronos that have clips, skins or morph targets, below the folder of third-party models.
+inline constexpr std::string_view kAnimatedModels[] = {"Fox/Fox.glb",
+                                                       "SimpleSkin/SimpleSkin.gltf",
+                                                       "RiggedSimple/RiggedSimple.glb",
+                                                       "RiggedFigure/RiggedFigure.glb",
+                                                       "CesiumMan/CesiumMan.glb",
+                                                       "BrainStem/BrainStem.glb",
+                                                       "InterpolationTest/InterpolationTest.glb",
+                                                       "SimpleMorph/SimpleMorph.gltf",
+                                                       "AnimatedMorphCube/AnimatedMorphCube.glb",
+                                                       "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf",
+                                                       "AnimatedMorphSphere/AnimatedMorphSphere.glb",
+                                                       "MorphStressTest/MorphStressTest.glb",
+                                                       "AnimatedTriangle/AnimatedTriangle.gltf",
+                                                       "AnimatedCube/AnimatedCube.gltf",
+                                                       "AnimatedColorsCube/AnimatedColorsCube.glb",
+                                                       "BoxAnimated/BoxAnimated.glb"};
+
+/// A file of the folder that TESSERA_ASSETS names, else of the one beside the sources; none where it is not there.
+inline std::optional<std::filesystem::path> fileOfAssets(std::string_view name) {
+    const char* named = std::getenv("TESSERA_ASSETS");
+    const std::filesystem::path folder = named != nullptr && *named != '\0'
+                                             ? std::filesystem::path(named)
+                                             : std::filesystem::path(TESSERA_SOURCE_DIR) / ".." / "shared" / "assets";
+    std::filesystem::path file = folder / name;
+    if (!std::filesystem::exists(file)) return {};
+    return file;
+}
+
+} // namespace tessera::test
