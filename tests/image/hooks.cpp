@@ -465,6 +465,16 @@ TEST_F(SampleHooks, verticesStayWithinMayMoveMetres) {
     }
 }
 
+/// Whatever sines become of a billion.
+TEST_F(SampleHooks, verticesStayWithinMayMoveMetresAfterABillionSeconds) {
+    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+        SCOPED_TRACE(name);
+        const scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        for (const double seconds : {1e9, -1e9}) EXPECT_NO_THROW(renderer.sceneAt(seconds));
+    }
+}
+
 TEST_F(SampleHooks, everyParameterChangesThePicture) {
     for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
         scenes::Scene scene = sample(name);

@@ -1,8 +1,16 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
 #include "engine/Rendering.h"
 #include "scenes/Pose.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/AnimatedModels.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
+#include "validation/timing/FrameTimer.h"
 
 namespace tessera {
 namespace {
@@ -58,6 +66,8 @@ class Poses : public test::ShadowTest {
 protected:
     /// Of a scene of everything or, unless the sweep is a whole one, of a ball under a sun, whose programs are small.
     void expectDrawnAsAnew();
+    /// The same scenes, at three times or one.
+    void expectVerticesOfPlainMeshes();
 };
 using PosesSlow = Poses;
 
@@ -97,19 +107,162 @@ TEST_F(PosesSlow, areDrawnAsByANewRendererWithoutCompilingAnything) {
     expectDrawnAsAnew();
 }
 
+/// The scene as meshes that stand where the pose has them, which nothing moves.
+scenes::Scene asPlainMeshes(scenes::Scene scene) {
+    scene.rig = {};
+    scenes::checkScene(scene);
+    return scene;
+}
+
+void Poses::expectVerticesOfPlainMeshes() {
+    scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::ballUnderSun());
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 91};
+    settings.shadows = test::kAllLightsCast;
+    settings.prune = !test::isWholeSweep();
+    renderer.draw(Technique::Forward, settings);
+    constexpr double kTimesSeconds[] = {0.3, 0.7, 1.0};
+    for (const double seconds : test::inTurn(kTimesSeconds, 1)) {
+        SCOPED_TRACE(seconds);
+        scenes::poseScene(scene, seconds);
+        renderer.geometryChanged();
+        const scenes::Scene plain = asPlainMeshes(scene);
+        engine::Renderer truth(context(), plain);
+        for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard}) {
+            settings.shadowFilter = filter;
+            EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
+                      truth.render(Technique::Forward, settings).radiance)
+                << int(filter);
+        }
+        const std::vector<float> depths = truth.downloadDepth();
+        EXPECT_GT(std::ranges::count_if(depths, [](float depth) { return depth > 0.0f; }), 1000);
+        frame::FrameSettings asIds = settings;
+        asIds.view = frame::DebugView::Ids;
+        const std::vector<float> ids = truth.render(Technique::Forward, asIds).radiance;
+        std::vector<Technique> techniques = test::techniquesInTurn(0);
+        techniques.push_back(Technique::Forward);
+        for (const Technique technique : techniques) {
+            SCOPED_TRACE(engine::infoOf(technique).name);
+            renderer.draw(technique, settings);
+            EXPECT_TRUE(renderer.downloadDepth() == depths);
+            EXPECT_TRUE(renderer.render(technique, asIds).radiance == ids);
+            EXPECT_TRUE(renderer.downloadDepth() == depths) << "of the view ids";
+        }
+    }
+}
+
+/// To the last bit of depth, in shadows and in ids too, so that passes which ask for equal depth lose no pixel.
+TEST_F(Poses, everyPassHasTheVerticesOfPlainMeshes) {
+    expectVerticesOfPlainMeshes();
+}
+TEST_F(PosesSlow, everyPassHasTheVerticesOfPlainMeshes) {
+    expectVerticesOfPlainMeshes();
+}
+
 TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
     scenes::Scene scene = waving(test::everythingScene());
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {160, 91};
     renderer.render(Technique::Deferred, settings);
-    scenes::poseScene(scene, 0.7);
-    renderer.geometryChanged();
-    expectParity(renderer, settings);
+    for (const double seconds : {1.0, 0.15, 0.7}) {
+        SCOPED_TRACE(seconds);
+        scenes::poseScene(scene, seconds);
+        renderer.geometryChanged();
+        expectParity(renderer, settings);
+    }
     engine::Renderer anew(context(), scene);
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
               anew.render(Technique::Forward, settings).radiance);
 }
+
+TEST_F(Poses, aBillionSecondsBeforeAndAfterTheClipShowItsEnds) {
+    scenes::Scene scene = waving(test::ballUnderSun());
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 91};
+    settings.shadows = test::kAllLightsCast;
+    const auto drawnAt = [&](double seconds) {
+        scenes::poseScene(scene, seconds);
+        renderer.geometryChanged();
+        settings.timeSeconds = seconds;
+        return renderer.render(Technique::Deferred, settings).radiance;
+    };
+    EXPECT_EQ(drawnAt(1e9), drawnAt(1.0));
+    EXPECT_EQ(drawnAt(-1e9), drawnAt(0.0));
+    EXPECT_NE(drawnAt(0.0), drawnAt(1.0));
+}
+
+/// What clips do not move costs what it costs without them.
+TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
+    scenes::Scene scene = waving(test::ballUnderSun());
+    scenes::playClip(scene, "none");
+    scenes::poseScene(scene, 0.0);
+    const scenes::Scene plain = asPlainMeshes(scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {320, 180};
+    settings.shadows = test::kAllLightsCast;
+    settings.shadowFilter = ShadowFilter::Hard;
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
+        EXPECT_EQ(graph::planText(engine::planFrame(scene, info.technique, settings)),
+                  graph::planText(engine::planFrame(plain, info.technique, settings)))
+            << info.name;
+    engine::Renderer renderer(context(), scene), plainRenderer(context(), plain), twin(context(), plain);
+    std::vector<validation::TimedPoint> points;
+    for (engine::Renderer* one : {&plainRenderer, &renderer, &twin})
+        points.push_back({one, Technique::ClusteredDeferred, settings});
+    const std::vector<std::vector<double>> timesMs =
+        validation::timeInTurn(points, {}, {.warmUpRounds = 3, .rounds = 60});
+    // Of frames that were drawn next to each other, so that a machine that changes its pace does not enter.
+    const auto ratio = [&](std::size_t point) {
+        std::vector<double> ratios;
+        for (std::size_t round = 0; round < timesMs[0].size(); ++round)
+            ratios.push_back(timesMs[point][round] / timesMs[0][round]);
+        return validation::spreadOf(ratios).median;
+    };
+    fmt::print("a frame that nothing moves takes {:.3f} times as long as that of plain meshes, which takes {:.1f} ms; "
+               "the same once more {:.3f} times\n",
+               ratio(1), validation::spreadOf(timesMs[0]).median, ratio(2));
+    EXPECT_NEAR(ratio(1), 1.0, 0.1);
+}
+
+/// One of Khronos' models, by its file below the folder of third-party models.
+class PosesOfModelsSlow : public test::ShadowTest, public testing::WithParamInterface<std::string_view> {};
+
+TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
+    const std::optional<std::filesystem::path> file = test::fileOfAssets(GetParam());
+    if (!file) GTEST_SKIP() << "there is no folder of third-party models that has " << GetParam();
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    scenes::Scene scene = test::modelUnderSun(*file, 96.0 / 54.0);
+    engine::Renderer renderer(context(), scene);
+    double lengthSeconds = 0.0;
+    for (const int clip : scene.rig.playing)
+        lengthSeconds = std::max(lengthSeconds, scenes::lengthSeconds(scene.rig.clips[std::size_t(clip)]));
+    ASSERT_GT(lengthSeconds, 0.0);
+    constexpr std::size_t kTimes = 20, kStep = 7;
+    const auto poseAt = [&](std::size_t time) {
+        scenes::poseScene(scene, lengthSeconds * (double(time) + 0.37) / double(kTimes));
+        renderer.geometryChanged();
+    };
+    std::vector<std::vector<float>> pictures(kTimes);
+    for (std::size_t turn = 0; turn < kTimes; ++turn) {
+        const std::size_t time = turn * kStep % kTimes;
+        SCOPED_TRACE(time);
+        poseAt(time);
+        expectParity(renderer, settings);
+        pictures[time] = renderer.render(Technique::Forward, settings).radiance;
+    }
+    EXPECT_TRUE(std::ranges::any_of(pictures, [&](const auto& other) { return other != pictures[0]; }))
+        << "nothing moves";
+    for (std::size_t time = 0; time < kTimes; ++time) {
+        poseAt(time);
+        EXPECT_TRUE(renderer.render(Technique::Forward, settings).radiance == pictures[time]) << time;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Khronos, PosesOfModelsSlow, testing::ValuesIn(test::kAnimatedModels));
 
 } // namespace
 } // namespace tessera

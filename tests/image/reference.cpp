@@ -1,6 +1,7 @@
 // The GPU's picture against the reference renderer's, pixel by pixel, with the same filtering on both sides.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -8,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "scenes/Load.h"
+#include "scenes/Pose.h"
 #include "tests/image/FlatTest.h"
+#include "tests/support/AnimatedModels.h"
 #include "tests/support/ShaderMutant.h"
 #include "tests/support/Sweep.h"
 #include "validation/compare/ReferencePicture.h"
@@ -136,6 +139,11 @@ protected:
 
     /// Of every scene with area lights, or of that with the most shapes of them.
     void expectAreaLitScenesAsNearAsShapes();
+
+    /// A scene that moves, at each of these times or at one of them in turn.
+    void expectAgreementAtTimes(const std::string& what, scenes::Scene scene, std::span<const double> timesSeconds);
+    void expectAgreementOfTheSickHead();
+    void expectAgreementOfCesiumMan();
 };
 using ReferenceSlow = Reference;
 
@@ -173,6 +181,51 @@ TEST_F(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
 }
 TEST_F(ReferenceSlow, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
     expectAreaLitScenesAsNearAsShapes();
+}
+
+void Reference::expectAgreementAtTimes(const std::string& what, scenes::Scene scene,
+                                       std::span<const double> timesSeconds) {
+    for (scenes::Light& light : scene.lights) light.radiusMetres = light.angularRadiusRadians = 0.0f;
+    std::optional<double> before;
+    for (const double seconds : test::inTurn(timesSeconds, 1)) {
+        frame::FrameSettings settings = ofSize(160, 90);
+        settings.timeSeconds = seconds;
+        scenes::poseScene(scene, seconds);
+        const double now = expectAgreement(fmt::format("{} at {} s", what, seconds), scene, settings).meanLuminance;
+        EXPECT_GT(now, 0.0) << "nothing is seen";
+        if (before) {
+            EXPECT_NE(now, *before) << "nothing moves";
+        }
+        before = now;
+    }
+}
+
+/// What its hook moves and paints, from early on to long after it fell ill, with the ears at different angles.
+void Reference::expectAgreementOfTheSickHead() {
+    constexpr double kTimesSeconds[] = {0.6, 2.9, 5.3, 8.0, 11.7};
+    expectAgreementAtTimes("head_sick",
+                           scenes::loadScene(std::string(TESSERA_SOURCE_DIR) + "/scenes/files/head_sick.json"),
+                           kTimesSeconds);
+}
+TEST_F(Reference, aHeadThatAHookMovesAgreesWithIt) {
+    expectAgreementOfTheSickHead();
+}
+TEST_F(ReferenceSlow, aHeadThatAHookMovesAgreesWithIt) {
+    expectAgreementOfTheSickHead();
+}
+
+/// A skin of 19 joints that walks for two seconds.
+void Reference::expectAgreementOfCesiumMan() {
+    const std::optional<std::filesystem::path> file = test::fileOfAssets("CesiumMan/CesiumMan.glb");
+    if (!file) GTEST_SKIP() << "there is no folder of third-party models that has CesiumMan";
+    constexpr double kTimesSeconds[] = {0.13, 0.55, 0.97, 1.41, 1.9};
+    expectAgreementAtTimes("CesiumMan", test::modelUnderSun(*file, 160.0 / 90.0), kTimesSeconds);
+}
+TEST_F(Reference, aWalkingSkinAgreesWithIt) {
+    expectAgreementOfCesiumMan();
+}
+TEST_F(ReferenceSlow, aWalkingSkinAgreesWithIt) {
+    expectAgreementOfCesiumMan();
 }
 
 /// At the size at which the programs render by themselves: single pixels that miss by much are rare.

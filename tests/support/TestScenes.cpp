@@ -236,6 +236,22 @@ Mesh quad() {
     return mesh;
 }
 
+Scene modelUnderSun(const std::filesystem::path& file, double aspect) {
+    LoadOptions options;
+    options.defaultLight = false;
+    options.aspect = aspect;
+    Scene scene = loadScene(file.string(), options);
+    if (!scene.lights.empty()) return scene;
+    const glm::dmat3 worldFromCamera(scene.cameras[0].worldFromCamera);
+    Light& sun = scene.lights.emplace_back();
+    sun.name = "sun";
+    sun.type = LightType::Directional;
+    sun.intensity = 3.0f;
+    sun.castsShadow = true;
+    sun.directionWS = -glm::normalize(worldFromCamera * glm::dvec3(0.5, 0.75, 1.0));
+    return scene;
+}
+
 Light pointLight(const glm::dvec3& positionWS, float candela) {
     Light light;
     light.name = "point";

@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Load.h"
 #include "scenes/Scene.h"
@@ -40,6 +42,10 @@ scenes::Mesh quad();
 
 /// One quad of 2 x 2 m in the plane z = 0 facing +z, lit by nothing, seen by a camera at (0, 0, 3) that it fills.
 scenes::Scene quadScene(const scenes::Material& material);
+
+/// A model's file, seen whole in a picture of that width over height, in the light that it brings; without any under a
+/// sun that casts shadows, from above the eye's shoulder.
+scenes::Scene modelUnderSun(const std::filesystem::path& file, double aspect);
 
 /// A point light without range.
 scenes::Light pointLight(const glm::dvec3& positionWS, float candela);
