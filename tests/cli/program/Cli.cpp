@@ -1,8 +1,12 @@
 #include "tests/cli/program/Cli.h"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
+#include <thread>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,6 +31,30 @@ std::string Cli::runGood(const Words& arguments, const Environment& environment)
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err, "");
     return result.out;
+}
+
+int Cli::killedUntilItEnds(const Words& arguments) const {
+    Words command{kProgram};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    int kills = 0;
+    for (int attempt = 0; attempt < 40; ++attempt) {
+        Process process(command, {folder_.path(), {}, 60.0});
+        std::thread killer([&process, attempt] {
+            // From before the first picture on, by a step that no period divides.
+            std::this_thread::sleep_for(std::chrono::milliseconds(200 + 131 * attempt));
+            try {
+                process.send(SIGKILL);
+            } catch (const std::runtime_error&) { // it had ended
+            }
+        });
+        const ProcessResult result = process.wait();
+        killer.join();
+        EXPECT_EQ(result.exitCode.value_or(0), 0) << result.err;
+        if (result.exitCode) return kills;
+        ++kills;
+    }
+    ADD_FAILURE() << "it never ends";
+    return kills;
 }
 
 void Cli::expectError(int exitCode, const Words& arguments, const Words& parts, const Environment& environment) const {

@@ -74,6 +74,18 @@ TEST_F(PlayedClips, framesOfASequenceAreThePicturesOfTheirTimes) {
     runGood({"compare", "slide.gltf", "--size", "64x32", "--time", "0.3", "--against", "reference"});
 }
 
+using PlayedClipsSlow = PlayedClips;
+TEST_F(PlayedClipsSlow, framesThatAreKilledAnywhereAndStartedAgainAreTheSame) {
+    const auto words = [](const std::string& name) {
+        return command({"--frames", "60", "--fps", "60", "-o", name + "%02d.exr"});
+    };
+    runGood(words("whole_"));
+    EXPECT_GT(killedUntilItEnds(words("killed_")), 0);
+    for (int frame = 0; frame < 60; ++frame)
+        EXPECT_TRUE(text(fmt::format("killed_{:02}.exr", frame)) == text(fmt::format("whole_{:02}.exr", frame)))
+            << frame;
+}
+
 TEST_F(PlayedClips, finishedFramesOfAnotherClipAreDrawnAgain) {
     runGood(command({"--frames", "2", "-o", "f_%d.exr"}));
     EXPECT_THAT(runGood(command({"--frames", "2", "-o", "f_%d.exr"})), HasSubstr("0 drawn, 2 skipped"));

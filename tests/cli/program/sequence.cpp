@@ -1,6 +1,4 @@
-#include <csignal>
 #include <filesystem>
-#include <thread>
 
 #include <fmt/format.h>
 
@@ -94,28 +92,7 @@ TEST_F(FrameSequences, framesAreThePicturesOfTheirTimesInAnyOrderAndShard) {
 TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles) {
     const auto words = [](const std::string& name) { return command({"--frames", "60", "-o", name + "%04d.exr"}); };
     runGood(words("whole_"));
-    int kills = 0;
-    bool isDone = false;
-    for (int attempt = 0; attempt < 40 && !isDone; ++attempt) {
-        Words again{kProgram};
-        for (const std::string& word : words("killed_")) again.push_back(word);
-        Process process(again, {folder_.path(), {}, 60.0});
-        std::thread killer([&process, attempt] {
-            // From before the first picture on, by a step that no period divides.
-            std::this_thread::sleep_for(std::chrono::milliseconds(200 + 131 * attempt));
-            try {
-                process.send(SIGKILL);
-            } catch (const std::runtime_error&) { // it had ended
-            }
-        });
-        const ProcessResult result = process.wait();
-        killer.join();
-        isDone = result.exitCode.has_value();
-        kills += isDone ? 0 : 1;
-        EXPECT_EQ(result.exitCode.value_or(0), 0) << result.err;
-    }
-    ASSERT_TRUE(isDone);
-    EXPECT_GT(kills, 0);
+    EXPECT_GT(killedUntilItEnds(words("killed_")), 0);
     EXPECT_EQ(pictures("whole_").size(), 60u);
     EXPECT_TRUE(pictures("killed_") == pictures("whole_"));
     EXPECT_THAT(runGood(words("killed_")), MatchesRegex(summary(0, 60)));
