@@ -136,6 +136,11 @@ void Poses::expectVerticesOfPlainMeshes() {
                 << int(filter);
         }
         const std::vector<float> depths = truth.downloadDepth();
+        frame::FrameSettings asAtlas = settings; // depths as lights see them
+        asAtlas.view = frame::DebugView::ShadowAtlas;
+        const std::vector<float> atlas = truth.render(Technique::Forward, asAtlas).radiance;
+        EXPECT_GT(std::ranges::count_if(atlas, [](float shown) { return shown > 0.0f && shown < 1.0f; }), 100);
+        EXPECT_TRUE(renderer.render(Technique::Forward, asAtlas).radiance == atlas);
         EXPECT_GT(std::ranges::count_if(depths, [](float depth) { return depth > 0.0f; }), 1000);
         frame::FrameSettings asIds = settings;
         asIds.view = frame::DebugView::Ids;
@@ -238,8 +243,11 @@ TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
     scenes::Scene scene = test::modelUnderSun(*file, 96.0 / 54.0);
     engine::Renderer renderer(context(), scene);
     double lengthSeconds = 0.0;
-    for (const int clip : scene.rig.playing)
-        lengthSeconds = std::max(lengthSeconds, scenes::lengthSeconds(scene.rig.clips[std::size_t(clip)]));
+    scene.rig.playing.clear(); // all at once
+    for (const scenes::Clip& clip : scene.rig.clips) {
+        scene.rig.playing.push_back(int(scene.rig.playing.size()));
+        lengthSeconds = std::max(lengthSeconds, scenes::lengthSeconds(clip));
+    }
     ASSERT_GT(lengthSeconds, 0.0);
     constexpr std::size_t kTimes = 20, kStep = 7;
     const auto poseAt = [&](std::size_t time) {
