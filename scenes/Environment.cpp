@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "base/Extension.h"
 #include "base/Names.h"
 #include "base/Srgb.h"
 #include "scenes/Load.h"
@@ -62,9 +63,7 @@ struct Replaced {
     std::size_t nans = 0, negative = 0, infinite = 0, tooBright = 0;
 };
 
-/// NaN and less than 0 are no light: 0 instead. Infinity becomes the brightest number of the map, and what is above
-/// kMostRadiance that.
-Replaced replaceNoLight(Image& map) {
+Replaced replacedIn(Image& map) {
     std::vector<float> texels(map.texels.size() / sizeof(float));
     std::memcpy(texels.data(), map.texels.data(), map.texels.size());
     float brightest = 0.0f;
@@ -98,21 +97,17 @@ std::string numbersText(std::size_t count) {
     return count == 1 ? "1 number" : fmt::format("{} numbers", count);
 }
 
-void warnOfMap(const Image& map, bool hasFewBits, const Replaced& replaced, std::vector<std::string>& warnings) {
-    const auto warn = [&](const std::string& what) {
-        warnings.push_back(fmt::format("the environment '{}' {}", map.name, what));
-    };
-    if (hasFewBits) warn("holds no light brighter than white: lamps and the sun are lost; give an .hdr or .exr file");
-    if (replaced.nans > 0) warn(fmt::format("holds NaN in {}, taken as 0", numbersText(replaced.nans)));
-    if (replaced.negative > 0) warn(fmt::format("is below 0 in {}, taken as 0", numbersText(replaced.negative)));
-    if (replaced.infinite > 0)
-        warn(fmt::format("holds infinity in {}, taken as its brightest", numbersText(replaced.infinite)));
-    if (replaced.tooBright > 0)
-        warn(fmt::format("is above {:g} in {}, taken as that", kMostRadiance, numbersText(replaced.tooBright)));
+void warn(const Image& map, const std::string& what, std::vector<std::string>& warnings) {
+    warnings.push_back(fmt::format("the environment '{}' {}", map.name, what));
+}
+
+void warnOfShape(const Image& map, std::vector<std::string>& warnings) {
     // A map of one texel is the same everywhere.
     if (map.width != 2 * map.height && map.width * map.height > 1)
-        warn(fmt::format("is {}x{} texels, not twice as wide as high, and is stretched around the scene", map.width,
-                         map.height));
+        warn(map,
+             fmt::format("is {}x{} texels, not twice as wide as high, and is stretched around the scene", map.width,
+                         map.height),
+             warnings);
 }
 
 Image builtinMap(const std::string& name, LoadLedger& ledger) {
@@ -144,6 +139,17 @@ glm::dvec3 directionInMap(const glm::dvec2& place) {
     return {sine * std::sin(longitude), std::cos(fromTop), -sine * std::cos(longitude)};
 }
 
+void replaceNoLight(Image& picture, std::vector<std::string>& warnings) {
+    const Replaced replaced = replacedIn(picture);
+    const auto tell = [&](std::size_t count, std::string_view found, std::string_view taken) {
+        if (count > 0) warn(picture, fmt::format("{} in {}, taken as {}", found, numbersText(count), taken), warnings);
+    };
+    tell(replaced.nans, "holds NaN", "0");
+    tell(replaced.negative, "is below 0", "0");
+    tell(replaced.infinite, "holds infinity", "its brightest");
+    tell(replaced.tooBright, fmt::format("is above {:g}", kMostRadiance), "that");
+}
+
 Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings) {
     Environment environment;
     environment.source = source;
@@ -153,13 +159,19 @@ Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::
     }
     const std::uint64_t mark = ledger.usedBytes();
     const std::filesystem::path file = std::filesystem::absolute(source).lexically_normal();
+    if (const std::string extension = extensionOf(file); extension == ".gltf" || extension == ".glb")
+        return importGltfEnvironment(file, ledger, warnings);
     environment.source = file.string();
     Image image = readImage(file, ledger);
     image.name = file.filename().string();
     const bool hasFewBits = image.format != TexelFormat::Rgba32Float;
     environment.map = asFloat(std::move(image), ledger);
     ledger.settle(mark, environment.map.texels.size());
-    warnOfMap(environment.map, hasFewBits, replaceNoLight(environment.map), warnings);
+    if (hasFewBits)
+        warn(environment.map,
+             "holds no light brighter than white: lamps and the sun are lost; give an .hdr or .exr file", warnings);
+    replaceNoLight(environment.map, warnings);
+    warnOfShape(environment.map, warnings);
     return environment;
 }
 

@@ -20,7 +20,7 @@ inline constexpr float kMostRadiance = 1e30f;
 /// The radiance of a direction is interpolated bilinearly between the centres of four texels, across the left and right
 /// edge alike; beyond the first and last row it is that row's.
 struct Environment {
-    std::string source;           ///< "builtin:studio", or the absolute path of its file
+    std::string source;           ///< "builtin:studio", or the absolute path of its file: a picture or a glTF model
     Image map;                    ///< Rgba32Float, RGB 0 to kMostRadiance, in latitude and longitude
     float intensity = 1.0f;       ///< >= 0, multiplies the radiance, up to kMostRadiance
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
@@ -38,7 +38,12 @@ struct BuiltinEnvironment {
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 
-/// A map from "builtin:NAME" or a picture file. Numbers that are no light are replaced: `warnings` tells how many.
+/// Replaces numbers of an Rgba32Float picture that are no light: NaN and what is below 0 by 0, infinity by the
+/// brightest number, what is above kMostRadiance by that. `warnings` tells how many.
+void replaceNoLight(Image& picture, std::vector<std::string>& warnings);
+
+/// A map from "builtin:NAME", a picture file, or a glTF model with an image-based light, whose intensity comes with it.
+/// Numbers that are no light are replaced.
 /// Throws InputError that names the file and its fault, or the nearest names.
 Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings);
 

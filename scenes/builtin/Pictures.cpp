@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "scenes/builtin/Parallel.h"
+#include "scenes/Parallel.h"
 
 namespace tessera::scenes::builtin {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scenes/Environment.h"
+#include "scenes/Parallel.h"
 #include "scenes/builtin/Environments.h"
-#include "scenes/builtin/Parallel.h"
 #include "scenes/builtin/Pictures.h"
 
 /// Light scattered once in the air, by numbers of Bruneton and Neyret 2008, "Precomputed Atmospheric Scattering", and

@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "base/Error.h"
 #include "scenes/Transform.h"
 #include "scenes/import/GltfCamerasAndLights.h"
+#include "scenes/import/GltfEnvironment.h"
 #include "scenes/import/GltfGeometry.h"
 #include "scenes/import/GltfInstances.h"
 #include "scenes/import/GltfLightUnits.h"
@@ -352,8 +354,28 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     bindVariant(context, materials);
     placeThicknesses(context, materials, allPlaced, instancing);
     warnOfUndrawn(context);
+    importEnvironment(context);
     ledger.settle(mark, bytesOf(scene));
     return scene;
+}
+
+Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger& ledger,
+                                  std::vector<std::string>& warnings) {
+    const std::uint64_t mark = ledger.usedBytes();
+    Document document = loadDocument(file, ledger);
+    Scene scene;
+    Buffers buffers(document);
+    Accessors accessors(document, buffers);
+    Context context{document, buffers, accessors, scene};
+    importEnvironment(context);
+    if (!scene.environment)
+        throw InputError(fmt::format("{}: its scene has no light of EXT_lights_image_based; name a picture, or a model "
+                                     "that has one",
+                                     document.file));
+    for (std::vector<std::string>* const told : {&scene.warnings, &scene.notes})
+        warnings.insert(warnings.end(), told->begin(), told->end());
+    ledger.settle(mark, scene.environment->map.texels.size());
+    return std::move(*scene.environment);
 }
 
 } // namespace tessera::scenes

@@ -96,13 +96,27 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
 // ---- JSON ----------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view kSupportedExtensions[] = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",   "EXT_texture_webp",
-    "KHR_animation_pointer",   "KHR_lights_punctual",       "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat", "KHR_materials_dispersion",  "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",     "KHR_materials_specular",    "KHR_materials_transmission",
-    "KHR_materials_unlit",     "KHR_materials_variants",    "KHR_materials_volume",
-    "KHR_mesh_quantization",   "KHR_texture_transform",
+    "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 bool isSupported(std::string_view extension) {

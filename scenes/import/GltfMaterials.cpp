@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
-#include "scenes/import/GltfUri.h"
-#include "scenes/import/Importers.h"
+#include "scenes/import/GltfImages.h"
 #include "scenes/import/PackChannels.h"
 #include "scenes/import/StandIn.h"
 
@@ -123,19 +121,9 @@ TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, cons
 int Materials::image(int index, const char* instead) {
     const auto [entry, isNew] = images_.try_emplace(index, kNone);
     if (!isNew) return entry->second;
-    const Document& document = context_.document;
-    const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
-    try {
-        context_.scene.images.push_back(decoded(index));
-    } catch (const MemoryRefused&) {
-        throw;
-    } catch (const InputError& error) {
-        if (document.ledger.wishes().isStrict) throw;
-        document.ledger.settle(mark, context_.buffers.heldBytes());
-        const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
-        context_.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);
-        return kNone;
-    }
+    std::optional<Image> readable = readableImage(context_, index, instead);
+    if (!readable) return kNone;
+    context_.scene.images.push_back(std::move(*readable));
     return entry->second = static_cast<int>(context_.scene.images.size()) - 1;
 }
 
@@ -146,39 +134,6 @@ int Materials::standIn() {
         standIn_ = static_cast<int>(context_.scene.images.size()) - 1;
     }
     return standIn_;
-}
-
-Image Materials::decoded(int index) const {
-    const Document& document = context_.document;
-    const auto& [name, uri, bufferView] = document.model.images[static_cast<std::size_t>(index)];
-    const std::string place = fmt::format("/images/{}", index);
-    Image image;
-    if (bufferView != kNone) {
-        image = decodeImage(context_.buffers.view(bufferView), fmt::format("{}: {}", document.file, place),
-                            document.ledger);
-    } else if (isDataUri(uri)) {
-        const std::uint64_t mark = document.ledger.usedBytes();
-        document.charge(2 * uri.size(), "images", index);
-        std::vector<std::byte> bytes;
-        try {
-            bytes = decodeDataUri(uri);
-        } catch (const InputError& error) {
-            document.fail(place, error);
-        }
-        image = decodeImage(bytes, fmt::format("{}: {}", document.file, place), document.ledger);
-        document.ledger.settle(mark, image.texels.size());
-    } else if (!uri.empty()) {
-        try {
-            image = readImage(fileOfUri(uri, document.folder), document.ledger);
-        } catch (const InputError& error) {
-            document.fail(place, error);
-        }
-    } else {
-        document.fail(place, "has neither a uri nor a bufferView");
-    }
-    image.name = name;
-    if (image.name.empty()) image.name = uri.empty() || isDataUri(uri) ? fmt::format("image {}", index) : uri;
-    return image;
 }
 
 } // namespace tessera::scenes::gltf

@@ -30,7 +30,6 @@ private:
     TextureUse use(const model::TextureInfo& info, TextureSlot slot, const std::string& place);
     /// `instead` ends the warning where it cannot be read.
     int image(int index, const char* instead);
-    Image decoded(int index) const;
     int standIn();
 
     Context& context_;

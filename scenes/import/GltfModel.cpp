@@ -4,6 +4,7 @@ namespace tessera::scenes::gltf::model {
 namespace {
 
 constexpr IndexOf kLights{"extensions/KHR_lights_punctual/lights"};
+constexpr IndexOf kImageLights{"extensions/EXT_lights_image_based/lights"};
 constexpr IndexOf kVariants{"extensions/KHR_materials_variants/variants"};
 constexpr Range kInts{0.0, kMaxInt};
 
@@ -47,6 +48,7 @@ void Model::read(Object& object) {
     object.optional("extensionsUsed", extensionsUsed);
     object.optional("extensionsRequired", extensionsRequired);
     object.required(kLights.array, lights);
+    object.required(kImageLights.array, imageLights);
     object.optional("scene", scene, IndexOf{"scenes"});
     object.optional("scenes", scenes);
     object.optional("nodes", nodes);
@@ -71,6 +73,7 @@ void Variant::read(Object& object) {
 void Scene::read(Object& object) {
     object.optional("name", unneeded<std::string>());
     object.optional("nodes", nodes, IndexOf{"nodes"});
+    object.required("extensions/EXT_lights_image_based/light", imageLight, kImageLights);
 }
 
 void Node::read(Object& object) {
@@ -307,6 +310,25 @@ void Light::read(Object& object) {
     object.optional("spot/innerConeAngle", innerConeAngle, kFromZero);
     object.optional("spot/outerConeAngle", outerConeAngle, kFromZero);
     if (type == LightType::Spot && !object.has("spot")) object.failMissing("spot");
+}
+
+void ImageLight::read(Object& object) {
+    constexpr std::size_t kCoefficients = 9, kFaces = 6;
+    object.optional("name", name);
+    object.optional("intensity", intensity, kFromZero);
+    object.optional("rotation", rotation);
+    object.required("irradianceCoefficients", irradiance);
+    object.required("specularImages", images, IndexOf{"images"});
+    object.required("specularImageSize", sideTexels, Range{1.0, 65536.0});
+    if (glm::dot(rotation, rotation) == 0.0) object.fail("rotation", "is the zero quaternion, which is no rotation");
+    if (irradiance.size() != kCoefficients)
+        object.fail("irradianceCoefficients",
+                    fmt::format("must hold {} colours, but holds {}", kCoefficients, irradiance.size()));
+    if (images.empty()) object.fail("specularImages", "is empty; the six faces of a cube are needed");
+    for (const std::vector<int>& faces : images)
+        if (faces.size() != kFaces)
+            object.fail("specularImages", fmt::format("must hold {} faces of a cube in each element, but one holds {}",
+                                                      kFaces, faces.size()));
 }
 
 } // namespace tessera::scenes::gltf::model

@@ -15,6 +15,7 @@ namespace tessera::scenes::gltf::model {
 
 struct Scene {
     std::vector<int> nodes;
+    int imageLight = kNone; ///< EXT_lights_image_based
 
     void read(Object& object);
 };
@@ -227,6 +228,18 @@ struct Light {
     void read(Object& object);
 };
 
+/// EXT_lights_image_based.
+struct ImageLight {
+    std::string name;
+    float intensity = 1.0f;
+    glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0}; ///< x, y, z, w of a quaternion, of any length but 0
+    std::vector<glm::dvec3> irradiance;      ///< by spherical harmonics up to order 2: nine
+    std::vector<std::vector<int>> images;    ///< of six faces each: +X, -X, +Y, -Y, +Z, -Z; the first is not filtered
+    int sideTexels = 0;                      ///< of the faces of the first
+
+    void read(Object& object);
+};
+
 struct Skin {
     std::string name;
     int inverseBindMatrices = kNone; ///< an accessor; none: identities
@@ -283,6 +296,7 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
+    std::vector<ImageLight> imageLights;
     std::vector<Skin> skins;
     std::vector<Animation> animations;
     std::vector<Variant> variants;

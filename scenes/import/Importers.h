@@ -14,6 +14,9 @@ namespace tessera::scenes {
 
 /// glTF 2.0, .gltf and .glb
 Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger);
+/// The image-based light of the scene that importGltf() reads, alone. Throws InputError where there is none.
+Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger& ledger,
+                                  std::vector<std::string>& warnings);
 /// Wavefront OBJ with MTL
 Scene importObj(const std::filesystem::path& file, LoadLedger& ledger);
 /// Tessera's own .json, see docs/scene-format.md

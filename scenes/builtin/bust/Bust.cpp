@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/Parallel.h"
 #include "scenes/builtin/Noise.h"
-#include "scenes/builtin/Parallel.h"
 #include "scenes/builtin/Pictures.h"
 #include "scenes/builtin/Shapes.h"
 #include "scenes/builtin/bust/BustField.h"

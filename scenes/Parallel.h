@@ -4,7 +4,7 @@
 #include <thread>
 #include <vector>
 
-namespace tessera::scenes::builtin {
+namespace tessera::scenes {
 
 /// Calls body(i) once for every i in 0..count-1, on all cores; the calls must not depend on each other and must not
 /// throw.
@@ -20,4 +20,4 @@ void parallelFor(int count, const Body& body) {
     work();
 }
 
-} // namespace tessera::scenes::builtin
+} // namespace tessera::scenes

@@ -1,0 +1,280 @@
+#include "scenes/import/GltfEnvironment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/Srgb.h"
+#include "scenes/Parallel.h"
+#include "scenes/import/GltfImages.h"
+#include "scenes/import/StandIn.h"
+
+namespace tessera::scenes::gltf {
+namespace {
+
+using std::numbers::pi;
+
+/// Relative, of all coefficients together: far above what 8 bits lose, and less than a wrong scale or axis makes.
+constexpr double kMostDifference = 0.05;
+
+/// A face of a cube, seen from its middle: where it lies, and where its picture's right and lower edges are.
+struct Face {
+    glm::dvec3 ahead, right, down;
+};
+/// "Each saved image must be flipped about its vertical axis" against OpenGL's faces, which are seen from outside.
+/// Source: EXT_lights_image_based, "Prefiltered Specular Radiance Cubemaps"; OpenGL 4.5, table 8.19.
+constexpr std::array<Face, 6> kCube{{
+    {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+    {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+    {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}},
+    {{0, -1, 0}, {-1, 0, 0}, {0, 0, -1}},
+    {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}},
+    {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
+}};
+
+/// Not of unit length: 1 along the face's axis.
+glm::dvec3 directionOn(const Face& face, double x, double y, int side) {
+    return face.ahead + (2.0 * x / side - 1.0) * face.right + (2.0 * y / side - 1.0) * face.down;
+}
+
+/// Six square faces of Rgba32Float, one below the other.
+class Cube {
+public:
+    explicit Cube(const Image& faces) : faces_(faces) {}
+
+    int side() const { return faces_.width; }
+
+    /// Bilinear between the centres of four texels, also across edges.
+    glm::dvec3 radiance(const glm::dvec3& direction) const {
+        const std::size_t face = faceOf(direction);
+        const glm::dvec2 place = placeOn(kCube[face], direction) - 0.5, corner = glm::floor(place);
+        const glm::dvec2 share = place - corner;
+        const int x = int(corner.x), y = int(corner.y);
+        return glm::mix(glm::mix(near(face, x, y), near(face, x + 1, y), share.x),
+                        glm::mix(near(face, x, y + 1), near(face, x + 1, y + 1), share.x), share.y);
+    }
+
+    glm::dvec3 texel(std::size_t face, int x, int y) const {
+        glm::vec4 stored;
+        const std::size_t row = face * std::size_t(side()) + std::size_t(y);
+        std::memcpy(&stored, faces_.texels.data() + (row * std::size_t(side()) + std::size_t(x)) * sizeof(stored),
+                    sizeof(stored));
+        return glm::dvec3(stored);
+    }
+
+private:
+    static std::size_t faceOf(const glm::dvec3& direction) {
+        const auto along = [&](const Face& face) { return glm::dot(face.ahead, direction); };
+        return std::size_t(std::ranges::max_element(kCube, {}, along) - kCube.begin());
+    }
+
+    glm::dvec2 placeOn(const Face& face, const glm::dvec3& direction) const {
+        const glm::dvec2 across(glm::dot(face.right, direction), glm::dot(face.down, direction));
+        return (across / glm::dot(face.ahead, direction) * 0.5 + 0.5) * double(side());
+    }
+
+    /// Beyond an edge the texel that lies there on another face.
+    glm::dvec3 near(std::size_t face, int x, int y) const {
+        if (x >= 0 && y >= 0 && x < side() && y < side()) return texel(face, x, y);
+        const glm::dvec3 direction = directionOn(kCube[face], x + 0.5, y + 0.5, side());
+        const std::size_t other = faceOf(direction);
+        const glm::ivec2 place(glm::floor(placeOn(kCube[other], direction)));
+        return texel(other, std::clamp(place.x, 0, side() - 1), std::clamp(place.y, 0, side() - 1));
+    }
+
+    const Image& faces_;
+};
+
+/// Linear light of a picture's texels as the extension holds it: whole numbers are sRGB, divided by their opacity
+/// (RGBD, which is 1 where a picture has none); floating point is light itself.
+class FaceLight {
+public:
+    explicit FaceLight(const Image& image) : image_(image) {
+        if (image.format == TexelFormat::Rgba32Float) return;
+        light_.resize(image.format == TexelFormat::Rgba8Unorm ? 1u << 8 : 1u << 16);
+        for (std::size_t code = 0; code < light_.size(); ++code)
+            light_[code] = linearFromSrgb(double(code) / double(light_.size() - 1));
+    }
+
+    glm::vec4 texel(int x, int y) const {
+        const std::size_t at = std::size_t(y) * std::size_t(image_.width) + std::size_t(x);
+        if (image_.format == TexelFormat::Rgba8Unorm) return decoded<std::uint8_t>(at);
+        if (image_.format == TexelFormat::Rgba16Unorm) return decoded<std::uint16_t>(at);
+        return stored<glm::vec4>(at);
+    }
+
+private:
+    template <typename Texel>
+    Texel stored(std::size_t at) const {
+        Texel texel;
+        std::memcpy(&texel, image_.texels.data() + at * sizeof(texel), sizeof(texel));
+        return texel;
+    }
+
+    template <typename Code>
+    glm::vec4 decoded(std::size_t at) const {
+        const auto codes = stored<std::array<Code, 4>>(at);
+        const double share = double(codes[3]) / double(light_.size() - 1);
+        glm::dvec3 light;
+        for (int i = 0; i < 3; ++i) light[i] = light_[codes[std::size_t(i)]] / share;
+        return {glm::vec3(light), 1.0f};
+    }
+
+    const Image& image_;
+    std::vector<double> light_; ///< by code
+};
+
+/// Stretched to the cube's side where a face is not as large.
+void put(const Image& picture, std::size_t face, Image& cube) {
+    const FaceLight light(picture);
+    const int side = cube.width;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto source = [side](int place, int size) { return int(std::int64_t(place) * size / side); };
+            const glm::vec4 texel = light.texel(source(x, picture.width), source(y, picture.height));
+            const std::size_t row = face * std::size_t(side) + std::size_t(y);
+            std::memcpy(cube.texels.data() + (row * std::size_t(side) + std::size_t(x)) * sizeof(texel), &texel,
+                        sizeof(texel));
+        }
+}
+
+/// Of a light's first level.
+Image readCube(Context& context, const model::ImageLight& light, const std::string& name) {
+    const Document& document = context.document;
+    constexpr const char* kInstead = "; its side of the environment is a checkerboard";
+    const std::uint64_t mark = document.ledger.usedBytes() - context.buffers.heldBytes();
+    const std::string who = document.file + ": the environment '" + name + "'";
+    Image cube;
+    cube.name = name;
+    cube.format = TexelFormat::Rgba32Float;
+    cube.width = light.sideTexels;
+    cube.height = int(kCube.size()) * cube.width;
+    const std::uint64_t bytes = std::uint64_t(cube.width) * std::uint64_t(cube.height) * sizeof(glm::vec4);
+    document.ledger.charge(bytes, [&] { return who; });
+    cube.texels.resize(bytes);
+    for (std::size_t face = 0; face < kCube.size(); ++face) {
+        std::optional<Image> picture = readableImage(context, light.images[0][face], kInstead);
+        if (!picture) {
+            picture = standInPicture(document.ledger, who);
+        } else if (picture->width != cube.width || picture->height != cube.width) {
+            context.warn(fmt::format("the environment '{}' has faces of other sizes than {}x{} texels, its "
+                                     "specularImageSize; they are stretched to that",
+                                     name, cube.width, cube.width));
+        }
+        put(*picture, face, cube);
+        document.ledger.settle(mark, bytes + context.buffers.heldBytes());
+    }
+    return cube;
+}
+
+/// Real spherical harmonics up to order 2 of a unit direction. Source: Ramamoorthi and Hanrahan 2001, "An Efficient
+/// Representation for Irradiance Environment Maps".
+std::array<double, 9> harmonics(const glm::dvec3& n) {
+    return {0.282095,
+            0.488603 * n.y,
+            0.488603 * n.z,
+            0.488603 * n.x,
+            1.092548 * n.x * n.y,
+            1.092548 * n.y * n.z,
+            0.315392 * (3.0 * n.z * n.z - 1.0),
+            1.092548 * n.x * n.z,
+            0.546274 * (n.x * n.x - n.y * n.y)};
+}
+
+std::array<glm::dvec3, 9> irradianceOf(const Cube& cube) {
+    constexpr std::array<double, 9> kCosine{pi,       2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
+                                            pi / 4.0, pi / 4,     pi / 4,     pi / 4}; // what a clamped cosine keeps
+    std::array<glm::dvec3, 9> sum{};
+    double weights = 0.0;
+    for (std::size_t face = 0; face < kCube.size(); ++face)
+        for (int y = 0; y < cube.side(); ++y)
+            for (int x = 0; x < cube.side(); ++x) {
+                const glm::dvec3 direction = directionOn(kCube[face], x + 0.5, y + 0.5, cube.side());
+                const double length = glm::length(direction), weight = 1.0 / (length * length * length);
+                const std::array<double, 9> basis = harmonics(direction / length);
+                weights += weight;
+                for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * basis[i] * cube.texel(face, x, y);
+            }
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] *= kCosine[i] * 4.0 * pi / weights;
+    return sum;
+}
+
+void noteIrradiance(Context& context, const model::ImageLight& light, const Cube& cube, const std::string& name) {
+    const std::array<glm::dvec3, 9> own = irradianceOf(cube);
+    double difference = 0.0, whole = 0.0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const glm::dvec3 apart = light.irradiance[i] - own[i];
+        difference += glm::dot(apart, apart);
+        whole += glm::dot(own[i], own[i]);
+    }
+    if (!(difference > kMostDifference * kMostDifference * whole)) return;
+    context.scene.notes.push_back(fmt::format(
+        "{}: the irradianceCoefficients of the environment '{}' differ from the irradiance of its faces by {:.0f} % "
+        "of that, and the faces count",
+        context.document.file, name, whole > 0.0 ? 100.0 * std::sqrt(difference / whole) : 100.0));
+}
+
+/// Each texel is the mean over its solid angle.
+Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::string& name) {
+    constexpr int kPlaces = 4; // along each axis: texels of a cube are smallest in its corners, by less than that
+    Image map;
+    map.name = name;
+    map.format = TexelFormat::Rgba32Float;
+    map.width = 4 * cube.side();
+    map.height = 2 * cube.side();
+    map.texels.resize(std::size_t(map.width) * std::size_t(map.height) * sizeof(glm::vec4));
+    parallelFor(map.height, [&](int y) {
+        std::byte* out = map.texels.data() + std::size_t(y) * std::size_t(map.width) * sizeof(glm::vec4);
+        for (int x = 0; x < map.width; ++x, out += sizeof(glm::vec4)) {
+            glm::dvec3 sum(0.0);
+            double weights = 0.0;
+            for (int j = 0; j < kPlaces; ++j) {
+                const double down = (y + (j + 0.5) / kPlaces) / map.height, weight = std::sin(pi * down);
+                for (int i = 0; i < kPlaces; ++i) {
+                    const double right = (x + (i + 0.5) / kPlaces) / map.width;
+                    sum += weight * cube.radiance(cubeFromWorld * directionInMap({right, down}));
+                    weights += weight;
+                }
+            }
+            const glm::vec4 texel(glm::vec3(sum / weights), 1.0f);
+            std::memcpy(out, &texel, sizeof(texel));
+        }
+    });
+    return map;
+}
+
+} // namespace
+
+void importEnvironment(Context& context) {
+    const model::Model& model = context.document.model;
+    if (model.scenes.empty()) return;
+    const int index = model.scenes[std::size_t(model.scene)].imageLight;
+    if (index == kNone) return;
+    const model::ImageLight& light = model.imageLights[std::size_t(index)];
+    const std::string name = nameOr(light.name, "image-based light", index);
+    Image faces = readCube(context, light, name);
+    std::vector<std::string> replaced;
+    replaceNoLight(faces, replaced);
+    for (const std::string& warning : replaced) context.warn(warning);
+    const Cube cube(faces);
+    noteIrradiance(context, light, cube, name);
+    // Eight texels of the map for six of the cube.
+    context.document.ledger.charge(8 * (faces.texels.size() / 6),
+                                   [&] { return context.document.file + ": the environment '" + name + "'"; });
+    const glm::dvec4 turn = glm::normalize(light.rotation);
+    const glm::dmat3 worldFromCube = glm::mat3_cast(glm::dquat(turn.w, turn.x, turn.y, turn.z));
+    Environment environment;
+    environment.source = std::filesystem::absolute(context.document.file).lexically_normal().string();
+    environment.map = resampled(cube, glm::transpose(worldFromCube), name);
+    environment.intensity = light.intensity;
+    context.scene.environment = std::move(environment);
+}
+
+} // namespace tessera::scenes::gltf

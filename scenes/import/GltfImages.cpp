@@ -1,0 +1,65 @@
+#include "scenes/import/GltfImages.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "scenes/import/GltfUri.h"
+#include "scenes/import/Importers.h"
+
+namespace tessera::scenes::gltf {
+namespace {
+
+Image decoded(const Context& context, int index) {
+    const Document& document = context.document;
+    const auto& [name, uri, bufferView] = document.model.images[static_cast<std::size_t>(index)];
+    const std::string place = fmt::format("/images/{}", index);
+    Image image;
+    if (bufferView != kNone) {
+        image =
+            decodeImage(context.buffers.view(bufferView), fmt::format("{}: {}", document.file, place), document.ledger);
+    } else if (isDataUri(uri)) {
+        const std::uint64_t mark = document.ledger.usedBytes();
+        document.charge(2 * uri.size(), "images", index);
+        std::vector<std::byte> bytes;
+        try {
+            bytes = decodeDataUri(uri);
+        } catch (const InputError& error) {
+            document.fail(place, error);
+        }
+        image = decodeImage(bytes, fmt::format("{}: {}", document.file, place), document.ledger);
+        document.ledger.settle(mark, image.texels.size());
+    } else if (!uri.empty()) {
+        try {
+            image = readImage(fileOfUri(uri, document.folder), document.ledger);
+        } catch (const InputError& error) {
+            document.fail(place, error);
+        }
+    } else {
+        document.fail(place, "has neither a uri nor a bufferView");
+    }
+    image.name = name;
+    if (image.name.empty()) image.name = uri.empty() || isDataUri(uri) ? fmt::format("image {}", index) : uri;
+    return image;
+}
+
+} // namespace
+
+std::optional<Image> readableImage(Context& context, int index, const char* instead) {
+    const Document& document = context.document;
+    const std::uint64_t mark = document.ledger.usedBytes() - context.buffers.heldBytes();
+    try {
+        return decoded(context, index);
+    } catch (const MemoryRefused&) {
+        throw;
+    } catch (const InputError& error) {
+        if (document.ledger.wishes().isStrict) throw;
+        document.ledger.settle(mark, context.buffers.heldBytes());
+        const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
+        context.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);
+        return std::nullopt;
+    }
+}
+
+} // namespace tessera::scenes::gltf

@@ -1,0 +1,348 @@
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "GltfBuilder.h"
+#include "base/Srgb.h"
+#include "scenes/Environment.h"
+#include "scenes/Load.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+
+/// An uncompressed PNG of 8 bits a channel; `channels` 3 or 4. Source: RFC 2083, RFC 1951 section 3.2.4.
+Bytes png(int width, int height, int channels, const std::vector<unsigned char>& pixels) {
+    using Data = std::vector<unsigned char>;
+    const auto word = [](Data& to, std::uint32_t value) {
+        for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<unsigned char>(value >> shift));
+    };
+    Data file{0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+    const auto chunk = [&](const char* type, const Data& content) {
+        word(file, static_cast<std::uint32_t>(content.size()));
+        const std::size_t begin = file.size();
+        file.insert(file.end(), type, type + 4);
+        file.insert(file.end(), content.begin(), content.end());
+        std::uint32_t crc = ~0u;
+        for (std::size_t i = begin; i < file.size(); ++i) {
+            crc ^= file[i];
+            for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xedb88320u & (0u - (crc & 1u)));
+        }
+        word(file, ~crc);
+    };
+    Data header;
+    word(header, static_cast<std::uint32_t>(width));
+    word(header, static_cast<std::uint32_t>(height));
+    header.insert(header.end(), {8, static_cast<unsigned char>(channels == 4 ? 6 : 2), 0, 0, 0});
+    chunk("IHDR", header);
+    Data rows;
+    const auto rowBytes = std::ptrdiff_t(width) * channels;
+    for (int y = 0; y < height; ++y) {
+        rows.push_back(0);
+        rows.insert(rows.end(), pixels.begin() + y * rowBytes, pixels.begin() + (y + 1) * rowBytes);
+    }
+    const auto size = static_cast<unsigned>(rows.size());
+    Data stream{0x78,
+                0x01,
+                1,
+                static_cast<unsigned char>(size),
+                static_cast<unsigned char>(size >> 8),
+                static_cast<unsigned char>(~size),
+                static_cast<unsigned char>(~size >> 8)};
+    stream.insert(stream.end(), rows.begin(), rows.end());
+    std::uint32_t a = 1, b = 0;
+    for (const unsigned char byte : rows) b = (b + (a = (a + byte) % 65521)) % 65521;
+    word(stream, b << 16 | a);
+    chunk("IDAT", stream);
+    chunk("IEND", {});
+    return bytesOf(file);
+}
+
+Bytes pfm(int side, const std::function<glm::vec3(int, int)>& light) {
+    const std::string head = fmt::format("PF\n{} {}\n-1.0\n", side, side);
+    Bytes bytes = bytesOf(std::vector<char>(head.begin(), head.end()));
+    for (int y = side - 1; y >= 0; --y)
+        for (int x = 0; x < side; ++x) {
+            const glm::vec3 texel = light(x, y);
+            const Bytes row = bytesOf(std::vector<float>{texel.r, texel.g, texel.b});
+            bytes.insert(bytes.end(), row.begin(), row.end());
+        }
+    return bytes;
+}
+
+/// The direction that is seen at a place of a face, from the upper left corner, 0..1: what a viewer in the middle of
+/// the room sees who looks along the axis, its head up, or towards -Z where it looks up and +Z where it looks down.
+glm::dvec3 seenAt(int face, double x, double y) {
+    const double right = 2.0 * x - 1.0, up = 1.0 - 2.0 * y;
+    switch (face) {
+    case 0:
+        return {1.0, up, right};
+    case 1:
+        return {-1.0, up, -right};
+    case 2:
+        return {-right, 1.0, -up};
+    case 3:
+        return {-right, -1.0, up};
+    case 4:
+        return {-right, up, 1.0};
+    default:
+        return {right, up, -1.0};
+    }
+}
+
+/// A light whose faces are pictures; its irradiance is that of nothing.
+void addLight(Builder& builder, int side, const std::array<Bytes, 6>& faces) {
+    Json& light = builder.json["extensions"]["EXT_lights_image_based"]["lights"][0];
+    light = {{"name", "room"}, {"specularImageSize", side}, {"specularImages", Json::array({Json::array()})}};
+    builder.json["images"] = Json::array();
+    for (const Bytes& face : faces) {
+        light["specularImages"][0].push_back(builder.json["images"].size());
+        builder.json["images"].push_back({{"uri", dataUri(face)}});
+    }
+    light["irradianceCoefficients"] = std::vector<std::array<double, 3>>(9);
+    builder.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    builder.json["extensionsUsed"] = {"EXT_lights_image_based"};
+}
+
+Json& lightOf(Builder& builder) {
+    return builder.json["extensions"]["EXT_lights_image_based"]["lights"][0];
+}
+
+/// A cube whose light is a function of the unit direction.
+Builder cubeOf(int side, const std::function<glm::dvec3(glm::dvec3)>& light) {
+    std::array<Bytes, 6> faces;
+    for (int face = 0; face < 6; ++face)
+        faces[std::size_t(face)] = pfm(side, [&](int x, int y) {
+            return glm::vec3(light(glm::normalize(seenAt(face, (x + 0.5) / side, (y + 0.5) / side))));
+        });
+    Builder builder;
+    addLight(builder, side, faces);
+    return builder;
+}
+
+std::array<Bytes, 6> sixOf(const Bytes& face) {
+    return {face, face, face, face, face, face};
+}
+
+glm::dvec3 texelAt(const Image& map, int x, int y) {
+    glm::vec4 texel;
+    std::memcpy(&texel, map.texels.data() + std::size_t(y * map.width + x) * sizeof(texel), sizeof(texel));
+    return glm::dvec3(texel);
+}
+
+/// The largest distance of a texel from a function of its direction.
+double worst(const Image& map, const std::function<glm::dvec3(glm::dvec3)>& light) {
+    double distance = 0.0;
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const glm::dvec3 direction = directionInMap({(x + 0.5) / map.width, (y + 0.5) / map.height});
+            distance = std::max(distance, glm::distance(texelAt(map, x, y), light(direction)));
+        }
+    return distance;
+}
+
+glm::dvec3 byDirection(glm::dvec3 direction) {
+    return 2.0 + direction;
+}
+
+TEST(GltfEnvironment, everyTexelOfACubeIsFoundInItsDirection) {
+    const Scene scene = cubeOf(16, byDirection).import();
+    ASSERT_TRUE(scene.environment);
+    EXPECT_EQ(scene.environment->map.width, 64);
+    EXPECT_EQ(scene.environment->map.height, 32);
+    EXPECT_EQ(scene.environment->map.name, "room");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_TRUE(scene.images.empty()) << "faces are no textures";
+    // Bilinear, so that what is left is the curvature of a direction over a texel and the lookup across edges: a face
+    // that is mirrored, turned or exchanged errs by about 1.
+    EXPECT_LT(worst(scene.environment->map, byDirection), 0.02);
+}
+
+TEST(GltfEnvironment, aCubeKeepsTheLightOfABrightTexelAnywhere) {
+    constexpr int kSide = 8;
+    for (const int face : {0, 2, 5})
+        for (const auto& [column, row] : {std::pair(3, 4), std::pair(0, 0), std::pair(7, 3)}) {
+            std::array<Bytes, 6> faces = sixOf(pfm(kSide, [](int, int) { return glm::vec3(0.0f); }));
+            faces[std::size_t(face)] = pfm(
+                kSide, [&, x = column, y = row](int i, int j) { return glm::vec3(i == x && j == y ? 1000.0f : 0.0f); });
+            Builder builder;
+            addLight(builder, kSide, faces);
+            const Image map = builder.import().environment.value().map;
+            double sum = 0.0;
+            for (int y = 0; y < map.height; ++y)
+                for (int x = 0; x < map.width; ++x)
+                    sum += texelAt(map, x, y).r * 2.0 * pi / map.width *
+                           (std::cos(pi * y / map.height) - std::cos(pi * (y + 1) / map.height));
+            const double length = glm::length(seenAt(face, (column + 0.5) / kSide, (row + 0.5) / kSide));
+            const double truth = 1000.0 * 4.0 / (kSide * kSide) / (length * length * length);
+            // At corners and edges the interpolation reaches texels of other sizes.
+            EXPECT_NEAR(sum, truth, 0.05 * truth) << face << ", " << column << ", " << row;
+        }
+}
+
+TEST(GltfEnvironment, itsRotationTurnsItAndItsIntensityIsTheScenes) {
+    Builder builder = cubeOf(16, byDirection);
+    // A quarter turn about +X, of twice the unit length: what was seen above is seen in front, at +Z.
+    lightOf(builder)["rotation"] = {2.0 * std::sqrt(0.5), 0.0, 0.0, 2.0 * std::sqrt(0.5)};
+    lightOf(builder)["intensity"] = 2.5;
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.environment.value().intensity, 2.5f);
+    EXPECT_EQ(scene.environment->rotationDegrees, 0.0f);
+    EXPECT_LT(worst(scene.environment->map, [](glm::dvec3 d) { return byDirection({d.x, d.z, -d.y}); }), 0.02);
+}
+
+TEST(GltfEnvironment, picturesWithOpacityHoldLightDividedByIt) {
+    const double code200 = linearFromSrgb(200.0 / 255.0);
+    const auto lightOf8Bits = [](int channels, unsigned char alpha) {
+        std::vector<unsigned char> pixels;
+        for (int i = 0; i < 4; ++i) {
+            pixels.insert(pixels.end(), {200, 255, 0});
+            if (channels == 4) pixels.push_back(alpha);
+        }
+        Builder builder;
+        addLight(builder, 2, sixOf(png(2, 2, channels, pixels)));
+        return builder.import().environment.value().map;
+    };
+    const auto expectEven = [](const Image& map, const glm::dvec3& light) {
+        EXPECT_LT(worst(map, [&](glm::dvec3) { return light; }), 1e-5 * glm::length(light));
+    };
+    expectEven(lightOf8Bits(3, 255), {code200, 1.0, 0.0});
+    expectEven(lightOf8Bits(4, 255), {code200, 1.0, 0.0});
+    expectEven(lightOf8Bits(4, 51), glm::dvec3(code200, 1.0, 0.0) * 5.0);
+}
+
+TEST(GltfEnvironment, numbersOfItsFacesThatAreNoLightAreReplacedAndCounted) {
+    Builder builder;
+    // Opacity 0: red and green are infinite, blue is 0 by 0.
+    const std::vector<unsigned char> texel{255, 10, 0, 0};
+    addLight(builder, 1, sixOf(png(1, 1, 4, texel)));
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "the environment 'room' holds NaN in 6 numbers, taken as 0"));
+    EXPECT_TRUE(hasWarning(scene, "the environment 'room' holds infinity in 12 numbers, taken as its brightest"));
+    EXPECT_LT(worst(scene.environment.value().map, [](glm::dvec3) { return glm::dvec3(1, 1, 0); }), 1e-6);
+}
+
+TEST(GltfEnvironment, aFaceThatCannotBeReadIsACheckerboardUnlessLoadsAreStrict) {
+    std::array<Bytes, 6> faces = sixOf(pfm(8, [](int, int) { return glm::vec3(0.25f); }));
+    faces[2] = bytesOf(std::vector<char>{'n', 'o'});
+    Builder builder;
+    addLight(builder, 8, faces);
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("/images/2"));
+    EXPECT_THAT(scene.warnings[0], HasSubstr("; its side of the environment is a checkerboard"));
+    const Image& map = scene.environment.value().map;
+    EXPECT_NE(texelAt(map, 0, 0), glm::dvec3(0.25)) << "above";
+    EXPECT_EQ(texelAt(map, 0, map.height - 1), glm::dvec3(0.25)) << "below";
+    builder.wishes.isStrict = true;
+    EXPECT_THAT(builder.error(), HasSubstr("/images/2"));
+}
+
+TEST(GltfEnvironment, facesOfAnotherSizeAreStretchedWithAWarning) {
+    Builder builder = cubeOf(16, byDirection);
+    lightOf(builder)["specularImageSize"] = 32;
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "the environment 'room' has faces of other sizes than 32x32 texels, its "
+                                  "specularImageSize; they are stretched to that"));
+    EXPECT_EQ(scene.environment.value().map.width, 128);
+    EXPECT_LT(worst(scene.environment->map, byDirection), 0.05);
+}
+
+/// E = pi for even light of 1, and a share of it that follows the direction along an axis: 2/3 pi of that. In parts of
+/// the harmonics, whose factors Ramamoorthi and Hanrahan 2001 give.
+std::vector<std::array<double, 3>> irradianceByDirection() {
+    std::vector<std::array<double, 3>> irradiance(9);
+    irradiance[0].fill(2.0 * pi / 0.282095);
+    irradiance[1][1] = irradiance[2][2] = irradiance[3][0] = 2.0 / 3.0 * pi / 0.488603;
+    return irradiance;
+}
+
+TEST(GltfEnvironment, irradianceThatIsNotThatOfTheFacesIsNoted) {
+    Builder builder = cubeOf(16, byDirection);
+    std::vector<std::array<double, 3>> irradiance = irradianceByDirection();
+    lightOf(builder)["irradianceCoefficients"] = irradiance;
+    EXPECT_THAT(builder.import().notes, testing::IsEmpty());
+    for (std::array<double, 3>& coefficient : irradiance)
+        for (double& number : coefficient) number *= 1.04;
+    lightOf(builder)["irradianceCoefficients"] = irradiance;
+    EXPECT_THAT(builder.import().notes, testing::IsEmpty()) << "within five percent";
+    for (std::array<double, 3>& coefficient : irradiance)
+        for (double& number : coefficient) number *= 1.10 / 1.04;
+    lightOf(builder)["irradianceCoefficients"] = irradiance;
+    const std::vector<std::string> notes = builder.import().notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_THAT(notes[0], HasSubstr("the irradianceCoefficients of the environment 'room' differ from the irradiance "
+                                    "of its faces by 10 % of that, and the faces count"));
+}
+
+TEST(GltfEnvironment, onlyTheLightOfTheShownSceneIsRead) {
+    Builder builder = cubeOf(2, byDirection);
+    builder.json["scenes"][0].erase("extensions");
+    EXPECT_FALSE(builder.import().environment);
+    builder.json["extensionsRequired"] = {"EXT_lights_image_based"};
+    EXPECT_EQ(builder.error(), "");
+}
+
+TEST(GltfEnvironment, filteredLevelsAreNotRead) {
+    Builder builder = cubeOf(2, byDirection);
+    builder.json["images"].push_back({{"uri", "nowhere.png"}});
+    lightOf(builder)["specularImages"].push_back(std::vector<int>(6, 6));
+    const Scene scene = builder.import();
+    EXPECT_TRUE(scene.environment);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfEnvironment, brokenOnesAreRefusedByPlace) {
+    const auto errorOf = [](const char* key, const Json& value) {
+        Builder builder = cubeOf(1, byDirection);
+        lightOf(builder)[key] = value;
+        return builder.error();
+    };
+    EXPECT_THAT(errorOf("specularImages", Json::parse("[[0, 1, 2, 3, 4]]")),
+                HasSubstr("/specularImages: must hold 6 faces of a cube in each element, but one holds 5"));
+    EXPECT_THAT(errorOf("specularImages", Json::array()),
+                HasSubstr("/specularImages: is empty; the six faces of a cube are needed"));
+    EXPECT_THAT(errorOf("specularImages", Json::parse("[[0, 1, 2, 3, 4, 9]]")), HasSubstr("points at /images/9"));
+    EXPECT_THAT(errorOf("irradianceCoefficients", Json::parse("[[1, 1, 1]]")),
+                HasSubstr("/irradianceCoefficients: must hold 9 colours, but holds 1"));
+    EXPECT_THAT(errorOf("rotation", Json::parse("[0, 0, 0, 0]")),
+                HasSubstr("/rotation: is the zero quaternion, which is no rotation"));
+    EXPECT_THAT(errorOf("intensity", -1), HasSubstr("/intensity: is -1; it must be at least 0"));
+    EXPECT_THAT(errorOf("specularImageSize", 1 << 20), HasSubstr("it must be at most 65536"));
+    Builder builder = cubeOf(1, byDirection);
+    builder.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
+    EXPECT_THAT(builder.error(), HasSubstr("points at /extensions/EXT_lights_image_based/lights/1"));
+}
+
+TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
+    Builder builder = cubeOf(4, byDirection);
+    lightOf(builder)["intensity"] = 3.0;
+    const auto file = builder.folder.write("model.gltf", builder.json.dump());
+    LoadOptions options;
+    options.environment = file.string();
+    const Scene scene = loadScene("spheres", options);
+    EXPECT_EQ(scene.environment.value().source, file.string());
+    EXPECT_EQ(scene.environment->intensity, 3.0f);
+    EXPECT_EQ(scene.environment->map.width, 16);
+    // Its own, without a wish: and no studio is supplied.
+    EXPECT_EQ(loadScene(file.string(), {}).environment.value().source, file.string());
+    builder.json["scenes"][0].erase("extensions");
+    options.environment = builder.folder.write("dark.gltf", builder.json.dump()).string();
+    try {
+        loadScene("spheres", options);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("dark.gltf: its scene has no light of EXT_lights_image_based"));
+    }
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
