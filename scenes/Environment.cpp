@@ -14,6 +14,7 @@
 #include "base/Extension.h"
 #include "base/Names.h"
 #include "base/Srgb.h"
+#include "scenes/AveragedMap.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/builtin/Environments.h"
@@ -31,31 +32,33 @@ constexpr std::array kEnvironments = {
 constexpr std::uint64_t kBuiltinBytes =
     std::uint64_t(builtin::kMapWidth) * std::uint64_t(builtin::kMapHeight) * sizeof(glm::vec4) + (2u << 20);
 
+/// RGBA of fp32.
 template <typename Code>
-std::vector<float> linearTexels(const Image& image) {
+std::vector<std::byte> linearTexels(const Image& image) {
     std::array<float, std::size_t{std::numeric_limits<Code>::max()} + 1> linear{};
     constexpr double kWhite = std::numeric_limits<Code>::max();
     for (std::size_t code = 0; code < linear.size(); ++code)
         linear[code] = float(linearFromSrgb(double(code) / kWhite));
-    std::vector<float> texels(image.texels.size() / sizeof(Code));
-    for (std::size_t i = 0; i < texels.size(); ++i) {
+    std::vector<std::byte> texels(image.texels.size() / sizeof(Code) * sizeof(float));
+    for (std::size_t i = 0; i < image.texels.size() / sizeof(Code); ++i) {
         Code code;
         std::memcpy(&code, image.texels.data() + i * sizeof(Code), sizeof(Code));
-        texels[i] = linear[code];
+        std::memcpy(texels.data() + i * sizeof(float), &linear[code], sizeof(float));
     }
     return texels;
+}
+
+std::uint64_t bytesAsFloat(int width, int height) {
+    return std::uint64_t(width) * std::uint64_t(height) * texelBytes(TexelFormat::Rgba32Float);
 }
 
 /// The same picture in linear fp32. Pictures of whole numbers are taken as sRGB, which they are meant for.
 Image asFloat(Image image, LoadLedger& ledger) {
     if (image.format == TexelFormat::Rgba32Float) return image;
-    const std::uint64_t texels = std::uint64_t(image.width) * std::uint64_t(image.height);
-    ledger.charge(texels * texelBytes(TexelFormat::Rgba32Float), [&] { return image.name; });
-    const std::vector<float> linear = image.format == TexelFormat::Rgba8Unorm ? linearTexels<std::uint8_t>(image)
-                                                                              : linearTexels<std::uint16_t>(image);
+    ledger.charge(bytesAsFloat(image.width, image.height), [&] { return image.name; });
+    image.texels = image.format == TexelFormat::Rgba8Unorm ? linearTexels<std::uint8_t>(image)
+                                                           : linearTexels<std::uint16_t>(image);
     image.format = TexelFormat::Rgba32Float;
-    image.texels.resize(linear.size() * sizeof(float));
-    std::memcpy(image.texels.data(), linear.data(), image.texels.size());
     return image;
 }
 
@@ -63,16 +66,22 @@ struct Replaced {
     std::size_t nans = 0, negative = 0, infinite = 0, tooBright = 0;
 };
 
+/// In place, since a map may take gigabytes.
 Replaced replacedIn(Image& map) {
-    std::vector<float> texels(map.texels.size() / sizeof(float));
-    std::memcpy(texels.data(), map.texels.data(), map.texels.size());
+    const std::size_t numbers = map.texels.size() / sizeof(float);
+    const auto numberAt = [&](std::size_t i) {
+        float number;
+        std::memcpy(&number, map.texels.data() + i * sizeof(float), sizeof(float));
+        return number;
+    };
     float brightest = 0.0f;
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        if (i % 4 != 3 && std::isfinite(texels[i])) brightest = std::max(brightest, texels[i]);
+    for (std::size_t i = 0; i < numbers; ++i)
+        if (const float number = numberAt(i); i % 4 != 3 && std::isfinite(number))
+            brightest = std::max(brightest, number);
     brightest = std::min(brightest, kMostRadiance);
     Replaced replaced;
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        float& value = texels[i];
+    for (std::size_t i = 0; i < numbers; ++i) {
+        float value = numberAt(i);
         if (i % 4 == 3) {
             value = 1.0f;
         } else if (std::isnan(value)) {
@@ -88,8 +97,8 @@ Replaced replacedIn(Image& map) {
             value = kMostRadiance;
             ++replaced.tooBright;
         }
+        std::memcpy(map.texels.data() + i * sizeof(float), &value, sizeof(float));
     }
-    std::memcpy(map.texels.data(), texels.data(), map.texels.size());
     return replaced;
 }
 
@@ -108,6 +117,15 @@ void warnOfShape(const Image& map, std::vector<std::string>& warnings) {
              fmt::format("is {}x{} texels, not twice as wide as high, and is stretched around the scene", map.width,
                          map.height),
              warnings);
+}
+
+/// Called when no number is left that would spread.
+void averageIfLarge(Image& map, LoadLedger& ledger, std::vector<std::string>& warnings) {
+    const int width = std::min(map.width, kMostMapWidth), height = std::min(map.height, kMostMapHeight);
+    if (width == map.width && height == map.height) return;
+    ledger.charge(bytesAsFloat(width, height), [&] { return map.name; });
+    warnings.push_back(averagedText(map.name, map.width, map.height, width, height));
+    map = averagedMap(map, width, height);
 }
 
 Image builtinMap(const std::string& name, LoadLedger& ledger) {
@@ -150,6 +168,11 @@ void replaceNoLight(Image& picture, std::vector<std::string>& warnings) {
     tell(replaced.tooBright, fmt::format("is above {:g}", kMostRadiance), "that");
 }
 
+std::string averagedText(const std::string& name, int width, int height, int keptWidth, int keptHeight) {
+    return fmt::format("the environment '{}' has {}x{} texels; their averages in {}x{} are shown, {} of the GPU", name,
+                       width, height, keptWidth, keptHeight, sizeText(bytesAsFloat(keptWidth, keptHeight)));
+}
+
 Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings) {
     Environment environment;
     environment.source = source;
@@ -166,12 +189,13 @@ Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::
     image.name = file.filename().string();
     const bool hasFewBits = image.format != TexelFormat::Rgba32Float;
     environment.map = asFloat(std::move(image), ledger);
-    ledger.settle(mark, environment.map.texels.size());
     if (hasFewBits)
         warn(environment.map,
              "holds no light brighter than white: lamps and the sun are lost; give an .hdr or .exr file", warnings);
     replaceNoLight(environment.map, warnings);
     warnOfShape(environment.map, warnings);
+    averageIfLarge(environment.map, ledger, warnings);
+    ledger.settle(mark, environment.map.texels.size());
     return environment;
 }
 

@@ -17,6 +17,10 @@ class LoadLedger;
 /// Of a map times its intensity: as bright as lights are taken, and far from the end of fp32.
 inline constexpr float kMostRadiance = 1e30f;
 
+/// Columns and rows of a map: those of a larger one are averaged when it is loaded. So many texels are 512 MiB of the
+/// GPU, and finer than the pixels of a picture of 1280 columns through a lens of 56 degrees.
+inline constexpr int kMostMapWidth = 8192, kMostMapHeight = 4096;
+
 /// The radiance of a direction is interpolated bilinearly between the centres of four texels, across the left and right
 /// edge alike; beyond the first and last row it is that row's.
 struct Environment {
@@ -42,9 +46,12 @@ std::span<const BuiltinEnvironment> builtinEnvironments();
 /// brightest number, what is above kMostRadiance by that. `warnings` tells how many.
 void replaceNoLight(Image& picture, std::vector<std::string>& warnings);
 
+/// What is said of a map of more texels than are kept.
+std::string averagedText(const std::string& name, int width, int height, int keptWidth, int keptHeight);
+
 /// A map from "builtin:NAME", a picture file, or a glTF model with an image-based light, whose intensity comes with it.
-/// Numbers that are no light are replaced.
-/// Throws InputError that names the file and its fault, or the nearest names.
+/// Numbers that are no light are replaced, and a map of more than kMostMapWidth x kMostMapHeight texels is averaged to
+/// that; `warnings` tells both. Throws InputError that names the file and its fault, or the nearest names.
 Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings);
 
 } // namespace tessera::scenes

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <numbers>
 
-#include <tbb/parallel_for.h>
-
+#include "scenes/AveragedMap.h"
 #include "scenes/Environment.h"
 
 namespace tessera::frame {
@@ -40,53 +38,9 @@ LatitudeMap latitudeMapOf(const scenes::Image& picture) {
     return map;
 }
 
-namespace {
-
-/// Of each of `count` parts of an axis of `size` texels, which texels overlap it.
-struct Overlap {
-    int first;
-    std::vector<double> shares; ///< of the part, from the first on
-};
-
-/// `measure` tells how much of the axis lies before a place, in texels.
-template <typename Measure>
-std::vector<Overlap> overlaps(int size, int count, const Measure& measure) {
-    std::vector<Overlap> parts;
-    for (std::int64_t i = 0; i < count; ++i) {
-        const double begin = double(i * size) / count, end = double((i + 1) * size) / count;
-        Overlap& part = parts.emplace_back(Overlap{int(i * size / count), {}});
-        for (int texel = part.first; texel < end; ++texel)
-            part.shares.push_back((measure(std::min(texel + 1.0, end)) - measure(std::max(double(texel), begin))) /
-                                  (measure(end) - measure(begin)));
-    }
-    return parts;
-}
-
-} // namespace
-
 LatitudeMap coarserMap(const scenes::Image& picture, int mostWidth, int mostHeight) {
-    LatitudeMap map{std::min(picture.width, mostWidth), std::min(picture.height, mostHeight), {}};
-    map.texels.resize(std::size_t(map.width) * std::size_t(map.height));
-    const auto columns = overlaps(picture.width, map.width, [](double x) { return x; });
-    const auto rows = overlaps(picture.height, map.height,
-                               [&](double y) { return -std::cos(std::numbers::pi * y / picture.height); });
-    tbb::parallel_for(0, map.height, [&](int y) {
-        const Overlap& row = rows[std::size_t(y)];
-        for (int x = 0; x < map.width; ++x) {
-            const Overlap& column = columns[std::size_t(x)];
-            glm::dvec3 sum(0.0);
-            for (std::size_t j = 0; j < row.shares.size(); ++j)
-                for (std::size_t i = 0; i < column.shares.size(); ++i) {
-                    const std::size_t at =
-                        (std::size_t(row.first) + j) * std::size_t(picture.width) + std::size_t(column.first) + i;
-                    glm::vec4 texel;
-                    std::memcpy(&texel, picture.texels.data() + at * sizeof(texel), sizeof(texel));
-                    sum += row.shares[j] * column.shares[i] * glm::dvec3(glm::vec3(texel));
-                }
-            map.texels[std::size_t(y) * std::size_t(map.width) + std::size_t(x)] = glm::vec4(glm::vec3(sum), 1.0f);
-        }
-    });
-    return map;
+    if (picture.width <= mostWidth && picture.height <= mostHeight) return latitudeMapOf(picture);
+    return latitudeMapOf(scenes::averagedMap(picture, mostWidth, mostHeight));
 }
 
 } // namespace tessera::frame

@@ -24,8 +24,7 @@ struct LatitudeMap {
 
 /// Of an Rgba32Float picture.
 LatitudeMap latitudeMapOf(const scenes::Image& picture);
-/// The same with so many columns and rows at most: each texel the mean over its solid angle of those that it overlaps,
-/// so that light stays where it is.
+/// The same of scenes::averagedMap().
 LatitudeMap coarserMap(const scenes::Image& picture, int mostWidth, int mostHeight);
 
 } // namespace tessera::frame

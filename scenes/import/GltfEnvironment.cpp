@@ -222,23 +222,24 @@ void noteIrradiance(Context& context, const model::ImageLight& light, const Cube
 }
 
 /// Each texel is the mean over its solid angle.
-Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::string& name) {
-    constexpr int kPlaces = 4; // along each axis: texels of a cube are smallest in its corners, by less than that
+Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::string& name, int width) {
+    // Along each axis, no farther apart than texels in the corners of a cube, which are smallest.
+    const int places = std::max(4, 2 * ((4 * cube.side() + width - 1) / width));
     Image map;
     map.name = name;
     map.format = TexelFormat::Rgba32Float;
-    map.width = 4 * cube.side();
-    map.height = 2 * cube.side();
+    map.width = width;
+    map.height = width / 2;
     map.texels.resize(std::size_t(map.width) * std::size_t(map.height) * sizeof(glm::vec4));
     parallelFor(map.height, [&](int y) {
         std::byte* out = map.texels.data() + std::size_t(y) * std::size_t(map.width) * sizeof(glm::vec4);
         for (int x = 0; x < map.width; ++x, out += sizeof(glm::vec4)) {
             glm::dvec3 sum(0.0);
             double weights = 0.0;
-            for (int j = 0; j < kPlaces; ++j) {
-                const double down = (y + (j + 0.5) / kPlaces) / map.height, weight = std::sin(pi * down);
-                for (int i = 0; i < kPlaces; ++i) {
-                    const double right = (x + (i + 0.5) / kPlaces) / map.width;
+            for (int j = 0; j < places; ++j) {
+                const double down = (y + (j + 0.5) / places) / map.height, weight = std::sin(pi * down);
+                for (int i = 0; i < places; ++i) {
+                    const double right = (x + (i + 0.5) / places) / map.width;
                     sum += weight * cube.radiance(cubeFromWorld * directionInMap({right, down}));
                     weights += weight;
                 }
@@ -265,14 +266,15 @@ void importEnvironment(Context& context) {
     for (const std::string& warning : replaced) context.warn(warning);
     const Cube cube(faces);
     noteIrradiance(context, light, cube, name);
-    // Eight texels of the map for six of the cube.
-    context.document.ledger.charge(8 * (faces.texels.size() / 6),
+    const int whole = 4 * cube.side(), width = std::min(whole, kMostMapWidth);
+    if (width < whole) context.warn(averagedText(name, whole, whole / 2, width, width / 2));
+    context.document.ledger.charge(std::uint64_t(width) * std::uint64_t(width / 2) * sizeof(glm::vec4),
                                    [&] { return context.document.file + ": the environment '" + name + "'"; });
     const glm::dvec4 turn = glm::normalize(light.rotation);
     const glm::dmat3 worldFromCube = glm::mat3_cast(glm::dquat(turn.w, turn.x, turn.y, turn.z));
     Environment environment;
     environment.source = std::filesystem::absolute(context.document.file).lexically_normal().string();
-    environment.map = resampled(cube, glm::transpose(worldFromCube), name);
+    environment.map = resampled(cube, glm::transpose(worldFromCube), name, width);
     environment.intensity = light.intensity;
     context.scene.environment = std::move(environment);
 }

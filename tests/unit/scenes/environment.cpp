@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,6 +70,92 @@ TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
     EXPECT_EQ(warnings, (std::vector<std::string>{
                             "the environment 'extreme.pfm' holds infinity in 1 number, taken as its brightest",
                             "the environment 'extreme.pfm' is above 1e+30 in 2 numbers, taken as that"}));
+}
+
+TEST(Environment, mapsOfOneTexelAreEvenLightWhateverTheirNumberWas) {
+    test::TempFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const auto file = folder.write("one.pfm", pfm(1, 1, {nan, -infinite, infinite}));
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    const Environment bad = loadEnvironment(file.string(), ledger, warnings);
+    EXPECT_EQ(numbersOf(bad.map), (std::vector<float>{0.0f, 0.0f, 1.0f, 1.0f})) << "nothing is brightest, so 1 is";
+    EXPECT_EQ(warnings, (std::vector<std::string>{
+                            "the environment 'one.pfm' holds NaN in 1 number, taken as 0",
+                            "the environment 'one.pfm' is below 0 in 1 number, taken as 0",
+                            "the environment 'one.pfm' holds infinity in 1 number, taken as its brightest"}));
+    warnings.clear();
+    const auto good = folder.write("two.pfm", pfm(1, 1, {0.25f, 0.5f, 1e5f}));
+    EXPECT_EQ(numbersOf(loadEnvironment(good.string(), ledger, warnings).map),
+              (std::vector<float>{0.25f, 0.5f, 1e5f, 1.0f}));
+    EXPECT_TRUE(warnings.empty()) << "one texel has any shape";
+}
+
+/// What a map's rows and columns send, by solid angle.
+double lightOf(const Image& map) {
+    const std::vector<float> numbers = numbersOf(map);
+    double sum = 0.0;
+    for (int y = 0; y < map.height; ++y) {
+        const double top = std::numbers::pi * y / map.height, bottom = std::numbers::pi * (y + 1) / map.height;
+        for (int x = 0; x < map.width; ++x)
+            sum += (std::cos(top) - std::cos(bottom)) * double(numbers[4 * std::size_t(y * map.width + x)]) / map.width;
+    }
+    return sum;
+}
+
+TEST(Environment, mapsOfMoreTexelsThanAreKeptAreAveragedWithoutLossOfLight) {
+    test::TempFolder folder;
+    // A sun of one texel, and a number that would spread.
+    const auto write = [&](const std::string& name, int width, int height) {
+        std::vector<float> rgb(std::size_t(3 * width * height), 0.125f);
+        rgb[std::size_t(3 * (height / 3 * width + width / 5))] = 1e6f;
+        rgb[4] = std::numeric_limits<float>::quiet_NaN();
+        return folder.write(name, pfm(width, height, rgb));
+    };
+    struct Case {
+        const char* name;
+        int width, height, keptWidth, keptHeight;
+        const char* size;
+    };
+    for (const Case& one : {Case{"wide.pfm", 16384, 4, 8192, 4, "512.0 KiB"},
+                            {"odd.pfm", 9001, 3, 8192, 3, "384.0 KiB"},
+                            {"high.pfm", 2, 5000, 2, 4096, "128.0 KiB"}}) {
+        const std::string file = write(one.name, one.width, one.height).string();
+        LoadLedger ledger;
+        std::vector<std::string> warnings;
+        const Image map = loadEnvironment(file, ledger, warnings).map;
+        EXPECT_EQ(map.width, one.keptWidth);
+        EXPECT_EQ(map.height, one.keptHeight);
+        EXPECT_EQ(ledger.usedBytes(), map.texels.size()) << "the large one is gone";
+        Image whole;
+        whole.width = one.width;
+        whole.height = one.height;
+        std::vector<glm::vec4> texels(std::size_t(one.width * one.height), glm::vec4(0.125f));
+        texels[std::size_t(one.height / 3 * one.width + one.width / 5)].r = 1e6f;
+        whole.texels.resize(texels.size() * sizeof(glm::vec4));
+        std::memcpy(whole.texels.data(), texels.data(), whole.texels.size());
+        EXPECT_NEAR(lightOf(map), lightOf(whole), 1e-6 * lightOf(whole)) << one.name;
+        ASSERT_EQ(warnings.size(), 3u) << "NaN, the shape and the size";
+        EXPECT_EQ(warnings[2],
+                  fmt::format("the environment '{}' has {}x{} texels; their averages in {}x{} are shown, {} of the GPU",
+                              one.name, one.width, one.height, one.keptWidth, one.keptHeight, one.size));
+        for (const float number : numbersOf(map)) ASSERT_TRUE(std::isfinite(number));
+    }
+    EXPECT_EQ(kMostMapWidth, 2 * kMostMapHeight);
+}
+
+TEST(Environment, mapsThatAreNotTooLargeKeepTheirBits) {
+    test::TempFolder folder;
+    std::vector<float> rgb(std::size_t(3 * kMostMapWidth));
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = 0.1f * float(i);
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    const Image map =
+        loadEnvironment(folder.write("most.pfm", pfm(kMostMapWidth, 1, rgb)).string(), ledger, warnings).map;
+    ASSERT_EQ(map.width, kMostMapWidth);
+    const std::vector<float> numbers = numbersOf(map);
+    for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_EQ(numbers[i / 3 * 4 + i % 3], rgb[i]);
+    EXPECT_EQ(warnings.size(), 1u) << "of its shape";
 }
 
 TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
