@@ -42,7 +42,8 @@ void addBodies(Scene& scene) {
              bodyGlass("amber glass", 0.09f, {0.80f, 0.36f, 0.06f}, 0.07f));
     addThing(scene, "vase", glass::vase(), onTable(0.47, -0.20),
              bodyGlass("frosted glass", 0.03f, {0.70f, 0.85f, 0.90f}, 0.03f, 0.5f));
-    addThing(scene, "prism", glass::prism(), onTable(-0.34, 0.20, 0.55),
+    // Its end faces the front camera, so that both slopes are seen and one mirrors a strip of the studio.
+    addThing(scene, "prism", glass::prism(), onTable(-0.37, -0.08, -1.34),
              bodyGlass("flint glass", 0.06f, {0.95f, 0.97f, 0.98f}, 0.1f));
     scene.materials.back().ior = 1.62f;
     addThing(scene, "crystal ball", glass::crystalBall(), onTable(0.42, 0.17),
@@ -100,7 +101,7 @@ Scene makeGlass(const LoadOptions& options, LoadLedger& ledger) {
     scene.background = {0.05f, 0.05f, 0.055f};
     addThing(scene, "table", glass::tableTop(), glm::dmat4(1.0),
              metallicRoughness("oiled walnut", {0.105f, 0.060f, 0.036f}, 0.0f, 0.38f));
-    addThing(scene, "orange", glass::fruit(), onTable(-0.16, 0.01),
+    addThing(scene, "orange", glass::fruit(), onTable(-0.222, 0.16),
              metallicRoughness("orange peel", {0.86f, 0.33f, 0.03f}, 0.0f, 0.5f));
     addBodies(scene);
     addSheets(scene);
