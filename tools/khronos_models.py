@@ -1,0 +1,341 @@
+#!/usr/bin/env python3
+"""Renders every glTF model of a folder once and writes a sheet of pictures and the table of docs/khronos-models.md.
+
+Usage: tools/khronos_models.py FOLDER OUTPUT [--program build/release/apps/tessera] [--size 480x270]
+                               [--leave-out PATTERN]... [--document docs/khronos-models.md]
+
+Of each model one file is shown, as it is without options: lit by the built-in studio, from the supplied camera, or by
+and from what the model brings. OUTPUT receives
+
+  sheet.png    all pictures with their names, clipped at white
+  table.md     model, status (right, approximate or refused) and why
+  models.csv   mean luminance of the covered pixels; share of the picture's width or height, whichever is more, that they
+               span; seconds; warnings
+
+With --document the table replaces what stands between the two markers of that file. A model's status follows from the
+extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1 where a model that was
+drawn is black or covers nothing. Only Python's own library is needed.
+"""
+import argparse
+import array
+import csv
+import fnmatch
+import itertools
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import time
+import zlib
+
+RIGHT, APPROXIMATE, REFUSED = "right", "approximate", "refused"
+
+# What of an extension is drawn. One that is not here is left out, with a warning of the program.
+EXTENSIONS = {
+    "EXT_lights_image_based": (RIGHT, "filtered anew from its sharpest faces"),
+    "EXT_mesh_gpu_instancing": (RIGHT, ""),
+    "EXT_meshopt_compression": (RIGHT, ""),
+    "EXT_texture_webp": (RIGHT, ""),
+    "KHR_animation_pointer": (RIGHT, ""),
+    "KHR_draco_mesh_compression": (RIGHT, "shown by the plain geometry beside it"),
+    "KHR_lights_punctual": (RIGHT, ""),
+    "KHR_materials_anisotropy": (APPROXIMATE, "stretched highlights of the environment are sums of sixteen look-ups"),
+    "KHR_materials_clearcoat": (RIGHT, ""),
+    "KHR_materials_diffuse_transmission": (APPROXIMATE, "nothing shines through but what its alpha lets pass"),
+    "KHR_materials_dispersion": (APPROXIMATE, "three colours instead of a spectrum"),
+    "KHR_materials_emissive_strength": (RIGHT, ""),
+    "KHR_materials_ior": (RIGHT, ""),
+    "KHR_materials_iridescence": (RIGHT, ""),
+    "KHR_materials_pbrSpecularGlossiness": (RIGHT, "converted"),
+    "KHR_materials_sheen": (APPROXIMATE, "a sheen sees the environment as a matte surface does"),
+    "KHR_materials_specular": (RIGHT, ""),
+    "KHR_materials_transmission": (APPROXIMATE, "glass casts no shadow and no caustics, and sorts as whole meshes"),
+    "KHR_materials_unlit": (RIGHT, ""),
+    "KHR_materials_variants": (RIGHT, "the first one"),
+    "KHR_materials_volume": (APPROXIMATE, "bodies bend the environment's light, and do not show what lies behind them"),
+    "KHR_mesh_quantization": (RIGHT, ""),
+    "KHR_texture_basisu": (RIGHT, "shown with the plain pictures beside it"),
+    "KHR_texture_transform": (RIGHT, ""),
+    "KHR_xmp_json_ld": (RIGHT, "words about the model"),
+}
+# Said of nearly every model, and no fault of the picture.
+EXPECTED = ("the scene has no light: ", "the scene has no camera: ")
+BLACK = 0.005  # mean luminance: a fortieth of the studio's walls
+BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"
+# The same model in another container; the first that is there is shown.
+CONTAINERS = ("", "glTF", "glTF-Binary", "glTF-Embedded")
+
+
+# ---- Models --------------------------------------------------------------------------------------------------------
+
+
+def models_below(folder, left_out=()):
+    """One file of each model, by name. Folders of Khronos' samples are NAME/glTF/NAME.gltf or NAME/NAME.glb."""
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        if path.suffix.lower() not in (".gltf", ".glb") or not path.is_file():
+            continue
+        above = path.relative_to(folder).parent.parts
+        container = above[-1] if above and above[-1].startswith("glTF") else ""
+        place = above[: -1 if container else None]
+        rank = CONTAINERS.index(container) if container in CONTAINERS else len(CONTAINERS)
+        found.setdefault((place, path.stem), []).append((rank, path))
+    models = {}
+    for (place, stem), files in sorted(found.items()):
+        name = place[-1] if place and place[-1].startswith(stem) else stem
+        if name in models:
+            name = "/".join((*place, stem))
+        if not any(fnmatch.fnmatch(name, pattern) for pattern in left_out):
+            models[name] = min(files)[1]
+    return models
+
+
+def extensions_of(path):
+    """Those that a document says it uses; none where it cannot be read, which the program tells better."""
+    data = path.read_bytes()
+    try:
+        if data[:4] == b"glTF":
+            data = data[20 : 20 + struct.unpack_from("<I", data, 12)[0]]
+        return sorted(json.loads(data).get("extensionsUsed", []))
+    except (ValueError, struct.error, AttributeError, TypeError):
+        return []
+
+
+def status_of(extensions, code, lines):
+    """The status of a model and why, from its extensions, the program's exit code and what it said."""
+    if code != 0:
+        return REFUSED, lines[-1] if lines else f"exit code {code}"
+    reasons = [EXTENSIONS[name] for name in extensions if name in EXTENSIONS]
+    unknown = [(APPROXIMATE, f"{name} is left out") for name in extensions if name not in EXTENSIONS]
+    said = [
+        (APPROXIMATE, line)
+        for line in lines
+        if not any(part in line for part in EXPECTED) and "the extension " not in line
+    ]
+    reasons += unknown + said
+    status = APPROXIMATE if any(each == APPROXIMATE for each, _ in reasons) else RIGHT
+    shown = [why for each, why in reasons if why and each == status]
+    return status, "; ".join(dict.fromkeys(shown))
+
+
+def table_of(rows):
+    def cell(text):
+        return text.replace("|", "\\|").replace("\n", " ")
+
+    lines = ["| model | status | why |", "|---|---|---|"]
+    lines += [f"| {cell(name)} | {status} | {cell(why)} |" for name, status, why in rows]
+    return "\n".join(lines) + "\n"
+
+
+def with_table(document, table):
+    """A document with the table between its markers."""
+    if document.count(BEGIN) != 1 or document.count(END) != 1:
+        raise ValueError(f"must hold these two lines once each: {BEGIN} and {END}")
+    before, after = document.split(BEGIN)[0], document.split(END)[1]
+    return f"{before}{BEGIN}\n{table}{END}{after}"
+
+
+# ---- Pictures ------------------------------------------------------------------------------------------------------
+
+
+class Picture:
+    """Planes of floats, by the channel's name, rows from the top."""
+
+    def __init__(self, width, height, planes):
+        self.width, self.height, self.planes = width, height, planes
+
+    def measure(self):
+        """Mean luminance of the covered pixels, and the share of the width or height, whichever is more, they span."""
+        covered = [i for i, a in enumerate(self.planes["A"]) if a > 0.5]
+        if not covered:
+            return 0.0, 0.0
+        r, g, b = (self.planes[c] for c in "RGB")
+        mean = sum(0.2126 * r[i] + 0.7152 * g[i] + 0.0722 * b[i] for i in covered) / len(covered)
+        columns = [i % self.width for i in covered]
+        across = (max(columns) - min(columns) + 1) / self.width
+        down = (covered[-1] // self.width - covered[0] // self.width + 1) / self.height
+        return mean, max(across, down)
+
+    def bytes(self):
+        """RGB of 8 bits, sRGB, clipped."""
+
+        def code(value):
+            value = min(max(value, 0.0), 1.0) if value == value else 0.0
+            return round(255.0 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055))
+
+        out = bytearray(3 * self.width * self.height)
+        for i, channel in enumerate("RGB"):
+            out[i::3] = bytes(map(code, self.planes[channel]))
+        return out
+
+
+def read_exr(data):
+    """Scan lines of 32-bit floats, plain or in ZIP blocks. Source: OpenEXR, "The OpenEXR File Layout"."""
+    if data[:4] != b"\x76\x2f\x31\x01":
+        raise ValueError("is no OpenEXR file")
+    at, header = 8, {}
+    while data[at] != 0:
+        name, kind = (part.decode() for part in data[at:].split(b"\0", 2)[:2])
+        at += len(name) + len(kind) + 2
+        (size,) = struct.unpack_from("<i", data, at)
+        header[name] = data[at + 4 : at + 4 + size]
+        at += 4 + size
+    at += 1
+    left, top, right, bottom = struct.unpack("<4i", header["dataWindow"])
+    width, height = right - left + 1, bottom - top + 1
+    names, rest = [], header["channels"]
+    while rest[0] != 0:
+        name, rest = rest.split(b"\0", 1)
+        if struct.unpack_from("<i", rest)[0] != 2:
+            raise ValueError("holds other numbers than 32-bit floats")
+        names.append(name.decode())
+        rest = rest[16:]
+    compression = header["compression"][0]
+    if compression not in (0, 2, 3):
+        raise ValueError(f"has compression {compression}; none and ZIP are read")
+    rows_each = 16 if compression == 3 else 1
+    planes = {name: array.array("f", bytes(4 * width * height)) for name in names}
+    for offset in struct.unpack_from(f"<{-(-height // rows_each)}Q", data, at):
+        y, size = struct.unpack_from("<2i", data, offset)
+        rows = min(rows_each, height - (y - top))
+        block, whole = data[offset + 8 : offset + 8 + size], 4 * width * rows * len(names)
+        if size < whole:
+            block = zlib.decompress(block)
+            # Each byte is the difference to the one before, plus 128; then the two halves alternate.
+            block = bytes(b & 255 for b in itertools.accumulate(block, lambda last, b: last + b - 128))
+            half, mixed = (len(block) + 1) // 2, bytearray(len(block))
+            mixed[0::2], mixed[1::2] = block[:half], block[half:]
+            block = bytes(mixed)
+        for row in range(rows):
+            for i, name in enumerate(names):
+                begin = 4 * width * (row * len(names) + i)
+                numbers = array.array("f", block[begin : begin + 4 * width])
+                first = (y - top + row) * width
+                planes[name][first : first + width] = numbers
+    return Picture(width, height, planes)
+
+
+def png_of(width, height, rgb):
+    """Source: RFC 2083."""
+
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+    rows = b"".join(b"\0" + rgb[3 * width * y : 3 * width * (y + 1)] for y in range(height))
+    header = struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+# Letters of 5 x 7 dots: columns from the left, the lowest bit at the top.
+LETTERS = {
+    " ": "0000000000", "-": "0808080808", "_": "4040404040", "/": "2010080402", ".": "0060600000",
+    "0": "3e5149453e", "1": "00427f4000", "2": "4261514946", "3": "2141454b31", "4": "1814127f10",
+    "5": "2745454539", "6": "3c4a494930", "7": "0171090503", "8": "3649494936", "9": "064949291e",
+    "A": "7e1111117e", "B": "7f49494936", "C": "3e41414122", "D": "7f4141221c", "E": "7f49494941",
+    "F": "7f09090901", "G": "3e4149497a", "H": "7f0808087f", "I": "00417f4100", "J": "2040413f01",
+    "K": "7f08142241", "L": "7f40404040", "M": "7f020c027f", "N": "7f0408107f", "O": "3e4141413e",
+    "P": "7f09090906", "Q": "3e4151215e", "R": "7f09192946", "S": "4649494931", "T": "01017f0101",
+    "U": "3f4040403f", "V": "1f2040201f", "W": "3f4038403f", "X": "6314081463", "Y": "0708700807",
+    "Z": "6151494543",
+}  # fmt: skip
+LINE = 12  # pixels of a name below its picture
+
+
+def sheet_of(pictures, size, columns=6):
+    """(name, RGB or None) side by side, each above its name: width, height and RGB."""
+    width, height = size
+    columns = max(1, min(columns, len(pictures)))
+    rows = -(-len(pictures) // columns)
+    whole = columns * width
+    sheet = bytearray(3 * whole * rows * (height + LINE))
+    for number, (name, rgb) in enumerate(pictures):
+        left, top = number % columns * width, number // columns * (height + LINE)
+        if rgb is not None:
+            for y in range(height):
+                begin = 3 * ((top + y) * whole + left)
+                sheet[begin : begin + 3 * width] = rgb[3 * width * y : 3 * width * (y + 1)]
+        for i, letter in enumerate(name.upper()[: (width - 4) // 6]):
+            for x, dots in enumerate(bytes.fromhex(LETTERS.get(letter, "7f4141417f"))):
+                for y in range(7):
+                    if dots >> y & 1:
+                        begin = 3 * ((top + height + 3 + y) * whole + left + 2 + 6 * i + x)
+                        sheet[begin : begin + 3] = b"\xe0\xe0\xe0"
+    return whole, rows * (height + LINE), sheet
+
+
+# ---- Program -------------------------------------------------------------------------------------------------------
+
+
+def render(program, path, picture, size):
+    """The exit code, what was said without names of programs and files, and the seconds that it took."""
+    start = time.monotonic()
+    command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}"]
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
+    seconds = time.monotonic() - start
+    lines = []
+    for line in done.stderr.splitlines():
+        line = line.strip()
+        line = line.replace(str(path.parent) + "/", "")
+        for prefix in ("tessera: ", "error: ", "warning: ", f"{path.stem}: ", f"{path.name}: "):
+            line = line.removeprefix(prefix)
+        if line:
+            lines.append(line)
+    return done.returncode, lines, seconds
+
+
+def size_in(text):
+    width, height = map(int, text.split("x"))
+    return width, height
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    repository = pathlib.Path(__file__).resolve().parents[1]
+    parser.add_argument("--program", type=pathlib.Path, default=repository / "build/release/apps/tessera")
+    parser.add_argument("--size", type=size_in, default=(480, 270))
+    parser.add_argument("--leave-out", action="append", default=[], metavar="PATTERN")
+    parser.add_argument("--document", type=pathlib.Path)
+    options = parser.parse_args(arguments)
+    models = models_below(options.folder, options.leave_out)
+    if not models:
+        parser.error(f"{options.folder} holds no .gltf or .glb file")
+    if options.document:
+        with_table(options.document.read_text(), "")  # before all the work
+    options.output.mkdir(parents=True, exist_ok=True)
+    rows, figures, pictures, bad = [], [], [], []
+    for number, (name, path) in enumerate(models.items(), 1):
+        picture = options.output / "model.exr"
+        picture.unlink(missing_ok=True)
+        code, lines, seconds = render(options.program, path, picture, options.size)
+        status, why = status_of(extensions_of(path), code, lines)
+        luminance, span, rgb = "", "", None
+        if code == 0:
+            shown = read_exr(picture.read_bytes())
+            mean, share = shown.measure()
+            luminance, span, rgb = f"{mean:.4f}", f"{share:.3f}", shown.bytes()
+            if not mean >= BLACK:
+                bad.append(f"{name}: its mean luminance is {mean:.4f} over {share:.3f} of the picture")
+        rows.append((name, status, why))
+        figures.append((name, status, luminance, span, f"{seconds:.2f}", " / ".join(lines)))
+        pictures.append((name, rgb))
+        print(f"{number}/{len(models)} {name}: {status}, {seconds:.1f} s", flush=True)
+        picture.unlink(missing_ok=True)
+    (options.output / "sheet.png").write_bytes(png_of(*sheet_of(pictures, options.size)))
+    table = table_of(rows)
+    (options.output / "table.md").write_text(table)
+    with open(options.output / "models.csv", "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(("model", "status", "mean luminance", "span", "seconds", "warnings"))
+        writer.writerows(figures)
+    if options.document:
+        options.document.write_text(with_table(options.document.read_text(), table))
+    for line in bad:
+        print(line, file=sys.stderr)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
