@@ -9,8 +9,8 @@ and from what the model brings. OUTPUT receives
 
   sheet.png    all pictures with their names, clipped at white
   table.md     model, status (right, approximate or refused) and why
-  models.csv   mean luminance of the covered pixels; share of the picture's width or height, whichever is more, that they
-               span; seconds; warnings
+  models.csv   mean luminance of the covered pixels; share of the picture's width or height, whichever is more, that
+               they span; seconds; warnings
 
 With --document the table replaces what stands between the two markers of that file. A model's status follows from the
 extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1 where a model that was

@@ -145,32 +145,34 @@ void put(const Image& picture, std::size_t face, Image& cube) {
         }
 }
 
-/// Of a light's first level.
+/// Of a light's first level, as large as its largest face: what the document says of that may be anything.
 Image readCube(Context& context, const model::ImageLight& light, const std::string& name) {
     const Document& document = context.document;
     constexpr const char* kInstead = "; its side of the environment is a checkerboard";
     const std::uint64_t mark = document.ledger.usedBytes() - context.buffers.heldBytes();
     const std::string who = document.file + ": the environment '" + name + "'";
+    std::array<Image, kCube.size()> pictures;
+    int side = 1;
+    for (std::size_t face = 0; face < kCube.size(); ++face) {
+        std::optional<Image> picture = readableImage(context, light.images[0][face], kInstead);
+        if (picture && (picture->width != light.sideTexels || picture->height != light.sideTexels))
+            context.warn(fmt::format("the environment '{}' has faces of other sizes than {}x{} texels, its "
+                                     "specularImageSize; all are stretched to the largest",
+                                     name, light.sideTexels, light.sideTexels));
+        if (!picture) picture = standInPicture(document.ledger, who);
+        side = std::max({side, picture->width, picture->height});
+        pictures[face] = std::move(*picture);
+    }
     Image cube;
     cube.name = name;
     cube.format = TexelFormat::Rgba32Float;
-    cube.width = light.sideTexels;
-    cube.height = int(kCube.size()) * cube.width;
+    cube.width = side;
+    cube.height = int(kCube.size()) * side;
     const std::uint64_t bytes = std::uint64_t(cube.width) * std::uint64_t(cube.height) * sizeof(glm::vec4);
     document.ledger.charge(bytes, [&] { return who; });
     cube.texels.resize(bytes);
-    for (std::size_t face = 0; face < kCube.size(); ++face) {
-        std::optional<Image> picture = readableImage(context, light.images[0][face], kInstead);
-        if (!picture) {
-            picture = standInPicture(document.ledger, who);
-        } else if (picture->width != cube.width || picture->height != cube.width) {
-            context.warn(fmt::format("the environment '{}' has faces of other sizes than {}x{} texels, its "
-                                     "specularImageSize; they are stretched to that",
-                                     name, cube.width, cube.width));
-        }
-        put(*picture, face, cube);
-        document.ledger.settle(mark, bytes + context.buffers.heldBytes());
-    }
+    for (std::size_t face = 0; face < kCube.size(); ++face) put(pictures[face], face, cube);
+    document.ledger.settle(mark, bytes + context.buffers.heldBytes());
     return cube;
 }
 

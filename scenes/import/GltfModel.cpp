@@ -319,7 +319,7 @@ void ImageLight::read(Object& object) {
     object.optional("rotation", rotation);
     object.required("irradianceCoefficients", irradiance);
     object.required("specularImages", images, IndexOf{"images"});
-    object.required("specularImageSize", sideTexels, Range{1.0, 65536.0});
+    object.required("specularImageSize", sideTexels, Range{1.0, kMaxInt});
     if (glm::dot(rotation, rotation) == 0.0) object.fail("rotation", "is the zero quaternion, which is no rotation");
     if (irradiance.size() != kCoefficients)
         object.fail("irradianceCoefficients",
