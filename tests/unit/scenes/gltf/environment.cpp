@@ -343,6 +343,17 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     EXPECT_EQ(scene.environment->map.width, 16);
     // Its own, without a wish: and no studio is supplied.
     EXPECT_EQ(loadScene(file.string(), {}).environment.value().source, file.string());
+    // Scene files take the intensity too, unless they state one.
+    const auto loaded = [&](const char* how) {
+        return loadScene(builder.folder
+                             .write("scene.json",
+                                    std::string(R"({"tessera": 1, "environment": {"map": "model.gltf")") + how + "}}")
+                             .string())
+            .environment.value()
+            .intensity;
+    };
+    EXPECT_EQ(loaded(""), 3.0f);
+    EXPECT_EQ(loaded(R"(, "intensity": 0.5)"), 0.5f);
     builder.json["scenes"][0].erase("extensions");
     options.environment = builder.folder.write("dark.gltf", builder.json.dump()).string();
     try {
