@@ -42,10 +42,6 @@ struct BuiltinEnvironment {
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 
-/// Replaces numbers of an Rgba32Float picture that are no light: NaN and what is below 0 by 0, infinity by the
-/// brightest number, what is above kMostRadiance by that. `warnings` tells how many.
-void replaceNoLight(Image& picture, std::vector<std::string>& warnings);
-
 /// What is said of a map of more texels than are kept.
 std::string averagedText(const std::string& name, int width, int height, int keptWidth, int keptHeight);
 

@@ -108,6 +108,13 @@ public:
         add(std::uint64_t(corners.count));
         for (const glm::vec2& corner : corners.all()) add(corner);
     }
+    void add(const LightTexture& texture) {
+        if (!texture) return; // others keep the fingerprint that they had
+        const auto& [source, map, most] = *texture;
+        add(map);
+        static_cast<void>(source); // where it comes from, not what it is
+        static_cast<void>(most);   // the texels say
+    }
     void add(const Light& light) {
         visitFields(kLightFields, [&](const auto& field) { add(light.*field.member); });
     }

@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/LightAnimation.h"
+#include "scenes/LightTexture.h"
 #include "scenes/Material.h"
 
 /// Lights as plain data, their members as a table, and their types as a table. Everything that names a type or one of
@@ -93,6 +94,7 @@ struct Light {
     glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle and Polygon: unit, at right angles to directionWS
     bool isTwoSided = false;                 ///< what is flat: shines from the back too
     bool isSeen = true;                      ///< with an area: pictures show the surface
+    LightTexture texture;                    ///< what is flat: factors of its radiance, all over its surface
     std::optional<LightAnimation> animation;
     std::optional<LightFlicker> flicker;
     std::vector<LightKeys> keyframes; ///< of anything but the position, each once
@@ -128,6 +130,7 @@ inline constexpr std::tuple kLightFields{
     Field{"alongWS", &Light::alongWS},
     Field{"isTwoSided", &Light::isTwoSided},
     Field{"isSeen", &Light::isSeen},
+    Field{"texture", &Light::texture},
     Field{"animation", &Light::animation},
     Field{"flicker", &Light::flicker},
     Field{"keyframes", &Light::keyframes},
@@ -170,7 +173,8 @@ struct LightTypeInfo {
     std::span<const LightParameter> parameters{};
     /// It shines from a surface: intensity is its radiance, Light::falloff is InverseSquare, and Light::isSeen.
     bool isArea = false;
-    bool isFlat = false; ///< an area with a front, towards its direction, and a back: Light::isTwoSided
+    /// An area with a front, towards its direction, and a back: Light::isTwoSided, and Light::texture.
+    bool isFlat = false;
 
     /// A position, and with it a falloff, perhaps a range, and perhaps an animation.
     constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }

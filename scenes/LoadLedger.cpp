@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -124,8 +125,11 @@ std::uint64_t bytesOf(const Scene& scene) {
     for (const Material& material : scene.materials) bytes += material.name.size();
     for (const Mesh& mesh : scene.meshes) bytes += bytesOf(mesh);
     for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);
+    std::set<const LightPicture*> pictures; // shared by the lights that name them
     for (const Light& light : scene.lights) {
         bytes += light.name.size();
+        if (light.texture && pictures.insert(&*light.texture).second)
+            bytes += sizeof(LightPicture) + light.texture->source.size() + light.texture->map.texels.size();
         if (light.animation) bytes += bytesOf(light.animation->pointsWS) + bytesWithin(light.animation->keys);
         bytes += bytesOf(light.keyframes);
         for (const LightKeys& keys : light.keyframes) bytes += bytesWithin(keys);

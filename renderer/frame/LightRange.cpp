@@ -30,15 +30,24 @@ double areaReachMetres(const scenes::Light& light, double brightest, double tole
     return scenes::surfaceReachMetres(light) + std::sqrt(brightest * scenes::largestSeenArea(light) / tolerance);
 }
 
+glm::dvec3 mostFactor(const scenes::Light& light) {
+    return scenes::infoOf(light.type).isFlat ? glm::dvec3(light.texture.most()) : glm::dvec3(1.0);
+}
+
 double brightestOf(const scenes::Light& light) {
-    const glm::dvec3 color = lightColor(light);
+    const glm::dvec3 color = mostColor(light);
     return std::max({color.r, color.g, color.b});
 }
 
 } // namespace
 
 glm::dvec3 lightColor(const scenes::Light& light) {
-    return glm::min(glm::dvec3(light.color) * double(light.intensity), glm::dvec3(1e30));
+    const glm::dvec3 most = glm::max(mostFactor(light), 1.0);
+    return glm::min(glm::dvec3(light.color) * double(light.intensity), 1e30 / most);
+}
+
+glm::dvec3 mostColor(const scenes::Light& light) {
+    return mostFactor(light) * lightColor(light);
 }
 
 bool takesTolerance(const scenes::Light& light) {
@@ -59,7 +68,7 @@ double reachMetres(const scenes::Light& light, double rangeTolerance) {
 }
 
 void TruncatedLights::add(const scenes::Light& light, double rangeTolerance) {
-    if (!takesTolerance(light) || glm::vec3(lightColor(light)) == glm::vec3(0.0f)) return;
+    if (!takesTolerance(light) || glm::vec3(mostColor(light)) == glm::vec3(0.0f)) return;
     if (scenes::infoOf(light.type).isArea && !scenes::hasSurface(light)) return;
     const double reach = reachMetres(light, rangeTolerance);
     if (std::isinf(reach)) {

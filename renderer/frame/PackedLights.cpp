@@ -12,7 +12,7 @@ namespace tessera::frame {
 namespace {
 
 bool isDark(const scenes::Light& light, double reach) {
-    if (glm::vec3(lightColor(light)) == glm::vec3(0.0f) || reach == 0.0) return true;
+    if (glm::vec3(mostColor(light)) == glm::vec3(0.0f) || reach == 0.0) return true;
     return scenes::infoOf(light.type).reach == scenes::LightReach::Cone && !(light.outerConeRadians > 0.0f);
 }
 

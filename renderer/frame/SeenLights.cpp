@@ -117,7 +117,7 @@ std::optional<scenes::Light> shownLight(const scenes::Scene& scene, std::size_t 
     if (!scenes::infoOf(still.type).isArea || !still.isSeen || !still.enabled) return {};
     if (settings.soloLight && *settings.soloLight != int(index)) return {};
     const scenes::Light own = lightAtTime(still, settings.timeSeconds);
-    if (!scenes::hasSurface(own) || glm::vec3(lightColor(own)) == glm::vec3(0.0f)) return {};
+    if (!scenes::hasSurface(own) || glm::vec3(mostColor(own)) == glm::vec3(0.0f)) return {};
     if (!(reachMetres(own, settings.rangeTolerance) > 0.0)) return {};
     return own;
 }

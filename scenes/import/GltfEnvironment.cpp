@@ -13,6 +13,7 @@
 
 #include "base/Srgb.h"
 #include "scenes/Parallel.h"
+#include "scenes/RadianceMap.h"
 #include "scenes/import/GltfImages.h"
 #include "scenes/import/StandIn.h"
 
@@ -264,7 +265,7 @@ void importEnvironment(Context& context) {
     const std::string name = nameOr(light.name, "image-based light", index);
     Image faces = readCube(context, light, name);
     std::vector<std::string> replaced;
-    replaceNoLight(faces, replaced);
+    warnOfReplaced(fmt::format("the environment '{}'", faces.name), replaceNoLight(faces), replaced);
     for (const std::string& warning : replaced) context.warn(warning);
     const Cube cube(faces);
     noteIrradiance(context, light, cube, name);

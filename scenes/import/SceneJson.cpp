@@ -93,8 +93,11 @@ private:
         EnvironmentWish surroundings;
         if (environment) surroundings = readEnvironment(*environment);
         std::vector<Light> ownLights;
+        std::vector<std::string> lightWarnings;
         std::vector<Camera> ownCameras;
-        for (std::size_t i = 0; i < lights.size(); ++i) ownLights.push_back(readLight(lights[i], i));
+        for (std::size_t i = 0; i < lights.size(); ++i)
+            ownLights.push_back(
+                readLight(lights[i], i, [&](const JsonValue& name) { return lightTexture(name, lightWarnings); }));
         Names cameraNames;
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             ownCameras.push_back(readCamera(cameras[i], i));
@@ -108,6 +111,7 @@ private:
             if (replacesCameras) dropCameras(scene);
             if (options) scene.options = SceneOptions();
         }
+        scene.warnings.insert(scene.warnings.end(), lightWarnings.begin(), lightWarnings.end());
         const BaseSize baseSize{scene.materials.size(), scene.images.size()};
         if (surroundings.background) scene.background = *surroundings.background;
         if (environment) addEnvironment(*environment, surroundings, scene);
@@ -165,6 +169,18 @@ private:
             return loadEnvironment(source, ledger_, warnings);
         } catch (const InputError& error) {
             map.fail(error.what());
+        }
+    }
+
+    /// A picture that several lights name is read once.
+    LightTexture lightTexture(const JsonValue& name, std::vector<std::string>& warnings) {
+        const std::string file = resolveFile(name).lexically_normal().string();
+        const auto known = lightTextures_.find(file);
+        if (known != lightTextures_.end()) return known->second;
+        try {
+            return lightTextures_[file] = loadLightTexture(file, ledger_, warnings);
+        } catch (const InputError& error) {
+            name.fail(error.what());
         }
     }
 
@@ -363,6 +379,7 @@ private:
 
     LoadLedger& ledger_;
     std::map<std::pair<std::string, std::string>, Part> parts_; ///< by file and variant
+    std::map<std::string, LightTexture> lightTextures_;         ///< by file
     std::uint64_t keptBytes_ = 0;                               ///< of the scenes in parts_
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;

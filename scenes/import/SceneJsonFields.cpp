@@ -67,6 +67,10 @@ void read(const JsonValue& value, LightCorners& corners) {
     }
 }
 
+void read(const JsonValue& value, LightTexture&) {
+    value.fail("is no field; name the picture by the light's own key 'texture'");
+}
+
 template <typename Value>
 void read(const JsonValue& value, std::optional<Value>& optional) {
     optional.reset();

@@ -226,6 +226,12 @@ LightFlicker readFlicker(const JsonValue& value) {
 } // namespace
 
 Light readLight(const JsonValue& value, std::size_t index) {
+    return readLight(value, index, [](const JsonValue& fileName) -> LightTexture {
+        fileName.fail("names a file where none is read; remove it");
+    });
+}
+
+Light readLight(const JsonValue& value, std::size_t index, const ReadLightTexture& readTexture) {
     JsonObject object = value.object();
     Light light;
     const JsonValue type = object.require("type");
@@ -253,6 +259,14 @@ Light readLight(const JsonValue& value, std::size_t index) {
     if (info.isArea) {
         if (const auto seen = object.find("seen")) light.isSeen = seen->boolean();
     }
+    std::optional<JsonValue> texture;
+    if (info.isFlat)
+        texture = object.find("texture");
+    else if (info.isArea && object.has("texture"))
+        object.require("texture").fail(fmt::format(
+            "a {} light has no texture: a picture has no one way to lie around it; rectangles, disks and polygons take "
+            "one",
+            info.name));
     if (const auto casts = object.find("castsShadow")) light.castsShadow = casts->boolean();
     if (const LightParameter* size = sizeParameter(info)) {
         if (info.isArea) object.require(size->key);
@@ -260,6 +274,8 @@ Light readLight(const JsonValue& value, std::size_t index) {
     }
     readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
+    // Last: a picture takes long to read, and the rest may be wrong.
+    if (texture) light.texture = readTexture(*texture);
     return light;
 }
 

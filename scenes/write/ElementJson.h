@@ -5,7 +5,8 @@
 /// light that was a spot and may become one again, stands under "fields": every element is read back as it is.
 namespace tessera::scenes::write {
 
-Json lightJson(const Light& light);
+/// `texture` is what the document calls the light's picture. A light whose type takes none loses it.
+Json lightJson(const Light& light, const std::string& texture = "");
 Json cameraJson(const Camera& camera);
 /// Its pictures are named by their number in the base.
 Json materialJson(const Material& material, std::size_t images);

@@ -58,6 +58,10 @@ Json fieldOf(const LightCorners& corners) {
     return array;
 }
 
+Json fieldOf(const LightTexture& texture) {
+    return texture ? Json(texture->source) : Json();
+}
+
 template <typename Element>
 Json fieldOf(const std::vector<Element>& list) {
     Json array = Json::array();

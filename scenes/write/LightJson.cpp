@@ -84,7 +84,7 @@ Json animationJson(const Light& light) {
     return json;
 }
 
-Json byKeys(const Light& light) {
+Json byKeys(const Light& light, const std::string& texture) {
     Json json;
     if (!light.name.empty()) json["name"] = light.name;
     json["type"] = scenejson::nameOf(light.type);
@@ -114,6 +114,7 @@ Json byKeys(const Light& light) {
     for (const LightParameter& parameter : info.parameters) write(parameter);
     if (info.isFlat && light.isTwoSided) json["twoSided"] = true;
     if (info.isArea && !light.isSeen) json["seen"] = false;
+    if (info.isFlat && light.texture) json["texture"] = texture;
     if (light.castsShadow) json["castsShadow"] = true;
     if (const LightParameter* size = sizeParameter(info); size != nullptr && (info.isArea || hasSize(light)))
         write(*size);
@@ -122,10 +123,14 @@ Json byKeys(const Light& light) {
 
 } // namespace
 
-Json lightJson(const Light& light) {
-    const Json least = {{"name", "light"}, {"type", "point"}, {"position", {0, 0, 0}}};
-    return withFields(light, byKeys(light), least,
-                      [](const JsonValue& value) { return scenejson::readLight(value, 0); });
+Json lightJson(const Light& all, const std::string& texture) {
+    Light light = all;
+    if (!infoOf(light.type).isFlat) light.texture = {};
+    Json least = {{"name", "light"}, {"type", "point"}, {"position", {0, 0, 0}}};
+    if (light.texture) least.update({{"type", "rectangle"}, {"direction", {0, 0, -1}}, {"texture", texture}});
+    return withFields(light, byKeys(light, texture), least, [&](const JsonValue& value) {
+        return scenejson::readLight(value, 0, [&](const JsonValue&) { return light.texture; });
+    });
 }
 
 } // namespace tessera::scenes::write

@@ -146,7 +146,8 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
     document["base"] = baseJson(origin, file);
     if (Json materials = materialsJson(scene, origin); !materials.empty()) document["materials"] = std::move(materials);
     Json& lights = document["lights"] = Json::array();
-    for (const Light& light : scene.lights) lights.push_back(write::lightJson(light));
+    for (const Light& light : scene.lights)
+        lights.push_back(write::lightJson(light, light.texture ? nameIn(light.texture->source, file) : ""));
     Json& cameras = document["cameras"] = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
     document["environment"] = environmentJson(scene, file);

@@ -63,7 +63,9 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const scenes::Light light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
         if (!light.enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
-        if (glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
+        const bool isFlat = scenes::infoOf(light.type).isFlat;
+        const glm::dvec3 most = isFlat ? glm::dvec3(light.texture.most()) : glm::dvec3(1.0);
+        if (most * glm::dvec3(light.color) * double(light.intensity) == glm::dvec3(0.0)) continue;
         const scenes::LightReach reach = scenes::infoOf(light.type).reach;
         const bool isCone = reach == scenes::LightReach::Cone;
         if (isCone && !(light.outerConeRadians > 0.0f)) continue;
@@ -85,7 +87,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
             plain.attenuation = glm::dvec3(light.attenuation) * settings.rangeTolerance;
         else
             plain.squaredRange = double(light.rangeMetres) * double(light.rangeMetres);
-        const glm::dvec3 color = glm::dvec3(light.color) * double(light.intensity);
+        const glm::dvec3 color = most * glm::dvec3(light.color) * double(light.intensity);
         // Colours are held to 1e30 (docs/numerics.md).
         plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
         plain.surfaceMetres = scenes::surfaceReachMetres(light);

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 
+#include "validation/reference/LightSurface.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/SeenArea.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 /// By how much of a radian a lobe may turn within a square.
 constexpr double kTurnRadians = 0.8;
+/// And how many texels of a picture its corners may be from its middle.
+constexpr double kMostTexels = 1.5;
 
 /// Half vectors stretched so that a lobe of any width is about a radian wide.
 class Stretch {
@@ -76,9 +79,9 @@ struct Rule {
 
 class Cubature {
 public:
-    Cubature(const SeenArea& area, const std::vector<Stretch>& stretches, const Integrand& integrand,
-             const Settings& settings)
-        : area_(area), stretches_(stretches), integrand_(integrand), settings_(settings) {}
+    Cubature(const SeenArea& area, const LightSurface& surface, const std::vector<Stretch>& stretches,
+             const Integrand& integrand, const Settings& settings)
+        : area_(area), surface_(surface), stretches_(stretches), integrand_(integrand), settings_(settings) {}
 
     Estimate integral() const {
         std::vector<Square> heap;
@@ -141,7 +144,8 @@ private:
         while (!open.empty()) {
             const Square square = open.front();
             open.pop_front();
-            if (int(open.size() + small.size()) < settings_.areaSquares / 2 && turnsMuch(square))
+            if (int(open.size() + small.size()) < settings_.areaSquares / 2 &&
+                (turnsMuch(square) || holdsManyTexels(square)))
                 for (const Square& quarter : quartersOf(square)) open.push_back(quarter);
             else
                 small.push_back(square);
@@ -161,6 +165,19 @@ private:
         return false;
     }
 
+    /// Of the light's picture: what is smaller than the square might be missed.
+    bool holdsManyTexels(const Square& square) const {
+        if (surface_.isEven()) return false;
+        const auto texelsAt = [&](double x, double y) {
+            return surface_.texelsAt(area_.at(square.patch, square.at(x, y)).direction);
+        };
+        const glm::dvec2 middle = texelsAt(0.5, 0.5);
+        for (const double x : {0.0, 1.0})
+            for (const double y : {0.0, 1.0})
+                if (glm::distance(texelsAt(x, y), middle) > kMostTexels) return true;
+        return false;
+    }
+
     void measure(Square& square) const {
         glm::dvec3 fine(0.0), coarse(0.0);
         for (std::size_t i = 0; i < Rule::kPoints; ++i)
@@ -168,7 +185,8 @@ private:
                 const SeenArea::Place place =
                     area_.at(square.patch, square.at(0.5 + 0.5 * Rule::place[i], 0.5 + 0.5 * Rule::place[j]));
                 if (!(place.solidAngle > 0.0)) continue;
-                const glm::dvec3 found = place.solidAngle * integrand_(place.direction);
+                glm::dvec3 found = place.solidAngle * integrand_(place.direction);
+                if (!surface_.isEven()) found *= surface_.factorAt(place.direction);
                 fine += Rule::kronrod[i] * Rule::kronrod[j] * found;
                 coarse += Rule::gauss[i] * Rule::gauss[j] * found;
             }
@@ -178,6 +196,7 @@ private:
     }
 
     const SeenArea& area_;
+    const LightSurface& surface_;
     const std::vector<Stretch>& stretches_;
     const Integrand& integrand_;
     const Settings& settings_;
@@ -188,7 +207,9 @@ Estimate integralOver(const ShiningLight& shining, const glm::dvec3& positionRWS
                       const Integrand& integrand, const Settings& settings) {
     const double window = rangeWindow(glm::distance(shining.positionRWS, positionRWS), shining.rangeMetres);
     if (window == 0.0) return {};
-    const Estimate share = Cubature(SeenArea(shining, positionRWS), stretches, integrand, settings).integral();
+    const SeenArea area(shining, positionRWS);
+    const LightSurface surface(shining, shining.positionRWS - positionRWS);
+    const Estimate share = Cubature(area, surface, stretches, integrand, settings).integral();
     const glm::dvec3 radiance = window * shining.color;
     return {radiance * share.light, radiance * radiance * share.variance};
 }

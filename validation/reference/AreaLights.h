@@ -4,7 +4,8 @@
 
 /// Light of area lights that nothing hides: integrals over the directions in which a point sees them, by adaptive
 /// cubature in double precision. The unit square of each patch (SeenArea.h) is first quartered until no lobe turns much
-/// within a square, so that none is missed; then where two rules differ most, until all differences together are
+/// within a square, so that none is missed, and it holds a few texels of the light's picture, as long as half of the
+/// squares are left; then where two rules differ most, until all differences together are
 /// Settings::areaTolerance of the integral or there are Settings::areaSquares squares. The better rule is nearer to the
 /// integral than the two are to each other.
 namespace tessera::reference {

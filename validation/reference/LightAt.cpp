@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "validation/reference/LightSurface.h"
+
 namespace tessera::reference {
 
 namespace {
@@ -117,7 +119,7 @@ Incident area(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const double projected = projectedArea(shining.light, -glm::dot(shining.light.directionWS, toLight) / distance);
     // From afar the solid angle; never more than a hemisphere, whose irradiance is pi times the radiance.
     return {toLight / distance,
-            shining.color * (window * projected / (distance * distance + projected / std::numbers::pi))};
+            shining.mean * shining.color * (window * projected / (distance * distance + projected / std::numbers::pi))};
 }
 
 struct Type {
@@ -177,10 +179,14 @@ std::vector<ShiningLight> shiningLights(const scenes::Scene& scene, const Settin
         if (!scene.lights[i].enabled || (settings.soloLight && *settings.soloLight != int(i))) continue;
         ShiningLight shining;
         shining.light = scenes::lightAtTime(scene.lights[i], settings.timeSeconds);
-        shining.color =
-            glm::min(glm::dvec3(shining.light.color) * double(shining.light.intensity), glm::dvec3(kBrightest));
+        if (!scenes::infoOf(shining.light.type).isFlat) shining.light.texture = {};
+        const glm::dvec3 most(shining.light.texture.most());
+        shining.color = glm::min(glm::dvec3(shining.light.color) * double(shining.light.intensity),
+                                 kBrightest / glm::max(most, 1.0));
+        shining.mean = meanFactor(shining.light);
         shining.positionRWS = shining.light.positionWS - eyeWS;
-        const double brightest = std::max({shining.color.r, shining.color.g, shining.color.b});
+        const double brightest =
+            std::max({most.r * shining.color.r, most.g * shining.color.g, most.b * shining.color.b});
         shining.rangeMetres = rangeOf(shining.light, brightest, settings.rangeTolerance);
         shining.castsShadow = scenes::castsShadow(scene, i, settings.shadows);
         if (brightest > 0.0 && shining.rangeMetres > 0.0) lights.push_back(shining);

@@ -9,7 +9,8 @@ namespace tessera::reference {
 /// A light that is on, as it is at the settings' time. RWS: world axes, the eye as the origin.
 struct ShiningLight {
     scenes::Light light;
-    glm::dvec3 color{0.0}; ///< colour x intensity
+    glm::dvec3 color{0.0}; ///< colour x intensity; a picture has factors of it
+    glm::dvec3 mean{1.0};  ///< factor of the picture, all over the surface
     glm::dvec3 positionRWS{0.0};
     double rangeMetres = 0.0; ///< exactly 0 from here on; infinite where it has no end
     bool castsShadow = false;

@@ -322,7 +322,7 @@ private:
     Lit litBy(const Ray& ray, const Seen& seen, const Nudge& nudge, Shadows shadows = Shadows::Exact) const {
         Lit all{surroundings_.isSeen() ? surroundings_.radianceOf(glm::normalize(ray.direction))
                                        : glm::dvec3(scene_.background)};
-        if (seen.light) all.radiance = lights_[seen.light->light].color;
+        if (seen.light) all.radiance = seen.light->factor * lights_[seen.light->light].color;
         if (seen.opaque) all = litSurface(seen, 0, nudge, ray, shadows);
         for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
             const Lit own = litSurface(seen, 1 + i, nudge, ray, shadows);

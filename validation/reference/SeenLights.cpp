@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/AreaLight.h"
+#include "validation/reference/LightSurface.h"
 
 namespace tessera::reference {
 
@@ -111,6 +112,9 @@ std::optional<SeenLights::Met> SeenLights::before(const Ray& ray, double depthMe
         if (!entry || *entry < nearMetres_ || *entry > std::min(farMetres_, depthMetres)) continue;
         if (!nearest || *entry <= nearest->depthMetres) nearest = {i, *entry};
     }
+    if (nearest)
+        nearest->factor = LightSurface(lights_[nearest->light], lights_[nearest->light].positionRWS - ray.originRWS)
+                              .factorAt(ray.direction);
     return nearest;
 }
 

@@ -18,6 +18,7 @@ public:
     struct Met {
         std::size_t light = 0; ///< its number among the lights
         double depthMetres = 0.0;
+        glm::dvec3 factor{1.0}; ///< of its radiance there: that of its picture
     };
     /// The nearest surface within the camera's depths and not behind `depthMetres`; of several in one place the last.
     /// Flat lights are met from sides that shine, solids from outside alone.

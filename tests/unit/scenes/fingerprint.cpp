@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/Load.h"
+#include "tests/support/LightPictures.h"
 #include "tests/unit/scenes/RiggedScene.h"
 
 namespace tessera::scenes {
@@ -153,6 +154,8 @@ const std::vector<Change>& changes() {
         {"light.cornerCount", [](Scene& s) { s.lights[0].corners.count = 3; }},
         {"light.twoSided", [](Scene& s) { s.lights[0].isTwoSided = true; }},
         {"light.seen", [](Scene& s) { s.lights[0].isSeen = false; }},
+        {"light.texture", [](Scene& s) { s.lights[0].texture = tessera::test::evenLightTexture(glm::vec3(1.0f), 1); }},
+        {"light.texels", [](Scene& s) { s.lights[0].texture = tessera::test::evenLightTexture(glm::vec3(0.5f), 1); }},
         {"light.flicker", [](Scene& s) { s.lights[0].flicker.emplace(); }},
         {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},
         {"animation.kind", [](Scene& s) { s.lights[0].animation->kind = LightAnimationKind::Path; }},

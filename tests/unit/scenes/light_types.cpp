@@ -37,9 +37,9 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     std::set<std::string_view> names, fields;
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
-        std::set<std::string_view> keys{"type",     "name",     "enabled",   "fields",    "color",    "intensity",
-                                        "position", "falloff",  "animation", "direction", "target",   "along",
-                                        "corners",  "twoSided", "seen",      "flicker",   "keyframes"};
+        std::set<std::string_view> keys{"type",     "name",     "enabled",   "fields",    "color",     "intensity",
+                                        "position", "falloff",  "animation", "direction", "target",    "along",
+                                        "corners",  "twoSided", "seen",      "flicker",   "keyframes", "texture"};
         for (const LightParameter& parameter : type.parameters)
             EXPECT_TRUE(keys.insert(parameter.key).second) << type.name << " " << parameter.key;
     }
@@ -112,6 +112,7 @@ TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
         if (!type.hasCorners()) isRefused(keys + R"(, "corners": [[0, 0], [2, 0], [0.5, 0.25]])");
         if (!type.isFlat) isRefused(keys + R"(, "twoSided": false)");
         if (!type.isArea) isRefused(keys + R"(, "seen": true)");
+        if (!type.isFlat) isRefused(keys + R"(, "texture": "a.png")");
         if (sizeParameter(type) == nullptr) isRefused(keys + R"(, "radius": 1)");
         for (const LightTypeInfo& other : lightTypes())
             if (other.type != type.type)

@@ -85,7 +85,7 @@ TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
         error(panel + R"(, "radius": 1)"),
         "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, flicker, "
         "keyframes, position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
-        "castsShadow, fields");
+        "texture, castsShadow, fields");
     EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
     EXPECT_EQ(error(panel + R"(, "seen": 1)"), "/lights/0/seen: is a number; true or false is needed");
     const std::string polygon = R"("type": "polygon", "direction": [0, 0, 1])";

@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/AreaLight.h"
+#include "tests/support/LightPictures.h"
 #include "tests/support/Random.h"
+#include "validation/reference/LightSurface.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/SeenArea.h"
 
@@ -412,6 +415,36 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
     // A tenth of what a picture of rough metals is held to, relMse 1e-6, and no more than is told.
     EXPECT_LE(squares / seen, 1e-7);
     EXPECT_LE(squares, squaresTold);
+}
+
+// ---- Pictures ------------------------------------------------------------------------------------------------------
+
+TEST(ReferenceLightPictures, anEvenPictureIsAFactorOfTheLight) {
+    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+        ShiningLight plain = shiningArea(type, {0.2, 0.3, 0.8}, glm::normalize(glm::dvec3(0.1, 0.2, -1.0)));
+        plain.light.alongWS = scenes::usualAlong(plain.light.directionWS);
+        ShiningLight pictured = plain;
+        pictured.light.texture = test::evenLightTexture(glm::vec3(0.375f));
+        EXPECT_NEAR(factorOf(pictured), 0.375 * factorOf(plain), 2.0 * kCubature * factorOf(plain));
+        EXPECT_NEAR(meanFactor(pictured.light).g, 0.375, 1e-12);
+    }
+}
+
+TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
+    // Two columns of texels are sharp in the middle where many texels a side are: the ramp is a 256th of the width.
+    const ShiningLight whole = rectangle({0.3, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 1.0f);
+    ShiningLight pictured = whole;
+    pictured.light.texture = test::lightTexture(256, 1, [](int x, int) { return glm::vec3(x < 128 ? 1.0f : 0.0f); });
+    // The left half lies against `along`.
+    const ShiningLight left = rectangle({-0.2, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 1.0f, 1.0f);
+    EXPECT_NEAR(factorOf(pictured), factorOf(left), 1e-4 * factorOf(whole));
+    pictured.light.texture = test::lightTexture(1, 256, [](int, int y) { return glm::vec3(y < 128 ? 1.0f : 0.0f); });
+    // Across: direction x along is -y, and the picture's top lies that way.
+    const ShiningLight top = rectangle({0.3, -0.25, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 0.5f);
+    EXPECT_NEAR(factorOf(pictured), factorOf(top), 1e-4 * factorOf(whole));
+    const LightSurface surface(pictured, pictured.positionRWS);
+    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, -0.4, 1.0))), glm::dvec3(1.0));
+    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, 0.4, 1.0))), glm::dvec3(0.0));
 }
 
 } // namespace

@@ -1,0 +1,104 @@
+// Pictures of lights: read, shared, written back.
+#include "scenes/LightTexture.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/Fingerprint.h"
+#include "scenes/LoadLedger.h"
+#include "scenes/import/SceneJsonLights.h"
+#include "scenes/write/ElementJson.h"
+#include "scenes/write/SceneText.h"
+#include "tests/support/LightPictures.h"
+#include "tests/unit/scenes/json/SceneFiles.h"
+
+namespace tessera::scenes {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A PFM picture, rows given from the top.
+std::string glowFile(int width, int height, const std::vector<float>& rgb) {
+    std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    for (int y = height - 1; y >= 0; --y)
+        text.append(reinterpret_cast<const char*>(rgb.data() + std::size_t(3 * y * width)),
+                    std::size_t(3 * width) * sizeof(float));
+    return text;
+}
+
+std::string glowLights(const std::string& lights) {
+    return R"({"tessera": 1, "lights": [)" + lights + "]}";
+}
+const std::string kPanel =
+    R"({"type": "rectangle", "position": [0, 0, 0], "direction": [0, 0, 1], "texture": "glow.pfm"})";
+const std::string kDisk =
+    R"({"type": "disk", "position": [0, 0, 0], "direction": [0, 0, 1], "radius": 1, "texture": "glow.pfm"})";
+
+TEST(LightTexture, lightsThatNameAFileShareItsPictureAndTheLedgerCountsItOnce) {
+    const test::SceneFolder folder;
+    folder.write("glow.pfm", glowFile(2, 1, {0.5f, 2.0f, 0.0f, 0.25f, 3.0f, 0.125f}));
+    const Scene scene = folder.import(glowLights(kPanel + "," + kDisk));
+    ASSERT_EQ(scene.lights.size(), 2u);
+    const LightTexture& texture = scene.lights[0].texture;
+    ASSERT_TRUE(texture);
+    EXPECT_EQ(&*texture, &*scene.lights[1].texture);
+    EXPECT_EQ(texture->source, (folder.path() / "glow.pfm").string());
+    EXPECT_EQ(texture->map.width, 2);
+    EXPECT_EQ(texture.most(), glm::vec3(0.5f, 3.0f, 0.125f));
+    Scene bare = scene, one = scene;
+    for (Light& light : bare.lights) light.texture = {};
+    one.lights[1].texture = {};
+    EXPECT_EQ(bytesOf(scene), bytesOf(one));
+    EXPECT_GE(bytesOf(one) - bytesOf(bare), 2 * sizeof(glm::vec4));
+    EXPECT_NE(fingerprint(scene), fingerprint(bare));
+    EXPECT_EQ(LightTexture().most(), glm::vec3(1.0f));
+}
+
+TEST(LightTexture, numbersThatAreNoLightAreReplacedAndTold) {
+    const test::SceneFolder folder;
+    const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    folder.write("glow.pfm", glowFile(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, 0.0f}));
+    const Scene scene = folder.import(glowLights(kPanel));
+    EXPECT_EQ(scene.lights[0].texture.most(), glm::vec3(3.0f, 0.5f, 3.0f));
+    EXPECT_THAT(scene.warnings,
+                ElementsAre("the texture 'glow.pfm' of a light holds NaN in 1 number, taken as 0",
+                            "the texture 'glow.pfm' of a light is below 0 in 1 number, taken as 0",
+                            "the texture 'glow.pfm' of a light holds infinity in 1 number, taken as its brightest"));
+}
+
+TEST(LightTexture, roundShapesAndMissingFilesAreRefusedByName) {
+    const test::SceneFolder folder;
+    EXPECT_THAT(
+        folder.errorOf(glowLights(R"({"type": "sphere", "position": [0, 0, 0], "radius": 1, "texture": "glow.pfm"})")),
+        HasSubstr("/lights/0/texture: a sphere light has no texture"));
+    EXPECT_THAT(folder.errorOf(glowLights(R"({"type": "tube", "position": [0, 0, 0], "direction": [0, 0, 1],
+                                              "radius": 1, "texture": "glow.pfm"})")),
+                HasSubstr("a tube light has no texture"));
+    EXPECT_THAT(folder.errorBeyondSchemaOf(glowLights(kPanel)), HasSubstr("/lights/0/texture: there is no file"));
+    EXPECT_THAT(folder.errorOf(glowLights(R"({"type": "point", "position": [0, 0, 0], "texture": "glow.pfm"})")),
+                HasSubstr("a point light has no key 'texture'"));
+}
+
+TEST(LightTexture, isWrittenByItsNameAndReadBackIdentically) {
+    for (const LightTypeInfo& type : lightTypes()) {
+        SCOPED_TRACE(type.name);
+        Light light;
+        light.name = "glow";
+        light.type = type.type;
+        light.texture = tessera::test::evenLightTexture(glm::vec3(0.5f));
+        const nlohmann::json written(write::lightJson(light, "../glow.pfm"));
+        EXPECT_EQ(written.contains("texture"), type.isFlat) << written.dump();
+        const Light back = scenejson::readLight(JsonValue(written, {}), 0, [&](const JsonValue& name) {
+            EXPECT_EQ(name.text(), "../glow.pfm");
+            return light.texture;
+        });
+        if (!type.isFlat) light.texture = {};
+        EXPECT_TRUE(back == light) << written.dump();
+    }
+}
+
+} // namespace
+} // namespace tessera::scenes
