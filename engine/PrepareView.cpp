@@ -270,6 +270,9 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;
     spec.seenLights = prepared.seenLights.size();
+    spec.showsLightPictures = spec.seenLights > 0 && std::ranges::any_of(seenLights, [](const frame::SeenLight& seen) {
+                                  return seen.picture >= 0;
+                              });
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffused(scene, bounds, prepared);

@@ -140,6 +140,7 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.drawn.scene = view.scene;
         own.drawn.environment = view.environment;
         own.drawn.lobes = view.lobes;
+        own.drawn.lightPictures = view.lightPictures;
         const frame::FrameSpec& spec = own.drawn.prepared.spec;
         makeForShadows(spec);
         const auto isOwn = [&](const frame::Draw& draw) { return draw.instance == object.instance; };
@@ -200,6 +201,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
                 std::make_unique<frame::EnvironmentGpu>(*shown_.environment, std::move(filteredEnvironment_));
         view.environment = environment_.get();
         view.lobes = &lobes_;
+        view.lightPictures = &lightPictures_;
         makeForShadows(spec);
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;

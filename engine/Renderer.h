@@ -193,6 +193,7 @@ private:
     std::shared_ptr<const frame::FilteredEnvironment> filteredEnvironment_; ///< null: not yet, or on the GPU
     std::unique_ptr<frame::EnvironmentGpu> environment_; ///< made with the first frame that has use for it
     frame::LobesGpu lobes_;
+    frame::LightPicturesGpu lightPictures_;
     /// The scene as frames of some settings need it.
     struct Uploaded {
         frame::FeatureSet features;

@@ -57,6 +57,7 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
     shared.scene.environment =
         frame::importEnvironment(graph, specs, anyView.drawn ? anyView.drawn->environment : nullptr);
     shared.scene.lobes = frame::importLobes(graph, specs, anyView.drawn ? anyView.drawn->lobes : nullptr);
+    shared.scene.lightPictures = frame::importLightPictures(graph, specs, anyView.drawn);
     return shared;
 }
 
@@ -69,6 +70,7 @@ struct ViewWiring {
     frame::LightingInputs lighting;                    ///< with the lists, once there are some
     std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
     std::optional<graph::BufferHandle> seenLights;     ///< where area lights are: shared::SeenLightTexels
+    std::optional<graph::BufferHandle> seenPictures;   ///< where some of those have any
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
@@ -91,6 +93,8 @@ struct ViewWiring {
         lighting.lobes.lobes = frame.scene.lobes.lobes;
         if (spec.usesLobeTable()) lighting.lobes.table = frame.scene.lobes.table;
         if (spec.usesLobeShapes()) lighting.lobes.shapes = frame.scene.lobes.shapes;
+        if (spec.features[frame::Feature::LightPictures]) lighting.lightPictures = frame.scene.lightPictures;
+        if (spec.showsLightPictures) seenPictures = frame.scene.lightPictures;
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
@@ -266,7 +270,8 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     if (after.add) opaque.radiance = after.add(wiring.graph, view, wiring.spec, opaque);
     TextureHandle seenDepth = opaque.depth;
     if (wiring.seenLights) {
-        const SeenLightsPass::Inputs inputs{wiring.surfaces.view, *wiring.seenLights, opaque.depth, opaque.radiance};
+        const SeenLightsPass::Inputs inputs{wiring.surfaces.view, *wiring.seenLights, wiring.seenPictures, opaque.depth,
+                                            opaque.radiance};
         const SeenLightsPass::Outputs seen = SeenLightsPass::add(wiring.graph, wiring.spec, inputs);
         opaque.radiance = seen.radiance;
         seenDepth = seen.seenDepth;

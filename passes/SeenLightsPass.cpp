@@ -13,7 +13,8 @@ std::vector<shader::ProgramDesc> SeenLightsPass::programs(const frame::FrameSpec
     copy.vertex = "passes/fullscreen.vert";
     copy.fragment = "passes/copy_depth.frag";
     copy.defines = {{"SAMPLES", std::to_string(spec.samples)}};
-    return {copy, frame::frameProgram(spec, "seen_lights", "passes/seen_lights.vert", "passes/seen_lights.frag", {})};
+    return {copy, frame::frameProgram(spec, "seen_lights", "passes/seen_lights.vert", "passes/seen_lights.frag",
+                                      {{"SEEN_PICTURES", spec.showsLightPictures ? "1" : "0"}})};
 }
 
 SeenLightsPass::Outputs SeenLightsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
@@ -23,6 +24,7 @@ SeenLightsPass::Outputs SeenLightsPass::add(graph::Graph& graph, const frame::Fr
             for (const shader::ProgramDesc& program : programs(spec)) pass.program(program);
             out.view = inputs.view.read(pass);
             out.lights = pass.read(inputs.lights, graph::Access::TexelRead);
+            if (inputs.pictures) out.pictures = pass.read(*inputs.pictures, graph::Access::TexelRead);
             pass.expect(inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
             out.depth = pass.read(inputs.depth);
             pass.expect(inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
@@ -48,6 +50,7 @@ SeenLightsPass::Outputs SeenLightsPass::add(graph::Graph& graph, const frame::Fr
             out.view.bind(context);
             gpu::bindTexelBuffer(TEXTURE_UNIT_SEEN_LIGHTS,
                                  context.buffer(out.lights).texels(graph::Format::Rgba32Float));
+            if (out.pictures) frame::bindLightPictures(context, *out.pictures);
             constexpr int kCorners = 6; // of two triangles
             gpu::drawInBands([&] { gpu::drawVertices(kCorners, lights); });
         });

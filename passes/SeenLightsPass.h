@@ -8,7 +8,7 @@ namespace tessera::passes {
 /// Shows the surfaces of area lights: each sample's ray is met with them in closed form, so outlines are those of the
 /// shapes. Its depths go into a texture of their own, since all that reads the other one asks for surfaces that lights
 /// light.
-/// Reads   depth D32F, reverse-Z, of opaque surfaces; shared::SeenLightTexels
+/// Reads   depth D32F, reverse-Z, of opaque surfaces; shared::SeenLightTexels; where lights have any, their pictures
 /// Writes  radiance RGBA32F, linear, before exposure, A 1, the coverage; seen_depth D32F: the nearest of what is opaque
 ///         and of lights
 /// Space   lighting space
@@ -16,13 +16,15 @@ struct SeenLightsPass {
     struct Inputs {
         frame::ViewHandles view;
         graph::BufferHandle lights;
+        std::optional<graph::BufferHandle> pictures; ///< shaders/shared/light_pictures.h
         graph::TextureHandle depth;
         graph::TextureHandle radiance;
     };
     struct Outputs {
-        frame::ViewHandles view;    ///< as read
-        graph::BufferHandle lights; ///< as read
-        graph::TextureHandle depth; ///< as read
+        frame::ViewHandles view;                     ///< as read
+        graph::BufferHandle lights;                  ///< as read
+        std::optional<graph::BufferHandle> pictures; ///< as read
+        graph::TextureHandle depth;                  ///< as read
         graph::TextureHandle radiance;
         graph::TextureHandle seenDepth;
     };

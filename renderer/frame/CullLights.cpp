@@ -1,5 +1,6 @@
 #include "renderer/frame/CullLights.h"
 
+#include "shaders/shared/light_pictures.h"
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +48,7 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
         cull.apex = glm::vec4(glm::vec3(apex), float(sinOuter));
         cull.axis = glm::vec4(glm::vec3(axis), float(cosOuter));
     }
-    if (scenes::infoOf(typeOf(light)).isFlat && shape.attenuation.w == 0.0f) {
+    if (scenes::infoOf(typeOf(light)).isFlat && !shared::shinesFromBothSides(shape.attenuation.w)) {
         const glm::dvec3 travel = glm::cross(glm::dvec3(shape.axis), glm::dvec3(shape.attenuation));
         if (const double length = glm::length(travel); length > 0.0) {
             const glm::dvec3 front = cameraFromLS * (travel / length);

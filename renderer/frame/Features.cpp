@@ -35,6 +35,7 @@ std::vector<FeatureInfo> makeTable() {
     }
     table.push_back(
         {Feature::AttenuationLights, "ATTENUATION_LIGHTS", "A B C falloff", "no light falls off by A + B d + C d^2"});
+    table.push_back({Feature::LightPictures, "LIGHT_PICTURES", "textures of lights", "no light in view has one"});
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
         table.push_back(
             {featureOf(slot.slot), inCapitals(slot.name) + "_TEXTURE", std::string(slot.what), "no material has one"});

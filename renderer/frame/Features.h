@@ -18,7 +18,8 @@ enum class Feature : std::uint8_t {
     FirstLightType, // those of light types follow scenes::LightType
     LastLightType = FirstLightType + scenes::kLightTypeCount - 1,
     AttenuationLights,
-    FirstTexture, // those of textures follow scenes::TextureSlot
+    LightPictures, // the radiance of lights varies over their surface
+    FirstTexture,  // those of textures follow scenes::TextureSlot
     LastTexture = FirstTexture + scenes::kTextureSlotCount - 1,
     TextureTransform,
     MixedFilters, // samplers that take single texels on one side of the choice between magnifying and minifying

@@ -151,7 +151,8 @@ LightingInputs LightingInputs::read(graph::PassBuilder& pass) const {
                           {},
                           readWhereThere(pass, shadowAtlas, Access::Sampled),
                           {},
-                          lobes.read(pass)};
+                          lobes.read(pass),
+                          readWhereThere(pass, lightPictures, Access::TexelRead)};
     if (environment) result.environment = environment->read(pass);
     if (lists) result.lists = lists->read(pass);
     if (casterTree) result.casterTree = casterTree->read(pass);
@@ -171,6 +172,7 @@ void LightingInputs::bind(const graph::PassContext& context) const {
     if (shadowAtlas) gpu::bindTexture(TEXTURE_UNIT_SHADOWS, context.texture(*shadowAtlas));
     if (environment) environment->bind(context);
     lobes.bind(context);
+    if (lightPictures) bindLightPictures(context, *lightPictures);
 }
 
 GBufferHandles GBufferHandles::read(graph::PassBuilder& pass, const FrameSpec& spec, Access depthAccess) const {
@@ -258,6 +260,18 @@ LobeHandles importLobes(graph::Graph& graph, std::span<const FrameSpec* const> s
     if (some(&FrameSpec::usesLobeShapes))
         handles.shapes = graph.import("lobe_shapes", LobesGpu::shapesDesc(), lobes ? &lobes->shapes() : nullptr);
     return handles;
+}
+
+std::optional<graph::BufferHandle> importLightPictures(graph::Graph& graph, std::span<const FrameSpec* const> specs,
+                                                       const DrawnView* drawn) {
+    const auto uses = std::ranges::find_if(specs, [](const FrameSpec* spec) { return spec->usesLightPictures(); });
+    if (uses == specs.end()) return {};
+    const gpu::Buffer* const texels = drawn ? &drawn->lightPictures->texels(drawn->prepared.lights.pictures) : nullptr;
+    return graph.import("light_pictures", graph::BufferDesc{(*uses)->lightPictureBytes}, texels);
+}
+
+void bindLightPictures(const graph::PassContext& context, graph::BufferHandle pictures) {
+    bindTexels(context, TEXTURE_UNIT_LIGHT_PICTURES, pictures, Format::Rgba32Float);
 }
 
 } // namespace tessera::frame

@@ -7,6 +7,7 @@
 #include "renderer/culling/LightLists.h"
 #include "renderer/frame/Diffusion.h"
 #include "renderer/frame/EnvironmentMap.h"
+#include "renderer/frame/LightPictures.h"
 #include "renderer/frame/LobesGpu.h"
 #include "renderer/frame/PreparedView.h"
 #include "renderer/frame/SceneGpu.h"
@@ -31,6 +32,7 @@ struct DrawnView {
     const SceneGpu* scene = nullptr;
     EnvironmentGpu* environment = nullptr; ///< where the view has use for it
     LobesGpu* lobes = nullptr;             ///< likewise
+    LightPicturesGpu* lightPictures = nullptr;
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
@@ -85,6 +87,7 @@ struct SceneHandles {
     std::optional<graph::BufferHandle> casters;         ///< where shadows are traced: shaders/shared/caster_tree.h
     EnvironmentHandles environment;                     ///< without constants; what some view has use for
     LobeHandles lobes;                                  ///< what some view has use for
+    std::optional<graph::BufferHandle> lightPictures;   ///< where lights have any: shaders/shared/light_pictures.h
 };
 
 /// The scene as a view draws it.
@@ -142,15 +145,16 @@ struct CasterTreeHandles {
 /// What a pass lights with.
 struct LightingInputs {
     ViewHandles view;
-    graph::BufferHandle constants;                    ///< shared::LightingConstants
-    graph::BufferHandle lights;                       ///< texels (shaders/shared/light.h)
-    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> subsurfaces;   ///< where surfaces have any: shared::SubsurfaceConstants
-    std::optional<LightListHandles> lists;            ///< where FrameSpec::culling asks for them
-    std::optional<CasterTreeHandles> casterTree;      ///< where the view has shadows that are traced
-    std::optional<graph::TextureHandle> shadowAtlas;  ///< where it has shadow maps
-    std::optional<EnvironmentHandles> environment;    ///< where it lights surfaces
-    LobeHandles lobes;                                ///< those that lights and the environment need
+    graph::BufferHandle constants;                         ///< shared::LightingConstants
+    graph::BufferHandle lights;                            ///< texels (shaders/shared/light.h)
+    std::optional<graph::BufferHandle> materialTable;      ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> subsurfaces;        ///< where surfaces have any: shared::SubsurfaceConstants
+    std::optional<LightListHandles> lists;                 ///< where FrameSpec::culling asks for them
+    std::optional<CasterTreeHandles> casterTree;           ///< where the view has shadows that are traced
+    std::optional<graph::TextureHandle> shadowAtlas;       ///< where it has shadow maps
+    std::optional<EnvironmentHandles> environment;         ///< where it lights surfaces
+    LobeHandles lobes;                                     ///< those that lights and the environment need
+    std::optional<graph::BufferHandle> lightPictures = {}; ///< where lights in view have any
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -189,5 +193,10 @@ EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameS
                                      EnvironmentGpu* environment);
 /// The same of the tables of lobes.
 LobeHandles importLobes(graph::Graph& graph, std::span<const FrameSpec* const> specs, LobesGpu* lobes);
+/// The same of the pictures of lights; `drawn` is any of the views, or null.
+std::optional<graph::BufferHandle> importLightPictures(graph::Graph& graph, std::span<const FrameSpec* const> specs,
+                                                       const DrawnView* drawn);
+/// Binds them where shaders read them.
+void bindLightPictures(const graph::PassContext& context, graph::BufferHandle pictures);
 
 } // namespace tessera::frame

@@ -149,6 +149,8 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     spec.showsEnvironment = showsEnvironment(scene, settings);
     if (spec.features[Feature::Environment] || spec.showsEnvironment)
         spec.environment = environmentShape(scene.environment->map);
+    if (lights.pictures.empty()) spec.features.has.reset(std::size_t(Feature::LightPictures));
+    spec.lightPictureBytes = lightPictureBytes(lights.pictures);
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     if (sampledTextures(spec) > std::size_t(settings.texturesAStage))

@@ -36,6 +36,8 @@ struct FrameSpec {
     bool showsEnvironment = false;                   ///< behind the scene
     std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
+    bool showsLightPictures = false;                 ///< some of them have one
+    std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;
@@ -63,6 +65,7 @@ struct FrameSpec {
     bool usesLobeTable() const;
     bool usesLobeShapes() const;
     bool compensatesLobes() const;
+    bool usesLightPictures() const { return features[Feature::LightPictures] || showsLightPictures; }
 
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }

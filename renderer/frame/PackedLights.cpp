@@ -73,7 +73,7 @@ static_assert(std::ranges::all_of(scenes::lightTypes(),
               "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
 
 /// The surface of an area light (shared/light.h).
-void packArea(const scenes::Light& light, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
+void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
     const glm::dvec3 travelLS = lsFromWorld * light.directionWS;
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const auto metres = [](const glm::dvec3& directionLS, float length) {
@@ -90,7 +90,7 @@ void packArea(const scenes::Light& light, const glm::dmat3& lsFromWorld, shared:
         const double product = double(along) * double(across);
         const double areaShare = info.hasCorners() ? std::abs(scenes::signedArea(light.corners)) / product : 0.0;
         shape.axis = glm::vec4(metres(alongLS, along), float(areaShare));
-        shape.attenuation = glm::vec4(metres(acrossLS, across), light.isTwoSided ? 1.0f : 0.0f);
+        shape.attenuation = glm::vec4(metres(acrossLS, across), packSides(light.isTwoSided, picture));
     } else {
         const float along = info.hasDirection ? 0.5f * light.lengthMetres : 0.0f;
         shape.axis = glm::vec4(metres(travelLS, along), light.radiusMetres);
@@ -134,7 +134,7 @@ shared::LightCornerTexels packCorners(const scenes::Light& light) {
 static_assert(sizeof(shared::LightCornerTexels) == LIGHT_CORNER_TEXELS * sizeof(glm::vec4));
 static_assert(scenes::LightCorners::kMost == 2 * std::size(shared::LightCornerTexels{}.corners));
 
-PackedLight packLight(const scenes::Light& light, double reach, const CameraView& view) {
+PackedLight packLight(const scenes::Light& light, int picture, double reach, const CameraView& view) {
     PackedLight result;
     shared::LightTexels& packed = result.texels;
     const glm::dvec3 travelLS = view.lsFromWorld * light.directionWS;
@@ -154,7 +154,7 @@ PackedLight packLight(const scenes::Light& light, double reach, const CameraView
     if (info.reach == scenes::LightReach::Cone)
         kind |= packCone(light, travelLS, result.shape);
     else if (info.isArea)
-        packArea(light, view.lsFromWorld, result.shape);
+        packArea(light, picture, view.lsFromWorld, result.shape);
     else if (info.hasShape())
         packParameters(light, travelLS, result.shape);
     packed.color = glm::vec4(isDark(light, reach) ? glm::vec3(0.0f) : glm::vec3(lightColor(light)), float(kind));
@@ -193,6 +193,7 @@ scenes::LightType typeOf(const shared::LightTexels& light) {
 
 PackedLights packLights(const scenes::Scene& scene, const CameraView& view, const FrameSettings& settings) {
     PackedLights lights;
+    LightPictures pictures = lightPictures(scene);
     std::vector<PackedLight> all;
     std::optional<bool> hasCasters; // looked for where a light casts shadows
     int firstOn = -1, firstShadowed = -1;
@@ -214,7 +215,8 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         } else if (settings.prune && unseen) {
             ++lights.unseen;
         } else {
-            PackedLight packed = packLight(light, reach, view);
+            const int picture = pictures.numberOf(i);
+            PackedLight packed = packLight(light, picture, reach, view);
             packed.sceneIndex = int(i);
             packed.shadow.shadow.y = float(i);
             if (casts) {
@@ -223,8 +225,10 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
             }
             all.push_back(packed);
             addFeatures(lights.features, light);
+            lights.features.add(Feature::LightPictures, picture >= 0);
         }
     }
+    lights.pictures = std::move(pictures.shown);
     // Lighting runs code for shadows for the first lights alone.
     const auto isShadowed = [](const PackedLight& packed) {
         return (int(packed.texels.color.w) & LIGHT_SHADOWED) != 0;

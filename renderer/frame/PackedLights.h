@@ -4,6 +4,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
+#include "renderer/frame/LightPictures.h"
 #include "renderer/frame/LightRange.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/light.h"
@@ -24,6 +25,7 @@ struct PackedLights {
     std::vector<shared::LightShapeTexels> shapes;   ///< parallel to texels
     std::vector<shared::LightCornerTexels> corners; ///< where any is a polygon parallel to texels, else empty
     std::vector<shared::LightShadowTexels> shadows; ///< parallel to texels
+    std::vector<ShownPicture> pictures;             ///< of all the scene's lights, whether they are packed or not
     std::vector<int> sceneIndex;                    ///< parallel to texels: index into Scene::lights
     FeatureSet features;                            ///< the light types and falloffs among them
     int shown = 0; ///< index into texels of the light that views of one light show: the first that is on,

@@ -34,6 +34,9 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
     const FrameSettings& settings = prepared.spec.settings;
     Hash hash;
     hash.addFloats(texelsOf(prepared.lights, prepared.spec.features));
+    // Pictures never change, and what is packed says which is whose.
+    for (const ShownPicture& shown : prepared.lights.pictures)
+        hash.add(std::uint64_t(reinterpret_cast<std::uintptr_t>(&*shown.texture)));
     hash.add(std::uint64_t(prepared.lights.shadowed));
     hash.addFloats(prepared.shadowFaces);
     const PackedSubsurfaces subsurfaces = packSubsurfaces(scene, settings.subsurface);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "renderer/frame/DebugViews.h"
+#include "renderer/frame/LightPictures.h"
 #include "renderer/frame/LightRange.h"
 #include "scenes/AreaLight.h"
 
@@ -127,13 +128,14 @@ std::optional<scenes::Light> shownLight(const scenes::Scene& scene, std::size_t 
 std::vector<SeenLight> seenLights(const scenes::Scene& scene, const scenes::Camera& camera,
                                   const FrameSettings& settings) {
     std::vector<SeenLight> seen;
+    const LightPictures pictures = lightPictures(scene);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const std::optional<scenes::Light> light = shownLight(scene, i, settings);
         if (!light || turnsAway(*light, camera)) continue;
         const Corners corners = cornersAround(*light);
         const Window window = windowOf(corners, camera, settings.sizePixels);
         if (!window.meetsPicture()) continue;
-        SeenLight added{*light, {}, glm::max(window.least, -1.0), glm::min(window.most, 1.0)};
+        SeenLight added{*light, pictures.numberOf(i), {}, glm::max(window.least, -1.0), glm::min(window.most, 1.0)};
         for (const glm::dvec3& corner : corners) {
             added.bounds.boxWS.extend(corner);
             added.bounds.reachMetres = std::max(added.bounds.reachMetres, glm::distance(corner, light->positionWS));
@@ -152,7 +154,7 @@ std::vector<shared::SeenLightTexels> packSeenLights(const std::vector<SeenLight>
         const auto unitLS = [&](const glm::dvec3& directionWS) { return glm::vec3(view.lsFromWorld * directionWS); };
         shared::SeenLightTexels& texels = packed.emplace_back();
         texels.window = glm::vec4(seen.leastNdc, seen.mostNdc);
-        texels.radiance = glm::vec4(glm::vec3(lightColor(light)), light.isTwoSided ? 1.0f : 0.0f);
+        texels.radiance = glm::vec4(glm::vec3(lightColor(light)), packSides(light.isTwoSided, seen.picture));
         texels.middle = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), float(light.type));
         texels.along = texels.across = glm::vec4(0.0f, 0.0f, 0.0f, light.radiusMetres);
         if (info.isFlat) {
@@ -166,6 +168,7 @@ std::vector<shared::SeenLightTexels> packSeenLights(const std::vector<SeenLight>
         if (info.hasCorners()) {
             const std::span<const glm::vec2> corners = light.corners.all();
             texels.along.w = float(corners.size());
+            texels.across.w = float(scenes::surfaceReachMetres(light));
             for (std::size_t i = 0; i < corners.size(); ++i) {
                 glm::vec4& two = texels.corners[i / 2];
                 (i % 2 == 0 ? two.x : two.z) = corners[i].x;

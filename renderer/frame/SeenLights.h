@@ -9,6 +9,7 @@ namespace tessera::frame {
 /// An area light whose surface may be seen in a view.
 struct SeenLight {
     scenes::Light light; ///< as it is at the frame's time
+    int picture = -1;    ///< its number among lightPictures(), or -1
     /// Around its surface, as DepthInterval.h takes it, so that its depths are those that depth values stand for.
     SurfaceBounds bounds;
     glm::dvec2 leastNdc{-1.0}, mostNdc{1.0}; ///< around its picture, in normalised device coordinates

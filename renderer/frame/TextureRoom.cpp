@@ -45,16 +45,17 @@ std::size_t sampledBeside(const FrameSpec& spec) {
     const FeatureSet& features = spec.features;
     std::size_t sampled = 2; // TEXTURE_UNIT_LIGHTS and _LIGHT_ENTRIES
     const auto add = [&](bool isOne) { sampled += isOne ? 1 : 0; };
-    add(features[Feature::Shadows]);     // TEXTURE_UNIT_SHADOWS
-    add(features[Feature::Environment]); // TEXTURE_UNIT_ENVIRONMENT_SAMPLES or _FILTERED
-    add(spec.lightsByEnvironmentMap());  // TEXTURE_UNIT_ENVIRONMENT
-    add(spec.usesLobeTable());           // TEXTURE_UNIT_LOBES
-    add(spec.usesLobeShapes());          // TEXTURE_UNIT_LOBE_SHAPES
+    add(features[Feature::Shadows]);       // TEXTURE_UNIT_SHADOWS
+    add(features[Feature::Environment]);   // TEXTURE_UNIT_ENVIRONMENT_SAMPLES or _FILTERED
+    add(spec.lightsByEnvironmentMap());    // TEXTURE_UNIT_ENVIRONMENT
+    add(spec.usesLobeTable());             // TEXTURE_UNIT_LOBES
+    add(spec.usesLobeShapes());            // TEXTURE_UNIT_LOBE_SHAPES
+    add(features[Feature::LightPictures]); // TEXTURE_UNIT_LIGHT_PICTURES
     return sampled;
 }
 
 // Shaders count on these slots where a flag of the material says that it has a texture there. They always have room.
-constexpr std::size_t kMostBeside = 7;
+constexpr std::size_t kMostBeside = 8;
 constexpr TextureSlot kLastKept = TextureSlot::Anisotropy;
 static_assert(std::size_t(kLastKept) + 1 + kMostBeside <= TEXTURE_UNITS_GUARANTEED);
 

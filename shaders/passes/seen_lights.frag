@@ -1,6 +1,10 @@
 // The surface of an area light where the ray of the pixel, or of the sample, meets it: its radiance, and its depth.
 #include "shared/slots.h"
 #include "shared/seen_lights.h"
+#include "shared/light_pictures.h"
+#if SEEN_PICTURES
+#include "lib/light/light_picture.glsl"
+#endif
 #include "lib/surface/camera.glsl"
 
 layout(binding = TEXTURE_UNIT_SEEN_LIGHTS) uniform samplerBuffer seenLightTexels;
@@ -39,15 +43,17 @@ bool isWithinPolygon(vec2 place, int texel, int corners)
 }
 
 // A rectangle, a disk or a polygon, from a side that shines.
-bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwoSided, out float ahead)
+bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwoSided, out float ahead, out vec2 within)
 {
+    within = vec2(0.0);
     precise vec3 front = cross(along.xyz, across.xyz);
     precise float facing = -dot(ray.direction, front);
     if (isTwoSided ? facing == 0.0 : !(facing > 0.0)) return false;
     precise float met = dot(ray.start, front) / facing;
     ahead = met;
     precise vec3 place = ray.start + met * ray.direction;
-    precise vec2 within = vec2(dot(place, along.xyz), dot(place, across.xyz));
+    precise vec2 metres = vec2(dot(place, along.xyz), dot(place, across.xyz));
+    within = metres;
     if (type == LIGHT_POLYGON) return isWithinPolygon(within, texel, int(along.w));
     return type == LIGHT_DISK ? dot(within, within) <= along.w * along.w
                               : abs(within.x) <= along.w && abs(within.y) <= across.w;
@@ -108,13 +114,14 @@ void main()
 
     int type = int(middle.w);
     float ahead;
+    vec2 within = vec2(0.0);
     bool meets;
     if (type == LIGHT_SPHERE)
         meets = meetsRound(ray, across.w, ahead);
     else if (type == LIGHT_TUBE)
         meets = meetsTube(ray, along, across.w, ahead);
     else
-        meets = meetsFlat(ray, type, texel, along, across, shown.w != 0.0, ahead);
+        meets = meetsFlat(ray, type, texel, along, across, shinesFromBothSides(shown.w), ahead, within);
     if (!meets) discard;
     // Nothing is drawn before the near plane and behind the far one. A surface that is entered behind the eye is seen
     // from inside, where it does not shine.
@@ -122,4 +129,11 @@ void main()
     if (!(depth >= 0.0 && depth <= 1.0)) discard;
     gl_FragDepth = depth;
     radiance = vec4(shown.rgb, 1.0);
+#if SEEN_PICTURES
+    int picture = lightPictureOf(shown.w);
+    if (picture >= 0) {
+        precise vec2 place = within / vec2(type == LIGHT_POLYGON ? across.w : along.w, across.w);
+        radiance.rgb *= lightPictureLevel(picture, 0, vec2(0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y));
+    }
+#endif
 }

@@ -40,9 +40,10 @@ struct LightTexels {
 // difference keeps its own.
 // Of an area light (LightTypeInfo::isArea) position is its middle, color its radiance. A rectangle and a disk reach
 // from the middle by axis.xyz and attenuation.xyz, at right angles, whose cross product points where they shine;
-// attenuation.w is 1 where they shine from both sides. A polygon has its plane so too, whose vectors are both as long
-// as its farthest corner is away, and in axis.w its area in parts of their product. A sphere has its radius in axis.w;
-// a tube reaches from the middle by axis.xyz and its opposite, and has its radius in axis.w.
+// attenuation.w says from which sides they shine, and their picture (light_pictures.h). A polygon has its plane so too,
+// whose vectors are both as long as its farthest corner is away, and in axis.w its area in parts of their product. A
+// sphere has its radius in axis.w; a tube reaches from the middle by axis.xyz and its opposite, and has its radius in
+// axis.w.
 struct LightShapeTexels {
     vec4 axis;        // xyz a LS, w first parameter; cone: -a where cos outer <= -0.5, w weight: scale/2, -scale/2,
                       // broad: scale

@@ -61,6 +61,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_ENVIRONMENT_FILTERED 23
 #define TEXTURE_UNIT_LOBES 24
 #define TEXTURE_UNIT_LOBE_SHAPES 25
+#define TEXTURE_UNIT_LIGHT_PICTURES 26
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).
@@ -90,7 +91,8 @@ SHARED_BEGIN
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
 static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
-static_assert(TEXTURE_UNIT_LOBE_SHAPES < TEXTURE_UNITS_IN_ALL, "more than OpenGL 4.5 guarantees all stages");
+static_assert(TEXTURE_UNIT_LIGHT_PICTURES < TEXTURE_UNITS_A_STAGE, "more than drivers let a stage sample");
+static_assert(TEXTURE_UNITS_A_STAGE < TEXTURE_UNITS_IN_ALL, "more than OpenGL 4.5 guarantees all stages");
 #endif
 
 SHARED_END

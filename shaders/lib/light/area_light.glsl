@@ -7,6 +7,9 @@
 #include "lib/light/light_store.glsl"
 #include "lib/reflectance/even_light.glsl"
 #include "shared/lobe_shapes.h"
+#if HAS_LIGHT_PICTURES
+#include "lib/light/light_picture.glsl"
+#endif
 
 layout(binding = TEXTURE_UNIT_LOBE_SHAPES) uniform sampler2D lobeShapes;
 
@@ -230,6 +233,144 @@ float shareSeen(Outline outline, AreaLobe lobe)
     return min(share, 1.0);
 }
 
+#if HAS_LIGHT_PICTURES
+// ---- Pictures -------------------------------------------------------------------------------------------------------
+
+// An edge's part of the vector irradiance, of which edgePart() is the height.
+vec3 edgeVector(vec3 a, vec3 b)
+{
+    precise float lengths = sqrt(dot(a, a)) * sqrt(dot(b, b));
+    if (!(lengths > 0.0)) return vec3(0.0);
+    precise vec3 across = cross(a, b - a) / lengths;
+    precise float cosine = clamp(dot(a, b) / lengths, -1.0, 1.0);
+    precise float acute = angleOverSine(abs(cosine));
+    precise vec3 part = across * (cosine >= 0.0 ? acute : kPi / max(length(across), 1e-18) - acute);
+    return part;
+}
+
+// Corners one by one; each is cut off at the horizon, then at the cosine's, and what is left adds its edges.
+struct CutCorners {
+    vec3 last, lastBase, lastAbove, firstBase, firstAbove;
+    bool hasBase, hasAbove;
+    vec3 sum;
+};
+
+void addAbove(inout CutCorners cut, vec3 corner)
+{
+    if (cut.hasAbove) {
+        precise vec3 sum = cut.sum + edgeVector(cut.lastAbove, corner);
+        cut.sum = sum;
+    } else {
+        cut.firstAbove = corner;
+    }
+    cut.hasAbove = true;
+    cut.lastAbove = corner;
+}
+
+void addBase(inout CutCorners cut, vec3 corner, bool isAgain)
+{
+    if (cut.hasBase) {
+        if ((cut.lastBase.z > 0.0) != (corner.z > 0.0)) {
+            precise float share = cut.lastBase.z / (cut.lastBase.z - corner.z);
+            precise vec3 crossing = vec3(cut.lastBase.xy + share * (corner.xy - cut.lastBase.xy), 0.0);
+            addAbove(cut, crossing);
+        }
+    } else {
+        cut.firstBase = corner;
+    }
+    if (corner.z > 0.0 && !isAgain) addAbove(cut, corner);
+    cut.hasBase = true;
+    cut.lastBase = corner;
+}
+
+// The direction of the mean of what a lobe sees of a flat outline, of any length and sign, in the frame of the cosine.
+// It needs few digits: what is seen so small that they are lost is seen as the mean of its picture.
+vec3 seenDirection(Outline outline, AreaLobe lobe)
+{
+    CutCorners cut;
+    cut.sum = vec3(0.0);
+    cut.hasBase = cut.hasAbove = false;
+    cut.lastBase = cut.lastAbove = cut.firstBase = cut.firstAbove = vec3(0.0);
+    cut.last = lobe.surfaceFromLS * (outline.middle + outlineCorner(outline, 0));
+    for (int i = 1; i <= outline.edges; ++i) {
+        vec3 from = cut.last;
+        precise vec3 to = lobe.surfaceFromLS * (outline.middle + outlineCorner(outline, i));
+        cut.last = to;
+        if ((from.z > 0.0) != (to.z > 0.0)) {
+            precise float share = from.z / (from.z - to.z);
+            precise vec3 crossing = vec3(from.xy + share * (to.xy - from.xy), 0.0);
+            precise vec3 seen = lobe.cosineFromSurface * crossing;
+            addBase(cut, seen, false);
+        }
+        precise vec3 seen = lobe.cosineFromSurface * to;
+        if (to.z > 0.0) addBase(cut, seen, false);
+    }
+    if (cut.hasBase) addBase(cut, cut.firstBase, true);
+    precise vec3 sum = cut.sum;
+    if (cut.hasAbove) sum += edgeVector(cut.lastAbove, cut.firstAbove);
+    return sum;
+}
+
+// The deviation of the Gaussian that is nearest to what a cosine sees of a plane straight ahead, in parts of its distance.
+const float kCosineDeviation = 0.85;
+const float kMostStretch = 3.0; // of a Gaussian that several of a level stand for
+const int kStretchTaps = 5;
+
+// The factor of a picture as a lobe sees it: around the mean of the directions it comes from, as wide as the cosine is
+// there. Across an outline that is seen aslant it is longer than wide.
+vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
+{
+    precise mat3 cosineFromLS = lobe.cosineFromSurface * lobe.surfaceFromLS;
+    precise vec3 middle = cosineFromLS * outline.middle;
+    precise vec3 right = cosineFromLS * outline.right, up = cosineFromLS * outline.up;
+    precise vec3 direction = seenDirection(outline, lobe);
+    precise vec3 front = cross(right, up);
+    precise float along = dot(direction, front);
+    precise float height = dot(middle, front);
+    precise vec3 met = along != 0.0 ? direction * (height / along) : middle;
+    precise float distance2 = dot(met, met);
+    if (!(distance2 > 0.0 && distance2 < 1e30)) return lightPictureMean(picture);
+    // The place by the two vectors, which the lobe's matrix has sheared.
+    precise vec3 place = met - middle;
+    precise float right2 = dot(right, right), up2 = dot(up, up), both = dot(right, up);
+    precise float sheared = right2 * up2 - both * both;
+    if (!(sheared > 0.0)) return lightPictureMean(picture);
+    precise float inRight = dot(place, right), inUp = dot(place, up);
+    precise vec2 within = vec2(inRight * up2 - inUp * both, inUp * right2 - inRight * both) / sheared;
+    within = clamp(within, -1.0, 1.0);
+    // By how many radians a step along either vector turns: a quadratic form, and its axes.
+    precise float metRight = dot(met, right), metUp = dot(met, up);
+    precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
+    precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
+    precise float turnBoth = (both - metRight * metUp / distance2) / distance2;
+    precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);
+    precise float apart = sqrt(lean * lean + turnBoth * turnBoth);
+    precise float most = max(mean + apart, 1e-30), least = max(mean - apart, 1e-30);
+    // In parts of the picture's sides, which are two of the vectors.
+    precise float narrow = 0.5 * kCosineDeviation / sqrt(most), wide = 0.5 * kCosineDeviation / sqrt(least);
+    precise float level = max(narrow, min(wide, 4.0) / kMostStretch);
+    if (!(level < 4.0)) return lightPictureMean(picture); // as the levels say
+    precise float beyond = sqrt(max(min(wide, 4.0) * min(wide, 4.0) - level * level, 0.0));
+    // Along the axis of the lesser turn.
+    precise vec2 slow = lean > 0.0 ? vec2(-turnBoth, lean + apart) : vec2(apart - lean, -turnBoth);
+    precise float length2 = dot(slow, slow);
+    precise vec2 axis = length2 > 0.0 ? slow / sqrt(length2) : vec2(1.0, 0.0);
+    precise vec2 at = vec2(0.5 + 0.5 * within.x, 0.5 - 0.5 * within.y);
+    precise vec2 stride = vec2(axis.x, -axis.y) * (0.75 * beyond);
+    vec3 seen = lightPictureFiltered(picture, at, level);
+    precise float weights = 1.0;
+    for (int tap = 0; tap < kStretchTaps; ++tap) {
+        float steps = float(tap - kStretchTaps / 2);
+        precise vec2 there = at + steps * stride;
+        if (steps == 0.0 || any(lessThan(there, vec2(0.0))) || any(greaterThan(there, vec2(1.0)))) continue;
+        precise float weight = exp(-0.28125 * steps * steps); // 0.75^2 / 2
+        weights += weight;
+        seen = mixedFactor(seen, lightPictureFiltered(picture, there, level), weight / weights);
+    }
+    return seen;
+}
+#endif
+
 // ---- Surfaces -------------------------------------------------------------------------------------------------------
 
 #define AREA_LOBES 3 // the diffuse reflection, the lobe and the coat
@@ -274,8 +415,17 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, vec3 positionLS, 
     Outline outline = areaOutline(index, kind, middle);
     if (outline.edges == 0) return vec3(0.0);
     precise vec3 reflected = vec3(0.0);
-    for (int lobe = 0; lobe < AREA_LOBES; ++lobe)
-        if (areaWeights[lobe] != vec3(0.0)) reflected += areaWeights[lobe] * shareSeen(outline, areaLobes[lobe]);
+#if HAS_LIGHT_PICTURES
+    int picture = lightPictureOf(lightShapeTexel(index, 1).w);
+#endif
+    for (int lobe = 0; lobe < AREA_LOBES; ++lobe) {
+        if (areaWeights[lobe] == vec3(0.0)) continue;
+        precise vec3 ofLobe = areaWeights[lobe] * shareSeen(outline, areaLobes[lobe]);
+#if HAS_LIGHT_PICTURES
+        if (picture >= 0 && ofLobe != vec3(0.0)) ofLobe *= pictureSeen(picture, outline, areaLobes[lobe]);
+#endif
+        reflected += ofLobe;
+    }
     precise vec3 light = reflected * ((window * window) * lightTexel(index, 1).rgb);
 #if HAS_SUBSURFACE_WRAP
     // What wraps is hardly anything of a large light, and taken from its middle.

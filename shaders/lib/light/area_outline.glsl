@@ -3,6 +3,7 @@
 // is seen as many, one that is hidden half of them, and 1.4e-2.
 #pragma once
 #include "shared/light.h"
+#include "shared/light_pictures.h"
 #include "lib/light/light_store.glsl"
 #include "lib/maths/math.glsl"
 
@@ -117,7 +118,7 @@ Outline areaOutline(int index, int kind, vec3 middle)
     if (type == LIGHT_TUBE) return tubeOutline(middle, first.xyz, first.w);
 #endif
     precise vec3 faces = cross(first.xyz, second.xyz);
-    if (second.w == 0.0 && !(dot(faces, middle) < 0.0)) return kNoOutline; // seen from behind
+    if (!shinesFromBothSides(second.w) && !(dot(faces, middle) < 0.0)) return kNoOutline; // seen from behind
 #if HAS_DISK_LIGHTS
     if (type == LIGHT_DISK) return roundOutline(middle, first.xyz, second.xyz, kPi * faces);
 #endif

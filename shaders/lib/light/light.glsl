@@ -2,6 +2,10 @@
 // in every technique, also where nothing is culled.
 #pragma once
 #include "lib/light/light_store.glsl"
+#include "shared/light_pictures.h"
+#if HAS_LIGHT_PICTURES
+#include "lib/light/light_picture.glsl"
+#endif
 #include "lib/maths/math.glsl"
 
 // Light as it arrives at a point.
@@ -46,7 +50,7 @@ float areaFacing(int type, vec3 toLightLS, LightShapeTexels shape)
 #endif
     precise vec3 faces = cross(shape.axis.xyz, shape.attenuation.xyz) * areaShare;
     precise float facing = -dot(faces, toLightLS);
-    return shape.attenuation.w != 0.0 ? abs(facing) : max(facing, 0.0);
+    return shinesFromBothSides(shape.attenuation.w) ? abs(facing) : max(facing, 0.0);
 }
 #endif
 
@@ -114,6 +118,10 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     falloff *= share;
 #endif
     precise vec3 irradiance = color.rgb * falloff;
+#if HAS_LIGHT_PICTURES
+    int picture = IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK) ? lightPictureOf(attenuation.w) : -1;
+    if (picture >= 0) irradiance *= lightPictureMean(picture);
+#endif
     incident.toLightLS = direction;
     incident.irradiance = irradiance;
     return reaches;

@@ -185,6 +185,7 @@ TEST(Features, whatTransmitsIsDrawnWithTheTransparentSurfacesAndHasABodyOnlyByIt
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     std::set<Feature> tested{featureOf(MaterialModel::Lambert),
                              Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
+                             Feature::LightPictures,
                              Feature::OrthographicCamera,
                              Feature::Shadows,
                              Feature::SoftShadows,

@@ -1,0 +1,51 @@
+// Pictures of area lights: what a lobe sees of one, from levels filtered by Gaussians (shared/light_pictures.h). Source:
+// Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", section 5,
+// with other Gaussians, and looked up along the vector irradiance, which always meets the light.
+#pragma once
+#include "shared/slots.h"
+#include "shared/light_pictures.h"
+
+layout(binding = TEXTURE_UNIT_LIGHT_PICTURES) uniform samplerBuffer lightPictureTexels;
+
+vec3 lightPictureMean(int picture)
+{
+    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS).rgb;
+}
+
+// As a + share (b - a), which is a where both are.
+vec3 mixedFactor(vec3 a, vec3 b, float share)
+{
+    precise vec3 mixed = a + share * (b - a);
+    return mixed;
+}
+
+// A level at a place: x from the left and y from the top, 0..1.
+vec3 lightPictureLevel(int picture, int level, vec2 place)
+{
+    vec4 record = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1 + level);
+    precise vec2 fromCentre = clamp(place * record.yz - 0.5, vec2(0.0), record.yz - 1.0);
+    ivec2 size = ivec2(record.yz);
+    ivec2 least = ivec2(fromCentre);
+    ivec2 most = min(least + 1, size - 1);
+    precise vec2 share = fromCentre - vec2(least);
+    int above = int(record.x) + least.y * size.x, below = int(record.x) + most.y * size.x;
+    vec3 top = mixedFactor(texelFetch(lightPictureTexels, above + least.x).rgb,
+                           texelFetch(lightPictureTexels, above + most.x).rgb, share.x);
+    vec3 bottom = mixedFactor(texelFetch(lightPictureTexels, below + least.x).rgb,
+                              texelFetch(lightPictureTexels, below + most.x).rgb, share.x);
+    return mixedFactor(top, bottom, share.y);
+}
+
+// The picture filtered by a Gaussian of a deviation in parts of its sides.
+vec3 lightPictureFiltered(int picture, vec2 place, float deviation)
+{
+    vec4 header = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS);
+    int levels = int(texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).w);
+    precise float texels = deviation * header.a;
+    precise float wanted = texels < 1.0 ? texels : 1.0 + log2(texels);
+    if (!(wanted < float(levels))) return header.rgb; // the mean stands behind the last level
+    int level = int(wanted);
+    vec3 sharper = lightPictureLevel(picture, level, place);
+    vec3 smoother = level + 1 < levels ? lightPictureLevel(picture, level + 1, place) : header.rgb;
+    return mixedFactor(sharper, smoother, wanted - float(level));
+}

@@ -1,0 +1,127 @@
+#include "renderer/frame/LightPictures.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "renderer/frame/LightRange.h"
+#include "shaders/shared/light_pictures.h"
+#include "tests/support/LightPictures.h"
+
+namespace tessera::frame {
+namespace {
+
+using scenes::LightType;
+
+scenes::Light picturedLight(LightType type, const scenes::LightTexture& texture) {
+    scenes::Light light;
+    light.type = type;
+    light.radiusMetres = 0.5f;
+    light.texture = texture;
+    return light;
+}
+
+/// Texel of a level.
+glm::vec3 texelOf(const std::vector<glm::vec4>& texels, std::size_t picture, std::size_t level, int x, int y) {
+    const glm::vec4 record = texels[picture * LIGHT_PICTURE_HEADER_TEXELS + 1 + level];
+    return glm::vec3(texels[std::size_t(record.x) + std::size_t(y) * std::size_t(record.y) + std::size_t(x)]);
+}
+
+TEST(LightPictures, lightsOfOnePictureAndOutlineShareAnEntry) {
+    const scenes::LightTexture one = test::evenLightTexture(glm::vec3(1.0f)),
+                               other = test::evenLightTexture(glm::vec3(0.5f));
+    scenes::Scene scene;
+    EXPECT_TRUE(lightPictures(scene).shown.empty());
+    scene.lights.emplace_back();
+    EXPECT_EQ(lightPictures(scene).numberOf(0), -1);
+    for (int i = 0; i < 1000; ++i) scene.lights.push_back(picturedLight(LightType::Rectangle, one));
+    scene.lights.push_back(picturedLight(LightType::Disk, one));
+    scene.lights.push_back(picturedLight(LightType::Rectangle, other));
+    scene.lights.push_back(picturedLight(LightType::Sphere, other)); // which shows none
+    const LightPictures pictures = lightPictures(scene);
+    EXPECT_EQ(pictures.shown.size(), 3u);
+    EXPECT_EQ(pictures.ofLight.front(), -1);
+    EXPECT_EQ(pictures.ofLight[1], 0);
+    EXPECT_EQ(pictures.ofLight[1000], 0);
+    EXPECT_EQ(pictures.ofLight[1001], 1);
+    EXPECT_EQ(pictures.ofLight[1002], 2);
+    EXPECT_EQ(pictures.ofLight[1003], -1);
+}
+
+TEST(LightPictures, sidesAndNumbersAreReadAsTheyWerePacked) {
+    for (const bool isTwoSided : {false, true})
+        for (const int picture : {-1, 0, 1, 4095}) {
+            const float sides = packSides(isTwoSided, picture);
+            EXPECT_EQ(shared::shinesFromBothSides(sides), isTwoSided);
+            EXPECT_EQ(shared::lightPictureOf(sides), picture);
+        }
+    EXPECT_EQ(packSides(false, -1), 0.0f);
+    EXPECT_EQ(packSides(true, -1), 1.0f);
+}
+
+TEST(LightPictures, anEvenPictureIsTheSameNumberEverywhere) {
+    const glm::vec3 factor(0.1f, 1.0f, 3.7f);
+    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+        const std::vector<ShownPicture> shown{
+            {test::lightTexture(37, 5, [&](int, int) { return factor; }), type, scenes::LightCorners()}};
+        const std::vector<glm::vec4> texels = prefilteredPictures(shown);
+        EXPECT_EQ(texels.size() * sizeof(glm::vec4), lightPictureBytes(shown));
+        EXPECT_EQ(glm::vec3(texels[0]), factor);
+        EXPECT_EQ(texels[0].a, 37.0f);
+        for (std::size_t i = LIGHT_PICTURE_HEADER_TEXELS; i < texels.size(); ++i)
+            ASSERT_EQ(glm::vec3(texels[i]), factor) << i;
+    }
+}
+
+TEST(LightPictures, levelsBlurAsTheirGaussiansSay) {
+    const std::vector<ShownPicture> shown{
+        {test::lightTexture(64, 64, [](int x, int) { return glm::vec3(x < 32 ? 1.0f : 0.0f); }),
+         LightType::Rectangle,
+         {}}};
+    const std::vector<glm::vec4> texels = prefilteredPictures(shown);
+    const std::vector<PictureLevel> levels = pictureLevels(64, 64);
+    EXPECT_EQ(glm::vec3(texels[0]), glm::vec3(0.5f));
+    EXPECT_EQ(levels.back().deviation, 1.0);
+    EXPECT_EQ(texelOf(texels, 0, 0, 31, 7), glm::vec3(1.0f));
+    EXPECT_EQ(texelOf(texels, 0, 0, 32, 7), glm::vec3(0.0f));
+    // Far from the picture's edge a step becomes the normal distribution.
+    for (std::size_t i = 1; i + 4 < levels.size(); ++i) {
+        SCOPED_TRACE(i);
+        const PictureLevel& level = levels[i];
+        const int x = level.width / 2;
+        const double away = (x + 0.5) / level.width - 0.5;
+        EXPECT_NEAR(texelOf(texels, 0, i, x, level.height / 2).g,
+                    0.5 * std::erfc(away / (level.deviation * std::sqrt(2.0))), 0.01);
+    }
+}
+
+TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
+    const auto corner = [](int x, int y) { return glm::vec3(x < 2 && y < 2 ? 1.0f : 0.25f); };
+    const scenes::LightTexture texture = test::lightTexture(32, 32, corner);
+    scenes::LightCorners right;
+    right.count = 0;
+    for (const glm::vec2& at : {glm::vec2(0.0f, -1.0f), glm::vec2(1.0f, 0.0f), glm::vec2(0.0f, 1.0f)}) right.add(at);
+    const std::vector<ShownPicture> shown{
+        {texture, LightType::Rectangle, {}}, {texture, LightType::Disk, {}}, {texture, LightType::Polygon, right}};
+    const std::vector<glm::vec4> texels = prefilteredPictures(shown);
+    EXPECT_GT(texels[0].g, 0.25f);
+    EXPECT_EQ(texels[LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
+    EXPECT_EQ(texels[2 * LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
+}
+
+TEST(LightPictures, rangesReachAsFarAsTheBrightestTexel) {
+    scenes::Light light = picturedLight(LightType::Rectangle, {});
+    const double plain = reachMetres(light, 0.01);
+    light.texture = test::lightTexture(8, 8, [](int x, int y) { return glm::vec3(x == 3 && y == 5 ? 4.0f : 0.0f); });
+    scenes::Light bright = picturedLight(LightType::Rectangle, {});
+    bright.intensity = 4.0f;
+    EXPECT_EQ(reachMetres(light, 0.01), reachMetres(bright, 0.01));
+    EXPECT_GT(reachMetres(light, 0.01), plain);
+    light.intensity = 1e30f;
+    EXPECT_LE(mostColor(light).g, 1.0001e30);
+    light.texture = test::evenLightTexture(glm::vec3(0.0f));
+    EXPECT_EQ(mostColor(light), glm::dvec3(0.0));
+}
+
+} // namespace
+} // namespace tessera::frame
