@@ -141,6 +141,10 @@ bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
     if (info.isFlat) {
         row("Shines");
         changed |= ImGui::Checkbox("from both sides##light", &light.isTwoSided);
+        if (light.texture) {
+            row("Texture");
+            ImGui::TextUnformatted(light.texture->map.name.c_str());
+        }
     }
     if (info.isArea) {
         row("Surface");

@@ -1,0 +1,327 @@
+// Pictures of area lights: every technique, what they leave out, known answers, and the reference.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/PrepareView.h"
+#include "renderer/graph/Plan.h"
+#include "scenes/AreaLight.h"
+#include "scenes/LookAt.h"
+#include "tests/image/EnvironmentTest.h"
+#include "tests/support/LightPictures.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::LightType;
+using namespace test;
+
+constexpr LightType kPicturedTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Polygon};
+
+scenes::Light picturedArea(LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS,
+                           const scenes::LightTexture& texture) {
+    scenes::Light light;
+    light.type = type;
+    light.positionWS = positionWS;
+    light.directionWS = glm::normalize(directionWS);
+    light.alongWS = scenes::usualAlong(light.directionWS);
+    light.radiusMetres = type == LightType::Disk ? 0.5f : 0.0f;
+    light.intensity = 3.0f;
+    light.texture = texture;
+    return light;
+}
+
+/// Four by four fields of colours, each of four by four texels.
+scenes::LightTexture fieldsTexture() {
+    return lightTexture(16, 16, [](int x, int y) {
+        const int field = x / 4 + 4 * (y / 4);
+        return glm::vec3(0.1f * float(field % 5), 0.05f * float(field), field % 3 == 0 ? 2.0f : 0.25f);
+    });
+}
+
+scenes::Scene withPictures(scenes::Scene scene) {
+    double x = -1.0;
+    for (const LightType type : kPicturedTypes) {
+        scenes::Light light = picturedArea(type, {x, 0.6, 1.2}, {-0.3 * x, -0.4, -1.0}, fieldsTexture());
+        light.isTwoSided = type == LightType::Disk;
+        light.rangeMetres = type == LightType::Disk ? 4.0f : scenes::kInfinity;
+        scene.lights.push_back(light);
+        x += 1.0;
+    }
+    scenes::Light plain = picturedArea(LightType::Rectangle, {0.0, -0.8, 1.0}, {0.0, 0.5, -1.0}, {});
+    plain.rangeMetres = 3.0f;
+    scene.lights.push_back(plain);
+    return scene;
+}
+
+scenes::Material picturedMatte() {
+    scenes::Material material;
+    material.model = scenes::MaterialModel::Lambert;
+    material.doubleSided = true;
+    return material;
+}
+
+class LightPictures : public EnvironmentTest {
+protected:
+    void expectTechniquesAlike() {
+        std::vector<scenes::Scene> all{withPictures(quadScene(picturedMatte()))};
+        if (isWholeSweep()) all.push_back(withPictures(quadScene({})));
+        for (scenes::Scene& scene : all) {
+            engine::Renderer renderer(context(), scene);
+            frame::FrameSettings settings;
+            settings.sizePixels = {96, 54};
+            expectParity(renderer, settings, isWholeSweep() ? std::vector<Technique>{} : techniquesInTurn(3));
+            for (scenes::Light& light : scene.lights) light.rangeMetres = scenes::kInfinity;
+            settings.rangeTolerance = 0.05; // by which lists end lights
+            engine::Renderer tolerant(context(), scene);
+            expectParity(tolerant, settings, {Technique::ClusteredDeferred});
+        }
+    }
+    std::vector<float> radianceOf(const scenes::Scene& scene, bool prune = true) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        settings.prune = prune;
+        return engine::Renderer(context(), scene).render(Technique::TiledDeferred, settings).radiance;
+    }
+};
+using LightPicturesSlow = LightPictures;
+
+TEST_F(LightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
+    expectTechniquesAlike();
+}
+TEST_F(LightPicturesSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
+    expectTechniquesAlike();
+}
+
+TEST_F(LightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
+    const scenes::Scene scene = withPictures(quadScene({}));
+    EXPECT_EQ(radianceOf(scene, true), radianceOf(scene, false));
+}
+
+TEST_F(LightPictures, aSceneWithoutThemHasNoTraceOfThem) {
+    scenes::Scene scene = withPictures(quadScene(picturedMatte()));
+    frame::FrameSettings settings;
+    const auto defined = [&] {
+        bool isOn = false;
+        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, settings))
+            for (const auto& [name, value] : program.defines)
+                isOn = isOn || ((name == "HAS_LIGHT_PICTURES" || name == "SEEN_PICTURES") && value == "1");
+        return isOn;
+    };
+    EXPECT_TRUE(defined());
+    EXPECT_NE(planText(engine::planFrame(scene, Technique::Deferred, settings)).find("light_pictures"),
+              std::string::npos);
+    for (scenes::Light& light : scene.lights) light.texture = {};
+    EXPECT_FALSE(defined());
+    EXPECT_EQ(planText(engine::planFrame(scene, Technique::Deferred, settings)).find("light_pictures"),
+              std::string::npos);
+}
+
+TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
+    scenes::Material metal;
+    metal.metallic = 0.5f;
+    metal.perceptualRoughness = 0.4f;
+    metal.doubleSided = true;
+    for (const LightType type : kPicturedTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        scenes::Scene scene = quadScene(metal);
+        scene.lights = {picturedArea(type, {0.3, 0.2, 0.8}, {0.1, -0.2, -1.0}, {})};
+        const std::vector<float> plain = radianceOf(scene);
+        EXPECT_GT(*std::ranges::max_element(plain), 0.1f);
+        scene.lights[0].texture = evenLightTexture(glm::vec3(1.0f), 7);
+        EXPECT_EQ(radianceOf(scene), plain);
+        const glm::vec3 factor(0.3f, 1.7f, 0.01f);
+        scene.lights[0].texture = evenLightTexture(factor, 7);
+        const std::vector<float> even = radianceOf(scene);
+        scene.lights[0].texture = {};
+        scene.lights[0].color *= factor;
+        const std::vector<float> tinted = radianceOf(scene);
+        for (std::size_t i = 0; i < even.size(); ++i) ASSERT_NEAR(even[i], tinted[i], 1e-6f * (1e-3f + tinted[i])) << i;
+    }
+}
+
+TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
+    for (const LightType type : kPicturedTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        // From the front, x to the right and y upwards: red is left, green at the top.
+        scenes::Light light = picturedArea(type, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {});
+        light.alongWS = {1.0, 0.0, 0.0};
+        light.intensity = 1.0f;
+        light.texture = lightTexture(
+            2, 2, [](int x, int y) { return glm::vec3(x == 0 ? 1.0f : 0.0f, y == 0 ? 1.0f : 0.0f, 0.5f); });
+        scenes::Scene scene = quadScene(picturedMatte());
+        scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, -5.0, 1.0);
+        scene.lights = {light};
+        scenes::Camera& camera = scene.cameras[0];
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = 0.5;
+        camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0));
+        frame::FrameSettings settings;
+        settings.sizePixels = {64, 64};
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+        const double half = type == LightType::Polygon ? std::sqrt(0.5) : 0.5; // the default corners reach so far
+        int compared = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const float* const pixel = &radiance[std::size_t(4 * (64 * y + x))];
+                if (pixel[2] != 0.5f) continue;
+                ++compared;
+                // Metres from the middle; between the two centres of texels the factor falls linearly.
+                const double right = (x + 0.5) / 64.0 - 0.5, up = 0.5 - (y + 0.5) / 64.0;
+                ASSERT_NEAR(pixel[0], std::clamp(0.5 - right / half, 0.0, 1.0), 1e-4) << x << ", " << y;
+                ASSERT_NEAR(pixel[1], std::clamp(0.5 + up / half, 0.0, 1.0), 1e-4) << x << ", " << y;
+            }
+        EXPECT_GT(compared, type == LightType::Disk ? 3000 : 4000);
+    }
+}
+
+TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
+    scenes::Material black = picturedMatte();
+    black.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    scenes::Scene scene = withPictures(quadScene(black));
+    for (scenes::Light& light : scene.lights) {
+        light.directionWS *= -1.0;
+        light.isTwoSided = true;
+    }
+    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.2, 0.4, 4.0}, {0.0, 0.2, 1.0});
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+    const validation::ReferencePicture truth = validation::referencePicture(
+        scene, settings, [] {}, validation::Leeway::None);
+    int bright = 0, wrong = 0;
+    for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
+        if (!(truth.picture.rgba[4 * i + 2] > 0.7f)) continue; // blue of a quarter and 2, times 3
+        ++bright;
+        for (std::size_t c = 0; c < 3; ++c)
+            if (std::abs(radiance[4 * i + c] - truth.picture.rgba[4 * i + c]) > 1e-3f) {
+                ++wrong;
+                break;
+            }
+    }
+    fmt::print("{} of {} differ\n", wrong, bright);
+    EXPECT_GT(bright, 300);
+    EXPECT_LE(wrong, bright / 20); // on outlines
+}
+
+/// Irradiance of the middle of a matte quad in z = 0.
+class LightPictureTruth : public EnvironmentTest {
+protected:
+    double irradiance(const scenes::Light& light) {
+        if (!renderer_) {
+            scene_ = quadScene(picturedMatte());
+            scenes::Camera& camera = scene_.cameras[0];
+            camera.projection = scenes::Projection::Orthographic;
+            camera.halfHeightMetres = 1e-4;
+            camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0));
+            renderer_.emplace(context(), scene_);
+        }
+        scene_.lights = {light};
+        scene_.lights[0].isSeen = false;
+        frame::FrameSettings settings;
+        settings.sizePixels = {3, 3};
+        return double(renderer_->render(Technique::Deferred, settings).radiance[4 * 4]);
+    }
+    struct BallError {
+        double bias, relMse;
+    };
+    /// Of the picture of a ball under a rectangle so far away, against the integral over the light.
+    BallError onBall(const scenes::Material& material, double distanceMetres, const scenes::LightTexture& texture) {
+        scenes::Scene scene = ballUnderSky(material);
+        const glm::dvec3 towards = glm::normalize(glm::dvec3(1.2, 1.5, 2.0));
+        scene.lights = {picturedArea(LightType::Rectangle, (1.0 + distanceMetres) * towards, -towards, texture)};
+        scene.lights[0].isSeen = false;
+        frame::FrameSettings settings;
+        settings.sizePixels = {32, 32};
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+        double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
+            if (truth.picture.covered[i] == 0) continue;
+            const double own = double(radiance[4 * i + 1]), other = double(truth.picture.rgba[4 * i + 1]);
+            shown += own;
+            light += other;
+            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
+            count += 1.0;
+        }
+        return {shown / light - 1.0, squares / count};
+    }
+    void expectNearTheIntegralOfPictures();
+
+private:
+    scenes::Scene scene_;
+    std::optional<engine::Renderer> renderer_;
+};
+using LightPictureTruthSlow = LightPictureTruth;
+
+/// Of which the closed form of a rectangle of half the width is the truth.
+TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {
+    const scenes::LightTexture half = lightTexture(64, 1, [](int x, int) { return glm::vec3(x < 32 ? 1.0f : 0.0f); });
+    for (const double distance : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+        for (const double aside : {0.0, 0.5, 1.0}) {
+            scenes::Light whole =
+                picturedArea(LightType::Rectangle, {aside * distance, 0.0, distance}, {-0.2 * aside, 0.0, -1.0}, half);
+            scenes::Light left = whole;
+            left.texture = {};
+            left.widthMetres = 0.5f;
+            left.positionWS -= 0.25 * left.alongWS;
+            const double found = irradiance(whole), wanted = irradiance(left), error = found / wanted - 1.0;
+            fmt::print("{:4} m away, {:4} m aside: {:+.1e}\n", distance, aside * distance, error);
+            // Straight ahead the mean of both halves is right by symmetry. Elsewhere the nearer half counts for more
+            // by up to its share of the distance, which the picture's mean does not know.
+            EXPECT_NEAR(error, 0.0, aside == 0.0 ? 1e-4 : std::min(1.0 / distance, 0.5));
+        }
+    }
+}
+
+/// docs/area-lights.md has what this prints.
+void LightPictureTruth::expectNearTheIntegralOfPictures() {
+    const std::vector<double> distances = isWholeSweep() ? std::vector{0.25, 1.0, 4.0} : std::vector{1.0};
+    const std::vector<double> roughnesses = isWholeSweep() ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5};
+    for (const double distance : distances)
+        for (const double roughness : roughnesses) {
+            scenes::Material metal;
+            metal.metallic = 1.0f;
+            metal.perceptualRoughness = float(roughness);
+            const BallError plain = onBall(metal, distance, {}), pictured = onBall(metal, distance, fieldsTexture());
+            fmt::print("| {} m | {:.2f} | {:+.1f} %, {:.0e} | {:+.1f} %, {:.0e} |\n", distance, roughness,
+                       100.0 * pictured.bias, pictured.relMse, 100.0 * plain.bias, plain.relMse);
+            EXPECT_LE(std::abs(pictured.bias), 0.15);
+            EXPECT_LE(pictured.relMse, 0.2);
+        }
+}
+TEST_F(LightPictureTruth, onABallPicturesAreNearTheirIntegral) {
+    expectNearTheIntegralOfPictures();
+}
+TEST_F(LightPictureTruthSlow, onABallPicturesAreNearTheirIntegral) {
+    expectNearTheIntegralOfPictures();
+}
+
+TEST_F(LightPictureTruth, lightsOfAnySizeAndPlaceGiveFiniteLight) {
+    const scenes::LightTexture texture = fieldsTexture();
+    for (const LightType type : kPicturedTypes)
+        for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f})
+            for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1e-5), glm::dvec3(0.5, 0.0, 0.0),
+                                         glm::dvec3(0.0, 0.0, -0.1), glm::dvec3(1e5, 0.0, 1.0)}) {
+                scenes::Light light = picturedArea(type, at, {0.3, 0.0, -1.0}, {});
+                light.widthMetres = light.heightMetres = light.radiusMetres = size;
+                for (glm::vec2& corner : light.corners.metres) corner *= size;
+                const double plain = irradiance(light);
+                light.texture = texture;
+                const double pictured = irradiance(light);
+                EXPECT_TRUE(std::isfinite(pictured) && pictured >= 0.0 && pictured <= 0.41 * plain)
+                    << scenes::infoOf(type).name << " of " << size << " at " << at.x << " " << at.z << ": " << pictured
+                    << " of " << plain;
+            }
+}
+
+} // namespace
+} // namespace tessera
