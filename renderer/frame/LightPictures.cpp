@@ -17,6 +17,8 @@ namespace {
 constexpr double kCutDeviations = 3.0;
 /// Levels have so many texels a deviation of their Gaussian, so that interpolation between texels loses little.
 constexpr double kTexelsADeviation = 2.0;
+/// And so many at least, since a place nearer to the edge than their centres is taken for that of the last one.
+constexpr int kLeastTexels = 16;
 /// Shaders count texels in floats.
 constexpr std::size_t kMostPictureTexels = std::size_t(1) << 24;
 
@@ -81,23 +83,72 @@ Masked maskedTexels(const ShownPicture& shown) {
     return masked;
 }
 
-/// Rows become columns, filtered to `count` texels: twice it is a filter of both.
-Masked filteredAndTurned(const Masked& from, int count, double deviation) {
-    Masked to{from.height, count, std::vector<glm::dvec4>(std::size_t(from.height) * std::size_t(count))};
-    const double perTexel = 1.0 / double(from.width);
+/// Weights of a row's texels, from `first` on: a Gaussian, cut.
+struct RowWeights {
+    int first = 0;
     std::vector<double> weights;
-    for (int i = 0; i < count; ++i) {
-        const double middle = (i + 0.5) / double(count);
-        const int first = std::max(int(std::floor((middle - kCutDeviations * deviation) * from.width)), 0);
-        const int last = std::min(int(std::floor((middle + kCutDeviations * deviation) * from.width)), from.width - 1);
-        weights.clear();
-        for (int x = first; x <= last; ++x) {
-            const double away = ((x + 0.5) * perTexel - middle) / deviation;
-            weights.push_back(std::exp(-0.5 * away * away));
+    double mean = 0.0; ///< place of what they weigh, in parts of the row
+};
+
+/// Of a Gaussian around `middle`, which may lie beside the row. `shares` is what each texel of the row counts.
+RowWeights weightsAround(double middle, double deviation, const std::vector<double>& shares) {
+    const auto count = double(shares.size());
+    // As far as the nearest place of the row, and on from there.
+    const double nearest = std::clamp(middle, 0.5 / count, 1.0 - 0.5 / count) - middle;
+    const double reach = std::hypot(nearest, kCutDeviations * deviation);
+    const auto texelAt = [&](double place) { return int(std::clamp(std::floor(place * count), 0.0, count - 1.0)); };
+    RowWeights row;
+    row.first = texelAt(middle - reach);
+    double sum = 0.0, moment = 0.0;
+    for (int x = row.first; x <= texelAt(middle + reach); ++x) {
+        const double away = (x + 0.5) / count - middle;
+        const double weight = std::exp(0.5 * (nearest * nearest - away * away) / (deviation * deviation));
+        row.weights.push_back(weight);
+        sum += shares[std::size_t(x)] * weight;
+        moment += shares[std::size_t(x)] * weight * (x + 0.5) / count;
+    }
+    row.mean = sum > 0.0 ? moment / sum : middle;
+    return row;
+}
+
+/// Of the Gaussian that is moved until the mean of what is left of it lies at `mean`, or as near as can be.
+RowWeights weightsOfMean(double mean, double deviation, const std::vector<double>& shares) {
+    RowWeights row = weightsAround(mean, deviation, shares);
+    constexpr double kNear = 1e-9;
+    if (std::abs(row.mean - mean) < kNear) return row;
+    constexpr int kHalvings = 40;
+    const double farthest = 1.0 + 60.0 * deviation * deviation;
+    double least = mean - farthest, most = mean + farthest;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (least + most);
+        row = weightsAround(middle, deviation, shares);
+        (row.mean < mean ? least : most) = middle;
+    }
+    return row;
+}
+
+/// By column or row of texels: how much of it lies within the outline.
+struct Shares {
+    std::vector<double> ofColumns, ofRows;
+};
+Shares sharesOf(const Masked& masked) {
+    Shares shares{std::vector<double>(std::size_t(masked.width)), std::vector<double>(std::size_t(masked.height))};
+    for (int y = 0; y < masked.height; ++y)
+        for (int x = 0; x < masked.width; ++x) {
+            shares.ofColumns[std::size_t(x)] += masked.at(x, y).w;
+            shares.ofRows[std::size_t(y)] += masked.at(x, y).w;
         }
+    return shares;
+}
+
+/// Rows become columns, filtered to `count` texels: twice it is a filter of both.
+Masked filteredAndTurned(const Masked& from, int count, double deviation, const std::vector<double>& shares) {
+    Masked to{from.height, count, std::vector<glm::dvec4>(std::size_t(from.height) * std::size_t(count))};
+    for (int i = 0; i < count; ++i) {
+        const RowWeights row = weightsOfMean((i + 0.5) / double(count), deviation, shares);
         for (int y = 0; y < from.height; ++y) {
             glm::dvec4 sum(0.0);
-            for (int x = first; x <= last; ++x) sum += weights[std::size_t(x - first)] * from.at(x, y);
+            for (std::size_t x = 0; x < row.weights.size(); ++x) sum += row.weights[x] * from.at(row.first + int(x), y);
             to.texels[std::size_t(i) * std::size_t(to.width) + std::size_t(y)] = sum;
         }
     }
@@ -115,6 +166,7 @@ void addPicture(const ShownPicture& shown, std::size_t number, std::vector<glm::
     for (const glm::dvec4& texel : masked.texels) sum += texel;
     const glm::vec3 mean = unmasked(sum, glm::vec3(0.0f));
     const std::vector<PictureLevel> levels = pictureLevels(map.width, map.height);
+    const Shares shares = sharesOf(masked);
     const std::size_t header = number * LIGHT_PICTURE_HEADER_TEXELS;
     texels[header] = glm::vec4(mean, float(std::max(map.width, map.height)));
     for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -128,7 +180,8 @@ void addPicture(const ShownPicture& shown, std::size_t number, std::vector<glm::
             continue;
         }
         const Masked filtered =
-            filteredAndTurned(filteredAndTurned(masked, level.width, level.deviation), level.height, level.deviation);
+            filteredAndTurned(filteredAndTurned(masked, level.width, level.deviation, shares.ofColumns), level.height,
+                              level.deviation, shares.ofRows);
         for (const glm::dvec4& texel : filtered.texels) texels.emplace_back(unmasked(texel, mean), 1.0f);
     }
 }
@@ -158,7 +211,9 @@ std::vector<PictureLevel> pictureLevels(int width, int height) {
     const double longest = std::max(width, height);
     std::vector<PictureLevel> levels{{width, height, 0.0}};
     for (double deviation = 1.0 / longest; levels.size() < LIGHT_PICTURE_MOST_LEVELS; deviation *= 2.0) {
-        const auto texels = [&](int most) { return std::min(most, int(std::ceil(kTexelsADeviation / deviation))); };
+        const auto texels = [&](int most) {
+            return std::max(kLeastTexels, std::min(most, int(std::ceil(kTexelsADeviation / deviation))));
+        };
         levels.push_back({texels(width), texels(height), deviation});
         if (deviation >= 1.0) break;
     }

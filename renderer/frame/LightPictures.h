@@ -43,6 +43,7 @@ std::size_t lightPictureBytes(std::span<const ShownPicture> shown);
 
 /// As shaders/shared/light_pictures.h says. A Gaussian is cut at three deviations and at the edge of the light's
 /// surface, and divided by what is left of it, so that an even picture is the same number in all levels.
+/// It is moved so that the mean place of what is left is the texel's, row by row and column by column.
 std::vector<glm::vec4> prefilteredPictures(std::span<const ShownPicture> shown);
 
 /// They on the GPU, made anew when others are asked for.

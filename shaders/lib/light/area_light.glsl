@@ -312,7 +312,7 @@ vec3 seenDirection(Outline outline, AreaLobe lobe)
 }
 
 // The deviation of the Gaussian that is nearest to what a cosine sees of a plane straight ahead, in parts of its distance.
-const float kCosineDeviation = 0.85;
+const float kCosineDeviation = 0.75;
 const float kMostStretch = 3.0; // of a Gaussian that several of a level stand for
 const int kStretchTaps = 5;
 
@@ -323,6 +323,10 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise mat3 cosineFromLS = lobe.cosineFromSurface * lobe.surfaceFromLS;
     precise vec3 middle = cosineFromLS * outline.middle;
     precise vec3 right = cosineFromLS * outline.right, up = cosineFromLS * outline.up;
+    // Of what is small from afar single precision leaves no place, and it is seen nearly as its mean.
+    precise float across = sqrt(max(dot(right, right), dot(up, up)) / max(dot(middle, middle), 1e-30));
+    precise float digits = clamp(100.0 * across - 1.0, 0.0, 1.0);
+    if (!(digits > 0.0)) return lightPictureMean(picture);
     precise vec3 direction = seenDirection(outline, lobe);
     precise vec3 front = cross(right, up);
     precise float along = dot(direction, front);
@@ -337,37 +341,46 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     if (!(sheared > 0.0)) return lightPictureMean(picture);
     precise float inRight = dot(place, right), inUp = dot(place, up);
     precise vec2 within = vec2(inRight * up2 - inUp * both, inUp * right2 - inRight * both) / sheared;
-    within = clamp(within, -1.0, 1.0);
     // By how many radians a step along either vector turns: a quadratic form, and its axes.
     precise float metRight = dot(met, right), metUp = dot(met, up);
     precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
     precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
     precise float turnBoth = (both - metRight * metUp / distance2) / distance2;
+    // Directions count by their cosines too: the mean moves along their slope, as far as what is seen spreads.
+    if (met.z > 0.0) {
+        precise vec2 slope = vec2(right.z, up.z) / met.z - vec2(metRight, metUp) / distance2;
+        precise vec2 spread = 1.0 / (3.0 + vec2(turnRight, turnUp) / (kCosineDeviation * kCosineDeviation));
+        within += clamp(spread * slope, -0.5, 0.5);
+    }
+    within = clamp(within, -1.0, 1.0);
     precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);
     precise float apart = sqrt(lean * lean + turnBoth * turnBoth);
     precise float most = max(mean + apart, 1e-30), least = max(mean - apart, 1e-30);
     // In parts of the picture's sides, which are two of the vectors.
-    precise float narrow = 0.5 * kCosineDeviation / sqrt(most), wide = 0.5 * kCosineDeviation / sqrt(least);
-    precise float level = max(narrow, min(wide, 4.0) / kMostStretch);
-    if (!(level < 4.0)) return lightPictureMean(picture); // as the levels say
-    precise float beyond = sqrt(max(min(wide, 4.0) * min(wide, 4.0) - level * level, 0.0));
+    precise float narrow = 0.5 * kCosineDeviation / sqrt(most);
+    precise float wide = min(0.5 * kCosineDeviation / sqrt(least), 1.0); // the last level is as wide as the picture
+    precise float level = min(max(narrow, wide / kMostStretch), 1.0);
+    precise float beyond = sqrt(max(wide * wide - level * level, 0.0));
     // Along the axis of the lesser turn.
     precise vec2 slow = lean > 0.0 ? vec2(-turnBoth, lean + apart) : vec2(apart - lean, -turnBoth);
     precise float length2 = dot(slow, slow);
     precise vec2 axis = length2 > 0.0 ? slow / sqrt(length2) : vec2(1.0, 0.0);
     precise vec2 at = vec2(0.5 + 0.5 * within.x, 0.5 - 0.5 * within.y);
     precise vec2 stride = vec2(axis.x, -axis.y) * (0.75 * beyond);
+    // All of them lie within the picture, so that their mean stays where it is.
+    precise vec2 room = min(at, 1.0 - at) / max(abs(stride) * float(kStretchTaps / 2), 1e-12);
+    stride *= min(1.0, min(room.x, room.y));
     vec3 seen = lightPictureFiltered(picture, at, level);
     precise float weights = 1.0;
     for (int tap = 0; tap < kStretchTaps; ++tap) {
         float steps = float(tap - kStretchTaps / 2);
         precise vec2 there = at + steps * stride;
-        if (steps == 0.0 || any(lessThan(there, vec2(0.0))) || any(greaterThan(there, vec2(1.0)))) continue;
+        if (steps == 0.0) continue;
         precise float weight = exp(-0.28125 * steps * steps); // 0.75^2 / 2
         weights += weight;
         seen = mixedFactor(seen, lightPictureFiltered(picture, there, level), weight / weights);
     }
-    return seen;
+    return mixedFactor(lightPictureMean(picture), seen, digits);
 }
 #endif
 

@@ -43,9 +43,9 @@ vec3 lightPictureFiltered(int picture, vec2 place, float deviation)
     int levels = int(texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).w);
     precise float texels = deviation * header.a;
     precise float wanted = texels < 1.0 ? texels : 1.0 + log2(texels);
-    if (!(wanted < float(levels))) return header.rgb; // the mean stands behind the last level
+    if (!(wanted < float(levels - 1))) return lightPictureLevel(picture, levels - 1, place);
     int level = int(wanted);
     vec3 sharper = lightPictureLevel(picture, level, place);
-    vec3 smoother = level + 1 < levels ? lightPictureLevel(picture, level + 1, place) : header.rgb;
+    vec3 smoother = lightPictureLevel(picture, level + 1, place);
     return mixedFactor(sharper, smoother, wanted - float(level));
 }

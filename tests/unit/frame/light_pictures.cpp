@@ -95,6 +95,23 @@ TEST(LightPictures, levelsBlurAsTheirGaussiansSay) {
     }
 }
 
+TEST(LightPictures, aRampStaysTheSameRampInAllLevels) {
+    const std::vector<ShownPicture> shown{
+        {test::lightTexture(64, 64,
+                            [](int x, int y) { return glm::vec3(float(x) + 0.5f, float(y) + 0.5f, 0.0f) / 64.0f; }),
+         LightType::Rectangle,
+         {}}};
+    const std::vector<glm::vec4> texels = prefilteredPictures(shown);
+    const std::vector<PictureLevel> levels = pictureLevels(64, 64);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        for (int y = 0; y < levels[i].height; ++y)
+            for (int x = 0; x < levels[i].width; ++x) {
+                const glm::vec3 texel = texelOf(texels, 0, i, x, y);
+                ASSERT_NEAR(texel.x, (x + 0.5) / levels[i].width, 2e-3) << i << ": " << x << ", " << y;
+                ASSERT_NEAR(texel.y, (y + 0.5) / levels[i].height, 2e-3) << i << ": " << x << ", " << y;
+            }
+}
+
 TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
     const auto corner = [](int x, int y) { return glm::vec3(x < 2 && y < 2 ? 1.0f : 0.25f); };
     const scenes::LightTexture texture = test::lightTexture(32, 32, corner);
