@@ -481,8 +481,12 @@ void checkScene(const Scene& scene) {
     }
     checkRig(scene);
     checkPlaces(scene);
+    std::set<const LightPicture*> pictures; // shared by the lights that name them
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         checkLight({scene, "light", i, scene.lights[i].name}, scene.lights[i]);
+        const LightTexture& texture = scene.lights[i].texture;
+        if (texture && pictures.insert(&*texture).second)
+            checkImage({scene, "texture of light", i, scene.lights[i].name}, texture->map);
     }
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         checkCamera({scene, "camera", i, scene.cameras[i].name}, scene.cameras[i]);

@@ -60,6 +60,7 @@ shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
 frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count) {
     frame::PackedLights lights;
     lights.features = like.features;
+    lights.features.has.reset(std::size_t(frame::Feature::LightPictures)); // even lights cost no more
     const std::size_t known = like.texels.size();
     if (known == 0) lights.features.add(frame::featureOf(scenes::LightType::Point));
     for (int i = 0; i < count; ++i) {

@@ -100,5 +100,17 @@ TEST(LightTexture, isWrittenByItsNameAndReadBackIdentically) {
     }
 }
 
+TEST(LightTexture, aPictureThatLacksTexelsIsRefused) {
+    Scene scene;
+    scene.lights.emplace_back();
+    scene.lights[0].type = LightType::Rectangle;
+    scene.lights[0].texture = tessera::test::evenLightTexture(glm::vec3(1.0f));
+    EXPECT_NO_THROW(checkScene(scene));
+    LightPicture lacking = *scene.lights[0].texture;
+    lacking.map.width += 1;
+    scene.lights[0].texture = LightTexture(lacking);
+    EXPECT_ANY_THROW(checkScene(scene));
+}
+
 } // namespace
 } // namespace tessera::scenes
