@@ -152,7 +152,9 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
         drag_ = Drag::Pan;
     } else if (event.code == GLFW_MOUSE_BUTTON_RIGHT) {
-        if ((event.modifiers & GLFW_MOD_SHIFT) && state.open && state.open->scene().environment) {
+        if (!(event.modifiers & GLFW_MOD_SHIFT)) {
+            drag_ = Drag::Pan;
+        } else if (state.open && state.open->scene().environment) {
             drag_ = Drag::Environment;
             state.dragText = turnText(state.active().settings.environment.rotationDegrees);
         }

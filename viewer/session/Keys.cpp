@@ -106,7 +106,7 @@ constexpr KeyBinding kBindings[] = {
 constexpr GestureHelp kGestures[] = {
     {"Left drag", "turn about the pivot, or look around when flying; also with Shift"},
     {"Shift + right drag", "turns the environment; the angle stands beside the pointer"},
-    {"Alt + left drag", "move across the picture; also the middle button"},
+    {"Right drag", "move across the picture; also the middle button, and Alt + left drag"},
     {"Ctrl + left drag, wheel", "nearer and farther"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
     {"Click", "picks the material of the surface"},

@@ -50,6 +50,29 @@ TEST(Controls, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     EXPECT_EQ(selectedByPress(hidden), scenes::kNone);
 }
 
+TEST(Controls, theMiddleAndTheRightButtonMoveAcrossThePictureTheLatterWithoutShift) {
+    const auto isMovedBy = [](int button, int modifiers) {
+        State state = withLightInTheMiddle(0, 1);
+        EXPECT_TRUE(state.open->rig().isAtRest());
+        InputEvent press, move;
+        press.kind = InputEvent::Kind::Button;
+        press.code = button;
+        press.modifiers = modifiers;
+        press.down = true;
+        press.position = {200.0, 200.0};
+        move.kind = InputEvent::Kind::Move;
+        move.position = {300.0, 200.0};
+        Controls controls;
+        controls.handle(std::array{press, move}, state, kArea, {});
+        EXPECT_EQ(state.selectedLight, scenes::kNone) << "the light in the middle is not taken";
+        return !state.open->rig().isAtRest();
+    };
+    constexpr int kRight = 1, kMiddle = 2, kShift = 1; // GLFW's
+    EXPECT_TRUE(isMovedBy(kRight, 0));
+    EXPECT_TRUE(isMovedBy(kMiddle, 0));
+    EXPECT_FALSE(isMovedBy(kRight, kShift)) << "that turns the environment, and there is none";
+}
+
 TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNone) {
     State state = withLightInTheMiddle(0, 1);
     std::string said;
