@@ -204,6 +204,26 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     EXPECT_NE(readJson(saved).dump().find("\"metallic\":1"), std::string::npos) << readJson(saved);
 }
 
+TEST_F(ViewerEdits, aSwatchShowsTheColourThatThePictureShows) {
+    folder_.write("card.obj", "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    folder_.write("card.json", R"({"tessera": 1, "include": [{"file": "card.obj"}],
+        "materials": [{"name": "paint", "model": "single_color", "color": [0.402, 0.1, 0.3]}],
+        "overrides": [{"node": "card", "material": "paint"}],
+        "cameras": [{"name": "front", "position": [0, 0, 2], "target": [0, 0, 0], "fovYDegrees": 30}]})");
+    DrivenViewer viewer = open({"card.json"});
+    viewer.waitForWhole(0);
+    const glm::ivec3 shown = viewer.capture().at(kMiddle);
+    EXPECT_EQ(shown, glm::ivec3(170, 89, 149)) << "sRGB of its linear values";
+    const std::size_t mark = viewer.mark();
+    viewer.click(kMiddle);
+    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
+    for (const Section closed : {Section::View, Section::Technique, Section::Scene}) // so that nothing scrolls
+        toggle(viewer, closed);
+    toggle(viewer, Section::Materials);
+    constexpr int kColourRow = 3, kSwatchX = 280;
+    EXPECT_EQ(viewer.capture().at(inRow(viewer, Section::Materials, kColourRow, kSwatchX)), shown);
+}
+
 TEST_F(ViewerEdits, aSceneChosenFromTheListOpensAndKeepsTheTechnique) {
     DrivenViewer viewer = open({"room", "--technique", "forward_plus"});
     viewer.waitForWhole(0);

@@ -34,11 +34,10 @@ void tableRow(State& state, int index) {
     }
     tip("on or off");
     ImGui::TableNextColumn();
-    const ImVec4 color(std::sqrt(light.color.r), std::sqrt(light.color.g), std::sqrt(light.color.b), 1.0f);
     const float side = ImGui::GetFontSize();
     const float top = ImGui::GetCursorPosY();
     ImGui::SetCursorPosY(top + 0.5f * (ImGui::GetFrameHeight() - side));
-    ImGui::ColorButton("##color", color, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
+    colorSwatch(light.color, side);
     ImGui::SameLine();
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();

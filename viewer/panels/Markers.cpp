@@ -1,19 +1,17 @@
 #include "viewer/panels/Markers.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <imgui.h>
+
+#include "viewer/edit/ShownColor.h"
 
 namespace tessera::viewer {
 namespace {
 
 ImU32 colorOf(const scenes::Light& light) {
-    const float most = std::max({light.color.r, light.color.g, light.color.b, 1e-6f});
-    const auto code = [most](float value) {
-        return int(std::lround(255.0f * std::sqrt(std::max(value, 0.0f) / most)));
-    };
-    return IM_COL32(code(light.color.r), code(light.color.g), code(light.color.b), light.enabled ? 255 : 90);
+    const glm::vec3 code = swatchOfColor(light.color);
+    return ImGui::ColorConvertFloat4ToU32({code.r, code.g, code.b, light.enabled ? 1.0f : 0.35f});
 }
 
 } // namespace

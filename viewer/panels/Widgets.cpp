@@ -100,13 +100,6 @@ bool angleSlider(const char* label, float& radians, float leastDegrees, float mo
     });
 }
 
-bool colorRow(const char* label, glm::vec3& color, float most) {
-    row(label);
-    const ImGuiColorEditFlags flags = ImGuiColorEditFlags_Float | (most > 1.0f ? ImGuiColorEditFlags_HDR : 0);
-    return edit(color, 0.0f, most,
-                [&](glm::vec3& edited) { return ImGui::ColorEdit3(idOf(label).c_str(), &edited.x, flags); });
-}
-
 void closeOnEscape() {
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
 }

@@ -47,8 +47,11 @@ bool slider(const char* label, float& value, float least, float most, const char
 bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format);
 /// The same of an angle, which is shown in degrees.
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
-/// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters.
+/// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters. Its swatch opens a
+/// picker in sRGB.
 bool colorRow(const char* label, glm::vec3& color, float most = 1.0f);
+/// A square of a linear colour: swatchOfColor().
+void colorSwatch(const glm::vec3& linear, float sidePixels);
 
 /// Lets Esc close the list that is being drawn.
 void closeOnEscape();
