@@ -15,12 +15,12 @@
 #include "renderer/frame/EnvironmentCache.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
-#include "viewer/edit/Pick.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/Playback.h"
+#include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
 #include "viewer/session/SceneSource.h"
 #include "viewer/session/SceneSwitch.h"
@@ -404,7 +404,8 @@ private:
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) copyCommand(size);
         if (requests.scatter) replaceByScattered(state_);
-        if (requests.pick) pick(*requests.pick, size);
+        if (requests.pick) log_.line("picked " + selectMaterialAt(state_, *requests.pick, size));
+        if (requests.turnAbout && turnAboutPlace(state_, *requests.turnAbout, size)) log_.line("turns about a surface");
         if (!requests.measureLights) return;
         Look look = state_.active();
         look.settings.sizePixels = size;
@@ -417,15 +418,6 @@ private:
         state_.notice = {"Copied: " + state_.command, false};
     }
 
-    /// The material of the surface at a place of the picture.
-    void pick(const glm::vec2& place, glm::ivec2 size) {
-        const glm::ivec2 pixel = glm::clamp(glm::ivec2(place * glm::vec2(size)), glm::ivec2(0), size - 1);
-        const scenes::Scene& scene = state_.open->scene();
-        const auto picked = pickedByRay(scene, scene.cameras[std::size_t(state_.open->camera())], size, pixel);
-        state_.selectedMaterial = picked ? picked->material : scenes::kNone;
-        log_.line(fmt::format("picked {}", picked ? scene.materials[std::size_t(picked->material)].name : "nothing"));
-    }
-
     /// Advances animations and damped movements.
     void advance(double started) {
         const double step = std::clamp(started - lastFrame_, 0.0, kLongestStepSeconds);
@@ -435,6 +427,7 @@ private:
             state_.open->rig().advance(step, area_.size.y);
             state_.open->applyRig();
         }
+        state_.noteSelection();
         passTime(state_, step);
         state_.shareSettings();
         attempt([this] {

@@ -140,6 +140,11 @@ void DrivenViewer::click(glm::ivec2 pixel) const {
                       "mouseup", "1", "sleep", "0.1"});
 }
 
+void DrivenViewer::doubleClick(glm::ivec2 pixel) const {
+    desktop_.xdotool({"mousemove", number(pixel.x), number(pixel.y), "sleep", "0.1", "click", "--repeat", "2",
+                      "--delay", "60", "1", "sleep", "0.1"});
+}
+
 void DrivenViewer::drag(glm::ivec2 from, glm::ivec2 to, const std::string& held, int button) const {
     std::vector<std::string> words{"mousemove", number(from.x), number(from.y), "sleep", "0.1"};
     const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };

@@ -34,6 +34,29 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
                 }));
 }
 
+TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIntoView) {
+    DrivenViewer viewer = open({"spheres"});
+    const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
+    const glm::ivec2 sphere(720, 460); // as in the test of edits
+    std::size_t mark = viewer.mark();
+    const Shot turned = after(viewer, [&] { viewer.doubleClick(sphere); });
+    viewer.waitFor("turns about a surface", mark);
+    EXPECT_GT(differingShare(turned, home, 4), 0.1);
+    mark = viewer.mark();
+    viewer.click(kPictureCorner + home.sizePixels / 2);
+    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10") << "it is not in the middle";
+    const Shot near = after(viewer, [&] { viewer.key("f"); });
+    EXPECT_GT(differingShare(near, turned, 4), 0.2);
+    // The sphere is as large as that now.
+    for (const int y : {home.sizePixels.y * 3 / 10, home.sizePixels.y * 7 / 10}) {
+        mark = viewer.mark();
+        viewer.pause(0.5); // no double click
+        viewer.click(kPictureCorner + glm::ivec2(home.sizePixels.x / 2, y));
+        EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10") << y;
+    }
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
+}
+
 TEST_F(ViewerCameras, aPictureAtRestIsNotDrawnAgain) {
     DrivenViewer viewer = open({"room"});
     viewer.waitForWhole(0);

@@ -23,7 +23,7 @@ void cameraPanel(State& state) {
     ImGui::SameLine();
     if (ImGui::RadioButton("fly", rig.mode() == CameraRig::Mode::Fly)) rig.setMode(CameraRig::Mode::Fly);
     tip("W A S D and Q E, left drag looks around, Shift is fast");
-    if (ImGui::Button("All in view (F)")) open.jumpToAll(state.pictureAspect);
+    if (ImGui::Button("All in view (Shift+F)")) open.jumpToAll(state.pictureAspect);
     ImGui::SameLine();
     if (ImGui::Button("Home")) open.jumpHome();
     const CameraPose pose = rig.pose();

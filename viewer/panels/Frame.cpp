@@ -80,6 +80,7 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
         parts.emplace_back("spreading light over surfaces ...");
     else if (facts.spreading)
         parts.push_back(spreadText(*facts.spreading));
+    if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly) parts.emplace_back("flying (C: orbit)");
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     const auto& [left, right] = facts.shown;
     if (state.compare == Compare::Off && left)
@@ -184,7 +185,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         statusLine(state, facts, area, scale);
         drawMarkers(state, area, scale);
         drawHandles(state, area);
-        drawDivider(state, area, scale);
+        drawDivider(state, area, scale); // which is taken before a handle
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
         drawDragText(state, area);

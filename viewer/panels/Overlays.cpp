@@ -42,6 +42,10 @@ void drawDivider(const State& state, const PictureArea& area, float scale) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddLine({x, area.corner.y}, {x, area.corner.y + area.size.y}, IM_COL32(235, 240, 250, 200), 1.5f * scale);
     list.AddCircleFilled({x, area.corner.y + 0.5f * area.size.y}, 6.0f * scale, IM_COL32(235, 240, 250, 230));
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool isFree = !io.WantCaptureMouse && !ImGui::IsAnyMouseDown();
+    if (state.isDividerHeld || (isFree && isAtDivider(state, area, {io.MousePos.x, io.MousePos.y})))
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
 void drawNames(const State& state, const Facts& facts, const PictureArea& area, float scale) {

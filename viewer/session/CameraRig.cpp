@@ -34,9 +34,20 @@ void CameraRig::hold(const FlyKeys& keys) {
     fly_.hold(mode_ == Mode::Fly ? keys : FlyKeys{});
 }
 
-void CameraRig::frameScene(double aspect) {
+void CameraRig::frame(const scenes::Box3& boundsWS, double aspect) {
     const CameraPose from = mode_ == Mode::Orbit ? orbit_.goal() : fly_.goal();
-    goTo(frameBounds(boundsWS_, from, start_, aspect));
+    goTo(frameBounds(boundsWS, from, start_, aspect));
+}
+
+void CameraRig::turnAbout(const glm::dvec3& pivotWS) {
+    if (mode_ == Mode::Fly) return;
+    CameraPose pose = orbit_.goal();
+    const glm::dvec3 forwardWS = pose.heading.forwardWS();
+    const double depthMetres = glm::dot(pivotWS - pose.eyeWS, forwardWS);
+    if (!(depthMetres > 0.0)) return;
+    pose.focusMetres = depthMetres;
+    pose.eyeWS = pivotWS - depthMetres * forwardWS;
+    goTo(pose);
 }
 
 void CameraRig::goHome() {

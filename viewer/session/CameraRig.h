@@ -23,8 +23,12 @@ public:
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
     void hold(const FlyKeys& keys);
 
-    /// All of the scene in view.
-    void frameScene(double aspect);
+    /// All of the scene in view, or all of a box.
+    void frameScene(double aspect) { frame(boundsWS_, aspect); }
+    void frame(const scenes::Box3& boundsWS, double aspect);
+    /// Slides across the picture so that orbits turn about a point, which comes into the picture's middle at its depth.
+    /// Nothing happens where it lies behind the eye, or when flying.
+    void turnAbout(const glm::dvec3& pivotWS);
     /// Back to where it started, exactly.
     void goHome();
 

@@ -13,9 +13,10 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kDividerReach = 6.0f;    ///< screen coordinates to either side that grab it
-constexpr float kMarkerReach = 9.0f;     ///< the same around a light's marker, and around its handles
-constexpr float kClickReach = 3.0f;      ///< movement of a hand during a click
+constexpr float kDividerReach = 6.0f; ///< screen coordinates to either side that grab it
+constexpr float kMarkerReach = 9.0f;  ///< the same around a light's marker, and around its handles
+constexpr float kClickReach = 3.0f;   ///< movement of a hand during a click
+constexpr double kDoubleClickSeconds = 0.4;
 constexpr double kZoomPerStep = 0.88;    ///< of the distance, a step of the wheel
 constexpr double kTurnPerHeight = 180.0; ///< degrees of the environment, a drag as far as the picture is high
 constexpr double kZoomPerHeight = 0.05;  ///< of the distance, a drag of the picture's height upwards
@@ -114,6 +115,12 @@ std::optional<LightHandle> handleUnder(const State& state, const PictureArea& ar
     return handle;
 }
 
+bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& point) {
+    const float dividerX = area.corner.x + state.divider * area.size.x;
+    return state.compare == Compare::Split && area.contains(point) &&
+           std::abs(point.x - dividerX) <= kDividerReach * area.scale;
+}
+
 void Controls::handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims) {
     for (const InputEvent& event : events) {
         switch (event.kind) {
@@ -159,9 +166,9 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
             state.dragText = turnText(state.active().settings.environment.rotationDegrees);
         }
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
-        const float dividerX = area.corner.x + state.divider * area.size.x;
-        if (state.compare == Compare::Split && std::abs(event.position.x - dividerX) <= kDividerReach * area.scale) {
+        if (isAtDivider(state, area, event.position)) {
             drag_ = Drag::Divider;
+            state.isDividerHeld = true;
         } else if (event.modifiers & GLFW_MOD_ALT) {
             drag_ = Drag::Pan;
         } else if (event.modifiers & GLFW_MOD_CONTROL) {
@@ -181,14 +188,27 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
 void Controls::release(const InputEvent& event, State& state, const PictureArea& area) {
     if (event.code != button_) return;
     const bool isClick = drag_ == Drag::Rotate && glm::distance(event.position, pressedAt_) <= kClickReach * area.scale;
-    if (isClick && area.size.x > 0.0f) state.requests.pick = (event.position - area.corner) / area.size;
+    if (isClick && area.size.x > 0.0f) click(event, state, area);
     endDrag(state);
+}
+
+void Controls::click(const InputEvent& event, State& state, const PictureArea& area) {
+    const glm::vec2 place = (event.position - area.corner) / area.size;
+    const bool isSecond = clicked_ && event.heardSeconds - clicked_->heardSeconds <= kDoubleClickSeconds &&
+                          glm::distance(event.position, clicked_->place) <= kClickReach * area.scale;
+    if (isSecond) {
+        state.requests.turnAbout = place;
+        clicked_.reset();
+    } else {
+        state.requests.pick = place;
+        clicked_ = {event.position, event.heardSeconds};
+    }
 }
 
 void Controls::endDrag(State& state) {
     drag_ = Drag::None;
     handle_.reset();
-    state.isDragging = false;
+    state.isDragging = state.isDividerHeld = false;
     state.heldHandle.reset();
     state.dragText.clear();
     if (state.open) state.open->endGesture();

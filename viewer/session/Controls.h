@@ -32,6 +32,9 @@ std::optional<LightFigure> selectedFigure(const State& state, const PictureArea&
 /// Its handle that a press at a point of the window takes; its marker is taken before one that is no nearer.
 std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point);
 
+/// Whether a press at a point of the window takes the divider between two pictures side by side.
+bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& point);
+
 /// Turns the user's input on the picture into movements of the camera and changes of the state.
 class Controls {
 public:
@@ -46,6 +49,7 @@ private:
     enum class Drag { None, Rotate, Pan, Zoom, Divider, Light, Handle, Environment };
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
     void release(const InputEvent& event, State& state, const PictureArea& area);
+    void click(const InputEvent& event, State& state, const PictureArea& area);
     void move(const InputEvent& event, State& state, const PictureArea& area);
     void key(const InputEvent& event, State& state, const Claims& claims);
     void takeHandle(const LightHandle& handle, State& state, const PictureArea& area, const glm::vec2& point);
@@ -56,6 +60,11 @@ private:
     int button_ = 0; ///< that began the drag
     glm::vec2 pointer_{0.0f};
     glm::vec2 pressedAt_{0.0f};
+    struct Click {
+        glm::vec2 place;
+        double heardSeconds;
+    };
+    std::optional<Click> clicked_;    ///< the latest, unless it was the second of two
     std::optional<LightDrag> handle_; ///< of Drag::Handle
     int handledLight_ = scenes::kNone;
     FlyKeys flying_;

@@ -8,6 +8,7 @@
 #include "engine/ChooseView.h"
 #include "renderer/frame/DebugViews.h"
 #include "viewer/session/Playback.h"
+#include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
@@ -74,7 +75,9 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) { changeExposure(s, -kExposureStepEV); }},
     {GLFW_KEY_RIGHT_BRACKET, kNone, "", "", [](State& s) { changeExposure(s, kExposureStepEV); }},
     {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode},
-    {GLFW_KEY_F, kNone, "F", "all of the scene in view",
+    {GLFW_KEY_F, kNone, "F", "what is selected in view: the light, or all that has the material; else all of the scene",
+     frameSelection},
+    {GLFW_KEY_F, kShift, "Shift+F", "all of the scene in view",
      [](State& s) {
          if (s.open) s.open->jumpToAll(s.pictureAspect);
      }},
@@ -107,9 +110,10 @@ constexpr GestureHelp kGestures[] = {
     {"Left drag", "turn about the pivot, or look around when flying; also with Shift"},
     {"Shift + right drag", "turns the environment; the angle stands beside the pointer"},
     {"Right drag", "move across the picture; also the middle button, and Alt + left drag"},
-    {"Ctrl + left drag, wheel", "nearer and farther"},
+    {"Ctrl + left drag, wheel", "nearer and farther; the wheel towards the pointer"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
     {"Click", "picks the material of the surface"},
+    {"Double click", "slides the surface into the middle, and turns about it from then on"},
     {"Drag a light's marker", "moves the light across the picture"},
     {"Drag a light's handle", "square: a side, radius or length, with Shift one side alone; round: its direction"},
     {"Drag the divider", "split view"},

@@ -151,6 +151,18 @@ void OpenScene::jumpToAll(double aspect) {
     keepJump("bring all into view", std::move(before));
 }
 
+void OpenScene::jumpTo(std::string what, const scenes::Box3& boundsWS, double aspect) {
+    CameraView before = view();
+    rig_.frame(boundsWS, aspect);
+    keepJump(std::move(what), std::move(before));
+}
+
+void OpenScene::turnAbout(const glm::dvec3& pivotWS) {
+    CameraView before = view();
+    rig_.turnAbout(pivotWS);
+    keepJump("turn about another point", std::move(before));
+}
+
 // ---- Edits ----
 
 void OpenScene::apply(std::string what, Edit edit, Gesture gesture) {

@@ -89,6 +89,10 @@ public:
     void jumpHome();
     /// All of the scene in view, in a picture of an aspect: width over height.
     void jumpToAll(double aspect);
+    /// The same of a box; `what` tells the user.
+    void jumpTo(std::string what, const scenes::Box3& boundsWS, double aspect);
+    /// Slides there where orbits turn about a point.
+    void turnAbout(const glm::dvec3& pivotWS);
     /// Begins with the change of the scene's camera: what changedCamera() makes of it, to the last bit. Orbiting turns
     /// about the target that it says. Throws InputError for values that no camera can have, and then does nothing.
     void place(const scenes::CameraChange& change);

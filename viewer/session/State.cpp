@@ -9,4 +9,11 @@ void State::shareSettings() {
             if (setting.isShared && &look != &active()) setting.value.copy(look, active());
 }
 
+void State::noteSelection() {
+    if (selectedMaterial != notedMaterial_) selectedLast = Selected::Material;
+    if (selectedLight != notedLight_) selectedLast = Selected::Light;
+    notedLight_ = selectedLight;
+    notedMaterial_ = selectedMaterial;
+}
+
 } // namespace tessera::viewer

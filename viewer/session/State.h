@@ -16,6 +16,9 @@ namespace tessera::viewer {
 /// One picture; two looks side by side with a divider; or how much they differ.
 enum class Compare : std::uint8_t { Off, Split, Difference };
 
+/// What was selected last.
+enum class Selected : std::uint8_t { Light, Material };
+
 /// A line for the user: a finished action, or an error with its remedy.
 struct Notice {
     std::string text;
@@ -35,9 +38,10 @@ struct Requests {
     bool saveTrace = false;
     bool copyCommand = false;
     bool measureLights = false;
-    bool scatter = false;          ///< the lights that `State::scatter` describes, in the place of the scene's
-    std::optional<glm::vec2> pick; ///< a place in the picture, shares of its size from the upper left
-    std::optional<Answer> answer;  ///< to State::question
+    bool scatter = false;               ///< the lights that `State::scatter` describes, in the place of the scene's
+    std::optional<glm::vec2> pick;      ///< a place in the picture, shares of its size from the upper left
+    std::optional<glm::vec2> turnAbout; ///< the same: of the surface that orbits are to turn about
+    std::optional<Answer> answer;       ///< to State::question
     bool quit = false;
 };
 
@@ -63,6 +67,7 @@ struct State {
     bool showsHelp = false;
     int selectedLight = scenes::kNone;
     int selectedMaterial = scenes::kNone;
+    Selected selectedLast = Selected::Light;
     Scatter scatter; ///< settings of the next scattering
 
     double pictureAspect = 1.0;                ///< width over height of where the picture is
@@ -70,6 +75,7 @@ struct State {
 
     bool showsMarkers = false;     ///< where lights are
     bool isDragging = false;       ///< something in the picture, or the camera
+    bool isDividerHeld = false;    ///< it is dragged
     std::optional<int> heldHandle; ///< of the selected light, which is dragged: LightHandle::number
     std::string dragText;          ///< what the drag in progress sets, for the user
     bool wantsPlan = false;        ///< a panel shows the plan of the active side's frame
@@ -87,6 +93,11 @@ struct State {
     const Look& active() const { return looks[std::size_t(activeSide)]; }
     /// What both sides share: where, when and how bright.
     void shareSettings();
+    /// Heeds what was selected since it was called last, wherever.
+    void noteSelection();
+
+private:
+    int notedLight_ = scenes::kNone, notedMaterial_ = scenes::kNone;
 };
 
 } // namespace tessera::viewer

@@ -59,6 +59,28 @@ TEST(CameraRig, homeIsTheCameraItStartedAsHoweverFarItTurned) {
         }
 }
 
+TEST(CameraRig, aPointToTurnAboutNeverMovesTheEyeNearerAndBehindItNothingHappens) {
+    const glm::dvec3 pivotWS(0.7, 0.4, -1.2);
+    CameraRig rig = rigOf(kStart);
+    const double depthMetres = shownAt(kStart, pivotWS).z;
+    rig.turnAbout(pivotWS);
+    settle(rig);
+    const glm::dvec3 shown = shownAt(rig.camera(), pivotWS);
+    EXPECT_NEAR(shown.x, 0.0, 1e-6);
+    EXPECT_NEAR(shown.y, 0.0, 1e-6);
+    EXPECT_NEAR(shown.z, depthMetres, 1e-9);
+    turn(rig, 90.0);
+    EXPECT_NEAR(glm::length(glm::dvec2(shownAt(rig.camera(), pivotWS))), 0.0, 1e-6) << "it turns about another";
+    const CameraPose before = rig.pose();
+    rig.turnAbout(before.eyeWS - before.heading.forwardWS());
+    settle(rig);
+    EXPECT_EQ(rig.pose(), before);
+    rig.setMode(CameraRig::Mode::Fly);
+    rig.turnAbout(pivotWS);
+    settle(rig);
+    EXPECT_EQ(rig.pose(), before) << "who flies stays";
+}
+
 TEST(CameraRig, startingHereNeverMovesThePivotAndNeverEndsAMovement) {
     CameraRig rig = rigOf(kStart), other = rigOf(kStart);
     for (CameraRig* one : {&rig, &other}) {

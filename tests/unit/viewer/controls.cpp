@@ -50,6 +50,30 @@ TEST(Controls, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     EXPECT_EQ(selectedByPress(hidden), scenes::kNone);
 }
 
+TEST(Controls, twoClicksInOnePlaceSoonAfterOneAnotherAskToTurnAboutIt) {
+    State state = withLightInTheMiddle(0, 1);
+    Controls controls;
+    const auto click = [&](const glm::vec2& place, double seconds) {
+        InputEvent press, release;
+        press.kind = release.kind = InputEvent::Kind::Button;
+        press.down = true;
+        press.position = release.position = place;
+        press.heardSeconds = release.heardSeconds = seconds;
+        state.requests = {};
+        controls.handle(std::array{press, release}, state, kArea, {});
+        return state.requests.turnAbout.has_value();
+    };
+    const glm::vec2 place(100.0f, 300.0f);
+    EXPECT_FALSE(click(place, 10.0));
+    ASSERT_TRUE(state.requests.pick);
+    EXPECT_TRUE(click(place + glm::vec2(1.0f, 0.0f), 10.3));
+    EXPECT_FALSE(state.requests.pick);
+    EXPECT_EQ(*state.requests.turnAbout, glm::vec2(101.0f, 300.0f) / 400.0f);
+    EXPECT_FALSE(click(place, 10.5)) << "the third begins anew";
+    EXPECT_FALSE(click(place, 11.5)) << "too late";
+    EXPECT_FALSE(click({100.0f, 320.0f}, 11.6)) << "elsewhere";
+}
+
 TEST(Controls, theMiddleAndTheRightButtonMoveAcrossThePictureTheLatterWithoutShift) {
     const auto isMovedBy = [](int button, int modifiers) {
         State state = withLightInTheMiddle(0, 1);

@@ -425,6 +425,30 @@ TEST_F(Panels, theColoursOfShadowMapsStandOnThePictureThatShowsThem) {
     EXPECT_TRUE(isThere());
 }
 
+TEST_F(Panels, thePointerSaysThatTheDividerCanBeDragged) {
+    State state;
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const PictureArea place = area(state);
+    const float dividerX = place.corner.x + 0.6f * place.size.x;
+    const auto cursorAt = [&](float x) {
+        ImGui::GetIO().MousePos = {x, 100.0f};
+        ImGuiMouseCursor cursor = ImGuiMouseCursor_None;
+        for (int i = 0; i < 2; ++i)
+            frame([&] {
+                drawDivider(state, place, 1.0f);
+                cursor = ImGui::GetMouseCursor();
+            });
+        return cursor;
+    };
+    EXPECT_EQ(cursorAt(dividerX + 2.0f), ImGuiMouseCursor_ResizeEW);
+    EXPECT_EQ(cursorAt(dividerX + 20.0f), ImGuiMouseCursor_Arrow);
+    state.isDividerHeld = true;
+    EXPECT_EQ(cursorAt(dividerX + 20.0f), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
+    state = {};
+    EXPECT_EQ(cursorAt(dividerX), ImGuiMouseCursor_Arrow) << "there is none";
+}
+
 TEST_F(Panels, theScaleOfCountsStandsOnTheSideThatShowsThem) {
     State state;
     state.compare = Compare::Split;
@@ -456,6 +480,14 @@ TEST_F(Panels, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
     EXPECT_FALSE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
     std::swap(state.looks[0], *facts.shown[0]);
     EXPECT_TRUE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
+}
+
+TEST_F(Panels, theStatusLineSaysThatTheCameraFlies) {
+    State state = unusualScene();
+    state.showsPanel = false;
+    EXPECT_EQ(firstWindowText(state, {}).find("flying"), std::string::npos);
+    state.open->rig().setMode(CameraRig::Mode::Fly);
+    EXPECT_NE(firstWindowText(state, {}).find("flying"), std::string::npos);
 }
 
 TEST_F(Panels, theStatusLineSaysHowFarLightHasSpread) {
