@@ -18,6 +18,7 @@
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
@@ -458,7 +459,7 @@ private:
         if (wasSpreading) settleFrames_ = std::max(settleFrames_, 1); // until the line says so no more
         if (!wasAnnounced) announcements_ = 0;
         if (!state_.open || place.width < 1 || place.height < 1) return false;
-        wanted_.looks = state_.looks;
+        wanted_.looks = {drawnLook(state_, 0), drawnLook(state_, 1)};
         for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
         wanted_.sides = state_.sides();
         if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];

@@ -11,6 +11,7 @@
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/SceneEdits.h"
 
@@ -84,9 +85,9 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     // Beside the divider the sides' names stand in the picture; two of them leave no room here.
     const auto& [left, right] = facts.shown;
     if (state.compare == Compare::Off && left)
-        parts.push_back(lookName(*left));
+        parts.push_back(lookName(*left, state.open ? &state.open->scene().lights : nullptr));
     else if (state.compare == Compare::Difference && left && right)
-        parts.push_back(fmt::format("{} - {}", infoOf(left->technique).name, infoOf(right->technique).name));
+        parts.push_back(fmt::format("{}", fmt::join(sideNames(*left, *right), " against ")));
     if (facts.scale > 0.0) {
         parts.push_back(fmt::format("{:.0f} ms", facts.ms));
         parts.push_back(fmt::format("scale {:.3g}", facts.scale));

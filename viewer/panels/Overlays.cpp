@@ -1,9 +1,12 @@
 #include "viewer/panels/Overlays.h"
 
+#include <array>
+#include <string>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "renderer/frame/DebugViews.h"
+#include "viewer/session/DrawnLook.h"
 
 namespace tessera::viewer {
 namespace {
@@ -32,10 +35,6 @@ bool areEqual(const Facts& facts) {
 
 } // namespace
 
-std::string lookName(const Look& look) {
-    return fmt::format("{} / {}", infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name);
-}
-
 void drawDivider(const State& state, const PictureArea& area, float scale) {
     if (state.compare != Compare::Split) return;
     const float x = area.corner.x + state.divider * area.size.x;
@@ -53,12 +52,15 @@ void drawNames(const State& state, const Facts& facts, const PictureArea& area, 
         drawName(fmt::format("No difference: all {} covered pixels are equal in every bit", facts.figures->covered),
                  area, Corner::UpperLeft, kPlain, scale);
     if (state.compare != Compare::Split) return;
-    for (int side = 0; side < 2; ++side) {
-        const std::optional<Look>& look = facts.shown[std::size_t(side)];
-        if (look)
-            drawName(lookName(*look), partOf(state, area, side), side == 0 ? Corner::UpperLeft : Corner::UpperRight,
-                     side == state.activeSide ? kActive : kPlain, scale);
-    }
+    const auto& [left, right] = facts.shown;
+    if (!left) return;
+    const std::vector<scenes::Light>* const lights = state.open ? &state.open->scene().lights : nullptr;
+    const std::array<std::string, 2> names =
+        right ? sideNames(*left, *right, lights) : std::array{lookName(*left, lights), std::string()};
+    for (int side = 0; side < (right ? 2 : 1); ++side)
+        drawName(names[std::size_t(side)], partOf(state, area, side),
+                 side == 0 ? Corner::UpperLeft : Corner::UpperRight, side == state.activeSide ? kActive : kPlain,
+                 scale);
 }
 
 } // namespace tessera::viewer

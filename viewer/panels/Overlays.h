@@ -1,15 +1,10 @@
 #pragma once
-#include <string>
-
 #include "viewer/session/Controls.h"
 #include "viewer/session/Facts.h"
 
 /// Lines and words over the picture. What they name is the picture that is shown, which may not be the one that is
 /// chosen yet.
 namespace tessera::viewer {
-
-/// "forward / final".
-std::string lookName(const Look& look);
 
 /// The line between two pictures side by side, with its handle.
 void drawDivider(const State& state, const PictureArea& area, float scale);

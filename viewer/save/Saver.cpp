@@ -11,6 +11,7 @@
 #include "viewer/save/ChromeTrace.h"
 #include "viewer/save/RenderCommand.h"
 #include "viewer/save/SaveScene.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/FreePath.h"
 #include "viewer/session/SceneSource.h"
 
@@ -38,7 +39,7 @@ void Saver::tell(const std::string& path) {
 }
 
 void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
-    Look look = state_.active();
+    Look look = drawnLook(state_, state_.activeSide);
     look.settings.sizePixels = sizePixels;
     look.settings.display = std::string_view(ending) != ".exr";
     engine::Renderer& renderer = *screen_.renderer();
@@ -65,7 +66,7 @@ void Saver::scene() {
 std::string Saver::command(glm::ivec2 sizePixels) {
     OpenScene& open = *state_.open;
     if (open.isEdited()) scene();
-    const Look& look = state_.active();
+    const Look look = drawnLook(state_, state_.activeSide);
     RenderRequest request;
     request.source = open.source();
     request.lights = open.load().lights;

@@ -16,6 +16,7 @@
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {

@@ -1,0 +1,31 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "viewer/session/State.h"
+
+/// What is drawn of what the user chose, and how it is called.
+namespace tessera::viewer {
+
+/// The view shows a term of the lighting of one light: D, G or F.
+bool showsTermOfOne(frame::DebugView view);
+
+/// The index of the light that lights a place most at a time, of those that are on, without regard to surfaces; none
+/// where none does.
+std::optional<int> brightestAt(const std::vector<scenes::Light>& lights, const glm::dvec3& positionWS,
+                               double timeSeconds);
+
+/// The look of a side as it is drawn: views of D, G and F show the selected light, else the brightest at what the
+/// scene's camera looks at, unless one shines alone.
+Look drawnLook(const State& state, int side);
+
+/// "forward / final"; "forward / geometry of lamp 3", where the lights are given.
+std::string lookName(const Look& look, const std::vector<scenes::Light>* lights = nullptr);
+
+/// Names of two pictures side by side: the technique, the view where it differs or nothing else does, and the other
+/// settings that differ.
+std::array<std::string, 2> sideNames(const Look& left, const Look& right,
+                                     const std::vector<scenes::Light>* lights = nullptr);
+
+} // namespace tessera::viewer
