@@ -25,6 +25,7 @@
 #include "viewer/session/SceneEdits.h"
 #include "viewer/session/SceneSource.h"
 #include "viewer/session/SceneSwitch.h"
+#include "viewer/show/Inspector.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/window/Gui.h"
 
@@ -103,6 +104,7 @@ private:
     bool lacksLight() const {
         return state_.open && screen_.shows(wanted_) && screen_.lacksLight(wanted_, Screen::Reach::All);
     }
+    bool awaitsRest() const { return !isWhole() || lacksLight() || inspector_.awaitsRest(); }
     double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
     double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
     /// A minimised window shows nothing; a pending picture waits.
@@ -114,14 +116,14 @@ private:
     bool isDue() const {
         if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || settleFrames_ > 0) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
-        return hasPicturePlace() && (isMoving() || ((!isWhole() || lacksLight()) && now() >= restAt_));
+        return hasPicturePlace() && (isMoving() || inspector_.isBusy() || (awaitsRest() && now() >= restAt_));
     }
     /// How long nothing needs to happen; negative: until something does.
     double idleSeconds() const {
         if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
-        if ((!isWhole() || lacksLight()) && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
+        if (awaitsRest() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
@@ -347,6 +349,12 @@ private:
             if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
                 settleFrames_ = std::max(settleFrames_, 1);
         });
+        attempt([this] {
+            if (!inspector_.update(facts_, state_, screen_, frames_, isWhole() && now() >= restAt_)) return;
+            settleFrames_ = std::max(settleFrames_, 1);
+            if (facts_.inspection && facts_.inspection->isSurfaceKnown)
+                log_.line(fmt::format("inspected {}", fmt::join(inspectionLines(*facts_.inspection), "; ")));
+        });
         show();
         isDescribed_ = !drew;
         if (facts_.isPreparing || facts_.isSpreading || givenUp_ > givenUp)
@@ -364,10 +372,13 @@ private:
     }
 
     /// The picture's place in pixels, from the lower left.
-    gpu::Rectangle areaPixels() const {
+    gpu::Rectangle areaPixels() const { return inPixels(area_.corner, area_.size); }
+
+    /// A part of the window, given in screen coordinates from the upper left.
+    gpu::Rectangle inPixels(const glm::vec2& cornerScreen, const glm::vec2& sizeScreen) const {
         const glm::vec2 density = glm::vec2(window_.sizePixels()) / glm::max(glm::vec2(window_.sizeScreen()), 1.0f);
-        const glm::ivec2 corner = glm::round(area_.corner * density);
-        const glm::ivec2 size = glm::round(area_.size * density);
+        const glm::ivec2 corner = glm::round(cornerScreen * density);
+        const glm::ivec2 size = glm::round(sizeScreen * density);
         return {corner.x, window_.sizePixels().y - corner.y - size.y, size.x, size.y};
     }
 
@@ -463,7 +474,7 @@ private:
         for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
         wanted_.sides = state_.sides();
         if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];
-        wanted_.comparesRadiance = state_.compare != Compare::Off;
+        wanted_.keepsRadiance = state_.compare != Compare::Off || state_.inspects;
         wanted_.sceneRevision = state_.open->revision();
         wanted_.sceneEdits = state_.open->edits();
         const double have = screen_.scaleOf(wanted_);
@@ -567,6 +578,11 @@ private:
                 screen_.prepareDifference(state_.amplification * std::exp2(state_.active().settings.exposureEV));
         });
         screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
+        if (const std::optional<glm::vec2> place = state_.inspectedPlace()) {
+            for (const Loupe& loupe : state_.loupes)
+                screen_.magnify(loupe.side, *place, inPixels(loupe.corner, glm::vec2(loupe.size)));
+            gpu::bindWindowFramebuffer(pixels.x, pixels.y); // without the scissor
+        }
         gui_.draw();
         gpu::throwIfFailed("while the window was drawn");
         window_.context().debugLog().takeWarnings(); // advice on performance, ignored here
@@ -607,6 +623,7 @@ private:
     Saver saver_;
     Recovery recovery_;
     Measurements measurements_;
+    Inspector inspector_;
     EnvironmentJob environments_;
     SceneSwitch scenes_; ///< last: its thread ends before what it wakes
 };

@@ -1,4 +1,6 @@
 // The window's picture equals the file that `tessera render` writes.
+#include <fmt/format.h>
+
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {
@@ -43,6 +45,35 @@ TEST_F(ViewerPictures, theWindowShowsThePictureOfRenderBitForBit) {
     EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == shown);
     viewer.key("ctrl+q");
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
+TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
+    DrivenViewer viewer = open({"spheres"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const Shot alone = pictureIn(viewer, size);
+    const glm::ivec2 place(720, 460), pixel = place - kPictureCorner; // on a sphere, as in the test of edits
+    viewer.moveTo(place);
+    std::size_t mark = viewer.mark();
+    viewer.key("i");
+    const std::string said = viewer.waitFor("inspected ", mark);
+    viewer.pause(1.0);
+    const Shot inspected = pictureIn(viewer, size);
+    mark = viewer.mark();
+    viewer.key("shift+F12");
+    const Picture saved = exr(savedFile(viewer.waitFor("saved ", mark)));
+    const float* const radiance = saved.pixel(std::size_t(pixel.y * saved.width + pixel.x));
+    const glm::ivec3 shown = alone.at(pixel);
+    EXPECT_TRUE(said.starts_with(
+        fmt::format("inspected {}, {} of {}x{}; linear {:.4g} {:.4g} {:.4g}; shown #{:02x}{:02x}{:02x}", pixel.x,
+                    pixel.y, size.x, size.y, radiance[0], radiance[1], radiance[2], shown.x, shown.y, shown.z)))
+        << said;
+    EXPECT_NE(said.find("; material metalness 0/4, roughness 4/10; depth "), std::string::npos) << said;
+    // The loupe's middle is 90 pixels off, each pixel 8 wide.
+    for (const glm::ivec2 off : {glm::ivec2(0, 0), glm::ivec2(3, 0), glm::ivec2(-2, 5)})
+        EXPECT_EQ(inspected.at(pixel + 90 + 8 * off), alone.at(pixel + off)) << off.x << ", " << off.y;
+    viewer.key("Escape"); // the message
+    viewer.pause(0.3);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("i"); }) == alone);
 }
 
 TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {

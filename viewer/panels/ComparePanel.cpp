@@ -35,12 +35,23 @@ std::string figure(double value) {
     return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
 }
 
-void figureRows(const validation::ErrorFigures& figures) {
+/// A click goes to the pixel that differs most.
+void worstRow(State& state, const validation::ErrorFigures& figures, glm::ivec2 sizePixels) {
+    fact("max rel", fmt::format("{} at {}, {}", figure(figures.maxRel), figures.worstX, figures.worstY));
+    if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (ImGui::IsItemClicked() && sizePixels.x > 0 && sizePixels.y > 0) {
+        state.inspects = true;
+        state.pinnedPlace = (glm::vec2(figures.worstX, figures.worstY) + 0.5f) / glm::vec2(sizePixels);
+    }
+    tip("Click to inspect that pixel");
+}
+
+void figureRows(State& state, const validation::ErrorFigures& figures, glm::ivec2 sizePixels) {
     fact("Bit-equal", fmt::format("{:.4f} % of {} pixels", 100.0 * figures.bitEqual, figures.covered));
     fact("relMse", figure(figures.relMse));
     fact("rel p50", figure(figures.p50Rel));
     fact("rel p99", fmt::format("{}, p99.9 {}", figure(figures.p99Rel), figure(figures.p999Rel)));
-    fact("max rel", fmt::format("{} at {}, {}", figure(figures.maxRel), figures.worstX, figures.worstY));
+    worstRow(state, figures, sizePixels);
     fact("max abs", figure(figures.maxAbs));
     fact("rmse", figure(figures.rmse));
     fact("bias", figure(figures.bias));
@@ -58,7 +69,7 @@ void comparePanel(State& state, const Facts& facts) {
     ImGui::TextDisabled("Left against right%s", facts.figuresAreOld ? ", measuring ..." : "");
     if (!facts.figures) return;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, facts.figuresAreOld ? 0.5f : 1.0f);
-    figureRows(*facts.figures);
+    figureRows(state, *facts.figures, facts.sizePixels);
     ImGui::PopStyleVar();
 }
 

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "viewer/panels/Handles.h"
+#include "viewer/panels/InspectorBox.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
@@ -180,6 +181,7 @@ glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel) {
 
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
     const float height = ImGui::GetIO().DisplaySize.y;
+    state.loupes.clear();
     state.wantsPlan = false; // unless a panel that is seen says so
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
@@ -189,6 +191,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawDivider(state, area, scale); // which is taken before a handle
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
+        drawInspector(state, facts, area);
         drawDragText(state, area);
         notices(state, area, scale);
     }

@@ -150,6 +150,9 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
         }
     }
     if (state.open) state.open->rig().hold(flying_);
+    const bool isPointed = state.inspects && !claims.mouse && !isEmpty(area) && area.contains(pointer_);
+    state.pointedPlace = isPointed ? std::optional((pointer_ - area.corner) / area.size) : std::nullopt;
+    if (isPointed) state.pinnedPlace.reset();
 }
 
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {

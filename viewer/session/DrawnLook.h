@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "viewer/session/State.h"
 
@@ -10,11 +10,6 @@ namespace tessera::viewer {
 
 /// The view shows a term of the lighting of one light: D, G or F.
 bool showsTermOfOne(frame::DebugView view);
-
-/// The index of the light that lights a place most at a time, of those that are on, without regard to surfaces; none
-/// where none does.
-std::optional<int> brightestAt(const std::vector<scenes::Light>& lights, const glm::dvec3& positionWS,
-                               double timeSeconds);
 
 /// The look of a side as it is drawn: views of D, G and F show the selected light, else the brightest at what the
 /// scene's camera looks at, unless one shines alone.

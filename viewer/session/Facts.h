@@ -7,6 +7,7 @@
 #include "renderer/graph/Plan.h"
 #include "validation/culling/LightOracle.h"
 #include "validation/figures/ErrorFigures.h"
+#include "viewer/session/Inspection.h"
 #include "viewer/session/Look.h"
 
 namespace tessera::viewer {
@@ -27,8 +28,9 @@ struct Facts {
     std::optional<validation::LightOracleFigures> lights; ///< measured on request,
     std::string lightsOf;                                 ///< of this technique, culling and size,
     std::optional<Look> lightsLook;                       ///< with this look
-    std::optional<validation::ErrorFigures> figures;      ///< of the left picture against the right
-    bool figuresAreOld = false;                           ///< newer ones are on their way
+    std::optional<Inspection> inspection;
+    std::optional<validation::ErrorFigures> figures; ///< of the left picture against the right
+    bool figuresAreOld = false;                      ///< newer ones are on their way
 };
 
 } // namespace tessera::viewer

@@ -85,6 +85,11 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) {
          if (s.open) s.open->jumpHome();
      }},
+    {GLFW_KEY_I, kNone, "I", "inspect pixels: what the one under the pointer holds, enlarged",
+     [](State& s) {
+         s.inspects = !s.inspects;
+         s.pinnedPlace.reset();
+     }},
     {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }},
     {GLFW_KEY_L, kNone, "L", "only the selected light shines, or all again",
      [](State& s) {

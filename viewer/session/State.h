@@ -19,6 +19,13 @@ enum class Compare : std::uint8_t { Off, Split, Difference };
 /// What was selected last.
 enum class Selected : std::uint8_t { Light, Material };
 
+/// A square of the window in which pixels of a side's picture are shown large, in screen coordinates.
+struct Loupe {
+    int side = 0;
+    glm::vec2 corner{0.0f};
+    float size = 0.0f;
+};
+
 /// A line for the user: a finished action, or an error with its remedy.
 struct Notice {
     std::string text;
@@ -73,13 +80,17 @@ struct State {
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened
 
-    bool showsMarkers = false;     ///< where lights are
-    bool isDragging = false;       ///< something in the picture, or the camera
-    bool isDividerHeld = false;    ///< it is dragged
-    std::optional<int> heldHandle; ///< of the selected light, which is dragged: LightHandle::number
-    std::string dragText;          ///< what the drag in progress sets, for the user
-    bool wantsPlan = false;        ///< a panel shows the plan of the active side's frame
-    std::string command;           ///< that renders the picture, on request
+    bool showsMarkers = false;             ///< where lights are
+    bool isDragging = false;               ///< something in the picture, or the camera
+    bool isDividerHeld = false;            ///< it is dragged
+    std::optional<int> heldHandle;         ///< of the selected light, which is dragged: LightHandle::number
+    bool inspects = false;                 ///< the picture's pixels, one after the other
+    std::optional<glm::vec2> pointedPlace; ///< of the picture, a share of its size; none: the pointer is elsewhere
+    std::optional<glm::vec2> pinnedPlace;  ///< that is inspected meanwhile
+    std::vector<Loupe> loupes;             ///< of this frame
+    std::string dragText;                  ///< what the drag in progress sets, for the user
+    bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame
+    std::string command;                   ///< that renders the picture, on request
     Timings timings;
 
     std::optional<Question> question; ///< waits for an answer, and all else waits for that
@@ -88,6 +99,11 @@ struct State {
     std::vector<std::string> shaderFaults;
     Requests requests;
 
+    /// The place of the picture that is inspected.
+    std::optional<glm::vec2> inspectedPlace() const {
+        if (!inspects) return std::nullopt;
+        return pointedPlace ? pointedPlace : pinnedPlace;
+    }
     int sides() const { return compare == Compare::Off ? 1 : 2; }
     Look& active() { return looks[std::size_t(activeSide)]; }
     const Look& active() const { return looks[std::size_t(activeSide)]; }

@@ -7,6 +7,7 @@
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
 #include "renderer/graph/Execute.h"
+#include "viewer/session/Inspection.h"
 
 namespace tessera::viewer {
 namespace {
@@ -178,7 +179,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
-            pictures_[std::size_t(side)].take(*renderer_, look, wanted.comparesRadiance);
+            pictures_[std::size_t(side)].take(*renderer_, look, wanted.keepsRadiance);
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {
@@ -235,6 +236,20 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         blit(pictures_[0].display(), 0, area.width);
     }
     gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // without the scissor
+}
+
+void Screen::magnify(int side, const glm::vec2& place, const gpu::Rectangle& square) {
+    const int times = std::min(square.width, square.height) / kLoupeTexels;
+    if (!picture(side).isThere() || times < 1) return;
+    const Target& from = picture(side).display();
+    const glm::ivec2 size = from.sizePixels(), pixel = pixelAt(place, size);
+    const glm::ivec2 first = glm::ivec2(pixel.x, size.y - 1 - pixel.y) - kLoupeTexels / 2; // from the lower left
+    const glm::ivec2 begin = glm::max(first, glm::ivec2(0)), end = glm::min(first + kLoupeTexels, size);
+    const glm::ivec2 corner = glm::ivec2(square.x, square.y) + times * (begin - first), shown = end - begin;
+    gpu::setScissor(square);
+    gpu::clearColor(0, kBehindPicture);
+    gpu::blitToWindow(from.framebuffer(), {begin.x, begin.y, shown.x, shown.y},
+                      {corner.x, corner.y, times * shown.x, times * shown.y}, false);
 }
 
 } // namespace tessera::viewer

@@ -21,7 +21,7 @@ public:
     struct Wanted {
         std::array<Look, 2> looks; ///< of the size they are to be shown at
         int sides = 1;
-        bool comparesRadiance = false;
+        bool keepsRadiance = false; ///< to compare or to inspect
         std::uint64_t sceneRevision = 0;
         std::uint64_t sceneEdits = 0; ///< of lights and materials
         bool operator==(const Wanted&) const = default;
@@ -92,6 +92,9 @@ public:
     void prepareDifference(float factor);
     /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
     void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
+    /// Shows pixels of a side's picture large, about the one at a place, in a square of the window: what show() left
+    /// bound. A square that is no multiple of kLoupeTexels is filled as far as whole pixels go.
+    void magnify(int side, const glm::vec2& place, const gpu::Rectangle& square);
     const gpu::Capabilities& capabilities() const { return context_.capabilities(); }
     /// How the picture of a side that the window shows was drawn; none where it shows none.
     std::optional<Look> shownLook(int side) const {

@@ -74,6 +74,27 @@ TEST(Controls, twoClicksInOnePlaceSoonAfterOneAnotherAskToTurnAboutIt) {
     EXPECT_FALSE(click({100.0f, 320.0f}, 11.6)) << "elsewhere";
 }
 
+TEST(Controls, whatIsInspectedIsUnderThePointerAndElseWhatIsPinned) {
+    State state = withLightInTheMiddle(0, 1);
+    Controls controls;
+    const auto pointTo = [&](const glm::vec2& place, bool isAtPanel) {
+        InputEvent move;
+        move.kind = InputEvent::Kind::Move;
+        move.position = place;
+        controls.handle(std::span(&move, 1), state, kArea, {.mouse = isAtPanel});
+        return state.inspectedPlace();
+    };
+    EXPECT_FALSE(pointTo({100.0f, 300.0f}, false)) << "nobody asked";
+    state.inspects = true;
+    EXPECT_EQ(pointTo({100.0f, 300.0f}, false), glm::vec2(0.25f, 0.75f));
+    EXPECT_FALSE(pointTo({100.0f, 300.0f}, true));
+    EXPECT_FALSE(pointTo({500.0f, 300.0f}, false)) << "beside the picture";
+    state.pinnedPlace = glm::vec2(0.5f);
+    EXPECT_EQ(pointTo({100.0f, 300.0f}, true), glm::vec2(0.5f));
+    EXPECT_EQ(pointTo({100.0f, 300.0f}, false), glm::vec2(0.25f, 0.75f));
+    EXPECT_FALSE(state.pinnedPlace) << "the pointer took its place";
+}
+
 TEST(Controls, theMiddleAndTheRightButtonMoveAcrossThePictureTheLatterWithoutShift) {
     const auto isMovedBy = [](int button, int modifiers) {
         State state = withLightInTheMiddle(0, 1);

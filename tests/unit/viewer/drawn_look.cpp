@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "viewer/edit/Brightness.h"
+
 namespace tessera::viewer {
 namespace {
 

@@ -12,6 +12,7 @@
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
+#include "viewer/panels/InspectorBox.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Panels.h"
@@ -448,6 +449,56 @@ TEST_F(Panels, thePointerSaysThatTheDividerCanBeDragged) {
     EXPECT_EQ(cursorAt(dividerX + 20.0f), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
     state = {};
     EXPECT_EQ(cursorAt(dividerX), ImGuiMouseCursor_Arrow) << "there is none";
+}
+
+TEST_F(Panels, theInspectorStaysInThePictureAndHasALoupeForEachSide) {
+    State state;
+    const PictureArea place = area(state);
+    Facts facts;
+    const auto span = [&] {
+        state.loupes.clear();
+        return overlaySpan([&] { drawInspector(state, facts, place); });
+    };
+    state.pointedPlace = glm::vec2(0.5f);
+    facts.inspection.emplace().sides[0].emplace();
+    EXPECT_FALSE(span()) << "nothing is inspected";
+    state.inspects = true;
+    for (const float share : {0.0f, 0.5f, 0.999f}) {
+        state.pointedPlace = glm::vec2(share);
+        const auto drawn = span();
+        ASSERT_TRUE(drawn);
+        EXPECT_GE(drawn->first, place.corner.x - 2.0f);
+        EXPECT_LE(drawn->second, place.corner.x + place.size.x + 2.0f);
+        ASSERT_EQ(state.loupes.size(), 1u);
+        EXPECT_TRUE(place.contains(state.loupes[0].corner));
+        EXPECT_TRUE(place.contains(state.loupes[0].corner + state.loupes[0].size));
+    }
+    facts.inspection->sides[1].emplace();
+    EXPECT_TRUE(span());
+    ASSERT_EQ(state.loupes.size(), 2u);
+    EXPECT_EQ(state.loupes[1].side, 1);
+    EXPECT_GE(state.loupes[1].corner.x, state.loupes[0].corner.x + state.loupes[0].size);
+}
+
+TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
+    State state;
+    state.compare = Compare::Split;
+    Facts facts;
+    facts.sizePixels = {800, 400};
+    validation::ErrorFigures& figures = facts.figures.emplace();
+    figures.worstX = 600;
+    figures.worstY = 300;
+    for (float y = 20.0f; y < 400.0f; y += 6.0f) { // across all rows
+        ImGui::GetIO().MousePos = {200.0f, y};
+        for (const bool isDown : {false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = isDown;
+            show([&] { comparePanel(state, facts); });
+        }
+        ImGui::ClosePopupsOverWindow(nullptr, false); // of the list that the click opened
+    }
+    EXPECT_TRUE(state.inspects);
+    ASSERT_TRUE(state.pinnedPlace);
+    EXPECT_EQ(pixelAt(*state.pinnedPlace, {800, 400}), glm::ivec2(600, 300));
 }
 
 TEST_F(Panels, theScaleOfCountsStandsOnTheSideThatShowsThem) {

@@ -45,19 +45,19 @@ protected:
     State state_;
 };
 
-constexpr glm::ivec2 kPicture{400, 400};
+constexpr glm::ivec2 kPointedPixels{400, 400};
 
 TEST_F(PointAt, aPlaceSelectsTheMaterialThatItShows) {
-    EXPECT_EQ(selectMaterialAt(state_, placeOf(1), kPicture), "right");
+    EXPECT_EQ(selectMaterialAt(state_, placeOf(1), kPointedPixels), "right");
     EXPECT_EQ(state_.selectedMaterial, 1);
-    EXPECT_EQ(selectMaterialAt(state_, {0.5f, 0.1f}, kPicture), "nothing");
+    EXPECT_EQ(selectMaterialAt(state_, {0.5f, 0.1f}, kPointedPixels), "nothing");
     EXPECT_EQ(state_.selectedMaterial, scenes::kNone);
 }
 
 TEST_F(PointAt, theSurfaceAtAPlaceComesIntoTheMiddleAtItsDepth) {
-    EXPECT_FALSE(turnAboutPlace(state_, {0.5f, 0.1f}, kPicture));
+    EXPECT_FALSE(turnAboutPlace(state_, {0.5f, 0.1f}, kPointedPixels));
     expectPivot({0, 0, 0});
-    EXPECT_TRUE(turnAboutPlace(state_, placeOf(0), kPicture));
+    EXPECT_TRUE(turnAboutPlace(state_, placeOf(0), kPointedPixels));
     const glm::dvec3 pivot = pivotWS();
     EXPECT_NEAR(pivot.x, -4.0, 0.3);
     EXPECT_NEAR(pivot.z, 0.0, 1e-6);

@@ -1,0 +1,70 @@
+#include "viewer/session/Inspection.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/viewer/CameraTest.h"
+
+namespace tessera::viewer {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+
+TEST(Inspection, aPlaceIsThePixelThatCoversIt) {
+    EXPECT_EQ(pixelAt({0.0f, 0.999f}, {10, 20}), glm::ivec2(0, 19));
+    EXPECT_EQ(pixelAt({0.55f, 0.5f}, {10, 20}), glm::ivec2(5, 10));
+    for (int x = 0; x < 983; ++x) EXPECT_EQ(pixelAt({float(x) / 983.0f, 0.5f}, {983, 20}).x, x);
+    EXPECT_EQ(pixelAt({1.0f, -0.1f}, {10, 20}), glm::ivec2(9, 0)) << "the nearest one";
+}
+
+TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
+    Inspection inspection;
+    inspection.pixel = {606, 303};
+    inspection.sizePixels = {980, 778};
+    inspection.sides[0] = {{0.5f, 0.25f, 2.0f, 1.0f}, {188, 137, 255, 255}};
+    EXPECT_THAT(inspectionLines(inspection),
+                ElementsAre("606, 303 of 980x778", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255"));
+    inspection.sides[1] = {{0.5f, 0.125f, 3.0f, 1.0f}, {188, 99, 255, 255}};
+    inspection.isSurfaceKnown = true;
+    EXPECT_THAT(inspectionLines(inspection),
+                ElementsAre("606, 303 of 980x778", "Left", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "Right",
+                            "linear 0.5 0.125 3", "shown #bc63ff  188 99 255", "difference 0 0.125 -1", "no surface"));
+    inspection.sides[1].reset();
+    inspection.surface = {"paint", 3.5, {0.0, 0.0, 1.0}, 1};
+    EXPECT_THAT(inspectionLines(inspection),
+                ElementsAre("606, 303 of 980x778", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "material paint",
+                            "depth 3.5 m", "face normal 0 0 1", "1 light reaches it"));
+}
+
+TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) {
+    scenes::Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].name = "paint";
+    scene.materials[0].doubleSided = true;
+    scenes::Mesh card;
+    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    card.normalsOS.assign(4, {0, 0, 1});
+    card.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes = {card};
+    scene.nodes.emplace_back().instances = {{0, 0}};
+    scene.lights.resize(3);
+    scene.lights[0].positionWS = scene.lights[1].positionWS = scene.lights[2].positionWS = {0.0, 0.0, 2.0};
+    scene.lights[1].rangeMetres = 1.0f;
+    scene.lights[2].enabled = false;
+    const auto at = [&](const scenes::Camera& camera, glm::ivec2 pixel) {
+        return surfaceAt(scene, camera, {100, 100}, pixel, 0.0);
+    };
+    for (const double side : {1.0, -1.0}) {
+        const auto front = at(perspective({0, 0, 5.0 * side}, {0, 0, 0}), {50, 50});
+        ASSERT_TRUE(front);
+        EXPECT_EQ(front->material, "paint");
+        EXPECT_NEAR(front->depthMetres, 5.0, 1e-9);
+        EXPECT_LT(glm::distance(front->normalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
+        EXPECT_EQ(front->reachingLights, 1u);
+    }
+    EXPECT_NEAR(at(orthographic({0, 0, 7}, {0, 0, 0}, 2.0), {70, 30}).value().depthMetres, 7.0, 1e-9);
+    EXPECT_FALSE(at(perspective({0, 0, 5}, {0, 0, 0}), {1, 1}));
+}
+
+} // namespace
+} // namespace tessera::viewer

@@ -1,0 +1,64 @@
+#include "viewer/panels/InspectorBox.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+namespace tessera::viewer {
+namespace {
+
+constexpr ImU32 kBoxInk = IM_COL32(220, 222, 228, 255), kBoxBehind = IM_COL32(20, 21, 24, 225);
+constexpr float kTexelPoints = 8.0f, kBoxPad = 6.0f, kBesidePoints = 24.0f;
+
+/// Where a box beside a point begins: behind it, or before it where there is no room behind; inside the picture.
+float besidePoint(float point, float size, float begin, float end, float beside) {
+    const float behind = point + beside, before = point - beside - size;
+    const float wished = behind + size <= end || before < begin ? behind : before;
+    return std::clamp(wished, begin, std::max(begin, end - size));
+}
+
+void outline(ImDrawList& list, const glm::vec2& corner, float size, float width) {
+    list.AddRect({corner.x, corner.y}, {corner.x + size, corner.y + size}, IM_COL32(20, 20, 24, 200), 0.0f, 0,
+                 2.0f * width);
+    list.AddRect({corner.x, corner.y}, {corner.x + size, corner.y + size}, kBoxInk, 0.0f, 0, width);
+}
+
+} // namespace
+
+void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
+    const std::optional<glm::vec2> place = state.inspectedPlace();
+    if (!place || !facts.inspection) return;
+    const float pad = kBoxPad * area.scale, line = ImGui::GetTextLineHeight();
+    const float texel = kTexelPoints * area.scale, loupe = float(kLoupeTexels) * texel;
+    const std::vector<std::string> lines = inspectionLines(*facts.inspection);
+    const int sides = facts.inspection->sides[1] ? 2 : 1;
+    glm::vec2 size(float(sides) * (loupe + pad) - pad, loupe + pad + float(lines.size()) * line);
+    for (const std::string& text : lines) size.x = std::max(size.x, ImGui::CalcTextSize(text.c_str()).x);
+    size += 2.0f * pad;
+    if (area.size.x < size.x || area.size.y < size.y) return;
+    const glm::vec2 point = area.corner + *place * area.size, end = area.corner + area.size;
+    const float beside = kBesidePoints * area.scale;
+    const glm::vec2 corner(besidePoint(point.x, size.x, area.corner.x, end.x, beside),
+                           besidePoint(point.y, size.y, area.corner.y, end.y, beside));
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
+    if (state.pinnedPlace) outline(list, point - 0.75f * texel, 1.5f * texel, area.scale);
+    // The loupes are drawn below the interface: the box goes around them.
+    const glm::vec2 first = corner + pad, words = first + glm::vec2(0.0f, loupe + pad);
+    list.AddRectFilled({corner.x, corner.y}, {corner.x + size.x, first.y}, kBoxBehind);
+    list.AddRectFilled({corner.x, first.y + loupe}, {corner.x + size.x, corner.y + size.y}, kBoxBehind);
+    float x = corner.x;
+    for (int side = 0; side < sides; ++side) {
+        const glm::vec2 at(first.x + float(side) * (loupe + pad), first.y);
+        list.AddRectFilled({x, first.y}, {at.x, first.y + loupe}, kBoxBehind);
+        x = at.x + loupe;
+        state.loupes.push_back({side, at, loupe});
+        outline(list, at + 0.5f * (loupe - texel), texel, area.scale);
+    }
+    list.AddRectFilled({x, first.y}, {corner.x + size.x, first.y + loupe}, kBoxBehind);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        list.AddText({words.x, words.y + float(i) * line}, kBoxInk, lines[i].c_str());
+    list.PopClipRect();
+}
+
+} // namespace tessera::viewer

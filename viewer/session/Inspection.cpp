@@ -1,0 +1,80 @@
+#include "viewer/session/Inspection.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/edit/Brightness.h"
+#include "viewer/edit/Pick.h"
+
+namespace tessera::viewer {
+namespace {
+
+std::string numbers(const glm::dvec3& values) {
+    return fmt::format("{:.4g} {:.4g} {:.4g}", values.x, values.y, values.z);
+}
+
+void addSide(std::vector<std::string>& lines, const InspectedSide& side) {
+    lines.push_back("linear " + numbers(glm::dvec3(side.radiance)));
+    const glm::u8vec4& code = side.display;
+    lines.push_back(fmt::format("shown #{:02x}{:02x}{:02x}  {} {} {}", code.x, code.y, code.z, code.x, code.y, code.z));
+}
+
+} // namespace
+
+glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels) {
+    constexpr float kRounding = 1e-3f; // of a pixel: a share of the size and back must not end in the one before
+    const glm::ivec2 pixel(glm::floor(place * glm::vec2(sizePixels) + kRounding));
+    return glm::clamp(pixel, glm::ivec2(0), sizePixels - 1);
+}
+
+std::vector<std::string> inspectionLines(const Inspection& inspection) {
+    std::vector<std::string> lines{fmt::format("{}, {} of {}x{}", inspection.pixel.x, inspection.pixel.y,
+                                               inspection.sizePixels.x, inspection.sizePixels.y)};
+    const auto& [left, right] = inspection.sides;
+    if (left && right) lines.emplace_back("Left");
+    if (left) addSide(lines, *left);
+    if (left && right) {
+        lines.emplace_back("Right");
+        addSide(lines, *right);
+        lines.push_back("difference " + numbers(glm::dvec3(left->radiance) - glm::dvec3(right->radiance)));
+    }
+    if (!inspection.isSurfaceKnown) return lines;
+    if (!inspection.surface) {
+        lines.emplace_back("no surface");
+        return lines;
+    }
+    const InspectedSurface& surface = *inspection.surface;
+    lines.push_back("material " + surface.material);
+    lines.push_back(fmt::format("depth {:.4g} m", surface.depthMetres));
+    lines.push_back("face normal " + numbers(surface.normalWS));
+    lines.push_back(fmt::format("{} light{} reach{} it", surface.reachingLights, surface.reachingLights == 1 ? "" : "s",
+                                surface.reachingLights == 1 ? "es" : ""));
+    return lines;
+}
+
+std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scenes::Camera& camera,
+                                          glm::ivec2 sizePixels, glm::ivec2 pixel, double timeSeconds) {
+    const std::optional<Pick> picked = pickedByRay(scene, camera, sizePixels, pixel);
+    if (!picked) return std::nullopt;
+    const glm::dvec3 eyeWS(camera.worldFromCamera[3]), backWS = glm::normalize(glm::dvec3(camera.worldFromCamera[2]));
+    const scenes::Mesh& mesh = scene.meshes[std::size_t(picked->mesh)];
+    const glm::dmat4 worldFromNode = scenes::worldFromNodes(scene)[std::size_t(picked->node)];
+    const auto cornerWS = [&](std::size_t corner) {
+        const std::uint32_t index = mesh.indices[3 * std::size_t(picked->triangle) + corner];
+        return glm::dvec3(worldFromNode * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0));
+    };
+    const glm::dvec3 firstWS = cornerWS(0);
+    glm::dvec3 normalWS = glm::normalize(glm::cross(cornerWS(1) - firstWS, cornerWS(2) - firstWS));
+    const bool isPerspective = camera.projection == scenes::Projection::Perspective;
+    const glm::dvec3 towardsViewerWS = isPerspective ? eyeWS - picked->positionWS : backWS;
+    if (glm::dot(normalWS, towardsViewerWS) < 0.0) normalWS = -normalWS;
+    InspectedSurface surface;
+    surface.material = scene.materials[std::size_t(picked->material)].name;
+    surface.depthMetres = glm::dot(eyeWS - picked->positionWS, backWS);
+    surface.normalWS = normalWS;
+    surface.reachingLights = lightsReaching(scene.lights, picked->positionWS, timeSeconds);
+    return surface;
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,77 @@
+#include "viewer/show/Inspector.h"
+
+#include <array>
+#include <cstring>
+
+namespace tessera::viewer {
+namespace {
+
+/// How many sides have a picture of one size with radiance.
+int sidesToRead(const State& state, const Screen& screen) {
+    int sides = 0;
+    for (; sides < state.sides(); ++sides) {
+        const DrawnPicture& picture = screen.picture(sides);
+        if (!picture.isThere() || picture.radiance() == nullptr) break;
+        if (picture.display().sizePixels() != screen.picture(0).display().sizePixels()) break;
+    }
+    return sides;
+}
+
+} // namespace
+
+void Inspector::ask(const Subject& subject, const Screen& screen) {
+    if (!reader_) reader_.emplace();
+    std::vector<const gpu::Texture*> textures;
+    for (int side = 0; side < subject.sides; ++side) {
+        textures.push_back(&screen.picture(side).radiance()->texture());
+        textures.push_back(&screen.picture(side).display().texture());
+    }
+    reader_->request(textures, {subject.pixel.x, subject.sizePixels.y - 1 - subject.pixel.y});
+    subject_ = subject;
+    isAsked_ = true;
+}
+
+bool Inspector::take(Facts& facts) {
+    const auto texels = reader_->take();
+    if (!texels) return false;
+    isAsked_ = false;
+    awaitsRest_ = true;
+    Inspection& inspection = facts.inspection.emplace();
+    inspection.pixel = subject_->pixel;
+    inspection.sizePixels = subject_->sizePixels;
+    for (std::size_t side = 0; side < texels->size() / 2; ++side) {
+        InspectedSide& values = inspection.sides[side].emplace();
+        std::memcpy(&values.radiance, (*texels)[2 * side].data(), sizeof values.radiance);
+        std::memcpy(&values.display, (*texels)[2 * side + 1].data(), sizeof values.display);
+    }
+    return true;
+}
+
+bool Inspector::update(Facts& facts, const State& state, const Screen& screen, std::uint64_t picture, bool isAtRest) {
+    const std::optional<glm::vec2> place = state.inspectedPlace();
+    if (!place || !state.open) {
+        subject_.reset();
+        isAsked_ = awaitsRest_ = false;
+        const bool wasShown = facts.inspection.has_value();
+        facts.inspection.reset();
+        return wasShown;
+    }
+    bool isChanged = isAsked_ && take(facts);
+    const int sides = sidesToRead(state, screen);
+    if (sides == 0) awaitsRest_ = false;
+    if (sides == 0 || isAsked_) return isChanged;
+    const glm::ivec2 size = screen.picture(0).display().sizePixels();
+    const Subject subject{pixelAt(*place, size), size, picture, sides};
+    if (subject_ != subject) {
+        ask(subject, screen);
+    } else if (awaitsRest_ && isAtRest && facts.inspection) {
+        awaitsRest_ = false;
+        const scenes::Scene& scene = state.open->scene();
+        facts.inspection->surface = surfaceAt(scene, scene.cameras[std::size_t(state.open->camera())], size,
+                                              subject.pixel, state.active().settings.timeSeconds);
+        facts.inspection->isSurfaceKnown = isChanged = true;
+    }
+    return isChanged;
+}
+
+} // namespace tessera::viewer
