@@ -18,7 +18,6 @@
 #include "viewer/panels/Frame.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
-#include "viewer/session/DrawnLook.h"
 #include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
@@ -27,12 +26,12 @@
 #include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Inspector.h"
 #include "viewer/show/Measurements.h"
+#include "viewer/show/PictureDrawing.h"
 #include "viewer/window/Gui.h"
 
 namespace tessera::viewer {
 namespace {
 
-constexpr double kRestSeconds = 0.15;        ///< without input or movement, after which the picture is drawn whole
 constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is looked at
 constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
 constexpr double kNoticeSeconds = 6.0;
@@ -43,9 +42,6 @@ constexpr double kKeepShare = 20.0;
 constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
 /// How often a signal to end is looked for while there are edits to keep before.
 constexpr double kEndPeriodSeconds = 0.25;
-/// Frames after the last event in which the user interface may still change: a list that opens is measured in one
-/// frame and laid out in the next.
-constexpr int kSettleFrames = 3;
 
 /// Beside the settings.
 std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
@@ -62,6 +58,7 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
+          drawing_(state_, facts_, screen_, window_, log_, pulse_, [this](const std::string& text) { fail(text); }),
           saver_(state_, screen_, log_), recovery_(recoveryFolder(options)), measurements_([] { Window::wake(); }),
           environments_([] { Window::wake(); }), scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
@@ -98,15 +95,7 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    bool isMoving() const { return state_.open && (!state_.open->rig().isAtRest() || plays(state_)); }
-    bool isWhole() const { return !state_.open || screen_.scaleOf(wanted_) >= restScale(); }
-    /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
-    bool lacksLight() const {
-        return state_.open && screen_.shows(wanted_) && screen_.lacksLight(wanted_, Screen::Reach::All);
-    }
-    bool awaitsRest() const { return !isWhole() || lacksLight() || inspector_.awaitsRest(); }
-    double restScale() const { return state_.automaticScale ? 1.0 : double(state_.fixedScale); }
-    double movingScale() const { return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale); }
+    bool awaitsRest() const { return !drawing_.isWhole() || drawing_.lacksLight() || inspector_.awaitsRest(); }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();
@@ -114,16 +103,18 @@ private:
     }
     bool hasPicturePlace() const { return isVisible() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
-        if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || settleFrames_ > 0) return true;
+        if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || pulse_.settleFrames > 0)
+            return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
-        return hasPicturePlace() && (isMoving() || inspector_.isBusy() || (awaitsRest() && now() >= restAt_));
+        return hasPicturePlace() &&
+               (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
     }
     /// How long nothing needs to happen; negative: until something does.
     double idleSeconds() const {
         if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = -1.0;
         const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
-        if (awaitsRest() && hasPicturePlace()) atMost(std::max(restAt_ - now(), 0.0));
+        if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
@@ -134,7 +125,7 @@ private:
 
     // ---- Edits that are not saved ----
     bool hasEdits() const { return state_.open && state_.open->isEdited(); }
-    double keepAt() const { return std::max(restAt_ + kKeepSeconds, nextKeepAt_); }
+    double keepAt() const { return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_); }
     /// Keeps them for the case that the program ends unasked; while nobody waits for a picture, and not too often.
     void keepEdits() {
         if (!state_.open || !recovery_.isBehind(*state_.open) || now() < keepAt()) return;
@@ -169,7 +160,7 @@ private:
     bool mayLeave(const Question& question) {
         if (!hasEdits()) return true;
         state_.question = question;
-        settleFrames_ = kSettleFrames;
+        pulse_.settle();
         log_.line("edits are not saved");
         return false;
     }
@@ -199,7 +190,7 @@ private:
 
     void take(Answer answer) {
         const std::optional<Question> question = std::exchange(state_.question, std::nullopt);
-        settleFrames_ = kSettleFrames;
+        pulse_.settle();
         if (!question || answer == Answer::Cancel) return;
         if (question->about == Question::About::Recovering) {
             if (answer == Answer::Discard) return Recovery::discard(question->scene);
@@ -261,7 +252,7 @@ private:
         if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
         log_.line("environment " + chosen->name);
         state_.open->takeEnvironment(std::move(*chosen));
-        settleFrames_ = kSettleFrames;
+        pulse_.settle();
     }
 
     /// The title says which scene is open, and whether it has edits that were not saved.
@@ -285,7 +276,7 @@ private:
 
     void fail(const std::string& text) {
         state_.notice = {text, true};
-        settleFrames_ = kSettleFrames;
+        pulse_.settle();
         log_.line("error " + text);
     }
 
@@ -306,17 +297,17 @@ private:
         for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
         if (state_.shaderFaults.empty()) log_.line("shaders reloaded");
         screen_.forget();
-        settleFrames_ = kSettleFrames;
+        pulse_.settle();
     }
 
     // ---- A frame ----
     void frame() {
         const double started = now();
         if (window_.takeActivity() || !window_.input().empty()) {
-            settleFrames_ = kSettleFrames;
-            restAt_ = started + kRestSeconds;
+            pulse_.settle();
+            pulse_.stirred(started);
         }
-        settleFrames_ = std::max(settleFrames_ - 1, 0);
+        pulse_.settleFrames = std::max(pulse_.settleFrames - 1, 0);
         attempt([this] { adoptLoaded(); });
         attempt([this] { adoptEnvironment(); });
         if (std::string fault = frame::takeCacheFault(); !fault.empty()) {
@@ -343,21 +334,25 @@ private:
         expireNotice();
         // More input waits: its result gets a picture, its single steps only now and then.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
-        const int givenUp = givenUp_;
-        const bool drew = drawPictures();
+        const int givenUp = drawing_.givenUp();
+        const gpu::Rectangle place = areaPixels();
+        const bool drew = drawing_.update({place.width, place.height});
         attempt([this] {
-            if (screen_.renderer() && measurements_.update(facts_, state_, screen_, wanted_, isWhole()))
-                settleFrames_ = std::max(settleFrames_, 1);
+            if (screen_.renderer() &&
+                measurements_.update(facts_, state_, screen_, drawing_.wanted(), drawing_.isWhole()))
+                pulse_.another();
         });
         attempt([this] {
-            if (!inspector_.update(facts_, state_, screen_, frames_, isWhole() && now() >= restAt_)) return;
-            settleFrames_ = std::max(settleFrames_, 1);
+            if (!inspector_.update(facts_, state_, screen_, drawing_.pictures(),
+                                   drawing_.isWhole() && now() >= pulse_.restAt))
+                return;
+            pulse_.another();
             if (facts_.inspection && facts_.inspection->isSurfaceKnown)
                 log_.line(fmt::format("inspected {}", fmt::join(inspectionLines(*facts_.inspection), "; ")));
         });
         show();
-        isDescribed_ = !drew;
-        if (facts_.isPreparing || facts_.isSpreading || givenUp_ > givenUp)
+        drawing_.setDescribed(!drew);
+        if (facts_.isPreparing || facts_.isSpreading || drawing_.givenUp() > givenUp)
             return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
@@ -452,124 +447,13 @@ private:
         if (state_.notice.text != said_) {
             said_ = state_.notice.text;
             saidUntil_ = now() + kNoticeSeconds;
-            settleFrames_ = kSettleFrames; // it is laid out anew
+            pulse_.settle(); // it is laid out anew
         } else if (isNoticeOver()) {
             state_.notice = {};
-            settleFrames_ = std::max(settleFrames_, 1);
+            pulse_.another();
         }
     }
     bool isNoticeOver() const { return !state_.notice.text.empty() && !state_.notice.isError && now() >= saidUntil_; }
-
-    /// Draws changed pictures: at reduced resolution while something moves, at full resolution at rest. Returns whether
-    /// it drew.
-    bool drawPictures() {
-        const gpu::Rectangle place = areaPixels();
-        const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
-        facts_.isPreparing = facts_.isSpreading = false;
-        const bool wasSpreading = std::exchange(facts_.spreading, std::nullopt).has_value();
-        if (wasSpreading) settleFrames_ = std::max(settleFrames_, 1); // until the line says so no more
-        if (!wasAnnounced) announcements_ = 0;
-        if (!state_.open || place.width < 1 || place.height < 1) return false;
-        wanted_.looks = {drawnLook(state_, 0), drawnLook(state_, 1)};
-        for (Look& look : wanted_.looks) look.settings.sizePixels = {place.width, place.height};
-        wanted_.sides = state_.sides();
-        if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];
-        wanted_.keepsRadiance = state_.compare != Compare::Off || state_.inspects;
-        wanted_.sceneRevision = state_.open->revision();
-        wanted_.sceneEdits = state_.open->edits();
-        const double have = screen_.scaleOf(wanted_);
-        const bool isAtRest = !isMoving() && now() >= restAt_ && have > 0.0;
-        if (have >= restScale() && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
-            return spreadSlice(Screen::Reach::All);
-        if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving())) return false;
-        if (have > 0.0 && !isAtRest) return false;
-        if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
-        if (isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen)) return spreadSlice(Screen::Reach::Seen);
-        if (have == 0.0) restAt_ = now() + kRestSeconds;
-        // A scale that is fixed is that of all pictures: none is better.
-        const Screen::Stay stay = isAtRest || !state_.automaticScale ? Screen::Stay::Stays : Screen::Stay::Passes;
-        if (isToBeAnnounced(stay)) return false;
-        return drawAt(isAtRest ? restScale() : movingScale(), stay, isAtRest);
-    }
-
-    /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
-    bool spreadSlice(Screen::Reach reach) {
-        attempt([&] {
-            const engine::SpreadProgress progress = screen_.spreadSlice(wanted_, reach);
-            if (progress.isDone())
-                log_.line(progress.isOfAll ? "spread light everywhere" : "spread light in view");
-            else
-                facts_.spreading = progress;
-        });
-        return false;
-    }
-
-    /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
-    /// for one frame why it will wait.
-    bool isToBeAnnounced(Screen::Stay stay) {
-        constexpr int kFrames = 2; // the interface of this frame is laid out already
-        if (announcements_ >= kFrames) return false;
-        facts_.isPreparing = screen_.isNewKind(wanted_);
-        facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
-        if (!facts_.isPreparing && !facts_.isSpreading) return false;
-        ++announcements_;
-        settleFrames_ = std::max(settleFrames_, 1);
-        return true;
-    }
-
-    /// Whether something came while a picture is drawn that is more urgent. A picture of moving things is worth having
-    /// though they have moved on. The whole one is not; but a pointer that only wanders may give it up twice at most.
-    bool isInterrupted(bool isAtRest) {
-        constexpr int kWanderings = 2;
-        window_.poll();
-        if (window_.shouldClose() || window_.input().isUrgent() || notedEnd() != 0) return true;
-        return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
-    }
-
-    bool drawAt(double scale, Screen::Stay stay, bool isAtRest) {
-        const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
-        const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
-        const double startedAt = now();
-        try {
-            Screen::Drawn drawn =
-                screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
-            if (drawn.gaveUp) {
-                ++givenUp_;
-                log_.line(fmt::format("gave up scale {:.4g}", scale));
-                return false;
-            }
-            givenUp_ = 0;
-            facts_.ms = drawn.ms;
-            facts_.scale = drawn.scale;
-            facts_.sizePixels = drawn.sizePixels;
-            facts_.shadows = std::move(drawn.shadows);
-            facts_.targetBytes = screen_.renderer()->backend().poolBytes();
-            ++frames_;
-            for (int side = 0; side < wanted_.sides; ++side)
-                state_.timings.add({frames_, 1000.0 * startedAt, drawn.sideMs[std::size_t(side)], drawn.scale, side,
-                                    drawn.passes[std::size_t(side)]});
-            settleFrames_ = std::max(settleFrames_, 1); // the figures of this frame are shown by the next
-            if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
-            note(missingTextures_, std::move(drawn.missingTextures));
-            if (drawn.unseenSpread) note(unseenSpread_, std::move(*drawn.unseenSpread));
-            const Look& look = wanted_.looks[0];
-            log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", frames_,
-                                  drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
-                                  infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name));
-            return true;
-        } catch (const std::exception& error) {
-            drawingFault_ = error.what();
-            fail(drawingFault_);
-            return false;
-        }
-    }
-
-    /// Says what a picture lacks where the one before did not.
-    void note(std::string& said, std::string lacks) {
-        if (lacks == said) return;
-        said = std::move(lacks);
-        if (!said.empty() && !state_.notice.isError) state_.notice = {said, false};
-    }
 
     void show() {
         const glm::ivec2 pixels = window_.sizePixels();
@@ -599,27 +483,20 @@ private:
     Controls controls_;
     Facts facts_;
     PictureArea area_;
-    Screen::Wanted wanted_;
-    int settleFrames_ = kSettleFrames;
-    double restAt_ = 0.0;
-    bool isDescribed_ = true; ///< the window has shown the figures of the latest picture with it
+    Pulse pulse_;
     double lastFrame_ = 0.0;
     double shownAt_ = 0.0;
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
-    std::uint64_t frames_ = 0;
-    int announcements_ = 0; ///< frames for which the next picture has been announced
-    int givenUp_ = 0;       ///< pictures since the latest that was drawn
     std::string title_;
     std::string recovering_; ///< the file of edits that is being opened
     double nextKeepAt_ = 0.0;
-    bool isDiscarding_ = false;                  ///< the window closes without another question
-    std::uint64_t editsLeft_ = 0;                ///< of the open scene, when the one that is loading was asked for
-    std::optional<std::string> loadingVariant_;  ///< of load()
-    std::string said_;                           ///< the latest notice
-    std::string drawingFault_;                   ///< why the latest picture that failed did
-    std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so
+    bool isDiscarding_ = false;                 ///< the window closes without another question
+    std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
+    std::optional<std::string> loadingVariant_; ///< of load()
+    std::string said_;                          ///< the latest notice
     double saidUntil_ = 0.0;
+    PictureDrawing drawing_;
     Saver saver_;
     Recovery recovery_;
     Measurements measurements_;

@@ -23,6 +23,10 @@ bool plays(const State& state) {
            state.active().settings.timeSeconds < state.open->clipSeconds();
 }
 
+bool isMoving(const State& state) {
+    return state.open && (!state.open->rig().isAtRest() || plays(state));
+}
+
 void togglePlaying(State& state) {
     state.isPlaying = !state.isPlaying;
     if (state.isPlaying && canMove(state) && !plays(state)) state.active().settings.timeSeconds = 0.0;

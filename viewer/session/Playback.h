@@ -12,6 +12,8 @@ constexpr float kSlowest = 0.1f, kFastest = 4.0f; ///< of State::speed
 bool canMove(const State& state);
 /// Whether anything moves now, as time goes on.
 bool plays(const State& state);
+/// Whether the picture changes by itself: something plays, or the camera is on its way.
+bool isMoving(const State& state);
 /// Lets time go on, or stops it. A clip that is over begins again.
 void togglePlaying(State& state);
 /// So much of the clock's time is over. At its end a clip is repeated, with all else that moves, or comes to rest.

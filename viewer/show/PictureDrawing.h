@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "viewer/session/EventLog.h"
+#include "viewer/session/Facts.h"
+#include "viewer/session/Pulse.h"
+#include "viewer/show/Screen.h"
+#include "viewer/window/Window.h"
+
+namespace tessera::viewer {
+
+/// Decides when pictures of what the user chose are drawn, and at which scale; tells what it did.
+class PictureDrawing {
+public:
+    /// `fails` shows an error. All must outlive the object.
+    PictureDrawing(State& state, Facts& facts, Screen& screen, Window& window, const EventLog& log, Pulse& pulse,
+                   std::function<void(const std::string&)> fails);
+
+    /// Draws changed pictures of a size: at reduced resolution while something moves, at full resolution at rest.
+    /// Returns whether it drew.
+    bool update(glm::ivec2 sizePixels);
+    /// The window has shown the figures of the latest picture with it, or not yet.
+    void setDescribed(bool isDescribed) { isDescribed_ = isDescribed; }
+
+    const Screen::Wanted& wanted() const { return wanted_; }
+    std::uint64_t pictures() const { return pictures_; } ///< that were drawn
+    int givenUp() const { return givenUp_; }             ///< since the latest of them
+    bool isWhole() const;
+    /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
+    bool lacksLight() const;
+
+private:
+    double restScale() const;
+    double movingScale() const;
+    /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
+    bool spreadSlice(Screen::Reach reach);
+    /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
+    /// for one frame why it will wait.
+    bool isToBeAnnounced(Screen::Stay stay);
+    /// Whether something came while a picture is drawn that is more urgent. A picture of moving things is worth having
+    /// though they have moved on. The whole one is not; but a pointer that only wanders may give it up twice at most.
+    bool isInterrupted(bool isAtRest);
+    bool drawAt(double scale, Screen::Stay stay, bool isAtRest);
+    /// Says what a picture lacks where the one before did not.
+    void note(std::string& said, std::string lacks);
+
+    State& state_;
+    Facts& facts_;
+    Screen& screen_;
+    Window& window_;
+    const EventLog& log_;
+    Pulse& pulse_;
+    std::function<void(const std::string&)> fails_;
+    Screen::Wanted wanted_;
+    bool isDescribed_ = true;
+    std::uint64_t pictures_ = 0;
+    int announcements_ = 0; ///< frames for which the next picture has been announced
+    int givenUp_ = 0;
+    std::string drawingFault_;                   ///< why the latest picture that failed did
+    std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so
+};
+
+} // namespace tessera::viewer
