@@ -16,11 +16,13 @@ void compareRows(State& state) {
     const std::size_t now = std::size_t(state.compare);
     if (const auto chosen = choose("Compare", kCompare[now].name, kCompare, now)) state.compare = Compare(*chosen);
     if (state.compare == Compare::Off) return;
-    row("Panels set");
+    row("Panels change");
+    constexpr const char* kMeaning = "Which side the panels and keys set technique, view and options of (Z)";
     ImGui::RadioButton("left", &state.activeSide, 0);
+    tip(kMeaning);
     ImGui::SameLine();
     ImGui::RadioButton("right", &state.activeSide, 1);
-    tip("Which side technique and view are chosen for");
+    tip(kMeaning);
     if (state.compare == Compare::Split) {
         slider("Divider", state.divider, 0.0f, 1.0f, "%.2f");
     } else {

@@ -18,6 +18,12 @@ void helpRow(const char* name, const char* meaning) {
     ImGui::PopTextWrapPos();
 }
 
+void helpHeading(const char* words) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", words);
+}
+
 } // namespace
 
 void helpOverlay(State& state, float scale) {
@@ -30,7 +36,9 @@ void helpOverlay(State& state, float scale) {
     if (ImGui::Begin("Help", &state.showsHelp, flags) && ImGui::BeginTable("keys", 2)) {
         ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+        helpHeading("Mouse and held keys");
         for (const GestureHelp& gesture : gestureHelp()) helpRow(gesture.name, gesture.meaning);
+        helpHeading("Keys");
         for (const KeyBinding& binding : keyBindings())
             if (*binding.name != '\0') helpRow(binding.name, binding.meaning);
         ImGui::EndTable();
