@@ -15,7 +15,12 @@ std::string numbers(const glm::dvec3& values) {
 }
 
 void addSide(std::vector<std::string>& lines, const InspectedSide& side) {
-    lines.push_back("linear " + numbers(glm::dvec3(side.radiance)));
+    const frame::DebugViewInfo& view = frame::debugViewInfo(side.view);
+    if (view.mapping == frame::DisplayMapping::Count)
+        lines.push_back(fmt::format("{} {:.4g}", view.name, side.radiance.x));
+    else
+        lines.push_back(fmt::format("{} {}", side.view == frame::DebugView::Final ? "linear" : view.name,
+                                    numbers(glm::dvec3(side.radiance))));
     const glm::u8vec4& code = side.display;
     lines.push_back(fmt::format("shown #{:02x}{:02x}{:02x}  {} {} {}", code.x, code.y, code.z, code.x, code.y, code.z));
 }
@@ -37,7 +42,8 @@ std::vector<std::string> inspectionLines(const Inspection& inspection) {
     if (left && right) {
         lines.emplace_back("Right");
         addSide(lines, *right);
-        lines.push_back("difference " + numbers(glm::dvec3(left->radiance) - glm::dvec3(right->radiance)));
+        if (left->view == right->view)
+            lines.push_back("difference " + numbers(glm::dvec3(left->radiance) - glm::dvec3(right->radiance)));
     }
     if (!inspection.isSurfaceKnown) return lines;
     if (!inspection.surface) {

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "renderer/frame/DebugViews.h"
 #include "scenes/Scene.h"
 
 /// What the picture shows at one pixel.
@@ -17,6 +18,7 @@ inline constexpr int kLoupeTexels = 15;
 struct InspectedSide {
     glm::vec4 radiance{0.0f}; ///< linear, before exposure; its fourth number is the share that is covered
     glm::u8vec4 display{0};   ///< code values
+    frame::DebugView view = frame::DebugView::Final; ///< whose values these are
 };
 
 /// The surface there, found by a ray; its numbers are those of no picture.

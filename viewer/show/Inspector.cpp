@@ -1,20 +1,21 @@
 #include "viewer/show/Inspector.h"
 
-#include <array>
 #include <cstring>
+#include <utility>
 
 namespace tessera::viewer {
 namespace {
 
-/// How many sides have a picture of one size with radiance.
-int sidesToRead(const State& state, const Screen& screen) {
-    int sides = 0;
-    for (; sides < state.sides(); ++sides) {
-        const DrawnPicture& picture = screen.picture(sides);
+/// Of the sides that have a picture of one size with radiance.
+std::vector<frame::DebugView> viewsToRead(const State& state, const Screen& screen) {
+    std::vector<frame::DebugView> views;
+    for (int side = 0; side < state.sides(); ++side) {
+        const DrawnPicture& picture = screen.picture(side);
         if (!picture.isThere() || picture.radiance() == nullptr) break;
         if (picture.display().sizePixels() != screen.picture(0).display().sizePixels()) break;
+        views.push_back(picture.look().settings.view);
     }
-    return sides;
+    return views;
 }
 
 } // namespace
@@ -22,7 +23,7 @@ int sidesToRead(const State& state, const Screen& screen) {
 void Inspector::ask(const Subject& subject, const Screen& screen) {
     if (!reader_) reader_.emplace();
     std::vector<const gpu::Texture*> textures;
-    for (int side = 0; side < subject.sides; ++side) {
+    for (int side = 0; side < int(subject.views.size()); ++side) {
         textures.push_back(&screen.picture(side).radiance()->texture());
         textures.push_back(&screen.picture(side).display().texture());
     }
@@ -41,6 +42,7 @@ bool Inspector::take(Facts& facts) {
     inspection.sizePixels = subject_->sizePixels;
     for (std::size_t side = 0; side < texels->size() / 2; ++side) {
         InspectedSide& values = inspection.sides[side].emplace();
+        values.view = subject_->views[side];
         std::memcpy(&values.radiance, (*texels)[2 * side].data(), sizeof values.radiance);
         std::memcpy(&values.display, (*texels)[2 * side + 1].data(), sizeof values.display);
     }
@@ -57,11 +59,11 @@ bool Inspector::update(Facts& facts, const State& state, const Screen& screen, s
         return wasShown;
     }
     bool isChanged = isAsked_ && take(facts);
-    const int sides = sidesToRead(state, screen);
-    if (sides == 0) awaitsRest_ = false;
-    if (sides == 0 || isAsked_) return isChanged;
+    std::vector<frame::DebugView> views = viewsToRead(state, screen);
+    if (views.empty()) awaitsRest_ = false;
+    if (views.empty() || isAsked_) return isChanged;
     const glm::ivec2 size = screen.picture(0).display().sizePixels();
-    const Subject subject{pixelAt(*place, size), size, picture, sides};
+    const Subject subject{pixelAt(*place, size), size, picture, std::move(views)};
     if (subject_ != subject) {
         ask(subject, screen);
     } else if (awaitsRest_ && isAtRest && facts.inspection) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "renderer/gpu/TexelReader.h"
 #include "viewer/session/Facts.h"
@@ -23,7 +24,7 @@ private:
     struct Subject {
         glm::ivec2 pixel{0}, sizePixels{0};
         std::uint64_t picture = 0;
-        int sides = 0;
+        std::vector<frame::DebugView> views; ///< by side
         bool operator==(const Subject&) const = default;
     };
     void ask(const Subject& subject, const Screen& screen);

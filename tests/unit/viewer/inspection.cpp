@@ -24,6 +24,11 @@ TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
     inspection.sides[0] = {{0.5f, 0.25f, 2.0f, 1.0f}, {188, 137, 255, 255}};
     EXPECT_THAT(inspectionLines(inspection),
                 ElementsAre("606, 303 of 980x778", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255"));
+    inspection.sides[1] = {{12.0f, 0.0f, 0.0f, 1.0f}, {188, 99, 255, 255}, frame::DebugView::Lights};
+    EXPECT_THAT(inspectionLines(inspection),
+                ElementsAre("606, 303 of 980x778", "Left", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "Right",
+                            "lights 12", "shown #bc63ff  188 99 255"))
+        << "of two views there is no difference";
     inspection.sides[1] = {{0.5f, 0.125f, 3.0f, 1.0f}, {188, 99, 255, 255}};
     inspection.isSurfaceKnown = true;
     EXPECT_THAT(inspectionLines(inspection),
