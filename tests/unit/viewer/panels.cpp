@@ -256,6 +256,29 @@ TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
     EXPECT_TRUE(isClicked);
 }
 
+TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
+    const glm::vec3 before(0.402f, 3.5f, 0.3f); // brighter than a display
+    glm::vec3 color = before;
+    ImVec2 swatch;
+    const auto draw = [&] {
+        EXPECT_FALSE(colorRow("Colour", color, 1e6f));
+        swatch = ImGui::GetItemRectMin();
+    };
+    const auto isOpen = [] {
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    const std::string text = textOf(draw);
+    for (const char* linear : {"0.402", "3.5", "0.3"}) EXPECT_NE(text.find(linear), std::string::npos) << text;
+    EXPECT_FALSE(isOpen());
+    ImGui::GetIO().MousePos = {swatch.x + 5.0f, swatch.y + 5.0f};
+    for (const bool isDown : {false, true, false}) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        show(draw);
+    }
+    EXPECT_TRUE(isOpen());
+    EXPECT_EQ(color, before);
+}
+
 TEST_F(Panels, aTipGoesWithTheClick) {
     ImVec2 place{-1.0f, -1.0f};
     const auto next = [&](bool isDown) {
