@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
@@ -237,51 +236,18 @@ Defines frameDefines(const FrameSpec& spec) {
     return defines;
 }
 
-namespace {
-
-/// Attachments that OpenGL guarantees to draw into at once.
-constexpr std::size_t kMostAttachments = 8;
-/// Beside the channels: facets, subsurface, occlusion.
-constexpr std::size_t kMostMarks = 3;
-
-} // namespace
-
-bool FrameSpec::storesSubsurface() const {
-    return features.subsurfaceRows() && !channels.empty() && !holdMaterialNumber(settings.layout, channels);
-}
-
-bool FrameSpec::storesOcclusion() const {
-    return features[scenes::TextureSlot::Occlusion] && features[Feature::Environment] && !channels.empty() &&
-           !holdMaterialNumber(settings.layout, channels);
-}
-
 std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
     std::vector<GBufferTexture> textures = frame::gbufferTextures(settings.layout, channels);
-    std::vector<std::string_view> marks;
-    if (features[Feature::Shadows]) marks.emplace_back("facets");
-    if (storesSubsurface()) marks.emplace_back("subsurface");
-    if (storesOcclusion()) marks.emplace_back("occlusion");
-    if (!marks.empty() && textures.size() < kMostAttachments)
-        textures.push_back({fmt::format("{}", fmt::join(marks, " and ")),
-                            marks.size() == kMostMarks ? graph::Format::Rg32Uint : graph::Format::R32Uint});
+    const std::vector<Mark> marks = neededMarks(features, settings.layout, channels);
+    if (std::optional<GBufferTexture> held = markTexture(settings.layout, channels, marks))
+        textures.push_back(std::move(*held));
     return textures;
 }
 
 Defines FrameSpec::gbufferDefines() const {
     Defines defines = channelDefines(settings.layout, channels);
-    const std::size_t ofChannels = frame::gbufferTextures(settings.layout, channels).size();
-    const bool haveRoom = ofChannels < kMostAttachments;
-    std::size_t marks = 0;
-    const auto mark = [&](bool isStored, const char* inMarks, const char* inChannel, const char* value) {
-        if (!isStored) return;
-        ++marks;
-        defines.emplace_back(haveRoom ? inMarks : inChannel, value);
-    };
-    mark(features[Feature::Shadows], "GBUFFER_FACETS", "GBUFFER_FACETS_IN_SPECULAR", "1");
-    mark(storesSubsurface(), "GBUFFER_SUBSURFACE", "GBUFFER_SUBSURFACE_IN_EMISSION", "1");
-    // A word holds any two of them.
-    mark(storesOcclusion(), "GBUFFER_OCCLUSION", "GBUFFER_OCCLUSION_IN_ALBEDO", marks + 1 == kMostMarks ? "1" : "0");
-    if (haveRoom && marks > 0) defines.emplace_back("GBUFFER_MARKS", std::to_string(ofChannels));
+    const Defines marks = markDefines(settings.layout, channels, neededMarks(features, settings.layout, channels));
+    defines.insert(defines.end(), marks.begin(), marks.end());
     return defines;
 }
 

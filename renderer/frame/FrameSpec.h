@@ -72,13 +72,7 @@ struct FrameSpec {
     /// Whether shadows may take more iterations than Mesa lets loops make, so that pixels are NaN (LightRounds.h).
     bool mayCutShadows() const;
 
-    /// Whether pixels hold which row of SubsurfaceConstants theirs is, not by their material's number.
-    bool storesSubsurface() const;
-    /// Whether pixels hold how much of the environment's light arrives.
-    bool storesOcclusion() const;
-    /// Of the G-buffer, by attachment: its channels, and behind them for all layouts, where lights cast shadows, the
-    /// facet normals (shaders/lib/surface/facet.glsl), storesSubsurface() and storesOcclusion(). Where the channels
-    /// take all attachments, these lie beside the specular colour, the emission and the albedo.
+    /// Of the G-buffer, by attachment: its channels, and behind them the marks (markTable()) where there is room.
     std::vector<GBufferTexture> gbufferTextures() const;
     /// What shaders that write or read the G-buffer are compiled with.
     Defines gbufferDefines() const;

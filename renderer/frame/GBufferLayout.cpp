@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "shaders/shared/facet.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/normals.h"
+#include "shaders/shared/occlusion.h"
+#include "shaders/shared/subsurface.h"
 
 namespace tessera::frame {
 
@@ -121,6 +124,23 @@ constexpr ChannelInfo kChannels[] = {
 };
 static_assert(std::size(kChannels) == kChannelCount);
 
+constexpr MarkInfo kMarks[] = {
+    {Mark::Facets, "facets", "FACETS", "the triangle's own normal, octahedral", 2 * FACET_BITS, Channel::Specular,
+     "scenes with shadows in view", false, [](const FeatureSet& f) { return f[Feature::Shadows]; }},
+    {Mark::Subsurface, "subsurface", "SUBSURFACE", "row of the subsurface's constants", SUBSURFACE_BITS,
+     Channel::Emission, "scenes whose surfaces wrap light or let it through", true,
+     [](const FeatureSet& f) { return f.subsurfaceRows(); }},
+    {Mark::Occlusion, "occlusion", "OCCLUSION", "share of the environment's light that arrives", OPEN_BITS,
+     Channel::Albedo, "scenes with occlusion textures that an environment lights", true,
+     [](const FeatureSet& f) { return f[scenes::TextureSlot::Occlusion] && f[Feature::Environment]; }},
+};
+static_assert(std::size(kMarks) == kMarkCount);
+// fp32 holds the whole numbers of so many bits.
+static_assert(std::ranges::all_of(kMarks, [](const MarkInfo& row) { return row.bits > 0 && row.bits <= 24; }));
+
+/// Attachments that OpenGL guarantees to draw into at once.
+constexpr std::size_t kMostAttachments = 8;
+
 /// Bits of the words up to the end of the normal.
 constexpr int bitsUpToNormal(FieldWidths ChannelInfo::*widths) {
     int bits = 0;
@@ -155,6 +175,21 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
 
 const ChannelInfo& infoOf(Channel channel) {
     return kChannels[static_cast<std::size_t>(channel)];
+}
+const MarkInfo& infoOf(Mark mark) {
+    return kMarks[static_cast<std::size_t>(mark)];
+}
+
+/// The first bit of each mark, one after the other but within a word, and behind them the end of the last.
+std::vector<int> firstBits(std::span<const Mark> marks) {
+    std::vector<int> bits{0};
+    for (const Mark mark : marks) {
+        const int width = infoOf(mark).bits;
+        int& first = bits.back();
+        if (first / 32 != (first + width - 1) / 32) first = (first / 32 + 1) * 32;
+        bits.push_back(first + width);
+    }
+    return bits;
 }
 
 /// A channel's name in those of its functions: "NormalTexel".
@@ -271,6 +306,9 @@ std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBuffe
 std::span<const ChannelInfo> channelTable() {
     return kChannels;
 }
+std::span<const MarkInfo> markTable() {
+    return kMarks;
+}
 std::span<const LayoutInfo> layoutTable() {
     return kLayouts;
 }
@@ -336,6 +374,46 @@ std::optional<StoredNormals> storedNormals(const GBufferLayout& layout, std::spa
     if (holdMaterialNumber(layout, channels)) return stored;
     stored.encoding = {culling::NormalForm::Octahedral, unsigned(normal->at), normal->fields[0]};
     return stored;
+}
+
+std::vector<Mark> neededMarks(const FeatureSet& features, const GBufferLayout& layout,
+                              std::span<const Channel> channels) {
+    const bool haveMaterials = !channels.empty() && !holdMaterialNumber(layout, channels);
+    std::vector<Mark> marks;
+    for (const MarkInfo& row : kMarks)
+        if (row.isNeeded(features) && (!row.ofMaterial || haveMaterials)) marks.push_back(row.mark);
+    return marks;
+}
+
+std::optional<GBufferTexture> markTexture(const GBufferLayout& layout, std::span<const Channel> channels,
+                                          std::span<const Mark> marks) {
+    if (marks.empty() || gbufferTextures(layout, channels).size() >= kMostAttachments) return {};
+    std::string name;
+    for (const Mark mark : marks) name += (name.empty() ? "" : " and ") + std::string(infoOf(mark).name);
+    const int words = (firstBits(marks).back() + 31) / 32;
+    assert(words <= 2);
+    return GBufferTexture{name, words == 2 ? Format::Rg32Uint : Format::R32Uint};
+}
+
+Defines markDefines(const GBufferLayout& layout, std::span<const Channel> channels, std::span<const Mark> marks) {
+    Defines defines;
+    if (!markTexture(layout, channels, marks)) {
+        for (const Mark mark : marks)
+            defines.emplace_back(
+                fmt::format("GBUFFER_{}_IN_{}", infoOf(mark).define, infoOf(infoOf(mark).beside).define), "1");
+        return defines;
+    }
+    const std::vector<int> bits = firstBits(marks);
+    std::string list;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        const MarkInfo& info = infoOf(marks[i]);
+        defines.emplace_back("GBUFFER_" + std::string(info.define), std::to_string(bits[i]));
+        list += fmt::format("{}MARK(codeOf{}, take{}, {}, {})", list.empty() ? "" : " ", capitalised(info.name),
+                            capitalised(info.name), bits[i], info.bits);
+    }
+    defines.emplace_back("GBUFFER_MARKS", std::to_string(gbufferTextures(layout, channels).size()));
+    defines.emplace_back("GBUFFER_MARK_LIST", list);
+    return defines;
 }
 
 Defines channelDefines(const GBufferLayout& layout, std::span<const Channel> channels) {

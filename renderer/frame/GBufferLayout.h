@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,7 +12,8 @@
 #include "renderer/graph/Format.h"
 
 /// The G-buffer as a table of channels. The table drives textures, shader defines (a `put` and a `take` a channel in
-/// shaders/lib/gbuffer/gbuffer_channels.glsl), plans, the derived error bounds and the error attribution.
+/// shaders/lib/gbuffer/gbuffer_channels.glsl), plans, the derived error bounds and the error attribution. A second
+/// table lists the marks that lie beside them.
 namespace tessera::frame {
 
 /// A frame needs at most eight of them, which is what OpenGL guarantees to draw into at once.
@@ -103,6 +105,36 @@ struct GBufferTexture {
 /// texture.
 std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::span<const Channel> channels);
 int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
+
+/// What pixels hold beside the channels, in whole numbers of few bits that no layout rounds.
+enum class Mark : std::uint8_t { Facets, Subsurface, Occlusion, Count };
+inline constexpr std::size_t kMarkCount = static_cast<std::size_t>(Mark::Count);
+
+struct MarkInfo {
+    Mark mark;
+    std::string_view name;   ///< as in plans: "facets"
+    std::string_view define; ///< GBUFFER_<define>
+    std::string_view meaning;
+    int bits;
+    /// Where the channels take all attachments: that of which the fourth exact component holds it.
+    Channel beside;
+    std::string_view needed; ///< which scenes need it, in words
+    bool ofMaterial;         ///< where pixels hold the number of their material, that says it
+    bool (*isNeeded)(const FeatureSet& features);
+};
+std::span<const MarkInfo> markTable();
+
+/// Those that surfaces of these features need beside the channels, in table order.
+std::vector<Mark> neededMarks(const FeatureSet& features, const GBufferLayout& layout,
+                              std::span<const Channel> channels);
+/// The attachment behind those of the channels that holds them, in one word or two; none where there are no marks, or
+/// the channels take all attachments.
+std::optional<GBufferTexture> markTexture(const GBufferLayout& layout, std::span<const Channel> channels,
+                                          std::span<const Mark> marks);
+/// GBUFFER_MARKS is that attachment, GBUFFER_MARK_LIST lists the marks for shaders/lib/gbuffer/gbuffer_marks.glsl, each
+/// with its two functions, its first bit and how many it has; GBUFFER_<NAME> is the first bit. Marks that lie beside a
+/// channel are GBUFFER_<NAME>_IN_<CHANNEL> instead.
+Defines markDefines(const GBufferLayout& layout, std::span<const Channel> channels, std::span<const Mark> marks);
 
 /// Where the normals of surfaces are stored, if they are.
 struct StoredNormals {

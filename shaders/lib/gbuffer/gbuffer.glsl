@@ -5,15 +5,15 @@
 // GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four,
 // then two, then one of them in each. GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo
 // and normal. GBUFFER_MATERIAL_NUMBER: the fields of the normal are its code and the number of the material, whose values
-// are read from the table of all materials. GBUFFER_MARKS is the attachment of a word or two with what GBUFFER_FACETS,
-// GBUFFER_SUBSURFACE and GBUFFER_OCCLUSION say: the code of the facet normal above the row of the subsurface above the
-// code of the occlusion, or that in the second word, whose number GBUFFER_OCCLUSION is. GBUFFER_FACETS_IN_SPECULAR,
-// GBUFFER_SUBSURFACE_IN_EMISSION and GBUFFER_OCCLUSION_IN_ALBEDO put them into the fourth components of those channels.
+// are read from the table of all materials. GBUFFER_MARKS is the attachment of a word or two with the marks of
+// lib/gbuffer/gbuffer_marks.glsl. GBUFFER_FACETS_IN_SPECULAR, GBUFFER_SUBSURFACE_IN_EMISSION and
+// GBUFFER_OCCLUSION_IN_ALBEDO put them into the fourth components of those channels.
 // GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
 #pragma once
 #include "shared/slots.h"
 #include "lib/surface/surface.glsl"
 #include "lib/gbuffer/gbuffer_channels.glsl"
+#include "lib/gbuffer/gbuffer_marks.glsl"
 
 #ifdef GBUFFER_WRITE
 #include "lib/gbuffer/gbuffer_write.glsl"

@@ -54,18 +54,9 @@ Surface surfaceFromGBuffer(ivec2 pixel)
 #define PACKED_CHANNEL(put, take, bit, widths) gbufferBit = bit; take(Encoding(true, widths), vec4(0.0), surface);
     GBUFFER_CHANNELS
 #ifdef GBUFFER_MARKS
-    uvec2 mark = texelFetch(marks, pixel, 0).rg;
-#ifdef GBUFFER_OCCLUSION
-    surface.openCode = mark[GBUFFER_OCCLUSION] & OPEN_MOST;
-    mark[GBUFFER_OCCLUSION] >>= OPEN_BITS;
-#endif
-#ifdef GBUFFER_SUBSURFACE
-    surface.subsurface = mark.x & uint(SUBSURFACE_MOST - 1);
-    mark.x >>= SUBSURFACE_BITS;
-#endif
-#ifdef GBUFFER_FACETS
-    surface.facetNormalLS = decodeFacet(mark.x);
-#endif
+    uvec2 markWords = texelFetch(marks, pixel, 0).rg;
+#define MARK(code, take, bit, bits) take((markWords[(bit) / 32] >> ((bit) % 32)) & ((1u << (bits)) - 1u), surface);
+    GBUFFER_MARK_LIST
 #endif
 #ifdef GBUFFER_MATERIAL_NUMBER
     setTabledValues(int(surface.material), surface);

@@ -47,15 +47,9 @@ void writeGBuffer(Surface surface)
     GBUFFER_CHANNELS
     storeWords();
 #ifdef GBUFFER_MARKS
-    marks = uvec2(0u);
-#ifdef GBUFFER_FACETS
-    marks.x = surface.facetCode;
-#endif
-#ifdef GBUFFER_SUBSURFACE
-    marks.x = (marks.x << SUBSURFACE_BITS) | surface.subsurface;
-#endif
-#ifdef GBUFFER_OCCLUSION
-    marks[GBUFFER_OCCLUSION] = (marks[GBUFFER_OCCLUSION] << OPEN_BITS) | surface.openCode;
-#endif
+    uvec2 markWords = uvec2(0u);
+#define MARK(code, take, bit, bits) markWords[(bit) / 32] |= code(surface) << ((bit) % 32);
+    GBUFFER_MARK_LIST
+    marks = markWords;
 #endif
 }

@@ -2,6 +2,7 @@
 // G-buffer (lib/gbuffer/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
+#include "shared/occlusion.h"
 #include "shared/subsurface.h"
 #include "lib/maths/normal_code.glsl"
 #include "lib/surface/facet.glsl"
@@ -71,7 +72,6 @@ struct Viewpoint {
 };
 
 // All techniques light the stored code of a share.
-const int OPEN_BITS = 8;
 const uint OPEN_MOST = (1u << OPEN_BITS) - 1u;
 
 uint encodeOpen(float share)

@@ -51,6 +51,14 @@ TEST(Documentation, theChannelsOfTheGBufferAreThoseOfTheProgram) {
                 rows);
 }
 
+TEST(Documentation, theMarksOfTheGBufferAreThoseOfTheProgram) {
+    Rows rows;
+    for (const frame::MarkInfo& info : frame::markTable())
+        rows.push_back({code(info.name), std::string(info.meaning), std::to_string(info.bits),
+                        code(frame::channelTable()[std::size_t(info.beside)].name), std::string(info.needed)});
+    expectTable("docs/how-it-works.md", {"mark", "holds", "bits", "or beside", "allocated for"}, rows);
+}
+
 TEST(Documentation, theErrorBoundsOfTheGBufferAreThoseOfTheProgram) {
     const std::vector<frame::FieldBound> packed = frame::fieldBounds(frame::Encoding::Packed),
                                          slim = frame::fieldBounds(frame::Encoding::Slim);

@@ -245,5 +245,56 @@ TEST(GBufferLayout, definesGiveAttachmentsOfExactChannelsAndBitsOfTheOthers) {
     EXPECT_THAT(channelDefines(layout, {}), IsEmpty());
 }
 
+TEST(GBufferLayout, marksFollowTheirEnumerationAndLieBesideChannelsThatTheExactLayoutStores) {
+    ASSERT_EQ(markTable().size(), kMarkCount);
+    for (std::size_t i = 0; i < kMarkCount; ++i) EXPECT_EQ(std::size_t(markTable()[i].mark), i);
+    const GBufferLayout& exact = namedLayout("exact");
+    const std::vector<Channel> channels = neededChannels(allFeatures(), exact, false);
+    ASSERT_EQ(gbufferTextures(exact, channels).size(), 8u) << "no room for another texture";
+    const std::vector<Mark> marks = neededMarks(allFeatures(), exact, channels);
+    EXPECT_THAT(marks, ElementsAre(Mark::Facets, Mark::Subsurface, Mark::Occlusion));
+    EXPECT_FALSE(markTexture(exact, channels, marks));
+    for (const MarkInfo& info : markTable()) EXPECT_THAT(channels, Contains(info.beside)) << info.name;
+    EXPECT_EQ(markDefines(exact, channels, marks), (Defines{{"GBUFFER_FACETS_IN_SPECULAR", "1"},
+                                                            {"GBUFFER_SUBSURFACE_IN_EMISSION", "1"},
+                                                            {"GBUFFER_OCCLUSION_IN_ALBEDO", "1"}}));
+}
+
+TEST(GBufferLayout, aWordHoldsAnyTwoMarksAndASecondOneTheThird) {
+    const GBufferLayout& packed = namedLayout("packed");
+    const std::vector<Channel> channels{Channel::Albedo, Channel::Normal};
+    const auto stored = [&](const std::vector<Mark>& marks) {
+        const std::optional<GBufferTexture> texture = markTexture(packed, channels, marks);
+        return texture ? *texture : GBufferTexture{};
+    };
+    using graph::Format;
+    EXPECT_FALSE(markTexture(packed, channels, {}));
+    EXPECT_THAT(markDefines(packed, channels, {}), IsEmpty());
+    EXPECT_EQ(stored({Mark::Facets, Mark::Occlusion}), (GBufferTexture{"facets and occlusion", Format::R32Uint}));
+    EXPECT_EQ(stored({Mark::Facets, Mark::Subsurface}), (GBufferTexture{"facets and subsurface", Format::R32Uint}));
+    const std::vector<Mark> all{Mark::Facets, Mark::Subsurface, Mark::Occlusion};
+    EXPECT_EQ(stored(all), (GBufferTexture{"facets and subsurface and occlusion", Format::Rg32Uint}));
+    EXPECT_EQ(markDefines(packed, channels, all),
+              (Defines{{"GBUFFER_FACETS", "0"},
+                       {"GBUFFER_SUBSURFACE", "24"},
+                       {"GBUFFER_OCCLUSION", "32"},
+                       {"GBUFFER_MARKS", "1"},
+                       {"GBUFFER_MARK_LIST", "MARK(codeOfFacets, takeFacets, 0, 24) "
+                                             "MARK(codeOfSubsurface, takeSubsurface, 24, 8) "
+                                             "MARK(codeOfOcclusion, takeOcclusion, 32, 8)"}}));
+}
+
+TEST(GBufferLayout, theNumberOfAMaterialSaysItsMarks) {
+    const GBufferLayout& exact = namedLayout("exact");
+    FeatureSet features = featuresOf(MaterialModel::Lambert,
+                                     [](scenes::Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; });
+    features.add(Feature::Shadows);
+    const std::vector<Channel> numbers = neededChannels(features, exact, false);
+    ASSERT_TRUE(holdMaterialNumber(exact, numbers));
+    EXPECT_THAT(neededMarks(features, exact, numbers), ElementsAre(Mark::Facets));
+    const std::vector<Channel> values = neededChannels(varying(features), exact, false);
+    EXPECT_THAT(neededMarks(features, exact, values), ElementsAre(Mark::Facets, Mark::Subsurface));
+}
+
 } // namespace
 } // namespace tessera::frame
