@@ -1,5 +1,7 @@
 #include "scenes/InUse.h"
 
+#include <algorithm>
+
 namespace tessera::scenes {
 namespace {
 
@@ -36,6 +38,21 @@ std::vector<const Material*> materialsInUse(const Scene& scene) {
 
 std::vector<const Mesh*> meshesInUse(const Scene& scene) {
     return chosen(scene.meshes, inUse(scene).meshes);
+}
+
+bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request) {
+    return isDrawn(scene, instance) &&
+           infoOf(subsurfaceOf(scene.materials[std::size_t(instance.material)], request)).spreads;
+}
+
+bool anySpreads(const Scene& scene, SubsurfaceRequest request) {
+    // Asked often, of scenes that have far more nodes than materials.
+    const bool mayDo = std::ranges::any_of(
+        scene.materials, [&](const Material& material) { return infoOf(subsurfaceOf(material, request)).spreads; });
+    return mayDo && std::ranges::any_of(scene.nodes, [&](const Node& node) {
+               return std::ranges::any_of(
+                   node.instances, [&](const MeshInstance& instance) { return spreads(scene, instance, request); });
+           });
 }
 
 } // namespace tessera::scenes

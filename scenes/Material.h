@@ -321,7 +321,7 @@ inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest
         return SubsurfaceMethod::None;
     const SubsurfaceMethod method = request.value_or(subsurface.method);
     const bool wraps = subsurface.wrap > 0.0f && subsurface.wrapTint != glm::vec3(0.0f);
-    return method == SubsurfaceMethod::Wrap && !wraps ? SubsurfaceMethod::None : method;
+    return infoOf(method).wraps && !wraps ? SubsurfaceMethod::None : method;
 }
 
 /// Whether a material's lobe turns with the tangent.

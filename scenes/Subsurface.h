@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "base/EnumTable.h"
 #include "scenes/Fields.h"
 
 /// Light that enters a surface and leaves it elsewhere: a property of materials, its members as a table, its methods as
@@ -22,15 +23,26 @@ struct SubsurfaceMethodInfo {
     SubsurfaceMethod method;
     std::string_view name; ///< of scene files and options
     std::string_view summary;
+    bool wraps = false;   ///< lights below the horizon reach the surface
+    bool passes = false;  ///< light from behind passes through the body
+    bool spreads = false; ///< light leaves the surface beside where it enters
 };
 inline constexpr std::array kSubsurfaceMethods{
     SubsurfaceMethodInfo{SubsurfaceMethod::None, "none", "light leaves where it enters"},
-    SubsurfaceMethodInfo{SubsurfaceMethod::Wrap, "wrap", "light reaches round the horizon"},
-    SubsurfaceMethodInfo{SubsurfaceMethod::DepthMap, "depth_map", "light from behind passes through thin parts"},
-    SubsurfaceMethodInfo{SubsurfaceMethod::TextureSpaceDiffusion, "texture_space_diffusion",
-                         "light spreads over the surface"},
+    SubsurfaceMethodInfo{
+        .method = SubsurfaceMethod::Wrap, .name = "wrap", .summary = "light reaches round the horizon", .wraps = true},
+    SubsurfaceMethodInfo{.method = SubsurfaceMethod::DepthMap,
+                         .name = "depth_map",
+                         .summary = "light from behind passes through thin parts",
+                         .passes = true},
+    // Light that passes through spreads over the other side too.
+    SubsurfaceMethodInfo{.method = SubsurfaceMethod::TextureSpaceDiffusion,
+                         .name = "texture_space_diffusion",
+                         .summary = "light spreads over the surface",
+                         .passes = true,
+                         .spreads = true},
 };
-static_assert(kSubsurfaceMethods.size() == std::size_t(SubsurfaceMethod::Count));
+static_assert(isInOrder(kSubsurfaceMethods, &SubsurfaceMethodInfo::method, std::size_t(SubsurfaceMethod::Count)));
 constexpr std::span<const SubsurfaceMethodInfo> subsurfaceMethods() {
     return kSubsurfaceMethods;
 }

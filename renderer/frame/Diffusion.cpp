@@ -18,12 +18,6 @@ namespace {
 constexpr int kMostGutterTexels = 64;
 constexpr std::size_t kMostLevels = 32;
 
-bool diffuses(const scenes::Scene& scene, const scenes::MeshInstance& instance, scenes::SubsurfaceRequest subsurface) {
-    return scenes::isDrawn(scene, instance) &&
-           scenes::subsurfaceOf(scene.materials[std::size_t(instance.material)], subsurface) ==
-               scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-}
-
 std::string nameOf(const scenes::Scene& scene, const scenes::Node& node, int mesh) {
     const std::string& name = scene.meshes[std::size_t(mesh)].name;
     if (!name.empty()) return fmt::format("mesh '{}'", name);
@@ -37,27 +31,15 @@ double meanOf(const glm::dvec3& weight) {
 
 } // namespace
 
-bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface) {
-    // Asked often, of scenes that have far more nodes than materials.
-    const bool mayDiffuse = std::ranges::any_of(scene.materials, [&](const scenes::Material& material) {
-        return scenes::subsurfaceOf(material, subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-    });
-    return mayDiffuse && std::ranges::any_of(scene.nodes, [&](const scenes::Node& node) {
-               return std::ranges::any_of(node.instances, [&](const scenes::MeshInstance& instance) {
-                   return diffuses(scene, instance, subsurface);
-               });
-           });
-}
-
 std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
                                             std::span<const SurfaceBounds> bounds) {
     std::vector<DiffusedObject> objects;
-    if (!diffusesLight(scene, subsurface)) return objects;
+    if (!scenes::anySpreads(scene, subsurface)) return objects;
     int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const int own = number++;
-            if (!diffuses(scene, instance, subsurface)) continue;
+            if (!scenes::spreads(scene, instance, subsurface)) continue;
             DiffusedObject& object = objects.emplace_back();
             object = {int(node),
                       instance.mesh,

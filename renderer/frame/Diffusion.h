@@ -33,8 +33,6 @@ struct DiffusedObject {
 /// Those that are drawn, in document order. A view's atlas has a cell for each.
 std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
                                             std::span<const SurfaceBounds> bounds);
-/// Whether there are any.
-bool diffusesLight(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface);
 
 /// Light as it has spread so far is spread on by a Gaussian, and a share of it goes into the sum.
 struct DiffusionLevel {

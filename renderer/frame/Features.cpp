@@ -183,10 +183,11 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     set.add(Feature::Blend, scenes::isTransparent(material));
     set.add(Feature::DoubleSided, material.doubleSided);
     set.add(Feature::VaryingMaterials, varies(material));
-    const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(material, subsurface);
-    set.add(Feature::SubsurfaceWrap, method == scenes::SubsurfaceMethod::Wrap);
-    set.add(Feature::SubsurfaceDepthMap, method == scenes::SubsurfaceMethod::DepthMap);
-    if (method != scenes::SubsurfaceMethod::TextureSpaceDiffusion) return;
+    const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(material, subsurface));
+    set.add(Feature::SubsurfaceWrap, method.wraps);
+    // Light that spreads has passed through before.
+    set.add(Feature::SubsurfaceDepthMap, method.passes && !method.spreads);
+    if (!method.spreads) return;
     set.add(Feature::SubsurfaceDiffusion);
     // Surfaces hold the light that has spread over them as emission, and their own f0 as that of a dielectric.
     set.add(Feature::Emission);

@@ -174,7 +174,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
     FeatureSet surfaces = surfaceFeatures(scene, settings.prune, settings.subsurface);
     // Not kept where nothing asks for it, since there is no atlas then.
-    if (!showsLitPicture(settings.view) || !diffusesLight(scene, settings.subsurface))
+    if (!showsLitPicture(settings.view) || !scenes::anySpreads(scene, settings.subsurface))
         surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
     return makeSpec(scene, lights, settings, surfaces);
 }

@@ -124,19 +124,16 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
     const std::vector<bool> inUse = scenes::inUse(scene).materials;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const scenes::Subsurface& subsurface = scene.materials[i].subsurface;
-        const scenes::SubsurfaceMethod method = scenes::subsurfaceOf(scene.materials[i], request);
-        const bool wraps = method == scenes::SubsurfaceMethod::Wrap;
-        // Light that passes through spreads over the other side too.
-        const bool passes =
-            method == scenes::SubsurfaceMethod::DepthMap || method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-        if (!inUse[i] || !(wraps || passes)) continue;
+        const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(scene.materials[i], request));
+        if (!inUse[i] || !(method.wraps || method.passes)) continue;
         packed.rowOf[i] = packed.rows.size();
         shared::SubsurfaceConstants& row = packed.rows.emplace_back();
-        if (wraps) {
+        if (method.wraps) {
             const double radius = subsurface.bodyRadiusMetres > 0.0f ? double(subsurface.bodyRadiusMetres)
                                                                      : bodyRadiusMetres(scene, int(i));
             row.wrap = glm::vec4(subsurface.wrap * subsurface.wrapTint, float(radius));
-        } else {
+        }
+        if (method.passes) {
             packed.passed[i] = packed.rowOf[i];
             const double millimetres = 1e3 * double(subsurface.scaleMetres); // for each metre of the scene
             row.absorption = glm::vec4(millimetres * glm::dvec3(subsurface.absorptionPerMillimetre), 1.0f);

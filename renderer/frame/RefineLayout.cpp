@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "renderer/frame/Diffusion.h"
 #include "renderer/frame/Features.h"
 #include "scenes/InUse.h"
 
@@ -88,7 +87,7 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Specular, Encoding::Exact, kBright});
     else if (layout[Channel::Specular] != Encoding::Exact && storesFilms(scene))
         found.push_back({Channel::Specular, Encoding::Exact, kFilm});
-    if (layout[Channel::Emission] != Encoding::Exact && diffusesLight(scene, subsurface))
+    if (layout[Channel::Emission] != Encoding::Exact && scenes::anySpreads(scene, subsurface))
         found.push_back({Channel::Emission, Encoding::Exact, kSpread});
     else if (layout[Channel::Emission] != Encoding::Exact && scene.hook && scene.hook->changesSurfaces)
         found.push_back({Channel::Emission, Encoding::Exact, kHooked});

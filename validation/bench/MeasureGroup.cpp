@@ -10,7 +10,7 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
-#include "renderer/frame/Diffusion.h"
+#include "scenes/InUse.h"
 #include "validation/bench/Attribution.h"
 #include "validation/bench/CountPoint.h"
 #include "validation/pictures/HeatMap.h"
@@ -108,7 +108,7 @@ private:
 
     /// That the reference visits: for light that spreads, those of each of its points on the surface.
     double lightsAPixel() const {
-        const bool spreads = frame::diffusesLight(renderer_.scene(), planned_.settings.subsurface);
+        const bool spreads = scenes::anySpreads(renderer_.scene(), planned_.settings.subsurface);
         return double(planned_.lights) * (spreads ? double(reference::Settings{}.diffusionPoints) : 1.0);
     }
 

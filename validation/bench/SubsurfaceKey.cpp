@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "engine/Settings.h"
-#include "renderer/frame/Diffusion.h"
 #include "scenes/InUse.h"
 
 namespace tessera::validation {
@@ -37,7 +36,7 @@ std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const f
     if (methods.empty()) return {};
     SubsurfaceKey key;
     key.method = methods.size() > 1 ? "asked" : std::string(infoOf(*methods.begin()).name);
-    if (!frame::diffusesLight(scene, settings.subsurface)) return key;
+    if (!scenes::anySpreads(scene, settings.subsurface)) return key;
     for (const SubsurfaceSetting& row : subsurfaceSettingTable())
         key.values.push_back({row.key, engine::settingOf(row.key).text({.settings = settings})});
     return key;

@@ -9,6 +9,7 @@
 #include "engine/HookedSurfaces.h"
 #include "engine/PrepareView.h"
 #include "renderer/frame/EnvironmentMap.h"
+#include "scenes/InUse.h"
 
 namespace tessera::validation {
 
@@ -51,7 +52,7 @@ namespace {
 void requireNoneSpreads(const scenes::Scene& scene, const scenes::SubsurfaceRequest& subsurface) {
     for (const int place : scene.hook->materials) {
         const scenes::Material& material = scene.materials[std::size_t(place)];
-        if (scenes::subsurfaceOf(material, subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion)
+        if (infoOf(scenes::subsurfaceOf(material, subsurface)).spreads)
             throw InputError(fmt::format("{}: the reference knows no light that spreads below '{}', which the hook "
                                          "changes; give --subsurface wrap or none",
                                          scene.name, material.name));
@@ -201,7 +202,7 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
                            "to nothing";
         return tolerance;
     }
-    if (frame::diffusesLight(scene, settings.subsurface)) {
+    if (scenes::anySpreads(scene, settings.subsurface)) {
         tolerance.reason =
             "light spread in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;

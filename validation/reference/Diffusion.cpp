@@ -159,7 +159,7 @@ Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span
     std::vector<const Object*> spreading;
     for (const std::vector<Object>* list : {&objects.opaque(), &objects.transparent()})
         for (const Object& object : *list)
-            if (object.subsurface == scenes::SubsurfaceMethod::TextureSpaceDiffusion) spreading.push_back(&object);
+            if (infoOf(object.subsurface).spreads) spreading.push_back(&object);
     if (spreading.empty()) return;
     surfaces_->device = makeDevice();
     surfaces_->tree = makeTree(surfaces_->device.get(), spreading, objects.anchor().centreRWS, keepCrossing);

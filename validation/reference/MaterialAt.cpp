@@ -126,13 +126,14 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
     setDirection(hit, textures, point);
     setLayers(hit, textures, point);
     setTransmission(hit, textures, point);
-    if (hit.object->subsurface == scenes::SubsurfaceMethod::Wrap) {
+    const scenes::SubsurfaceMethodInfo& method = infoOf(hit.object->subsurface);
+    if (method.wraps) {
         point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
     }
-    point.spreads = hit.object->subsurface == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-    if (point.spreads || hit.object->subsurface == scenes::SubsurfaceMethod::DepthMap) {
-        point.passes = true;
+    point.spreads = method.spreads;
+    point.passes = method.passes;
+    if (point.passes) {
         const double perMillimetre = 1000.0 * double(material.subsurface.scaleMetres);
         point.absorptionPerMetre = perMillimetre * glm::dvec3(material.subsurface.absorptionPerMillimetre);
     }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "scenes/InUse.h"
 #include "validation/reference/Lobes.h"
 #include "validation/reference/Microfacet.h"
 #include "validation/reference/Reflectance.h"
@@ -28,11 +29,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     showsThroughBodies_ = lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
-    for (const scenes::Material& material : scene.materials)
-        if (scenes::subsurfaceOf(material, settings.subsurface) == scenes::SubsurfaceMethod::TextureSpaceDiffusion) {
-            makeIrradiances();
-            break;
-        }
+    if (scenes::anySpreads(scene, settings.subsurface)) makeIrradiances();
 }
 
 glm::dvec3 Surroundings::texel(int column, int row) const {

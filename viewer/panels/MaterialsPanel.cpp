@@ -106,18 +106,20 @@ bool profileRow(scenes::Subsurface& subsurface) {
 
 bool subsurfaceRows(scenes::Subsurface& subsurface) {
     bool changed = chooseNamed("Subsurface", subsurface.method);
-    if (subsurface.method == scenes::SubsurfaceMethod::Wrap) {
+    const scenes::SubsurfaceMethodInfo& method = infoOf(subsurface.method);
+    if (method.wraps) {
         changed |= slider("Wrap", subsurface.wrap, 0.0f, 1.0f);
         changed |= colorRow("Wrap tint", subsurface.wrapTint);
         changed |= logarithmicSlider("Body radius", subsurface.bodyRadiusMetres, 0.0f, kMostScaleShown,
                                      subsurface.bodyRadiusMetres == 0.0f ? "automatic" : "%.3g m");
         tip("Of the body that light goes round, so that it does not shadow itself");
-    } else if (subsurface.method != scenes::SubsurfaceMethod::None) {
+    }
+    if (method.passes) {
         changed |= colorRow("Absorbs / mm", subsurface.absorptionPerMillimetre, kMostAbsorptionShown);
         changed |=
             logarithmicSlider("Scale", subsurface.scaleMetres, kLeastScaleShown, kMostScaleShown, "%.3g m a metre");
     }
-    if (subsurface.method == scenes::SubsurfaceMethod::TextureSpaceDiffusion) {
+    if (method.spreads) {
         changed |= profileRow(subsurface);
         changed |= slider("Albedo before", subsurface.preScatterShare, 0.0f, 1.0f);
         tip("How much of the colour takes part before light spreads, which blurs it; the rest stays sharp");

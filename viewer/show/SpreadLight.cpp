@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "renderer/frame/DebugViews.h"
-#include "renderer/frame/Diffusion.h"
+#include "scenes/InUse.h"
 
 namespace tessera::viewer {
 namespace {
@@ -21,7 +21,7 @@ bool contains(std::span<const std::string_view> keys, std::string_view key) {
 }
 
 bool spreads(const scenes::Scene& scene, const Look& look) {
-    return frame::showsLitPicture(look.settings.view) && frame::diffusesLight(scene, look.settings.subsurface);
+    return frame::showsLitPicture(look.settings.view) && scenes::anySpreads(scene, look.settings.subsurface);
 }
 
 /// Whether the light that spreads over surfaces in b is that in a.

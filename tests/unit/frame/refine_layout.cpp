@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/frame/Diffusion.h"
+#include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "tests/support/TestScenes.h"
 
@@ -81,7 +81,7 @@ TEST(RefineLayout, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsA
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         SCOPED_TRACE(builtin.name);
         const Scene scene = scenes::loadScene(std::string(builtin.name), options);
-        const std::size_t ofSpreadLight = diffusesLight(scene, {}) ? 1 : 0;
+        const std::size_t ofSpreadLight = scenes::anySpreads(scene, {}) ? 1 : 0;
         for (const Refinement& refinement : refinements(layoutTable()[1].layout, scene))
             EXPECT_EQ(refinement.channel, Channel::Emission);
         EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofSpreadLight);
