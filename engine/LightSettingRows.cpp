@@ -111,6 +111,7 @@ std::vector<Setting> environmentSettings() {
          .group = "Environment",
          .panel = SettingPanel::Environment,
          .sameCost = true,
+         .entersLight = false,
          .isShared = true,
          .value = choice(in(&EnvironmentSettings::backdrop), frame::backdropTable(), &frame::BackdropInfo::backdrop)},
     };

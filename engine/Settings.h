@@ -89,6 +89,8 @@ struct Setting {
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
                               ///< that a technique refuses
     bool sameCost = false;    ///< a pixel costs about the same for every value
+    bool entersLight = true;  ///< may change the light that enters surfaces: light that has spread over them is kept
+                              ///< while only others change
     bool isOfScene = false;   ///< names things of one scene
     bool isWishable = true;   ///< scene files may ask for it
     bool isShared = false;    ///< by the two sides of the viewer's comparisons

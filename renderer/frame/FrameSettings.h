@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include <glm/glm.hpp>
 
@@ -10,6 +11,7 @@
 #include "renderer/frame/DebugViews.h"
 #include "renderer/frame/GBufferLayout.h"
 #include "renderer/frame/LightingStage.h"
+#include "scenes/Fields.h"
 #include "scenes/Shadows.h"
 #include "shaders/shared/slots.h"
 
@@ -72,6 +74,14 @@ struct DiffusionSettings {
     bool half = false;     ///< light is spread at half the resolution that it is computed at
     bool operator==(const DiffusionSettings&) const = default;
 };
+/// All members, in order, by the keys of their settings.
+inline constexpr std::tuple kDiffusionFields{
+    scenes::Field{"diffusionTexels", &DiffusionSettings::sideTexels},
+    scenes::Field{"diffusionGaussians", &DiffusionSettings::gaussians},
+    scenes::Field{"diffusionHalf", &DiffusionSettings::half},
+};
+static_assert(std::tuple_size_v<decltype(kDiffusionFields)> == scenes::detail::memberCount<DiffusionSettings>(),
+              "kDiffusionFields lacks a member of DiffusionSettings");
 inline constexpr int kDiffusionSides[] = {1, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
 
 /// How the light of an environment on a surface is found.

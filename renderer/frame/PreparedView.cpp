@@ -55,8 +55,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& obj
         addWeight(level.weight);
     }
     hash.add(casterRevision);
-    hash.add(settings.diffusion.sideTexels);
-    hash.add(settings.diffusion.half);
+    scenes::visitFields(kDiffusionFields, [&](const auto& field) { hash.add(settings.diffusion.*field.member); });
     hash.add(std::uint8_t(settings.shadowFilter));
     hash.add(settings.shadowSamples);
     hash.add(settings.shadowMaps.widthTexels);

@@ -1,6 +1,7 @@
 #include "validation/bench/SubsurfaceKey.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,10 +13,24 @@ namespace tessera::validation {
 
 using scenes::SubsurfaceMethod;
 
+namespace {
+
+/// By frame::kDiffusionFields.
+constexpr std::array<std::string_view, std::tuple_size_v<decltype(frame::kDiffusionFields)>> kSubsurfaceFormats{
+    "{} texels", "Gaussians {}", "half resolution {}"};
+
+} // namespace
+
 std::span<const SubsurfaceSetting> subsurfaceSettingTable() {
-    static constexpr SubsurfaceSetting table[] = {{"diffusionTexels", "{} texels"},
-                                                  {"diffusionGaussians", "Gaussians {}"},
-                                                  {"diffusionHalf", "half resolution {}"}};
+    static constexpr std::array<SubsurfaceSetting, kSubsurfaceFormats.size()> table = [] {
+        std::array<SubsurfaceSetting, kSubsurfaceFormats.size()> rows{};
+        std::size_t row = 0;
+        scenes::visitFields(frame::kDiffusionFields, [&](const auto& field) {
+            rows[row] = {field.name, kSubsurfaceFormats[row]};
+            ++row;
+        });
+        return rows;
+    }();
     return table;
 }
 

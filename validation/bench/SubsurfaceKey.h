@@ -13,7 +13,8 @@ namespace tessera::validation {
 /// The key of a matrix and the field of a record that name the method of subsurface scattering.
 inline constexpr std::string_view kSubsurfaceKey = "subsurface";
 
-/// A setting of spread light that a matrix varies beside the method: a row of engine::settingTable().
+/// A setting of spread light that a matrix varies beside the method: one of frame::kDiffusionFields, and so a row of
+/// engine::settingTable().
 struct SubsurfaceSetting {
     std::string_view key;    ///< of the settings, the matrix and the record
     std::string_view format; ///< of a value in a point's name

@@ -1,24 +1,12 @@
 #include "viewer/show/SpreadLight.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "renderer/frame/DebugViews.h"
 #include "scenes/InUse.h"
 
 namespace tessera::viewer {
 namespace {
-
-/// Settings that change a pixel, but not the light that enters a surface. Pixels of several samples need more of it.
-constexpr std::array<std::string_view, 3> kOfPixels{"layout", "specular", "view"};
-
-/// Settings that move light, though pixels cost the same for all their values.
-constexpr std::array<std::string_view, 2> kOfLight{"environmentRotation", "time"};
-
-bool contains(std::span<const std::string_view> keys, std::string_view key) {
-    return std::ranges::find(keys, key) != keys.end();
-}
 
 bool spreads(const scenes::Scene& scene, const Look& look) {
     return frame::showsLitPicture(look.settings.view) && scenes::anySpreads(scene, look.settings.subsurface);
@@ -27,12 +15,9 @@ bool spreads(const scenes::Scene& scene, const Look& look) {
 /// Whether the light that spreads over surfaces in b is that in a.
 bool hasSameSpread(const Look& a, const Look& b) {
     Look like = a;
-    like.technique = b.technique;
     like.aside = b.aside;
     for (const engine::Setting& setting : engine::settingTable())
-        if (setting.samePicture || (setting.sameCost && !contains(kOfLight, setting.key)) ||
-            contains(kOfPixels, setting.key))
-            setting.value.copy(like, b);
+        if (!setting.entersLight) setting.value.copy(like, b);
     return like == b;
 }
 
