@@ -75,7 +75,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
             {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material uses wrap"},
-            {Feature::SubsurfaceDepthMap, "SUBSURFACE_DEPTH_MAP", "light through thin parts",
+            {Feature::SubsurfacePassage, "SUBSURFACE_PASSAGE", "light through thin parts",
              "no material uses depth_map"},
             {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light spread over surfaces",
              "no material uses texture_space_diffusion"},
@@ -186,7 +186,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(material, subsurface));
     set.add(Feature::SubsurfaceWrap, method.wraps);
     // Light that spreads has passed through before.
-    set.add(Feature::SubsurfaceDepthMap, method.passes && !method.spreads);
+    set.add(Feature::SubsurfacePassage, method.passes && !method.spreads);
     if (!method.spreads) return;
     set.add(Feature::SubsurfaceDiffusion);
     // Surfaces hold the light that has spread over them as emission, and their own f0 as that of a dielectric.
@@ -336,7 +336,7 @@ bool FeatureSet::enteringLight() const {
 }
 
 bool FeatureSet::subsurfaceRows() const {
-    return (*this)[Feature::SubsurfaceWrap] || (*this)[Feature::SubsurfaceDepthMap];
+    return (*this)[Feature::SubsurfaceWrap] || (*this)[Feature::SubsurfacePassage];
 }
 
 bool FeatureSet::anyLights() const {
@@ -403,7 +403,7 @@ scenes::Material enteredMaterial(const scenes::Material& material) {
     for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::Normal, TextureSlot::Occlusion})
         entered.texture(slot) = material.texture(slot);
     entered.subsurface = material.subsurface;
-    entered.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
+    entered.subsurface.method = scenes::SubsurfaceMethod::None;
     return entered;
 }
 
@@ -411,6 +411,7 @@ FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) 
     const scenes::Material entered = enteredMaterial(scene.materials[std::size_t(material)]);
     FeatureSet set;
     addMaterial(set, readMaterial(scene, entered), {});
+    set.add(Feature::SubsurfacePassage);
     set.soleModel = entered.model;
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);

@@ -49,7 +49,7 @@ enum class Feature : std::uint8_t {
     SoftShadows, // of such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced
     SubsurfaceWrap,
-    SubsurfaceDepthMap,  // light passes through surfaces; only where some light casts shadows
+    SubsurfacePassage,   // light passes through surfaces; only where some light casts shadows
     SubsurfaceDiffusion, // light has spread over surfaces before they are drawn; only of lit pictures
     Count
 };

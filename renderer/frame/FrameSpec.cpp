@@ -49,7 +49,7 @@ std::size_t shadowSamples(const scenes::Light& light, const FrameSettings& setti
 
 /// Rays of a light with shadows that find how far it goes inside what lets it through.
 std::size_t passingRays(const FrameSpec& spec) {
-    return spec.features[Feature::SubsurfaceDepthMap] ? 1 : 0;
+    return spec.features[Feature::SubsurfacePassage] ? 1 : 0;
 }
 
 /// Those of the loops that find a light's shadow, at most: all its cascades may answer pixels that run together.
@@ -89,7 +89,7 @@ std::string whyAbsent(const FeatureInfo& info, const scenes::Scene& scene, const
     if (info.feature == Feature::Environment && scene.environment) return whyNoEnvironmentLight(scene, spec);
     if (info.feature == Feature::Mirrors && !spec.features[Feature::Environment])
         return "no environment lights surfaces";
-    if (info.feature == Feature::SubsurfaceDepthMap && materialFeatures(scene, spec.settings.subsurface)[info.feature])
+    if (info.feature == Feature::SubsurfacePassage && materialFeatures(scene, spec.settings.subsurface)[info.feature])
         return "no light casts shadows, by which the way inside is found";
     const auto isLacking = [&](scenes::TextureSlot slot) { return featureOf(slot) == info.feature; };
     if (std::ranges::any_of(spec.withoutTextures, isLacking)) return "a shader of this driver samples too few textures";
@@ -133,7 +133,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
     if (settings.prune && !spec.features[Feature::Shadows])
-        spec.features.has.reset(std::size_t(Feature::SubsurfaceDepthMap));
+        spec.features.has.reset(std::size_t(Feature::SubsurfacePassage));
     // Neither maps nor samples are there where nothing is lit by them.
     if (isLitByEnvironment(scene, settings) && showsLitPicture(settings.view) && spec.features.litModels())
         spec.features.add(Feature::Environment);

@@ -42,7 +42,7 @@ void main()
     precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy);
     entering = vec4(light, 1.0);
     precise vec3 kept = constants.inTexels.rgb * light;
-#if HAS_SHADOWS && HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE
     kept += constants.inPixels.rgb * passedLight;
 #endif
     unblurred = vec4(kept, 1.0);

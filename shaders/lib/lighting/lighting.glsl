@@ -31,7 +31,7 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
-#if HAS_SHADOWS && HAS_SUBSURFACE_DEPTH_MAP && IN_ATLAS
+#if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE && IN_ATLAS
 vec3 passedLight = vec3(0.0); // of it, what the lights added so far send through the surface's body
 #endif
 
@@ -70,7 +70,7 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 #if HAS_SHADOWS
         // A shadow costs far more than what it would hide.
         if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
         if (shadowed) {
             precise vec3 passing = passingBrdfCosine(seen, incident.toLightLS) * incident.irradiance;
             if (passing != vec3(0.0)) {

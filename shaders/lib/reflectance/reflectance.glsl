@@ -326,7 +326,7 @@ vec3 layeredBrdfCosine(SeenSurface seen, vec3 toLight)
     return brdfCosine;
 }
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 // The same of light from below the horizon that has passed through, as through a plate: it leaves at the angle at which
 // it entered on the other side.
 vec3 passingBrdfCosine(SeenSurface seen, vec3 toLight)

@@ -12,7 +12,7 @@ layout(std140, binding = UNIFORM_SUBSURFACE) uniform SubsurfaceBlock
 };
 #endif
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 bool letsLightThrough(Surface surface)
 {
     return subsurfaces[surface.subsurface].absorption.a != 0.0;

@@ -138,14 +138,14 @@ bool isSolid(uint triangle, vec3 weights, vec3 opacities)
 // Where a ray crosses a triangle, if it does between its ends.
 struct Crossing {
     bool isThere;
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
     bool isOnce;  // of two triangles with a common edge that the ray meets, true of one alone
     float share;  // of the ray up to there; minus that where the ray goes in, past the front
     uint passed;  // the row of SubsurfaceConstants that lets light through there, 0 for none
 #endif
 };
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 #define NO_CROSSING Crossing(false, false, 0.0, 0u)
 
 // Whether an edge that a ray meets belongs to a triangle on this side of it, and not to one on the other.
@@ -197,14 +197,14 @@ Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
     if (!isBetween) return NO_CROSSING;
     Crossing crossing = NO_CROSSING;
     crossing.isThere = true;
-#if HAS_ALPHA_MASK || HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_ALPHA_MASK || HAS_SUBSURFACE_PASSAGE
     precise float sum = u + v + w;
 #endif
 #if HAS_ALPHA_MASK
     if (isMasked && sum != 0.0)
         crossing.isThere = isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
 #endif
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
     // As integers: a small one is a denormal float, which GPUs may flush to 0.
     uint mark = texelFetch(casterTexels, int(isMasked ? triangle + 4u : triangle)).w;
     crossing.passed = mark & CASTER_PASSED;
@@ -224,13 +224,13 @@ struct CasterWalk {
     uint triangles; // left of that leaf
     bool isMasked;  // they are
     bool isHidden;  // the light is
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
     uint passed;    // what lets the light through: a row of SubsurfaceConstants; 0: nothing does
     float inside;   // share of the ray inside that
 #endif
 };
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 #define CASTER_WALK(node, isHidden) CasterWalk(node, 0u, 0u, false, isHidden, 0u, 0.0)
 #else
 #define CASTER_WALK(node, isHidden) CasterWalk(node, 0u, 0u, false, isHidden)
@@ -246,7 +246,7 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
 {
     if (walk.triangles > 0u) {
         Crossing crossing = crossingOf(ray, walk.triangle, walk.isMasked);
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
         bool passes = walk.passed != 0u && crossing.passed == walk.passed;
         precise float inside = walk.inside + (crossing.isThere && passes && crossing.isOnce ? crossing.share : 0.0);
         walk.inside = inside;
@@ -303,7 +303,7 @@ float visibilityAlong(ShadowRay ray, bool isBehind)
     return walk.isHidden ? 0.0 : 1.0;
 }
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 const float PASSAGE_HIDDEN = -1e30;
 
 // The share of the ray inside what has a row of SubsurfaceConstants, by where it goes in and out; PASSAGE_HIDDEN where

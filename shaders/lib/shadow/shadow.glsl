@@ -44,7 +44,7 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #endif
 }
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 // The share of light `index`, by channel, that reaches a point of a surface through what has the surface's material, as
 // far as that absorbs it (docs/skin.md). Traced, other casters hide it; maps tell how far behind the first one the
 // point lies. Of a light with a size it is that of its middle. None of lights that cast no shadows passes through.

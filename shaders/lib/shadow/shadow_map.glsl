@@ -297,7 +297,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
     return isnan(seen) ? CUT_LOOP : clamp(seen, 0.0, 1.0);
 }
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 // Metres from the first caster that a face holds on the way from the light to the point, at least 0: the mean of the four
 // texels around it.
 float passageBehind(FacePoint point, vec4 place, float wayMetres)

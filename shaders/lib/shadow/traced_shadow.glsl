@@ -18,7 +18,7 @@ float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, bool t
     return visibilityAlong(ray, isBehind);
 }
 
-#if HAS_SUBSURFACE_DEPTH_MAP
+#if HAS_SUBSURFACE_PASSAGE
 // Metres that the way to a light goes inside what has a row of SubsurfaceConstants; below 0 where something else hides
 // the light. The arguments are those of tracedShadow().
 float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoint)

@@ -137,7 +137,7 @@ std::vector<Change> changes() {
         {Feature::Hook, [](scenes::Scene& scene) { scene.hook.emplace(); }},
         {Feature::VaryingMaterials, texture(TextureSlot::BaseColor)},
         {Feature::SubsurfaceWrap, material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; })},
-        {Feature::SubsurfaceDepthMap,
+        {Feature::SubsurfacePassage,
          material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::DepthMap; })},
         {Feature::SubsurfaceDiffusion,
          material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion; })},
