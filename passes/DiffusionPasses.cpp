@@ -40,11 +40,14 @@ shader::ProgramDesc screenProgram(const std::string& name, const std::string& fi
 shader::ProgramDesc halveProgram() {
     return screenProgram("diffusion_halve", "diffusion_halve.frag");
 }
-shader::ProgramDesc fillProgram(const std::string& name, frame::Defines defines) {
-    return screenProgram(name, "diffusion_fill.frag", std::move(defines));
+shader::ProgramDesc fillProgram() {
+    return screenProgram("diffusion_fill", "diffusion_fill.frag");
 }
-shader::ProgramDesc blurProgram(bool alongV) {
-    return screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "diffusion_blur.frag",
+shader::ProgramDesc storeProgram(bool sums) {
+    return screenProgram("diffusion_store", "diffusion_store.frag", {{"SUMS", sums ? "1" : "0"}});
+}
+shader::ProgramDesc spreadProgram(bool alongV) {
+    return screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "diffusion_spread.frag",
                          {{"SUMS", alongV ? "1" : "0"}});
 }
 
@@ -70,9 +73,9 @@ struct Object {
     std::string suffix; ///< of the names of its passes
     TextureHandle steps, continued;
 
-    /// What is known of an object's light as it is lit: what enters its surface, and the share of it that leaves there.
+    /// What is known of an object's light as it is lit: what enters its surface, and the part of it that leaves there.
     struct Light {
-        TextureHandle entering, unblurred;
+        TextureHandle entering, unspread;
     };
     /// Lights some tiles anew.
     Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles,
@@ -85,7 +88,7 @@ struct Object {
     };
     Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
     /// Fills into the object's cell of a view's atlas, and says there what else pixels ask for.
-    TextureHandle store(const Spread& spread, TextureHandle unblurred, TextureHandle atlas,
+    TextureHandle store(const Spread& spread, TextureHandle unspread, TextureHandle atlas,
                         const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
     /// Says there of some tiles that no light is known.
@@ -133,9 +136,9 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
                     out.lighting = inputs.lighting.read(pass);
                     if (isHalved)
                         out.light = {pass.create("whole_entering_light", square(side)),
-                                     pass.create("whole_unblurred_light", square(side))};
+                                     pass.create("whole_unspread_light", square(side))};
                     else
-                        out.light = {pass.write(light.entering), pass.write(light.unblurred)};
+                        out.light = {pass.write(light.entering), pass.write(light.unspread)};
                     out.mask = pass.create("diffusion_mask", square(side, graph::Format::Depth32Float),
                                            Access::DepthAttachment);
                 },
@@ -176,15 +179,15 @@ Object::Light Object::halve(Light whole, Light halved, const frame::TileSet& til
             "diffusion_halve" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
                 pass.program(halveProgram());
-                out.whole = {pass.read(whole.entering), pass.read(whole.unblurred)};
-                out.halved = {pass.write(halved.entering), pass.write(halved.unblurred)};
+                out.whole = {pass.read(whole.entering), pass.read(whole.unspread)};
+                out.halved = {pass.write(halved.entering), pass.write(halved.unspread)};
             },
             [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.whole.entering));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNBLURRED, context.texture(out.whole.unblurred));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNSPREAD, context.texture(out.whole.unspread));
                 drawWithin(rectangles);
             })
         .halved;
@@ -198,7 +201,7 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
         .addPass<Data>(
             name + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
-                pass.program(fillProgram("diffusion_fill", {{"STORES", "0"}, {"SUMS", "0"}}));
+                pass.program(fillProgram());
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
                 out.light = pass.read(light);
@@ -216,11 +219,11 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
         .filled;
 }
 
-TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, TextureHandle atlas,
+TextureHandle Object::store(const Spread& spread, TextureHandle unspread, TextureHandle atlas,
                             const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
                             const std::function<void()>& done) const {
     struct Data {
-        TextureHandle steps, continued, unblurred, atlas;
+        TextureHandle steps, continued, unspread, atlas;
         std::optional<TextureHandle> sum;
     };
     const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
@@ -228,10 +231,10 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, Textu
         .addPass<Data>(
             "diffusion_store" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
-                pass.program(fillProgram("diffusion_store", {{"STORES", "1"}, {"SUMS", spread.sum ? "1" : "0"}}));
+                pass.program(storeProgram(spread.sum.has_value()));
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
-                out.unblurred = pass.read(unblurred);
+                out.unspread = pass.read(unspread);
                 if (spread.sum) out.sum = pass.read(*spread.sum);
                 out.atlas = pass.write(atlas);
             },
@@ -243,7 +246,7 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unblurred, Textu
                 context.constants(UNIFORM_PASS, shared::DiffusionStoreConstants{glm::uvec4(corner, 0, 0)});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNBLURRED, context.texture(out.unblurred));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNSPREAD, context.texture(out.unspread));
                 if (out.sum) gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(*out.sum));
                 drawWithin(rectangles);
                 gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
@@ -283,12 +286,12 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
     };
     const frame::DiffusionLevel& level = spec.spread->levels[number];
     const auto constants = [&](bool alongV) {
-        return shared::DiffusionBlurConstants{
+        return shared::DiffusionSpreadConstants{
             glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, level.isFine ? 1.0f : 0.0f, 0.0f),
             glm::vec4(glm::vec3(level.weight), 0.0f)};
     };
     const auto run = [](const Data& out, const graph::PassContext& context, const Rectangles& rectangles,
-                        const shared::DiffusionBlurConstants& values, const gpu::PipelineState& state) {
+                        const shared::DiffusionSpreadConstants& values, const gpu::PipelineState& state) {
         gpu::useProgram(context.program());
         gpu::setState(state);
         context.constants(UNIFORM_PASS, values);
@@ -301,7 +304,7 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
                                      .addPass<Data>(
                                          fmt::format("diffusion_along_u {}{}", number + 1, suffix),
                                          [&](graph::PassBuilder& pass, Data& out) {
-                                             pass.program(blurProgram(false));
+                                             pass.program(spreadProgram(false));
                                              out.steps = pass.read(steps);
                                              out.light = pass.read(filled);
                                              out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
@@ -315,7 +318,7 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
     const Data done = graph.addPass<Data>(
         fmt::format("diffusion_along_v {}{}", number + 1, suffix),
         [&](graph::PassBuilder& pass, Data& out) {
-            pass.program(blurProgram(true));
+            pass.program(spreadProgram(true));
             out.steps = pass.read(steps);
             out.light = pass.read(alongU);
             out.spread = pass.create("spread_light", square(spec.spreadTexels()));
@@ -341,7 +344,7 @@ graph::TextureDesc DiffusionPasses::atlas(const frame::FrameSpec& view) {
 
 std::array<std::string, 2> DiffusionPasses::keptNames(std::size_t view, std::size_t cell) {
     const std::string suffix = suffixOf(cell) + (view == 0 ? "" : fmt::format(" ({})", view + 1));
-    return {"entering_light" + suffix, "unblurred_light" + suffix};
+    return {"entering_light" + suffix, "unspread_light" + suffix};
 }
 
 DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell,
@@ -356,9 +359,9 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     object.steps = graph.import("diffusion_steps" + object.suffix, square(side), atlas ? &atlas->steps : nullptr);
     object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
                                     atlas ? &atlas->continued : nullptr);
-    const auto [entering, unblurred] = keptNames(inputs.viewNumber, cell);
+    const auto [entering, unspread] = keptNames(inputs.viewNumber, cell);
     Object::Light light{graph.persist(entering, square(side), kRevision),
-                        graph.persist(unblurred, square(side), kRevision)};
+                        graph.persist(unspread, square(side), kRevision)};
 
     frame::DiffusionWork work;
     work.levels.resize(spec.spread->levels.size());
@@ -366,7 +369,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     bool lights = true, spreads = true;
     if (drawn) {
         frame::DiffusionMemory* const memory = inputs.drawn->diffusionMemory;
-        if (!graph.holds(light.entering) || !graph.holds(light.unblurred)) memory->forgetLit(cell);
+        if (!graph.holds(light.entering) || !graph.holds(light.unspread)) memory->forgetLit(cell);
         std::vector<double> variances;
         for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
         work = memory->next(cell, drawn->key, atlas->tiles, variances, drawn->seen);
@@ -386,14 +389,14 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
         // For a later frame.
         if (lights) {
             graph.output(light.entering);
-            graph.output(light.unblurred);
+            graph.output(light.unspread);
         }
         return {written};
     }
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.unblurred, written, view.diffusedCells(), cell, work.store, stored)};
+    return {object.store(spread, light.unspread, written, view.diffusedCells(), cell, work.store, stored)};
 }
 
 } // namespace tessera::passes

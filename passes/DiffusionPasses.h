@@ -10,7 +10,7 @@ namespace tessera::passes {
 /// Reads   the scene, the lights that reach the object, and what is known of its light from earlier frames
 /// Writes  a cell of the view's atlas, RGBA32F: rgb irradiance over pi times the albedo to the power of
 ///         preScatterShare, spread, a 1 where it is known; and what pixels ask of the cell. entering_light and
-///         unblurred_light, which are kept for later frames: the same as lit, and the part of it that leaves the texels
+///         unspread_light, which are kept for later frames: the same as lit, and the part of it that leaves the texels
 ///         where it is lit
 /// Space   of the atlas; lights around the object, in world axes
 /// Source  d'Eon and Luebke 2007, GPU Gems 3, chapter 14; Green 2004, GPU Gems, chapter 16

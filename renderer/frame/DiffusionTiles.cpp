@@ -65,7 +65,7 @@ struct Looked {
     }
 };
 
-/// How many texels to either side the taps of a Gaussian reach (shaders/passes/diffusion_blur.frag).
+/// How many texels to either side the taps of a Gaussian reach (shaders/passes/diffusion_spread.frag).
 int reachTexels(double varianceSquareMetres, double stepMetres, int sideTexels) {
     if (!(stepMetres > 0.0)) return sideTexels;
     // The last tap may lie beyond the reach, by as much as taps are apart.

@@ -11,7 +11,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionLightBlock
 
 layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
-layout(location = 1) out vec4 unblurred;
+layout(location = 1) out vec4 unspread;
 
 vec3 albedoBeforeSpreading(vec3 albedo)
 {
@@ -45,5 +45,5 @@ void main()
 #if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE
     kept += constants.inPixels.rgb * passedLight;
 #endif
-    unblurred = vec4(kept, 1.0);
+    unspread = vec4(kept, 1.0);
 }

@@ -6,7 +6,7 @@
 #define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy steps along u and v in metres, z shear, w chart, negative outside of it
 #define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface goes on, in texels
 #define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // what is spread
-#define TEXTURE_UNIT_DIFFUSION_UNBLURRED 3 // the share of light that texels show as they are lit
+#define TEXTURE_UNIT_DIFFUSION_UNSPREAD 3  // light that leaves the texels where it is lit
 
 // Gaussians end at so many standard deviations: their tails beyond hold a thousandth. Taps lie about this share of one
 // apart, or a texel where light is not yet smooth (DiffusionLevel::isFine), so many to either side at most.
@@ -30,9 +30,9 @@ struct DiffusionStoreConstants {
     uvec4 store; // xy corner of the cell, in texels
 };
 
-struct DiffusionBlurConstants {
-    vec4 blur;   // x variance that is added, m^2 of the scene; y 0 along u, 1 along v; z 1 where every texel is a tap
-    vec4 weight; // rgb of what is spread so far in the sum
+struct DiffusionSpreadConstants {
+    vec4 gaussian; // x variance that is added, m^2 of the scene; y 0 along u, 1 along v; z 1 where every texel is a tap
+    vec4 weight;   // rgb of what is spread so far in the sum
 };
 
 SHARED_END

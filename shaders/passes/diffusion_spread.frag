@@ -4,9 +4,9 @@
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 
-layout(std140, binding = UNIFORM_PASS) uniform DiffusionBlurBlock
+layout(std140, binding = UNIFORM_PASS) uniform DiffusionSpreadBlock
 {
-    DiffusionBlurConstants constants;
+    DiffusionSpreadConstants constants;
 };
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_STEPS) uniform sampler2D steps;
@@ -30,14 +30,14 @@ Tap tapAt(ivec2 texel, float chart)
     vec4 own = texelFetch(steps, texel, 0);
     if (abs(own.w) != chart) return tap;
     tap.light = texelFetch(light, texel, 0).rgb;
-    tap.stepMetres = constants.blur.y == 0.0 ? own.x : own.y;
+    tap.stepMetres = constants.gaussian.y == 0.0 ? own.x : own.y;
     return tap;
 }
 
 // Along v, rows lie askew where the texture does, so that a tap lies between two texels.
 Tap tapBeside(ivec2 texel, int offset, float shear, float chart)
 {
-    if (constants.blur.y == 0.0) return tapAt(texel + ivec2(offset, 0), chart);
+    if (constants.gaussian.y == 0.0) return tapAt(texel + ivec2(offset, 0), chart);
     precise float aside = shear * float(offset);
     float left = floor(aside);
     Tap a = tapAt(texel + ivec2(int(left), offset), chart);
@@ -60,7 +60,7 @@ void main()
     if (own.w == 0.0) discard;
 #endif
     float chart = abs(own.w);
-    float variance = constants.blur.x;
+    float variance = constants.gaussian.x;
     Tap middle = tapAt(at, chart);
     float stepMetres = middle.stepMetres;
     precise vec3 lit = middle.light * stepMetres;
@@ -68,7 +68,7 @@ void main()
     precise float narrow = variance / max(stepMetres * stepMetres, 1e-37);
     bool isNarrow = narrow < DIFFUSION_NARROW;
     precise float perStep = sqrt(narrow);
-    bool isFine = constants.blur.z != 0.0 && DIFFUSION_REACH * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
+    bool isFine = constants.gaussian.z != 0.0 && DIFFUSION_REACH * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
     int apart = isNarrow || isFine ? 1 : int(clamp(DIFFUSION_TAP_SHARE * perStep + 0.5, 1.0, 16384.0));
     int taps = isNarrow ? 1 : int(ceil(DIFFUSION_REACH * perStep / float(apart)));
     for (int side = -1; side <= 1; side += 2) {

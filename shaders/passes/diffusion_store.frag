@@ -1,0 +1,31 @@
+// Stores the light that leaves an object in its cell of the view's atlas, filled where the surface goes on.
+#include "passes/filled_light.glsl"
+
+layout(std140, binding = UNIFORM_PASS) uniform DiffusionStoreBlock
+{
+    DiffusionStoreConstants constants;
+};
+
+// What leaves the surface: light that has not spread, and the sum of what has.
+layout(binding = TEXTURE_UNIT_DIFFUSION_UNSPREAD) uniform sampler2D unspread;
+#if SUMS
+layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D sum;
+#endif
+
+layout(location = 0) out vec4 stored;
+
+vec4 lightAt(ivec2 texel)
+{
+    vec4 own = texelFetch(unspread, texel, 0);
+#if SUMS
+    precise vec3 both = own.rgb + texelFetch(sum, texel, 0).rgb;
+    return vec4(both, own.a);
+#else
+    return own;
+#endif
+}
+
+void main()
+{
+    stored = filledLightAt(ivec2(gl_FragCoord.xy) - ivec2(constants.store.xy));
+}
