@@ -150,8 +150,8 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
         glm::vec4(material.metallic, roughnessParameter(material), material.ior, material.normalScale);
     packed.specular = glm::vec4(material.specularColor, material.specularFactor);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    packed.dielectric = glm::vec4(float(contrast * contrast), float(subsurfaceRow), material.subsurface.preScatterShare,
-                                  material.occlusionStrength);
+    packed.mixed = glm::vec4(float(contrast * contrast), float(subsurfaceRow), material.subsurface.preScatterShare,
+                             material.occlusionStrength);
     packed.anisotropy = packAnisotropy(material);
     packed.clearcoat =
         glm::vec4(material.clearcoat, material.clearcoatPerceptualRoughness, material.clearcoatNormalScale, 0.0f);

@@ -15,7 +15,7 @@ layout(location = 1) out vec4 unspread;
 
 vec3 albedoBeforeSpreading(vec3 albedo)
 {
-    float power = material.dielectric.z;
+    float power = material.mixed.z;
     if (power == 0.0) return vec3(1.0);
     if (power == 1.0) return albedo;
     return pow(max(albedo, vec3(0.0)), vec3(power));

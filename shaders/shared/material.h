@@ -33,7 +33,7 @@ struct MaterialConstants {
     vec4 microsurface; // x metallic, y scenes::MaterialModelInfo::roughness (perceptual roughness, alpha,
                        // exponent), z ior, w normal-map scale
     vec4 specular;     // rgb k_s, or the tint of the dielectric F0; a specular factor
-    vec4 dielectric;   // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit; y row of its
+    vec4 mixed;        // x F0 of the ior, computed in double so that ior 1.5 gives 0.04 to the last bit; y row of its
                        // subsurface (subsurface.h), 0 without one; z the power of the albedo before light spreads; w
                        // occlusion's strength
     vec4 anisotropy;   // x strength, or alpha along the bitangent (microfacet_anisotropic); y z

@@ -45,7 +45,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
     surface.material = material.kind.w;
 #endif
 #if HAS_SUBSURFACE_ROWS
-    surface.subsurface = uint(material.dielectric.y);
+    surface.subsurface = uint(material.mixed.y);
 #endif
     surface.albedo = baseColor.rgb;
 #if HAS_MICROSURFACES
@@ -72,7 +72,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
         surface.metallic = roughnessMetallic.y;
         surface.iorOrF90 = specularFactor;
 #if HAS_SPECULAR
-        precise float reflectance = material.dielectric.x;
+        precise float reflectance = material.mixed.x;
 #if HAS_IOR_TEXTURE
         if ((material.kind.y & MATERIAL_FLAG_IOR_TEXTURE) != 0u) {
             precise float contrast = (ior - 1.0) / (ior + 1.0);
@@ -112,7 +112,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 
 #if HAS_OCCLUSION_TEXTURE
     float texel = sampleSlot(occlusionTexture, TEXTURE_SLOT_OCCLUSION, fragment).r;
-    precise float open = 1.0 + material.dielectric.w * (texel - 1.0);
+    precise float open = 1.0 + material.mixed.w * (texel - 1.0);
     surface.openCode = encodeOpen(open);
 #endif
 

@@ -18,7 +18,7 @@ void setTabledValues(int number, inout Surface surface)
     material.emissive = tabledConstants(number, 1);
     material.microsurface = tabledConstants(number, 2);
     material.specular = tabledConstants(number, 3);
-    material.dielectric = tabledConstants(number, 4);
+    material.mixed = tabledConstants(number, 4);
     material.anisotropy = tabledConstants(number, 5);
     material.clearcoat = tabledConstants(number, 6);
     material.sheen = tabledConstants(number, 7);

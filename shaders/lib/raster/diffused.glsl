@@ -44,7 +44,7 @@ vec4 diffusedAt(vec2 texCoord, int cell, float border)
 
 vec3 albedoAfterSpreading(vec3 albedo)
 {
-    float power = 1.0 - material.dielectric.z;
+    float power = 1.0 - material.mixed.z;
     if (power == 1.0) return albedo;
     if (power == 0.0) return vec3(1.0);
     return pow(max(albedo, vec3(0.0)), vec3(power));

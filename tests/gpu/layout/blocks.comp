@@ -27,7 +27,7 @@ void main()
     outputs[11] = material.baseColor;
     outputs[12] = material.emissive;
     outputs[13] = material.microsurface;
-    outputs[14] = material.specular + material.dielectric;
+    outputs[14] = material.specular + material.mixed;
     outputs[15] = vec4(material.kind);
     for (int slot = 0; slot < TEXTURE_SLOT_COUNT; ++slot) {
         outputs[16 + slot] = material.uvRow0[slot];

@@ -69,7 +69,7 @@ TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
                             Place("material.emissive", offsetof(MaterialConstants, emissive), 0),
                             Place("material.microsurface", offsetof(MaterialConstants, microsurface), 0),
                             Place("material.specular", offsetof(MaterialConstants, specular), 0),
-                            Place("material.dielectric", offsetof(MaterialConstants, dielectric), 0),
+                            Place("material.mixed", offsetof(MaterialConstants, mixed), 0),
                             Place("material.anisotropy", offsetof(MaterialConstants, anisotropy), 0),
                             Place("material.clearcoat", offsetof(MaterialConstants, clearcoat), 0),
                             Place("material.sheen", offsetof(MaterialConstants, sheen), 0),

@@ -15,15 +15,15 @@ using scenes::TextureSlot;
 
 TEST(PackedMaterial, theUsualDielectricIsExactlyFourPercent) {
     const shared::MaterialConstants packed = packMaterial(Material{});
-    EXPECT_EQ(packed.dielectric.x, 0.04f) << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
+    EXPECT_EQ(packed.mixed.x, 0.04f) << "defaultSpecular() of surface.glsl, so that pruning changes no bit";
     EXPECT_EQ(packed.specular.w, 1.0f);
     Material material;
     material.ior = 1.0f;
-    EXPECT_EQ(packMaterial(material).dielectric.x, 0.0f);
+    EXPECT_EQ(packMaterial(material).mixed.x, 0.0f);
     material.ior = 3.0f;
     material.specularColor = {1.0f, 0.5f, 0.0f};
     material.specularFactor = 0.5f;
-    EXPECT_EQ(packMaterial(material).dielectric.x, 0.25f);
+    EXPECT_EQ(packMaterial(material).mixed.x, 0.25f);
     EXPECT_EQ(packMaterial(material).specular, glm::vec4(1.0f, 0.5f, 0.0f, 0.5f))
         << "the factor is applied after the textures";
 }
