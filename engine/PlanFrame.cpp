@@ -52,18 +52,18 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
 graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
     constexpr std::size_t kMostNamed = 4;
     std::vector<std::string> words;
-    for (std::size_t i = 0; i < std::min(prepared.diffused.size(), kMostNamed); ++i) {
-        const std::size_t levels = prepared.diffused[i].spec.spread->levels.size();
+    for (std::size_t i = 0; i < std::min(prepared.spreadingViews.size(), kMostNamed); ++i) {
+        const std::size_t levels = prepared.spreadingViews[i].spec.spread->levels.size();
         words.push_back(
-            fmt::format("{}: {} level{}", prepared.diffusedObjects[i].name, levels, levels == 1 ? "" : "s"));
+            fmt::format("{}: {} level{}", prepared.spreadingObjects[i].name, levels, levels == 1 ? "" : "s"));
     }
-    if (prepared.diffused.size() > kMostNamed)
-        words.push_back(fmt::format("{} more", prepared.diffused.size() - kMostNamed));
+    if (prepared.spreadingViews.size() > kMostNamed)
+        words.push_back(fmt::format("{} more", prepared.spreadingViews.size() - kMostNamed));
     const frame::FrameSpec& spec = prepared.spec;
     return {"spread light",
-            fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.diffused.size(),
-                        prepared.diffused.size() == 1 ? "" : "s", spec.spreadTexels(),
-                        spec.diffusedBytes() / 1048576.0),
+            fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.spreadingViews.size(),
+                        prepared.spreadingViews.size() == 1 ? "" : "s", spec.spreadTexels(),
+                        spec.spreadLightBytes() / 1048576.0),
             fmt::format("{}; only tiles that are seen are lit and spread", fmt::join(words, ", "))};
 }
 
@@ -115,7 +115,7 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
             plan.choices.push_back(
                 {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
-    if (!prepared.diffused.empty()) plan.choices.push_back(spreadChoice(prepared));
+    if (!prepared.spreadingViews.empty()) plan.choices.push_back(spreadChoice(prepared));
     if (std::string unseen = unseenSpread(scene, prepared); !unseen.empty())
         plan.choices.push_back({"width of spread light", "less than a texel", std::move(unseen)});
     if (std::string missing = frame::missingTextures(prepared.spec); !missing.empty())

@@ -66,7 +66,7 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
 }
 
 /// What is said of an object that light spreads over, which has lights and maps of its own.
-std::string ofObject(const frame::DiffusedObject& object, const std::string& said) {
+std::string ofObject(const frame::SpreadingObject& object, const std::string& said) {
     return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
 }
 
@@ -86,9 +86,9 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                                view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
     }
     if (std::string lost = shadowsLostByRounding(bounds, prepared); !lost.empty()) return lost;
-    for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
+    for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i)
         if (std::string lost =
-                ofObject(prepared.diffusedObjects[i], shadowsLostByRounding(bounds, prepared.diffused[i]));
+                ofObject(prepared.spreadingObjects[i], shadowsLostByRounding(bounds, prepared.spreadingViews[i]));
             !lost.empty())
             return lost;
     return "";
@@ -97,13 +97,13 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
 std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared) {
     std::string first;
     std::size_t others = 0;
-    for (std::size_t i = 0; i < prepared.diffused.size(); ++i) {
-        const frame::DiffusedObject& object = prepared.diffusedObjects[i];
+    for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i) {
+        const frame::SpreadingObject& object = prepared.spreadingObjects[i];
         const scenes::Material& material = scene.materials[std::size_t(object.material)];
         double widest = 0.0; // mm^2
         for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(material.subsurface))
             widest = std::max(widest, double(gaussian.varianceSquareMillimetres));
-        const frame::FrameSpec& spec = prepared.diffused[i].spec;
+        const frame::FrameSpec& spec = prepared.spreadingViews[i].spec;
         if (!spec.spread->levels.empty() || widest == 0.0) continue;
         if (!first.empty()) {
             ++others;
@@ -123,9 +123,9 @@ std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& 
 CutShadows cutShadows(const frame::PreparedView& prepared) {
     const frame::FrameSpec& spec = prepared.spec;
     if (!spec.mayCutShadows()) {
-        for (std::size_t i = 0; i < prepared.diffused.size(); ++i)
-            if (const CutShadows cut = cutShadows(prepared.diffused[i]); !cut.why.empty())
-                return {ofObject(prepared.diffusedObjects[i], cut.why), cut.iterations};
+        for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i)
+            if (const CutShadows cut = cutShadows(prepared.spreadingViews[i]); !cut.why.empty())
+                return {ofObject(prepared.spreadingObjects[i], cut.why), cut.iterations};
         return {};
     }
     const bool mayNarrow =
@@ -163,8 +163,8 @@ void addEnvironment(const scenes::Scene& scene, frame::PreparedView& prepared) {
 
 /// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
 /// the camera sees.
-frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::DiffusedObject& object,
-                                    frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
+frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::SpreadingObject& object,
+                                     frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
     settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);
     settings.wholePixels.reset();
     settings.samples = 1;
@@ -192,35 +192,35 @@ frame::PreparedView prepareDiffused(const scenes::Scene& scene, const frame::Dif
     const std::size_t count = prepared.lights.texels.size();
     prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
     prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
-    prepared.spec = frame::makeDiffusedSpec(scene, object, prepared.lights, settings);
+    prepared.spec = frame::makeSpreadingSpec(scene, object, prepared.lights, settings);
     addEnvironment(scene, prepared);
     if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
     if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     return prepared;
 }
 
-void addDiffused(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
-                 frame::PreparedView& prepared) {
+void addSpreading(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+                  frame::PreparedView& prepared) {
     std::vector<frame::SurfaceBounds> own;
     if (bounds.empty()) bounds = own = frame::surfaceBounds(scene); // a plan
     frame::FrameSpec& spec = prepared.spec;
-    prepared.diffusedObjects = frame::diffusedObjects(scene, spec.settings.subsurface, bounds);
-    if (prepared.diffusedObjects.size() > kMostDiffusedObjects)
+    prepared.spreadingObjects = frame::spreadingObjects(scene, spec.settings.subsurface, bounds);
+    if (prepared.spreadingObjects.size() > kMostSpreadingObjects)
         throw InputError(fmt::format("{}: light spreads over {} objects, {} is the most; give some of their materials "
                                      "another subsurface method",
-                                     scene.name, prepared.diffusedObjects.size(), kMostDiffusedObjects));
-    const glm::ivec2 texels = frame::diffusedCells(prepared.diffusedObjects.size(), spec.spreadTexels()).texels();
+                                     scene.name, prepared.spreadingObjects.size(), kMostSpreadingObjects));
+    const glm::ivec2 texels = frame::spreadLightAtlas(prepared.spreadingObjects.size(), spec.spreadTexels()).texels();
     const double gibibytes = double(texels.x) * double(texels.y) * sizeof(glm::vec4) / double(1u << 30u);
-    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels || gibibytes > kMostDiffusedGibibytes)
-        throw InputError(
-            fmt::format("{}: light spreads over {} objects, whose atlases of {} texels a side together have "
-                        "{}x{} and take {:.1f} GiB; {} texels a side and {:g} GiB are the most; give a "
-                        "smaller {}",
-                        scene.name, prepared.diffusedObjects.size(), spec.spreadTexels(), texels.x, texels.y, gibibytes,
-                        frame::kLargestSidePixels, kMostDiffusedGibibytes, settingOf("diffusionTexels").flag));
-    for (const frame::DiffusedObject& object : prepared.diffusedObjects) {
-        prepared.diffused.push_back(prepareDiffused(scene, object, spec.settings, bounds));
-        spec.diffused.push_back(prepared.diffused.back().spec);
+    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels || gibibytes > kMostSpreadLightGibibytes)
+        throw InputError(fmt::format(
+            "{}: light spreads over {} objects, whose atlases of {} texels a side together have "
+            "{}x{} and take {:.1f} GiB; {} texels a side and {:g} GiB are the most; give a "
+            "smaller {}",
+            scene.name, prepared.spreadingObjects.size(), spec.spreadTexels(), texels.x, texels.y, gibibytes,
+            frame::kLargestSidePixels, kMostSpreadLightGibibytes, settingOf("diffusionTexels").flag));
+    for (const frame::SpreadingObject& object : prepared.spreadingObjects) {
+        prepared.spreadingViews.push_back(prepareSpreading(scene, object, spec.settings, bounds));
+        spec.spreadingViews.push_back(prepared.spreadingViews.back().spec);
     }
 }
 
@@ -275,7 +275,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
                               });
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
-    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffused(scene, bounds, prepared);
+    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addSpreading(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // These views light nothing, and no lists are built for them.

@@ -45,7 +45,7 @@ Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::So
     : context_(context),
       hooked_(scene.hook && scene.hook->movesVertices ? std::make_unique<HookedScene>(scene) : nullptr),
       shown_(hooked_ ? hooked_->scene() : scene), bounds_(frame::surfaceBounds(shown_)), programs_(std::move(shaders)),
-      diffusionAtlases_(shown_) {}
+      uvAtlases_(shown_) {}
 
 Renderer::~Renderer() = default;
 
@@ -96,7 +96,7 @@ const scenes::Scene& Renderer::sceneAt(double timeSeconds, Excess excess) {
 void Renderer::forgetGeometry() {
     drawn_.reset(); // it points at atlases
     bounds_ = frame::surfaceBounds(shown_);
-    diffusionAtlases_.forget();
+    uvAtlases_.forget();
     for (auto& [view, memory] : diffusionMemories_) memory.forget();
     for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;
 }
@@ -110,7 +110,7 @@ void Renderer::makeForShadows(const frame::FrameSpec& spec) {
 
 /// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
 /// their triangle, anywhere in the atlas.
-frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
+frame::TileSet Renderer::seenTiles(const frame::SpreadingObject& object, const frame::GpuUvAtlas& atlas,
                                    const frame::DrawnView& view) const {
     const frame::DrawList& list = view.scene->drawList();
     const auto drawn = std::ranges::find_if(
@@ -126,17 +126,17 @@ frame::TileSet Renderer::seenTiles(const frame::DiffusedObject& object, const fr
                             shown_.materials[std::size_t(object.material)].doubleSided);
 }
 
-void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
+void Renderer::addSpreadingViews(std::size_t number, frame::DrawnView& view) {
     const frame::PreparedView& prepared = view.prepared;
-    if (prepared.diffused.empty()) return;
+    if (prepared.spreadingViews.empty()) return;
     view.diffusionMemory = &diffusionMemories_[number];
     if (!keepsSpreadLight_) view.diffusionMemory->forget();
     view.diffusionMemory->limit(spreadLimit_ ? std::optional(spreadLimit_->tiles) : std::nullopt);
     const frame::DrawList& list = view.scene->drawList();
-    for (std::size_t cell = 0; cell < prepared.diffused.size(); ++cell) {
-        const frame::DiffusedObject& object = prepared.diffusedObjects[cell];
-        frame::DrawnView::Diffused& own = view.diffused.emplace_back();
-        own.drawn.prepared = prepared.diffused[cell];
+    for (std::size_t cell = 0; cell < prepared.spreadingViews.size(); ++cell) {
+        const frame::SpreadingObject& object = prepared.spreadingObjects[cell];
+        frame::DrawnView::SpreadingView& own = view.spreadingViews.emplace_back();
+        own.drawn.prepared = prepared.spreadingViews[cell];
         own.drawn.scene = view.scene;
         own.drawn.environment = view.environment;
         own.drawn.lobes = view.lobes;
@@ -147,9 +147,9 @@ void Renderer::addDiffused(std::size_t number, frame::DrawnView& view) {
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
         if (spec.features[frame::Feature::ShadowMaps])
             own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
-        own.atlas = &diffusionAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
+        own.uvAtlas = &uvAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(shown_, object, own.drawn.prepared, view.scene->casterRevision());
-        own.seen = seenTiles(object, *own.atlas, view);
+        own.seen = seenTiles(object, *own.uvAtlas, view);
         // A frame that sees nothing new does not read it, but the next one may.
         for (const std::string& name : passes::DiffusionPasses::keptNames(number, cell)) backend_.keep(name);
     }
@@ -159,8 +159,8 @@ void Renderer::tellSpreadOf(std::vector<frame::DrawnView>& views) const {
     if (!spreadTold_) return;
     std::size_t objects = 0;
     for (const frame::DrawnView& view : views)
-        for (std::size_t cell = 0; cell < view.diffused.size(); ++cell)
-            if (const auto& own = view.diffused[cell];
+        for (std::size_t cell = 0; cell < view.spreadingViews.size(); ++cell)
+            if (const auto& own = view.spreadingViews[cell];
                 !view.diffusionMemory->missing(cell, own.key, own.seen).isEmpty())
                 ++objects;
     if (objects == 0) return;
@@ -206,7 +206,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);
-        addDiffused(i, view);
+        addSpreadingViews(i, view);
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);
@@ -292,8 +292,8 @@ SpreadProgress Renderer::spreadProgress(std::size_t view) const {
     const frame::DrawnView& drawn = latest().views.at(view);
     SpreadProgress progress;
     progress.isOfAll = spreadsAll(drawn.prepared);
-    for (std::size_t cell = 0; cell < drawn.diffused.size(); ++cell) {
-        const frame::DrawnView::Diffused& own = drawn.diffused[cell];
+    for (std::size_t cell = 0; cell < drawn.spreadingViews.size(); ++cell) {
+        const frame::DrawnView::SpreadingView& own = drawn.spreadingViews[cell];
         const std::size_t tiles = own.seen.count();
         if (tiles == 0) continue;
         const std::size_t missing = drawn.diffusionMemory->missing(cell, own.key, own.seen).count();

@@ -64,7 +64,7 @@ struct SpreadLimit {
     bool isOfAll = false;  ///< also of what the frame does not see, for those that follow, up to kMostOfAllBytes
 };
 
-/// Light of more is kept only where it is seen: FrameSpec::diffusedBytes().
+/// Light of more is kept only where it is seen: FrameSpec::spreadLightBytes().
 constexpr double kMostOfAllBytes = double(1u << 30u);
 
 /// How far light has spread over the objects of a view: those of which all is known that the view sees, or is to know.
@@ -165,12 +165,12 @@ private:
     const Drawn& latest() const;
     /// Whether a view is to know all light that spreads, seen or not.
     bool spreadsAll(const frame::PreparedView& view) const {
-        return spreadLimit_ && spreadLimit_->isOfAll && view.spec.diffusedBytes() <= kMostOfAllBytes;
+        return spreadLimit_ && spreadLimit_->isOfAll && view.spec.spreadLightBytes() <= kMostOfAllBytes;
     }
-    frame::TileSet seenTiles(const frame::DiffusedObject& object, const frame::DiffusionAtlas& atlas,
+    frame::TileSet seenTiles(const frame::SpreadingObject& object, const frame::GpuUvAtlas& atlas,
                              const frame::DrawnView& view) const;
     /// The objects of a view that light spreads over.
-    void addDiffused(std::size_t number, frame::DrawnView& view);
+    void addSpreadingViews(std::size_t number, frame::DrawnView& view);
 
     /// Has the frame's views tell, as tellSpread() asks for.
     void tellSpreadOf(std::vector<frame::DrawnView>& views) const;
@@ -185,7 +185,7 @@ private:
     gpu::GraphBackend backend_;
     frame::LightListMemory listMemory_;
     frame::ShadowMemories shadowMemories_;
-    frame::DiffusionAtlases diffusionAtlases_;
+    frame::GpuUvAtlases uvAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
     bool keepsSpreadLight_ = true;
     std::optional<SpreadLimit> spreadLimit_;

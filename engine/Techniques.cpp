@@ -51,7 +51,7 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
     std::vector<const frame::FrameSpec*> specs;
     for (const ViewSource& view : views) {
         specs.push_back(&view.spec);
-        for (const frame::FrameSpec& object : view.spec.diffused) specs.push_back(&object);
+        for (const frame::FrameSpec& object : view.spec.spreadingViews) specs.push_back(&object);
     }
     FrameHandles shared{frame::importScene(graph, specs, anyView.drawn ? anyView.drawn->scene : nullptr)};
     shared.scene.environment =
@@ -98,7 +98,8 @@ struct ViewWiring {
         if (lights.casterTree) lighting.casterTree = {*lights.casterTree, frame.scene.casters.value()};
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
-        if (spec.features[frame::Feature::SubsurfaceDiffusion]) surfaces.diffused = addDiffused(frame, view, index);
+        if (spec.features[frame::Feature::SubsurfaceDiffusion])
+            surfaces.spreadLight = addSpreadLight(frame, view, index);
     }
 
     void addEnvironment(const frame::EnvironmentHandles& all, graph::BufferHandle constants) {
@@ -120,23 +121,23 @@ struct ViewWiring {
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
     /// from an earlier frame are left as they are.
-    TextureHandle addDiffused(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
+    TextureHandle addSpreadLight(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
         // What is in the atlas is known cell by cell, not by a revision of the whole.
         constexpr std::uint64_t kRevision = 1;
-        const std::string name = index == 0 ? "diffused_light" : fmt::format("diffused_light ({})", index + 1);
-        TextureHandle atlas = graph.persist(name, DiffusionPasses::atlas(spec), kRevision);
+        const std::string name = index == 0 ? "spread_light_atlas" : fmt::format("spread_light_atlas ({})", index + 1);
+        TextureHandle atlas = graph.persist(name, DiffusionPasses::spreadLightAtlas(spec), kRevision);
         const bool holdsAtlas = graph.holds(atlas);
-        if (drawn != nullptr) drawn->diffusionMemory->begin(spec.diffused.size(), holdsAtlas);
+        if (drawn != nullptr) drawn->diffusionMemory->begin(spec.spreadingViews.size(), holdsAtlas);
         bool writes = false;
-        for (std::size_t cell = 0; cell < spec.diffused.size(); ++cell) {
-            const frame::DrawnView::Diffused* const own = drawn ? &drawn->diffused[cell] : nullptr;
+        for (std::size_t cell = 0; cell < spec.spreadingViews.size(); ++cell) {
+            const frame::DrawnView::SpreadingView* const own = drawn ? &drawn->spreadingViews[cell] : nullptr;
             // An atlas must be written before it is read.
             const bool isIdle = own && drawn->diffusionMemory->isIdle(cell, own->key, own->seen);
-            if (isIdle && (holdsAtlas || writes || cell + 1 < spec.diffused.size())) continue;
-            const ViewSource object{view.technique, spec.diffused[cell], own ? &own->drawn : nullptr};
+            if (isIdle && (holdsAtlas || writes || cell + 1 < spec.spreadingViews.size())) continue;
+            const ViewSource object{view.technique, spec.spreadingViews[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
-            atlas =
-                DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, index}).atlas;
+            atlas = DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, index})
+                        .spreadLightAtlas;
             writes = true;
         }
         return atlas;

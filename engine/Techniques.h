@@ -71,12 +71,12 @@ struct AfterOpaque {
         add;
 };
 
-/// Objects that light spreads over are lit as views of their own (frame::DrawnView::Diffused), which are numbered
+/// Objects that light spreads over are lit as views of their own (frame::DrawnView::SpreadingView), which are numbered
 /// behind those of the frame, of which there are fewer.
-constexpr std::size_t kMostDiffusedObjects = 4096; ///< of a view
-constexpr double kMostDiffusedGibibytes = 2.0;     ///< of the texture that holds the light of all of them
+constexpr std::size_t kMostSpreadingObjects = 4096; ///< of a view
+constexpr double kMostSpreadLightGibibytes = 2.0;   ///< of the texture that holds the light of all of them
 constexpr std::size_t numberOfObject(std::size_t view, std::size_t cell) {
-    return kMostDiffusedObjects * (view + 1) + cell;
+    return kMostSpreadingObjects * (view + 1) + cell;
 }
 
 /// What a view is declared from.

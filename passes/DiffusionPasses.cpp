@@ -87,20 +87,20 @@ struct Object {
         std::optional<TextureHandle> sum;
     };
     Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
-    /// Fills into the object's cell of a view's atlas, and says there what else pixels ask for.
-    TextureHandle store(const Spread& spread, TextureHandle unspread, TextureHandle atlas,
-                        const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
+    /// Fills into the object's cell of the atlas of spread light, and says there what else pixels ask for.
+    TextureHandle store(const Spread& spread, TextureHandle unspread, TextureHandle spreadLightAtlas,
+                        const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
     /// Says there of some tiles that no light is known.
-    TextureHandle blank(TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+    TextureHandle blank(TextureHandle spreadLightAtlas, const frame::SpreadLightAtlas& cells, std::size_t cell,
                         const frame::TileSet& tiles, const std::function<void()>& done) const;
 
 private:
-    /// What pixels ask of the object's cell: DiffusedCells::ofCell().
-    glm::vec4 cellValues(const frame::DiffusedCells& cells) const {
+    /// What pixels ask of the object's cell: SpreadLightAtlas::ofCell().
+    glm::vec4 cellValues(const frame::SpreadLightAtlas& cells) const {
         return {glm::vec3(spec.spread->inPixels), float(frame::borderTexels(spec.gutterTexels, cells.sideTexels))};
     }
-    Rectangles rectanglesIn(const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles) const {
+    Rectangles rectanglesIn(const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles) const {
         const glm::ivec2 corner = cells.corner(int(cell));
         Rectangles rectangles = rectanglesOf(tiles);
         for (gpu::Rectangle& rectangle : rectangles) {
@@ -219,11 +219,11 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
         .filled;
 }
 
-TextureHandle Object::store(const Spread& spread, TextureHandle unspread, TextureHandle atlas,
-                            const frame::DiffusedCells& cells, std::size_t cell, const frame::TileSet& tiles,
+TextureHandle Object::store(const Spread& spread, TextureHandle unspread, TextureHandle spreadLightAtlas,
+                            const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
                             const std::function<void()>& done) const {
     struct Data {
-        TextureHandle steps, continued, unspread, atlas;
+        TextureHandle steps, continued, unspread, spreadLightAtlas;
         std::optional<TextureHandle> sum;
     };
     const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
@@ -236,7 +236,7 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unspread, Textur
                 out.continued = pass.read(continued);
                 out.unspread = pass.read(unspread);
                 if (spread.sum) out.sum = pass.read(*spread.sum);
-                out.atlas = pass.write(atlas);
+                out.spreadLightAtlas = pass.write(spreadLightAtlas);
             },
             [corner, ofCell, done, rectangles = rectanglesIn(cells, cell, tiles),
              values = cellValues(cells)](const Data& out, const graph::PassContext& context) {
@@ -253,17 +253,18 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unspread, Textur
                 gpu::clearColor(0, values);
                 if (done) done();
             })
-        .atlas;
+        .spreadLightAtlas;
 }
 
-TextureHandle Object::blank(TextureHandle atlas, const frame::DiffusedCells& cells, std::size_t cell,
+TextureHandle Object::blank(TextureHandle spreadLightAtlas, const frame::SpreadLightAtlas& cells, std::size_t cell,
                             const frame::TileSet& tiles, const std::function<void()>& done) const {
     struct Data {
-        TextureHandle atlas;
+        TextureHandle spreadLightAtlas;
     };
     return graph
         .addPass<Data>(
-            "diffusion_blank" + suffix, [&](graph::PassBuilder& pass, Data& out) { out.atlas = pass.write(atlas); },
+            "diffusion_blank" + suffix,
+            [&](graph::PassBuilder& pass, Data& out) { out.spreadLightAtlas = pass.write(spreadLightAtlas); },
             [ofCell = cells.ofCell(int(cell)), done, rectangles = rectanglesIn(cells, cell, tiles),
              values = cellValues(cells)](const Data&, const graph::PassContext& context) {
                 context.bindTargets();
@@ -275,7 +276,7 @@ TextureHandle Object::blank(TextureHandle atlas, const frame::DiffusedCells& cel
                 gpu::clearColor(0, values);
                 done();
             })
-        .atlas;
+        .spreadLightAtlas;
 }
 
 Object::Spread Object::spread(std::size_t number, const Spread& before,
@@ -337,8 +338,8 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
 
 } // namespace
 
-graph::TextureDesc DiffusionPasses::atlas(const frame::FrameSpec& view) {
-    const glm::ivec2 texels = view.diffusedCells().texels();
+graph::TextureDesc DiffusionPasses::spreadLightAtlas(const frame::FrameSpec& view) {
+    const glm::ivec2 texels = view.spreadLightAtlas().texels();
     return {kFormat, texels.x, texels.y};
 }
 
@@ -351,14 +352,14 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
                                               const Inputs& inputs) {
     // What is in them is known tile by tile, not by a revision of the whole.
     constexpr std::uint64_t kRevision = 1;
-    const frame::FrameSpec& spec = view.diffused[cell];
-    const frame::DrawnView::Diffused* const drawn = inputs.drawn ? &inputs.drawn->diffused[cell] : nullptr;
-    const frame::DiffusionAtlas* const atlas = drawn ? drawn->atlas : nullptr;
+    const frame::FrameSpec& spec = view.spreadingViews[cell];
+    const frame::DrawnView::SpreadingView* const drawn = inputs.drawn ? &inputs.drawn->spreadingViews[cell] : nullptr;
+    const frame::GpuUvAtlas* const uvAtlas = drawn ? drawn->uvAtlas : nullptr;
     const int side = spec.spreadTexels();
     Object object{graph, spec, suffixOf(cell), {}, {}};
-    object.steps = graph.import("diffusion_steps" + object.suffix, square(side), atlas ? &atlas->steps : nullptr);
+    object.steps = graph.import("diffusion_steps" + object.suffix, square(side), uvAtlas ? &uvAtlas->steps : nullptr);
     object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
-                                    atlas ? &atlas->continued : nullptr);
+                                    uvAtlas ? &uvAtlas->continued : nullptr);
     const auto [entering, unspread] = keptNames(inputs.viewNumber, cell);
     Object::Light light{graph.persist(entering, square(side), kRevision),
                         graph.persist(unspread, square(side), kRevision)};
@@ -372,7 +373,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
         if (!graph.holds(light.entering) || !graph.holds(light.unspread)) memory->forgetLit(cell);
         std::vector<double> variances;
         for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
-        work = memory->next(cell, drawn->key, atlas->tiles, variances, drawn->seen);
+        work = memory->next(cell, drawn->key, uvAtlas->tiles, variances, drawn->seen);
         spreads = !memory->isLimited() || !work.store.isEmpty();
         lights = !work.light.isEmpty() || (spreads && !graph.holds(light.entering));
         lit = [memory, cell, key = drawn->key, tiles = work.light] { memory->hold(cell, key, tiles, {}); };
@@ -383,8 +384,8 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
         blanked = [memory, cell, key = drawn->key, tiles = work.blank] { memory->holdBlank(cell, key, tiles); };
     }
     if (lights) light = object.light(inputs, light, work.light, lit);
-    TextureHandle written = inputs.atlas;
-    if (!work.blank.isEmpty()) written = object.blank(written, view.diffusedCells(), cell, work.blank, blanked);
+    TextureHandle written = inputs.spreadLightAtlas;
+    if (!work.blank.isEmpty()) written = object.blank(written, view.spreadLightAtlas(), cell, work.blank, blanked);
     if (!spreads) {
         // For a later frame.
         if (lights) {
@@ -396,7 +397,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.unspread, written, view.diffusedCells(), cell, work.store, stored)};
+    return {object.store(spread, light.unspread, written, view.spreadLightAtlas(), cell, work.store, stored)};
 }
 
 } // namespace tessera::passes

@@ -6,28 +6,29 @@
 
 namespace tessera::passes {
 
-/// Spreads the light of an object over its surface, in an atlas of its texture coordinates (docs/skin.md).
-/// Reads   the scene, the lights that reach the object, and what is known of its light from earlier frames
-/// Writes  a cell of the view's atlas, RGBA32F: rgb irradiance over pi times the albedo to the power of
+/// Spreads the light of an object over its surface, in the object's atlas of texture coordinates, the UV atlas, into
+/// the view's atlas of spread light (docs/skin.md). Reads   the scene, the lights that reach the object, and what is
+/// known of its light from earlier frames Writes  a cell of the atlas of spread light, RGBA32F: rgb irradiance over pi
+/// times the albedo to the power of
 ///         preScatterShare, spread, a 1 where it is known; and what pixels ask of the cell. entering_light and
 ///         unspread_light, which are kept for later frames: the same as lit, and the part of it that leaves the texels
 ///         where it is lit
-/// Space   of the atlas; lights around the object, in world axes
+/// Space   of the UV atlas; lights around the object, in world axes
 /// Source  d'Eon and Luebke 2007, GPU Gems 3, chapter 14; Green 2004, GPU Gems, chapter 16
 struct DiffusionPasses {
     struct Inputs {
         frame::SurfaceHandles surfaces; ///< as the object's own view draws it
         frame::LightingInputs lighting;
-        graph::TextureHandle atlas;
+        graph::TextureHandle spreadLightAtlas;
         const frame::DrawnView* drawn = nullptr; ///< the view; null for a plan
         std::size_t viewNumber = 0;
     };
     struct Outputs {
-        graph::TextureHandle atlas;
+        graph::TextureHandle spreadLightAtlas;
     };
-    /// Names of what is kept of a cell besides the atlas.
+    /// Names of what is kept of a cell besides the atlas of spread light.
     static std::array<std::string, 2> keptNames(std::size_t view, std::size_t cell);
-    static graph::TextureDesc atlas(const frame::FrameSpec& view);
+    static graph::TextureDesc spreadLightAtlas(const frame::FrameSpec& view);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell, const Inputs& inputs);
 };
 

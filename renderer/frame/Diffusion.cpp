@@ -31,16 +31,16 @@ double meanOf(const glm::dvec3& weight) {
 
 } // namespace
 
-std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
-                                            std::span<const SurfaceBounds> bounds) {
-    std::vector<DiffusedObject> objects;
+std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
+                                              std::span<const SurfaceBounds> bounds) {
+    std::vector<SpreadingObject> objects;
     if (!scenes::anySpreads(scene, subsurface)) return objects;
     int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const int own = number++;
             if (!scenes::spreads(scene, instance, subsurface)) continue;
-            DiffusedObject& object = objects.emplace_back();
+            SpreadingObject& object = objects.emplace_back();
             object = {int(node),
                       instance.mesh,
                       instance.material,
@@ -130,15 +130,15 @@ int borderTexels(int gutter, int sideTexels) {
     return std::min(gutter, sideTexels / 16);
 }
 
-DiffusedCells diffusedCells(std::size_t objects, int sideTexels) {
-    DiffusedCells cells;
+SpreadLightAtlas spreadLightAtlas(std::size_t objects, int sideTexels) {
+    SpreadLightAtlas cells;
     cells.sideTexels = sideTexels;
     cells.columns = std::max(1, int(std::ceil(std::sqrt(double(objects)))));
     cells.rows = std::max(1, (int(objects) + cells.columns - 1) / cells.columns);
     return cells;
 }
 
-void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object) {
+void requireUnwrapped(const scenes::Scene& scene, const SpreadingObject& object) {
     const std::string problem = unwrapProblem(scene.meshes[std::size_t(object.mesh)]);
     if (!problem.empty())
         throw InputError(fmt::format("{}: light cannot spread over {}: {}, or give its material another subsurface "
@@ -146,8 +146,8 @@ void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object) 
                                      scene.name, object.name, problem));
 }
 
-const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sideTexels, int gutter) {
-    std::unique_ptr<DiffusionAtlas>& kept = atlases_[{object.instance, sideTexels, gutter}];
+const GpuUvAtlas& GpuUvAtlases::of(const SpreadingObject& object, int sideTexels, int gutter) {
+    std::unique_ptr<GpuUvAtlas>& kept = atlases_[{object.instance, sideTexels, gutter}];
     if (kept) return *kept;
     requireUnwrapped(scene_, object);
     const scenes::Mesh& mesh = scene_.meshes[std::size_t(object.mesh)];
@@ -167,9 +167,9 @@ const DiffusionAtlas& DiffusionAtlases::of(const DiffusedObject& object, int sid
     const auto texture = [&](const char* label, graph::Format format) {
         return gpu::Texture(label, graph::TextureDesc{format, sideTexels, sideTexels});
     };
-    kept = std::make_unique<DiffusionAtlas>(DiffusionAtlas{
-        border, texture("diffusion_steps", graph::Format::Rgba32Float),
-        texture("diffusion_continued", graph::Format::Rg32Float), diffusionTiles(atlas, mesh, worldFromObject)});
+    kept = std::make_unique<GpuUvAtlas>(GpuUvAtlas{border, texture("diffusion_steps", graph::Format::Rgba32Float),
+                                                   texture("diffusion_continued", graph::Format::Rg32Float),
+                                                   diffusionTiles(atlas, mesh, worldFromObject)});
     kept->steps.upload(0, steps);
     kept->continued.upload(0, continued);
     return *kept;

@@ -20,7 +20,7 @@
 namespace tessera::frame {
 
 /// A mesh instance whose material spreads light over it.
-struct DiffusedObject {
+struct SpreadingObject {
     int node = 0;
     int mesh = 0;
     int material = 0;
@@ -30,9 +30,9 @@ struct DiffusedObject {
     std::string name;        ///< of messages
 };
 
-/// Those that are drawn, in document order. A view's atlas has a cell for each.
-std::vector<DiffusedObject> diffusedObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
-                                            std::span<const SurfaceBounds> bounds);
+/// Those that are drawn, in document order. A view's SpreadLightAtlas has a cell for each.
+std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
+                                              std::span<const SurfaceBounds> bounds);
 
 /// Light as it has spread so far is spread on by a Gaussian, and a share of it goes into the sum.
 struct DiffusionLevel {
@@ -65,49 +65,49 @@ int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres);
 /// Around what the coordinates 0 to 1 cover.
 int borderTexels(int gutterTexels, int sideTexels);
 
-/// Texels of a view's atlas: a square cell for each object, and above all cells one texel for each, in rows as they
-/// lie.
-struct DiffusedCells {
+/// The view's picture of spread light: a square cell for each object, and above all cells one texel for each, in rows
+/// as they lie.
+struct SpreadLightAtlas {
     int columns = 1, rows = 1;
     int sideTexels = 0;
     glm::ivec2 texels() const { return {columns * sideTexels, rows * (sideTexels + 1)}; }
     glm::ivec2 place(int cell) const { return {cell % columns, cell / columns}; }
     glm::ivec2 corner(int cell) const { return place(cell) * sideTexels; }
-    /// rgb LightSpread::inPixels, a the border of the object's atlas in texels.
+    /// rgb LightSpread::inPixels, a the border of the object's UV atlas in texels.
     glm::ivec2 ofCell(int cell) const { return place(cell) + glm::ivec2(0, rows * sideTexels); }
 };
-DiffusedCells diffusedCells(std::size_t objects, int sideTexels);
+SpreadLightAtlas spreadLightAtlas(std::size_t objects, int sideTexels);
 
-/// An object's atlas on the GPU.
-struct DiffusionAtlas {
+/// An object's UV atlas on the GPU.
+struct GpuUvAtlas {
     int borderTexels = 0;
     gpu::Texture steps;     ///< RGBA32F: shaders/shared/diffusion.h
     gpu::Texture continued; ///< RG32F, the same
     std::vector<DiffusionTile> tiles;
 };
 
-/// The atlases of a scene, made when they are asked for.
-class DiffusionAtlases {
+/// The UV atlases of a scene, made when they are asked for.
+class GpuUvAtlases {
 public:
-    explicit DiffusionAtlases(const scenes::Scene& scene) : scene_(scene) {}
+    explicit GpuUvAtlases(const scenes::Scene& scene) : scene_(scene) {}
     /// Throws InputError where the object's texture coordinates do not unwrap it.
-    const DiffusionAtlas& of(const DiffusedObject& object, int sideTexels, int gutterTexels);
+    const GpuUvAtlas& of(const SpreadingObject& object, int sideTexels, int gutterTexels);
     /// Drops all, since they hold for meshes and nodes as they were.
     void forget() { atlases_.clear(); }
 
 private:
     const scenes::Scene& scene_;
-    std::map<std::tuple<int, int, int>, std::unique_ptr<DiffusionAtlas>> atlases_;
+    std::map<std::tuple<int, int, int>, std::unique_ptr<GpuUvAtlas>> atlases_;
 };
 
 /// Throws InputError where the object's texture coordinates do not unwrap it.
-void requireUnwrapped(const scenes::Scene& scene, const DiffusedObject& object);
+void requireUnwrapped(const scenes::Scene& scene, const SpreadingObject& object);
 
-/// What is known of the cells of a view's atlas from earlier frames, tile by tile: the light that enters the surface,
-/// and the light that leaves it, spread. Both hold for the key that they were computed under (diffusionKey()).
+/// What is known of the cells of a view's SpreadLightAtlas from earlier frames, tile by tile: the light that enters the
+/// surface, and the light that leaves it, spread. Both hold for the key that they were computed under (diffusionKey()).
 class DiffusionMemory {
 public:
-    /// Forgets the light that leaves where the atlas is not held.
+    /// Forgets the light that leaves where the view's atlas is not held.
     void begin(std::size_t cells, bool holdsAtlas);
     /// How many tiles the next frame may light, of those it lacks; none: all. Spreading kSpreadTiles takes the place of
     /// lighting one.

@@ -18,7 +18,7 @@ struct Draw {
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
     bool mirrored = false;   ///< the node's transform turns the winding round
     bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
-    int diffusedNumber = 0;  ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
+    int spreadingNumber = 0; ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
     std::uint32_t firstTriangle = 0; ///< in the scene's index buffer
     float largestColor = 0;          ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
     scenes::Box3 boxWS{};            ///< around the mesh's own box; empty without vertices
@@ -62,7 +62,7 @@ double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const Camera
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
 /// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
 /// through any transform, singular ones too; times the determinant's sign. Row 0's w is that sign, times 1 +
-/// Draw::diffusedNumber. Row 1's w is Draw::largestColor. It also tells meshes without vertex colours: white would not
+/// Draw::spreadingNumber. Row 1's w is Draw::largestColor. It also tells meshes without vertex colours: white would not
 /// do, since interpolating 1 in perspective does not always give 1. Row 2's w is 1 + Draw::instance.
 struct DrawRows {
     glm::vec4 position[3];

@@ -51,7 +51,7 @@ SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
     result.scene.triangleNormals = readWhereThere(pass, scene.triangleNormals, Access::StorageRead);
-    result.diffused = readWhereThere(pass, diffused, Access::ImageRead);
+    result.spreadLight = readWhereThere(pass, spreadLight, Access::ImageRead);
     result.hook = readWhereThere(pass, hook, Access::UniformRead);
     return result;
 }
@@ -84,7 +84,7 @@ void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gp
         gpu::bindStorageBuffer(STORAGE_TRIANGLE_NORMALS, normals, 0, normals.bytes());
     }
     if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
-    if (diffused) gpu::bindImage(IMAGE_UNIT_DIFFUSED, context.texture(*diffused), gpu::ImageAccess::Read);
+    if (spreadLight) gpu::bindImage(IMAGE_UNIT_SPREAD_LIGHT, context.texture(*spreadLight), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
     drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
                        kind == Kind::Opaque ? draws.opaque : draws.transparent, state, transmitting);

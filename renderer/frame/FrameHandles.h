@@ -38,16 +38,16 @@ struct DrawnView {
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
 
     /// An object that light spreads over, drawn into its texels.
-    struct Diffused;
-    std::vector<Diffused> diffused = {};        ///< by cell of the view's atlas
-    DiffusionMemory* diffusionMemory = nullptr; ///< where the view has any
-    std::function<void()> spreadOne = {};       ///< called when the light of an object was spread; may be empty
+    struct SpreadingView;
+    std::vector<SpreadingView> spreadingViews = {}; ///< by cell of the view's SpreadLightAtlas
+    DiffusionMemory* diffusionMemory = nullptr;     ///< where the view has any
+    std::function<void()> spreadOne = {};           ///< called when the light of an object was spread; may be empty
 };
-struct DrawnView::Diffused {
+struct DrawnView::SpreadingView {
     DrawnView drawn;
-    const DiffusionAtlas* atlas = nullptr;
+    const GpuUvAtlas* uvAtlas = nullptr;
     std::uint64_t key = 0; ///< of all that its light is computed from
-    TileSet seen;          ///< of the atlas, by the view
+    TileSet seen;          ///< of the UV atlas, by the view
 };
 
 /// The camera of a view.
@@ -94,11 +94,11 @@ struct SceneHandles {
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
     SceneHandles scene;
-    ViewHandles view;                                  ///< empty where a pass draws with cameras of its own
-    graph::BufferHandle rows;                          ///< DrawRows of each draw of the view
-    graph::BufferHandle commands;                      ///< gpu::DrawIndexedCommand of the same
-    std::optional<graph::TextureHandle> diffused = {}; ///< where light has spread over some: the view's atlas
-    std::optional<graph::BufferHandle> hook = {};      ///< where the scene has one: shared::HookConstants
+    ViewHandles view;                                     ///< empty where a pass draws with cameras of its own
+    graph::BufferHandle rows;                             ///< DrawRows of each draw of the view
+    graph::BufferHandle commands;                         ///< gpu::DrawIndexedCommand of the same
+    std::optional<graph::TextureHandle> spreadLight = {}; ///< where light has spread over some: their atlas
+    std::optional<graph::BufferHandle> hook = {};         ///< where the scene has one: shared::HookConstants
     std::vector<std::size_t> depthPrograms = {}; ///< of readDepth(), by number: bare, then where there is one, masked
 
     enum class Kind { Opaque, Transparent };

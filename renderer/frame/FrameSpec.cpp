@@ -179,8 +179,8 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
     return makeSpec(scene, lights, settings, surfaces);
 }
 
-FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& object, const PackedLights& lights,
-                           const FrameSettings& settings) {
+FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
+                            const FrameSettings& settings) {
     FeatureSet surfaces = settings.prune ? enteringFeatures(scene, object.material, object.mesh) : allFeatures();
     surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
     FrameSpec spec = makeSpec(scene, lights, settings, surfaces);
@@ -215,10 +215,10 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("ATLAS_BORDER", std::to_string(border));
     }
     if (spec.features[Feature::SubsurfaceDiffusion]) {
-        const DiffusedCells cells = spec.diffusedCells();
-        defines.emplace_back("DIFFUSED_TEXELS", std::to_string(cells.sideTexels));
-        defines.emplace_back("DIFFUSED_COLUMNS", std::to_string(cells.columns));
-        defines.emplace_back("DIFFUSED_ROWS", std::to_string(cells.rows));
+        const SpreadLightAtlas cells = spec.spreadLightAtlas();
+        defines.emplace_back("SPREAD_CELL_TEXELS", std::to_string(cells.sideTexels));
+        defines.emplace_back("SPREAD_CELL_COLUMNS", std::to_string(cells.columns));
+        defines.emplace_back("SPREAD_CELL_ROWS", std::to_string(cells.rows));
     }
     if (spec.features[Feature::Environment]) {
         defines.emplace_back("ENVIRONMENT_LIGHT", std::to_string(int(spec.settings.environment.light)));

@@ -42,20 +42,20 @@ struct FrameSpec {
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;
 
-    /// By cell of the view's atlas, what the texels of an object that light spreads over are lit with.
-    std::vector<FrameSpec> diffused;
+    /// By cell of the view's SpreadLightAtlas, what the texels of an object that light spreads over are lit with.
+    std::vector<FrameSpec> spreadingViews;
     std::optional<LightSpread> spread; ///< of such an object's own spec
-    int gutterTexels = 0;              ///< of its atlas (Diffusion.h)
+    int gutterTexels = 0;              ///< of its UV atlas (Diffusion.h)
 
     bool isInAtlas() const { return spread.has_value(); }
-    /// Texels along the side of an object's atlas that light is spread in.
+    /// Texels along the side of an object's UV atlas that light is spread in.
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
-    DiffusedCells diffusedCells() const { return frame::diffusedCells(diffused.size(), spreadTexels()); }
-    /// Bytes of the view's atlas, and of each object's light that enters and the part of it that leaves at once.
-    double diffusedBytes() const {
-        const glm::dvec2 texels(diffusedCells().texels());
+    SpreadLightAtlas spreadLightAtlas() const { return frame::spreadLightAtlas(spreadingViews.size(), spreadTexels()); }
+    /// Bytes of the SpreadLightAtlas, and of each object's light that enters and the part of it that leaves at once.
+    double spreadLightBytes() const {
+        const glm::dvec2 texels(spreadLightAtlas().texels());
         const double side = double(spreadTexels());
-        return double(sizeof(glm::vec4)) * (texels.x * texels.y + 2.0 * side * side * double(diffused.size()));
+        return double(sizeof(glm::vec4)) * (texels.x * texels.y + 2.0 * side * side * double(spreadingViews.size()));
     }
 
     bool usesEnvironmentMap() const;     ///< at full resolution
@@ -89,8 +89,8 @@ struct FrameSpec {
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
 
 /// That of an object that light spreads over, as the view of `settings` needs it; the lights are those that reach it.
-FrameSpec makeDiffusedSpec(const scenes::Scene& scene, const DiffusedObject& object, const PackedLights& lights,
-                           const FrameSettings& settings);
+FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
+                            const FrameSettings& settings);
 
 /// Why there are no shadows, where there are none.
 std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request);

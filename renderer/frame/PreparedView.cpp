@@ -29,7 +29,7 @@ private:
 
 } // namespace
 
-std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& object, const PreparedView& prepared,
+std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& object, const PreparedView& prepared,
                            std::uint64_t casterRevision) {
     const FrameSettings& settings = prepared.spec.settings;
     Hash hash;

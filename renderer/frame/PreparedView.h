@@ -25,15 +25,15 @@ struct PreparedView {
     std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of those
     std::vector<shared::CullLight> cullLights;         ///< parallel to lights.texels; empty where no lists are built
 
-    /// By cell of the view's atlas: the objects that light spreads over, and the lights that reach them.
-    std::vector<DiffusedObject> diffusedObjects;
-    std::vector<PreparedView> diffused;
+    /// By cell of the view's SpreadLightAtlas: the objects that light spreads over, and the lights that reach them.
+    std::vector<SpreadingObject> spreadingObjects;
+    std::vector<PreparedView> spreadingViews;
 
     culling::FrameConstants constants() const { return {camera.constants, lighting}; }
 };
 
 /// Of all that the light spread over an object is computed from, but what never changes.
-std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusedObject& object, const PreparedView& prepared,
+std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& object, const PreparedView& prepared,
                            std::uint64_t casterRevision);
 
 } // namespace tessera::frame

@@ -124,12 +124,12 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     Draws draws{transparentMaterials(scene_), makeDrawList(scene_), {}};
-    const std::vector<DiffusedObject> diffused = diffusedObjects(scene_, subsurface_, {});
+    const std::vector<SpreadingObject> spreading = spreadingObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
         draw.firstTriangle = draws.ranges.back().firstIndex / 3;
-        const auto own = std::ranges::find(diffused, draw.instance, &DiffusedObject::instance);
-        if (own != diffused.end()) draw.diffusedNumber = 1 + int(own - diffused.begin());
+        const auto own = std::ranges::find(spreading, draw.instance, &SpreadingObject::instance);
+        if (own != spreading.end()) draw.spreadingNumber = 1 + int(own - spreading.begin());
     }
     return draws;
 }

@@ -46,7 +46,7 @@ Mesh plateWithHole(const glm::dvec3& middleWS, double halfSide, double radius) {
 
 } // namespace
 
-glm::dvec3 diffusedStep(double beyondMetres) {
+glm::dvec3 spreadStep(double beyondMetres) {
     glm::dvec3 share(0.0);
     forEachGaussian([&](double sigma, const glm::dvec3& weight) {
         share += weight * (0.5 * std::erfc(-beyondMetres / (std::numbers::sqrt2 * sigma)));
@@ -54,7 +54,7 @@ glm::dvec3 diffusedStep(double beyondMetres) {
     return share;
 }
 
-glm::dvec3 diffusedDot(double distanceMetres) {
+glm::dvec3 spreadDot(double distanceMetres) {
     // Of the dot's chords across the line to its middle: a Gaussian along it, times what an error function leaves of it
     // across.
     constexpr int kChords = 128;

@@ -11,8 +11,8 @@ inline constexpr glm::dvec3 kTruthDotWS{0.6, 0.0, 0.0}; ///< middle of the dot, 
 inline constexpr double kTruthDotRadiusMetres = 0.02;
 
 /// Share of the sun's light that leaves the first square so far beyond the edge, by channel.
-glm::dvec3 diffusedStep(double beyondMetres);
+glm::dvec3 spreadStep(double beyondMetres);
 /// The same of the second, so far from the middle of the dot. By quadrature, to 1e-6.
-glm::dvec3 diffusedDot(double distanceMetres);
+glm::dvec3 spreadDot(double distanceMetres);
 
 } // namespace tessera::scenes::builtin

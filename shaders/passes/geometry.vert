@@ -12,7 +12,7 @@ layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 
 // Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz). w of
-// the first row is that sign, times 1 + diffusedNumber; of the second the largest of the mesh's vertex colours, 0 when
+// the first row is that sign, times 1 + spreadingNumber; of the second the largest of the mesh's vertex colours, 0 when
 // it has none; of the third 1 + the place of the mesh instance in the scene.
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
@@ -56,7 +56,7 @@ layout(location = 13) flat out vec3 objectRow2;
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat out int diffusedNumber;
+layout(location = 14) flat out int spreadingNumber;
 #endif
 #if IN_ATLAS
 layout(location = 15) out vec3 positionLS;
@@ -95,7 +95,7 @@ void main()
 #endif
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-    diffusedNumber = int(abs(drawNormal0.w)) - 1;
+    spreadingNumber = int(abs(drawNormal0.w)) - 1;
 #endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));

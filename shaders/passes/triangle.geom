@@ -53,8 +53,8 @@ layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat in int vertexDiffusedNumber[];
-layout(location = 19) flat out int diffusedNumber;
+layout(location = 14) flat in int vertexSpreadingNumber[];
+layout(location = 19) flat out int spreadingNumber;
 #endif
 #if HOOKED
 layout(location = 16) in vec3 vertexHookedOS[];
@@ -106,7 +106,7 @@ void main()
         largestColor = vertexLargestColor[corner];
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-        diffusedNumber = vertexDiffusedNumber[corner];
+        spreadingNumber = vertexSpreadingNumber[corner];
 #endif
 #if HOOKED
         hookedOS = vertexHookedOS[corner];

@@ -146,7 +146,7 @@ protected:
         settings.sizePixels = {896, 8};
         settings.diffusion.sideTexels = side;
         return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], [](const glm::dvec3& placeWS) {
-            return scenes::builtin::diffusedStep(placeWS.x - scenes::builtin::kTruthEdgeX);
+            return scenes::builtin::spreadStep(placeWS.x - scenes::builtin::kTruthEdgeX);
         });
     }
     /// The same in an atlas of 256 texels for a profile of two Gaussians, so many texels wide, the first with a
@@ -184,7 +184,7 @@ protected:
         settings.sizePixels = {128, 128};
         settings.diffusion.sideTexels = side;
         return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], [](const glm::dvec3& placeWS) {
-            return scenes::builtin::diffusedDot(glm::distance(placeWS, scenes::builtin::kTruthDotWS));
+            return scenes::builtin::spreadDot(glm::distance(placeWS, scenes::builtin::kTruthDotWS));
         });
     }
 };

@@ -380,9 +380,7 @@ TEST_F(Diffusion, mapsHideLightFromTexelsAsRaysDo) {
     settings.sizePixels = {896, 8};
     settings.diffusion.sideTexels = 256;
     settings.shadowMaps.resolutionTexels = 2048;
-    const auto truth = [](const glm::dvec3& placeWS) {
-        return builtin::diffusedStep(placeWS.x - builtin::kTruthEdgeX);
-    };
+    const auto truth = [](const glm::dvec3& placeWS) { return builtin::spreadStep(placeWS.x - builtin::kTruthEdgeX); };
     for (const frame::ShadowFilter filter : test::mapFilters()) {
         settings.shadowFilter = filter;
         const double error = errorOf(pictureOf(renderer, settings), scene.cameras[0], truth).l2;

@@ -74,9 +74,8 @@ TEST_F(DiffusionTruth, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) 
         frame::FrameSettings settings;
         settings.sizePixels = {896, 8};
         settings.diffusion = {side, gaussians, half};
-        return errorOf(
-                   pictureOf(renderer, settings), scene.cameras[0],
-                   [](const glm::dvec3& placeWS) { return builtin::diffusedStep(placeWS.x - builtin::kTruthEdgeX); })
+        return errorOf(pictureOf(renderer, settings), scene.cameras[0],
+                       [](const glm::dvec3& placeWS) { return builtin::spreadStep(placeWS.x - builtin::kTruthEdgeX); })
             .l2;
     };
     const double all = error(8, false), halved = error(8, true), smaller = error(8, false, 128);
@@ -356,7 +355,7 @@ TEST_F(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
          &DiffusionFaults::stepOfFewerTexelsAlongX},
         {"dilation off", "passes/filled_light.glsl", "if (chart == 0.0) return filled;",
          "if (chart <= 0.0) return filled;", &DiffusionFaults::evenLight},
-        {"the albedo taken twice", "lib/raster/diffused.glsl", "float power = 1.0 - material.mixed.z;",
+        {"the albedo taken twice", "lib/raster/spread_light.glsl", "float power = 1.0 - material.mixed.z;",
          "float power = 1.0;", &DiffusionFaults::evenLight},
         {"back faces lit", "passes/diffusion_light.frag", "    entering = vec4(light, 1.0);",
          "    surface.normalLS = -surface.normalLS;\n"

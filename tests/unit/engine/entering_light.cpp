@@ -42,8 +42,8 @@ protected:
     /// Of the first object; 0 where no light spreads.
     std::uint64_t keyOf(const ViewRequest& request) const {
         const frame::PreparedView prepared = prepareView(scene_, request.technique, request.settings, bounds_);
-        if (prepared.diffused.empty()) return 0;
-        return frame::diffusionKey(scene_, prepared.diffusedObjects[0], prepared.diffused[0], 0);
+        if (prepared.spreadingViews.empty()) return 0;
+        return frame::diffusionKey(scene_, prepared.spreadingObjects[0], prepared.spreadingViews[0], 0);
     }
 
     scenes::Scene scene_;

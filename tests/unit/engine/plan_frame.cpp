@@ -220,10 +220,10 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     EXPECT_THAT(told(softLights(1000)).second, testing::HasSubstr("give a smaller --shadow-width or"));
     // The object that light spreads over has lights of its own.
     frame::PreparedView whole;
-    whole.diffused = {prepareView(softLights(1000), Technique::Deferred, settings)};
-    whole.diffusedObjects.emplace_back().name = "mesh 'bust'";
+    whole.spreadingViews = {prepareView(softLights(1000), Technique::Deferred, settings)};
+    whole.spreadingObjects.emplace_back().name = "mesh 'bust'";
     EXPECT_THAT(cutShadows(whole).why, testing::StartsWith("when lighting mesh 'bust' for diffusion: shadows of 1000"));
-    whole.diffused.clear();
+    whole.spreadingViews.clear();
     EXPECT_EQ(cutShadows(whole).why, "");
     // Cascades count each.
     scenes::Scene suns = softLights(300);

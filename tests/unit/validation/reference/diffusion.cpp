@@ -54,7 +54,7 @@ TEST(ReferenceDiffusion, aStepOfLightIsASumOfErrorFunctions) {
     const Rendered rendered = strip(scene, {builtin::kTruthEdgeX, 0.0, 0.0}, {80, 16}, kWidth);
     for (int channel = 0; channel < 3; ++channel) {
         const double error =
-            errorOf(rendered, channel, kWidth, [](double beyond) { return builtin::diffusedStep(beyond); });
+            errorOf(rendered, channel, kWidth, [](double beyond) { return builtin::spreadStep(beyond); });
         fmt::print("channel {}: {:.2e}\n", channel, error);
         EXPECT_LE(error, 0.01) << channel;
     }
@@ -77,7 +77,7 @@ TEST(ReferenceDiffusion, aDotOfLightIsTheProfile) {
             const double pixel = kWidth / rendered.width;
             const glm::dvec2 place =
                 pixel * (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(rendered.width, rendered.height));
-            const glm::dvec3 right = builtin::diffusedDot(glm::length(place));
+            const glm::dvec3 right = builtin::spreadDot(glm::length(place));
             const glm::dvec3 own = rendered.radiance[std::size_t(y * rendered.width + x)];
             wrong += glm::dot(own - right, own - right);
             whole += glm::dot(right, right);

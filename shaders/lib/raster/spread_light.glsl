@@ -7,35 +7,35 @@
 #include "lib/material/material.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
-// A cell for each object, with texels of light on all sides of every chart (DiffusedCells of
+// A cell for each object, with texels of light on all sides of every chart (SpreadLightAtlas of
 // renderer/frame/Diffusion.h).
-layout(binding = IMAGE_UNIT_DIFFUSED, rgba32f) readonly uniform image2D diffusedLight;
+layout(binding = IMAGE_UNIT_SPREAD_LIGHT, rgba32f) readonly uniform image2D spreadLightAtlas;
 
 #if FILTER_EXACT
-layout(location = 19) flat in int diffusedNumber; // from 1; 0: the object has none
+layout(location = 19) flat in int spreadingNumber; // from 1; 0: the object has none
 #else
-layout(location = 14) flat in int diffusedNumber;
+layout(location = 14) flat in int spreadingNumber;
 #endif
 
 // rgb the share of light that leaves where it enters, a the texels around what the coordinates 0 to 1 cover.
-vec4 ofDiffusedCell(int cell)
+vec4 ofSpreadCell(int cell)
 {
-    return imageLoad(diffusedLight, ivec2(cell % DIFFUSED_COLUMNS,
-                                          DIFFUSED_ROWS * DIFFUSED_TEXELS + cell / DIFFUSED_COLUMNS));
+    return imageLoad(spreadLightAtlas, ivec2(cell % SPREAD_CELL_COLUMNS,
+                                          SPREAD_CELL_ROWS * SPREAD_CELL_TEXELS + cell / SPREAD_CELL_COLUMNS));
 }
 
 // Bilinear, of the texels that know light; alpha is 0 where none does, as on a chart smaller than a texel.
-vec4 diffusedAt(vec2 texCoord, int cell, float border)
+vec4 spreadLightAt(vec2 texCoord, int cell, float border)
 {
-    ivec2 corner = ivec2(cell % DIFFUSED_COLUMNS, cell / DIFFUSED_COLUMNS) * DIFFUSED_TEXELS;
-    precise vec2 place = border + texCoord * (float(DIFFUSED_TEXELS) - 2.0 * border) - 0.5;
+    ivec2 corner = ivec2(cell % SPREAD_CELL_COLUMNS, cell / SPREAD_CELL_COLUMNS) * SPREAD_CELL_TEXELS;
+    precise vec2 place = border + texCoord * (float(SPREAD_CELL_TEXELS) - 2.0 * border) - 0.5;
     vec2 low = floor(place);
     precise vec2 share = place - low;
-    ivec2 most = ivec2(DIFFUSED_TEXELS - 1);
+    ivec2 most = ivec2(SPREAD_CELL_TEXELS - 1);
     ivec2 a = corner + clamp(ivec2(low), ivec2(0), most);
     ivec2 b = corner + clamp(ivec2(low) + 1, ivec2(0), most);
-    precise vec4 lower = mix(imageLoad(diffusedLight, a), imageLoad(diffusedLight, ivec2(b.x, a.y)), share.x);
-    precise vec4 upper = mix(imageLoad(diffusedLight, ivec2(a.x, b.y)), imageLoad(diffusedLight, b), share.x);
+    precise vec4 lower = mix(imageLoad(spreadLightAtlas, a), imageLoad(spreadLightAtlas, ivec2(b.x, a.y)), share.x);
+    precise vec4 upper = mix(imageLoad(spreadLightAtlas, ivec2(a.x, b.y)), imageLoad(spreadLightAtlas, b), share.x);
     precise vec4 light = mix(lower, upper, share.y);
     if (light.a == 0.0) return vec4(0.0);
     precise vec3 known = light.rgb / light.a;
@@ -50,9 +50,9 @@ vec3 albedoAfterSpreading(vec3 albedo)
     return pow(max(albedo, vec3(0.0)), vec3(power));
 }
 
-void takeDiffusedLight(Fragment fragment, inout Surface surface)
+void takeSpreadLight(Fragment fragment, inout Surface surface)
 {
-    if (diffusedNumber == 0 || IS_UNLIT(surface.model)) return;
+    if (spreadingNumber == 0 || IS_UNLIT(surface.model)) return;
     // Which share of the light that leaves goes to the viewer is the same whatever its way: what a mirror image of the
     // viewer would lose where it enters, the viewer loses where it leaves.
     vec3 toViewer = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS;
@@ -66,8 +66,8 @@ void takeDiffusedLight(Fragment fragment, inout Surface surface)
     precise float nv = max(seen.nv, 0.0);
     precise vec3 mirrored = 2.0 * seen.nv * surface.normalLS - toViewer;
     precise vec3 diffuseBrdf = reflection(seen, directionsOn(seen, mirrored, nv)).diffuse;
-    vec4 cell = ofDiffusedCell(diffusedNumber - 1);
-    vec4 light = diffusedAt(vec2(fragment.texCoord[0]), diffusedNumber - 1, cell.a);
+    vec4 cell = ofSpreadCell(spreadingNumber - 1);
+    vec4 light = spreadLightAt(vec2(fragment.texCoord[0]), spreadingNumber - 1, cell.a);
     precise vec3 emission = surface.emission + diffuseBrdf * light.rgb;
     surface.emission = emission;
     precise vec3 inPixels = surface.albedo * (light.a == 0.0 ? vec3(1.0) : cell.rgb);
@@ -86,7 +86,7 @@ void takeDiffusedLight(Fragment fragment, inout Surface surface)
 #endif
 }
 #else
-void takeDiffusedLight(Fragment fragment, inout Surface surface)
+void takeSpreadLight(Fragment fragment, inout Surface surface)
 {
 }
 #endif
