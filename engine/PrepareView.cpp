@@ -161,6 +161,20 @@ void addEnvironment(const scenes::Scene& scene, frame::PreparedView& prepared) {
     prepared.environment = frame::packEnvironment(*scene.environment, prepared.spec.settings, prepared.camera);
 }
 
+/// Finds the lights that reach what the view's camera sees, and what its surfaces are lit with. `makeSpec` makes the
+/// spec of them.
+template <typename MakeSpec>
+void lightView(const scenes::Scene& scene, const frame::FrameSettings& settings, const MakeSpec& makeSpec,
+               frame::PreparedView& prepared) {
+    prepared.lights = frame::packLights(scene, prepared.camera, settings);
+    const std::size_t count = prepared.lights.texels.size();
+    prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
+    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
+    prepared.spec = makeSpec(prepared.lights);
+    addEnvironment(scene, prepared);
+    if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
+}
+
 /// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
 /// the camera sees.
 frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::SpreadingObject& object,
@@ -188,13 +202,10 @@ frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::Sp
     frame::PreparedView prepared;
     prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1},
                                             settings.snapPixels);
-    prepared.lights = frame::packLights(scene, prepared.camera, settings);
-    const std::size_t count = prepared.lights.texels.size();
-    prepared.lighting.lights = glm::uvec4(count, prepared.lights.shown, prepared.lights.everywhere, (count + 31) / 32);
-    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
-    prepared.spec = frame::makeSpreadingSpec(scene, object, prepared.lights, settings);
-    addEnvironment(scene, prepared);
-    if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
+    const auto makeSpec = [&](const frame::PackedLights& lights) {
+        return frame::makeSpreadingSpec(scene, object, lights, settings);
+    };
+    lightView(scene, settings, makeSpec, prepared);
     if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     return prepared;
 }
@@ -258,14 +269,10 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background,
                                             seenLights.empty() ? bounds : withLights, settings.snapPixels);
     if (frame::showsLitPicture(settings.view)) prepared.seenLights = frame::packSeenLights(seenLights, prepared.camera);
-    prepared.lights = frame::packLights(scene, prepared.camera, settings);
-    const std::size_t lightCount = prepared.lights.texels.size();
-    prepared.lighting.lights =
-        glm::uvec4(lightCount, prepared.lights.shown, prepared.lights.everywhere, (lightCount + 31) / 32);
-    prepared.lighting.slices.y = glm::uint(prepared.lights.shadowed);
-    prepared.spec = frame::makeFrameSpec(scene, prepared.lights, settings);
-    addEnvironment(scene, prepared);
-    if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
+    const auto makeSpec = [&](const frame::PackedLights& lights) {
+        return frame::makeFrameSpec(scene, lights, settings);
+    };
+    lightView(scene, settings, makeSpec, prepared);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;

@@ -189,7 +189,8 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     set.add(Feature::SubsurfacePassage, method.passes && !method.spreads);
     if (!method.spreads) return;
     set.add(Feature::SubsurfaceDiffusion);
-    // Surfaces hold the light that has spread over them as emission, and their own f0 as that of a dielectric.
+    // Surfaces hold the light that has spread over them as emission, and their own F0 as that of a dielectric:
+    // takeSpreadLight() of shaders/lib/raster/spread_light.glsl.
     set.add(Feature::Emission);
     set.add(Feature::VaryingMaterials);
     set.add(Feature::Specular, model.microsurface == scenes::Microsurface::MetallicRoughness &&

@@ -123,7 +123,8 @@ bool canMask(const scenes::Material& material);
 /// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
 
-/// What of a material decides the light that enters it, as one that reflects alike to all sides.
+/// What of a material decides the light that enters it, as one that reflects alike to all sides: what
+/// takeEnteredValues() of shaders/passes/diffusion_light.frag leaves of its surface.
 scenes::Material enteredMaterial(const scenes::Material& material);
 
 /// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one

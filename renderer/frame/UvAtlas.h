@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/Scene.h"
+#include "shaders/shared/diffusion.h"
 
 /// A surface as texels of its texture coordinates, for light that spreads over it (docs/skin.md): which triangle lies
 /// at each texel, how long a step to the next texel is on the surface, and where the surface goes on past the rim of a
@@ -40,7 +41,7 @@ struct UvAtlas {
     const UvTexel& at(int u, int v) const { return texels[std::size_t(v) * std::size_t(sideTexels) + std::size_t(u)]; }
     /// In texels: 0.5 is the middle of the first.
     glm::dvec2 placeOf(const glm::vec2& texCoord) const {
-        return glm::dvec2(double(borderTexels)) + glm::dvec2(texCoord) * double(sideTexels - 2 * borderTexels);
+        return PLACE_IN_UV_ATLAS(glm::dvec2(texCoord), double(borderTexels), double(sideTexels));
     }
 };
 

@@ -13,20 +13,12 @@ layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
 layout(location = 1) out vec4 unspread;
 
-vec3 albedoBeforeSpreading(vec3 albedo)
+// Makes a surface one that reflects what enters it to all sides alike, without layers. enteredMaterial() of
+// renderer/frame/Features.cpp says the same of its material, by which code that this leaves unused is left out.
+void takeEnteredValues(inout Surface surface)
 {
-    float power = material.mixed.z;
-    if (power == 0.0) return vec3(1.0);
-    if (power == 1.0) return albedo;
-    return pow(max(albedo, vec3(0.0)), vec3(power));
-}
-
-void main()
-{
-    Fragment fragment = rasterisedFragment();
-    Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
     surface.model = MODEL_LAMBERT;
-    surface.albedo = albedoBeforeSpreading(surface.albedo);
+    surface.albedo = powerOf(surface.albedo, material.mixed.z);
     surface.emission = vec3(0.0);
 #if HAS_CLEARCOAT
     surface.coatFactor = 0.0;
@@ -34,6 +26,13 @@ void main()
 #if HAS_SHEEN
     surface.sheenColor = vec3(0.0);
 #endif
+}
+
+void main()
+{
+    Fragment fragment = rasterisedFragment();
+    Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
+    takeEnteredValues(surface);
     Viewpoint viewpoint;
     viewpoint.positionLS = positionLS;
     viewpoint.toViewerLS = surface.normalLS;

@@ -1,5 +1,6 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
+#include "shared/diffusion.h"
 #include "shared/hook.h"
 #include "shared/views.h"
 #include "lib/surface/camera.glsl"
@@ -84,7 +85,8 @@ void main()
     precise vec3 positionRWS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
 #if IN_ATLAS
     // Where its texture coordinates lie.
-    precise vec2 place = (vec2(ATLAS_BORDER) + inTexCoord0 * float(ATLAS_TEXELS - 2 * ATLAS_BORDER)) / float(ATLAS_TEXELS);
+    const float side = float(ATLAS_TEXELS);
+    precise vec2 place = PLACE_IN_UV_ATLAS(inTexCoord0, float(ATLAS_BORDER), side) / side;
     gl_Position = vec4(place * 2.0 - 1.0, 0.5, 1.0);
     positionLS = lsFromRWS(positionRWS);
 #else

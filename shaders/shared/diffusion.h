@@ -16,6 +16,11 @@
 // Where a Gaussian is narrower than this share of a texel's square, three taps have its variance.
 #define DIFFUSION_NARROW 0.4
 
+// Where texture coordinates lie in a UV atlas of so many texels a side, of which so many lie around what the
+// coordinates 0 to 1 cover; in texels: 0.5 is the middle of the first. A macro, since C++ computes it in double
+// precision.
+#define PLACE_IN_UV_ATLAS(texCoord, border, side) ((border) + (texCoord) * ((side)-2.0 * (border)))
+
 // Light is computed tile by tile of so many texels a side (renderer/frame/DiffusionTiles.h).
 #define DIFFUSION_TILE_TEXELS 16
 

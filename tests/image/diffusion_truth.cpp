@@ -355,8 +355,8 @@ TEST_F(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
          &DiffusionFaults::stepOfFewerTexelsAlongX},
         {"dilation off", "passes/filled_light.glsl", "if (chart == 0.0) return filled;",
          "if (chart <= 0.0) return filled;", &DiffusionFaults::evenLight},
-        {"the albedo taken twice", "lib/raster/spread_light.glsl", "float power = 1.0 - material.mixed.z;",
-         "float power = 1.0;", &DiffusionFaults::evenLight},
+        {"the albedo taken twice", "lib/raster/spread_light.glsl", "powerOf(surface.albedo, 1.0 - material.mixed.z)",
+         "powerOf(surface.albedo, 1.0)", &DiffusionFaults::evenLight},
         {"back faces lit", "passes/diffusion_light.frag", "    entering = vec4(light, 1.0);",
          "    surface.normalLS = -surface.normalLS;\n"
          "    light += shadeSurface(surface, viewpoint, gl_FragCoord.xy);\n"

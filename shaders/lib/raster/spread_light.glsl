@@ -4,6 +4,7 @@
 #include "lib/surface/camera.glsl"
 #include "lib/surface/surface.glsl"
 #if HAS_SUBSURFACE_DIFFUSION
+#include "shared/diffusion.h"
 #include "lib/material/material.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
@@ -28,7 +29,7 @@ vec4 ofSpreadCell(int cell)
 vec4 spreadLightAt(vec2 texCoord, int cell, float border)
 {
     ivec2 corner = ivec2(cell % SPREAD_CELL_COLUMNS, cell / SPREAD_CELL_COLUMNS) * SPREAD_CELL_TEXELS;
-    precise vec2 place = border + texCoord * (float(SPREAD_CELL_TEXELS) - 2.0 * border) - 0.5;
+    precise vec2 place = PLACE_IN_UV_ATLAS(texCoord, border, float(SPREAD_CELL_TEXELS)) - 0.5;
     vec2 low = floor(place);
     precise vec2 share = place - low;
     ivec2 most = ivec2(SPREAD_CELL_TEXELS - 1);
@@ -42,14 +43,8 @@ vec4 spreadLightAt(vec2 texCoord, int cell, float border)
     return vec4(known, 1.0);
 }
 
-vec3 albedoAfterSpreading(vec3 albedo)
-{
-    float power = 1.0 - material.mixed.z;
-    if (power == 1.0) return albedo;
-    if (power == 0.0) return vec3(1.0);
-    return pow(max(albedo, vec3(0.0)), vec3(power));
-}
-
+// Makes a surface one that holds the light which has spread as emission, and of metallic_roughness its own F0 as that of
+// a dielectric. addMaterial() of renderer/frame/Features.cpp says so of the scene, for G-buffers to store both.
 void takeSpreadLight(Fragment fragment, inout Surface surface)
 {
     if (spreadingNumber == 0 || IS_UNLIT(surface.model)) return;
@@ -57,7 +52,7 @@ void takeSpreadLight(Fragment fragment, inout Surface surface)
     // viewer would lose where it enters, the viewer loses where it leaves.
     vec3 toViewer = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS;
     SeenSurface seen = seenSurface(surface, toViewer);
-    vec3 after = albedoAfterSpreading(surface.albedo);
+    vec3 after = powerOf(surface.albedo, 1.0 - material.mixed.z);
     seen.surface.albedo = after;
 #if HAS_GGX_MODELS
     precise vec3 diffuse = after * ((1.0 - surface.metallic) * kInversePi);

@@ -12,6 +12,14 @@ layout(std140, binding = UNIFORM_SUBSURFACE) uniform SubsurfaceBlock
 };
 #endif
 
+// The part of an albedo that takes effect before light spreads, or after it. The powers 0 and 1 are exact.
+vec3 powerOf(vec3 albedo, float power)
+{
+    if (power == 0.0) return vec3(1.0);
+    if (power == 1.0) return albedo;
+    return pow(max(albedo, vec3(0.0)), vec3(power));
+}
+
 #if HAS_SUBSURFACE_PASSAGE
 bool letsLightThrough(Surface surface)
 {
