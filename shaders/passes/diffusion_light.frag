@@ -38,11 +38,12 @@ void main()
     viewpoint.toViewerLS = surface.normalLS;
     viewpoint.depth = 0.5;
     viewpoint.pixel = gl_FragCoord.xy;
-    precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy);
+    vec3 passed = vec3(0.0);
+    precise vec3 light = shadeSurface(surface, viewpoint, gl_FragCoord.xy, passed);
     entering = vec4(light, 1.0);
     precise vec3 kept = constants.inTexels.rgb * light;
 #if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE
-    kept += constants.inPixels.rgb * passedLight;
+    kept += constants.inPixels.rgb * passed;
 #endif
     unspread = vec4(kept, 1.0);
 }

@@ -16,6 +16,7 @@ void main()
     precise vec3 given = vec3(0.0); // the blending adds
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
     prepareForLights(seen);
-    addLightOnSurface(light, true, seen, viewpoint, given);
+    vec3 passed = vec3(0.0);
+    addLightOnSurface(light, true, seen, viewpoint, given, passed);
     radiance = vec4(given, 0.0);
 }

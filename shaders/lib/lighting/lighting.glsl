@@ -31,10 +31,6 @@ bool takesLight(Surface surface)
     return !IS_UNLIT(surface.model);
 }
 
-#if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE && IN_ATLAS
-vec3 passedLight = vec3(0.0); // of it, what the lights added so far send through the surface's body
-#endif
-
 // To be called with a surface before lights are added on it.
 void prepareForLights(SeenSurface seen)
 {
@@ -58,8 +54,10 @@ vec3 reflectedLight(int light, SeenSurface seen, vec3 positionLS, Incident incid
 // pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
 // for here. It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it
 // adds (5 % of the time of 1,024 lights). It also runs the code of shadows for all lights, so callers say where none
-// can be `shadowed`.
-void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance)
+// can be `shadowed`. What of the radiance has passed through the surface's body is added to `passed` too, where
+// IN_ATLAS.
+void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance,
+                       inout vec3 passed)
 {
 #if VISIT_COUNTS
     radiance += vec3(1.0);
@@ -77,8 +75,8 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
                 passing *= passingShare(light, seen.surface, viewpoint);
                 unshadowed += passing;
 #if IN_ATLAS
-                precise vec3 passed = passedLight + passing;
-                passedLight = passed;
+                precise vec3 sumPassed = passed + passing;
+                passed = sumPassed;
 #endif
             }
         }
@@ -98,8 +96,8 @@ int shadowedLights()
 }
 #endif
 
-// Adds every light that the surface's cursor visits, in ascending order.
-vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pixel)
+// Adds every light that the surface's cursor visits, in ascending order; `passed` as addLightOnSurface() has it.
+vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pixel, inout vec3 passed)
 {
     precise vec3 radiance = before;
 #if HAS_LIT_MODELS
@@ -111,13 +109,13 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its
     // lights. LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same
     // limit.
-#define ADD_LIGHT addLightOnSurface(light, false, seen, viewpoint, radiance);
+#define ADD_LIGHT addLightOnSurface(light, false, seen, viewpoint, radiance, passed);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     bool more = true;
 #if HAS_SHADOWS
     do {
         if (light >= shadowedLights()) break;
-        addLightOnSurface(light, true, seen, viewpoint, radiance);
+        addLightOnSurface(light, true, seen, viewpoint, radiance, passed);
         more = nextLight(cursor, light);
         if (!more) more = nextBatch(cursor, light);
     } while (more);
@@ -151,13 +149,20 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     return radiance;
 }
 
-// Radiance of the surface towards the viewer: its emission, the environment and its lights.
-vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
+// Radiance of the surface towards the viewer: its emission, the environment and its lights; `passed` as
+// addLightOnSurface() has it.
+vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel, inout vec3 passed)
 {
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
     precise vec3 radiance = emittedRadiance(seen);
 #if HAS_ENVIRONMENT
     if (takesLight(surface)) radiance += environmentOnSurface(seen, pixel);
 #endif
-    return lightsOnSurface(radiance, seen, viewpoint, pixel);
+    return lightsOnSurface(radiance, seen, viewpoint, pixel, passed);
+}
+
+vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel)
+{
+    vec3 passed = vec3(0.0);
+    return shadeSurface(surface, viewpoint, pixel, passed);
 }

@@ -89,7 +89,8 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
 #elif VIEW == VIEW_NORMAL_OBJECT
     return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material/material.glsl)
 #elif VIEW == VIEW_LIGHTS
-    return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel); // counted
+    vec3 passed = vec3(0.0);
+    return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel, passed); // counted
 #elif VIEW == VIEW_SHADOW
     return shadowView(surface, viewpoint);
 #elif VIEW == VIEW_CASCADES
