@@ -119,26 +119,39 @@ struct ViewWiring {
             lighting.environment->filtered = all.filtered;
     }
 
+    /// What a frame does about the light of the view's objects.
+    frame::DiffusionSchedule diffusionSchedule(bool holdsAtlas) const {
+        std::vector<frame::DiffusionSchedule::Object> objects(spec.spreadingViews.size());
+        for (std::size_t cell = 0; cell < objects.size(); ++cell) {
+            for (const frame::DiffusionLevel& level : spec.spreadingViews[cell].spread->levels)
+                objects[cell].variancesSquareMetres.push_back(level.varianceSquareMetres);
+            if (!drawn) continue;
+            const frame::DrawnView::SpreadingView& own = drawn->spreadingViews[cell];
+            objects[cell].key = own.key;
+            objects[cell].tiles = &own.uvAtlas->tiles;
+            objects[cell].seen = own.seen;
+        }
+        return {drawn ? drawn->diffusionMemory : nullptr, std::move(objects), holdsAtlas,
+                drawn ? drawn->spreadOne : std::function<void()>()};
+    }
+
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
     /// from an earlier frame are left as they are.
     TextureHandle addSpreadLight(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
-        // What is in the atlas is known cell by cell, not by a revision of the whole.
-        constexpr std::uint64_t kRevision = 1;
         const std::string name = index == 0 ? "spread_light_atlas" : fmt::format("spread_light_atlas ({})", index + 1);
-        TextureHandle atlas = graph.persist(name, DiffusionPasses::spreadLightAtlas(spec), kRevision);
-        const bool holdsAtlas = graph.holds(atlas);
-        if (drawn != nullptr) drawn->diffusionMemory->begin(spec.spreadingViews.size(), holdsAtlas);
-        bool writes = false;
+        TextureHandle atlas = graph.persist(name, DiffusionPasses::spreadLightAtlas(spec), frame::kSpreadLightRevision);
+        frame::DiffusionSchedule schedule = diffusionSchedule(graph.holds(atlas));
         for (std::size_t cell = 0; cell < spec.spreadingViews.size(); ++cell) {
+            if (schedule.leaves(cell)) continue;
             const frame::DrawnView::SpreadingView* const own = drawn ? &drawn->spreadingViews[cell] : nullptr;
-            // An atlas must be written before it is read.
-            const bool isIdle = own && drawn->diffusionMemory->isIdle(cell, own->key, own->seen);
-            if (isIdle && (holdsAtlas || writes || cell + 1 < spec.spreadingViews.size())) continue;
             const ViewSource object{view.technique, spec.spreadingViews[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
-            atlas = DiffusionPasses::add(graph, spec, cell, {wiring.surfaces, wiring.lighting, atlas, drawn, index})
-                        .spreadLightAtlas;
-            writes = true;
+            const DiffusionPasses::Light light = DiffusionPasses::kept(graph, spec, index, cell);
+            const bool holdsLight = graph.holds(light.entering) && graph.holds(light.unspread);
+            const DiffusionPasses::Params params{cell, schedule.next(cell, holdsLight)};
+            const DiffusionPasses::Inputs inputs{wiring.surfaces, wiring.lighting, atlas, light,
+                                                 own ? own->uvAtlas : nullptr};
+            atlas = DiffusionPasses::add(graph, spec, params, inputs).spreadLightAtlas;
         }
         return atlas;
     }

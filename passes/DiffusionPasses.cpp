@@ -73,10 +73,7 @@ struct Object {
     std::string suffix; ///< of the names of its passes
     TextureHandle steps, continued;
 
-    /// What is known of an object's light as it is lit: what enters its surface, and the part of it that leaves there.
-    struct Light {
-        TextureHandle entering, unspread;
-    };
+    using Light = DiffusionPasses::Light;
     /// Lights some tiles anew.
     Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles,
                 const std::function<void()>& done) const;
@@ -348,47 +345,33 @@ std::array<std::string, 2> DiffusionPasses::keptNames(std::size_t view, std::siz
     return {"entering_light" + suffix, "unspread_light" + suffix};
 }
 
-DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell,
-                                              const Inputs& inputs) {
-    // What is in them is known tile by tile, not by a revision of the whole.
-    constexpr std::uint64_t kRevision = 1;
-    const frame::FrameSpec& spec = view.spreadingViews[cell];
-    const frame::DrawnView::SpreadingView* const drawn = inputs.drawn ? &inputs.drawn->spreadingViews[cell] : nullptr;
-    const frame::GpuUvAtlas* const uvAtlas = drawn ? drawn->uvAtlas : nullptr;
-    const int side = spec.spreadTexels();
-    Object object{graph, spec, suffixOf(cell), {}, {}};
-    object.steps = graph.import("diffusion_steps" + object.suffix, square(side), uvAtlas ? &uvAtlas->steps : nullptr);
-    object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
-                                    uvAtlas ? &uvAtlas->continued : nullptr);
-    const auto [entering, unspread] = keptNames(inputs.viewNumber, cell);
-    Object::Light light{graph.persist(entering, square(side), kRevision),
-                        graph.persist(unspread, square(side), kRevision)};
+DiffusionPasses::Light DiffusionPasses::kept(graph::Graph& graph, const frame::FrameSpec& view, std::size_t viewNumber,
+                                             std::size_t cell) {
+    const graph::TextureDesc desc = square(view.spreadingViews[cell].spreadTexels());
+    const auto [entering, unspread] = keptNames(viewNumber, cell);
+    return {graph.persist(entering, desc, frame::kSpreadLightRevision),
+            graph.persist(unspread, desc, frame::kSpreadLightRevision)};
+}
 
-    frame::DiffusionWork work;
-    work.levels.resize(spec.spread->levels.size());
-    std::function<void()> lit, stored, blanked;
-    bool lights = true, spreads = true;
-    if (drawn) {
-        frame::DiffusionMemory* const memory = inputs.drawn->diffusionMemory;
-        if (!graph.holds(light.entering) || !graph.holds(light.unspread)) memory->forgetLit(cell);
-        std::vector<double> variances;
-        for (const frame::DiffusionLevel& level : spec.spread->levels) variances.push_back(level.varianceSquareMetres);
-        work = memory->next(cell, drawn->key, uvAtlas->tiles, variances, drawn->seen);
-        spreads = !memory->isLimited() || !work.store.isEmpty();
-        lights = !work.light.isEmpty() || (spreads && !graph.holds(light.entering));
-        lit = [memory, cell, key = drawn->key, tiles = work.light] { memory->hold(cell, key, tiles, {}); };
-        stored = [memory, cell, key = drawn->key, tiles = work.store, &told = inputs.drawn->spreadOne] {
-            memory->hold(cell, key, {}, tiles);
-            if (told) told();
-        };
-        blanked = [memory, cell, key = drawn->key, tiles = work.blank] { memory->holdBlank(cell, key, tiles); };
-    }
-    if (lights) light = object.light(inputs, light, work.light, lit);
+DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, const Params& params,
+                                              const Inputs& inputs) {
+    const frame::DiffusionTask& task = params.task;
+    const frame::DiffusionWork& work = task.work;
+    const frame::FrameSpec& spec = view.spreadingViews[params.cell];
+    const frame::SpreadLightAtlas cells = view.spreadLightAtlas();
+    const int side = spec.spreadTexels();
+    Object object{graph, spec, suffixOf(params.cell), {}, {}};
+    object.steps = graph.import("diffusion_steps" + object.suffix, square(side),
+                                inputs.uvAtlas ? &inputs.uvAtlas->steps : nullptr);
+    object.continued = graph.import("diffusion_continued" + object.suffix, square(side, graph::Format::Rg32Float),
+                                    inputs.uvAtlas ? &inputs.uvAtlas->continued : nullptr);
+    Light light = inputs.light;
+    if (task.lights) light = object.light(inputs, light, work.light, task.lit);
     TextureHandle written = inputs.spreadLightAtlas;
-    if (!work.blank.isEmpty()) written = object.blank(written, view.spreadLightAtlas(), cell, work.blank, blanked);
-    if (!spreads) {
+    if (!work.blank.isEmpty()) written = object.blank(written, cells, params.cell, work.blank, task.blanked);
+    if (!task.spreads) {
         // For a later frame.
-        if (lights) {
+        if (task.lights) {
             graph.output(light.entering);
             graph.output(light.unspread);
         }
@@ -397,7 +380,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     Object::Spread spread{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
         spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.unspread, written, view.spreadLightAtlas(), cell, work.store, stored)};
+    return {object.store(spread, light.unspread, written, cells, params.cell, work.store, task.stored)};
 }
 
 } // namespace tessera::passes

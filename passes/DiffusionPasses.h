@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 
+#include "renderer/frame/DiffusionSchedule.h"
 #include "renderer/frame/FrameHandles.h"
 
 namespace tessera::passes {
@@ -16,20 +17,29 @@ namespace tessera::passes {
 /// Space   of the UV atlas; lights around the object, in world axes
 /// Source  d'Eon and Luebke 2007, GPU Gems 3, chapter 14; Green 2004, GPU Gems, chapter 16
 struct DiffusionPasses {
+    /// What is kept of an object's light as it is lit: what enters its surface, and the part of it that leaves there.
+    struct Light {
+        graph::TextureHandle entering, unspread;
+    };
+    struct Params {
+        std::size_t cell = 0;
+        frame::DiffusionTask task;
+    };
     struct Inputs {
         frame::SurfaceHandles surfaces; ///< as the object's own view draws it
         frame::LightingInputs lighting;
         graph::TextureHandle spreadLightAtlas;
-        const frame::DrawnView* drawn = nullptr; ///< the view; null for a plan
-        std::size_t viewNumber = 0;
+        Light light;                                ///< kept()
+        const frame::GpuUvAtlas* uvAtlas = nullptr; ///< null for a plan
     };
     struct Outputs {
         graph::TextureHandle spreadLightAtlas;
     };
     /// Names of what is kept of a cell besides the atlas of spread light.
     static std::array<std::string, 2> keptNames(std::size_t view, std::size_t cell);
+    static Light kept(graph::Graph& graph, const frame::FrameSpec& view, std::size_t viewNumber, std::size_t cell);
     static graph::TextureDesc spreadLightAtlas(const frame::FrameSpec& view);
-    static Outputs add(graph::Graph& graph, const frame::FrameSpec& view, std::size_t cell, const Inputs& inputs);
+    static Outputs add(graph::Graph& graph, const frame::FrameSpec& view, const Params& params, const Inputs& inputs);
 };
 
 } // namespace tessera::passes

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/Diffusion.h"
+#include "renderer/frame/DiffusionSchedule.h"
 #include "scenes/LookAt.h"
 
 namespace tessera::frame {
@@ -266,6 +267,81 @@ TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
     memory.limit({});
     EXPECT_EQ(memory.next(0, 8, tiles, {}, all).store, all);
     EXPECT_TRUE(memory.next(0, 8, tiles, {}, all).blank.isEmpty());
+}
+
+/// Of one object whose tiles all are seen.
+DiffusionSchedule::Object objectOf(const std::vector<DiffusionTile>& tiles, int side, std::uint64_t key) {
+    return {{}, key, &tiles, TileSet(side, true)};
+}
+
+TEST(DiffusionSchedule, hasEveryPassInAPlan) {
+    DiffusionSchedule plan(nullptr, {{{1e-6, 2e-6}, 0, nullptr, {}}, {}}, false);
+    for (const std::size_t cell : {std::size_t(0), std::size_t(1)}) {
+        EXPECT_FALSE(plan.leaves(cell));
+        const DiffusionTask task = plan.next(cell, false);
+        EXPECT_TRUE(task.lights && task.spreads);
+        EXPECT_EQ(task.work.levels.size(), cell == 0 ? 2u : 0u);
+        EXPECT_FALSE(task.lit || task.stored || task.blanked);
+    }
+}
+
+TEST(DiffusionSchedule, lightsAndSpreadsOnceAndLeavesWhatIsKnown) {
+    const std::vector<DiffusionTile> tiles = tilesApart(2);
+    const TileSet all(2, true);
+    DiffusionMemory memory;
+    int told = 0;
+    const auto frame = [&](std::uint64_t key, bool holdsAtlas) {
+        return DiffusionSchedule(&memory, {objectOf(tiles, 2, key)}, holdsAtlas, [&] { ++told; });
+    };
+    DiffusionSchedule first = frame(7, false);
+    ASSERT_FALSE(first.leaves(0));
+    DiffusionTask task = first.next(0, false);
+    EXPECT_TRUE(task.lights && task.spreads);
+    EXPECT_EQ(task.work.light, all);
+    EXPECT_EQ(task.work.store, all);
+    EXPECT_TRUE(task.work.blank.isEmpty());
+    EXPECT_EQ(memory.missing(0, 7, all), all) << "nothing is known before the passes have run";
+    task.lit();
+    task.stored();
+    EXPECT_EQ(told, 1);
+    EXPECT_TRUE(frame(7, true).leaves(0));
+    EXPECT_FALSE(frame(8, true).leaves(0)) << "what enters has changed";
+
+    DiffusionSchedule freed = frame(7, false);
+    EXPECT_FALSE(freed.leaves(0)) << "the atlas was freed";
+    task = freed.next(0, true);
+    EXPECT_FALSE(task.lights) << "what has entered is kept";
+    EXPECT_TRUE(task.spreads);
+    EXPECT_EQ(task.work.store, all);
+    task = frame(7, false).next(0, false);
+    EXPECT_TRUE(task.lights) << "that was freed too";
+    EXPECT_EQ(task.work.light, all);
+}
+
+TEST(DiffusionSchedule, writesAnAtlasBeforeItIsReadThoughNothingIsSeen) {
+    const std::vector<DiffusionTile> tiles = tilesApart(2);
+    DiffusionMemory memory;
+    const DiffusionSchedule::Object unseen{{}, 7, &tiles, TileSet(2)};
+    DiffusionSchedule schedule(&memory, {unseen, unseen}, false);
+    EXPECT_TRUE(schedule.leaves(0)) << "the second may do it";
+    ASSERT_FALSE(schedule.leaves(1));
+    const DiffusionTask task = schedule.next(1, false);
+    EXPECT_TRUE(task.lights && task.spreads) << "which reads light that must have been written";
+    EXPECT_TRUE(task.work.light.isEmpty() && task.work.store.isEmpty());
+    EXPECT_TRUE(DiffusionSchedule(&memory, {unseen, unseen}, true).leaves(1));
+}
+
+TEST(DiffusionSchedule, sharesTheFramesLimitAmongObjects) {
+    const std::vector<DiffusionTile> tiles = tilesApart(3);
+    DiffusionMemory memory;
+    memory.limit(3);
+    DiffusionSchedule schedule(&memory, {objectOf(tiles, 3, 7), objectOf(tiles, 3, 7)}, false);
+    const DiffusionTask one = schedule.next(0, false), other = schedule.next(1, false);
+    EXPECT_EQ(one.work.light.count(), 3u);
+    EXPECT_TRUE(one.lights);
+    EXPECT_FALSE(one.spreads) << "not all of its light is there";
+    EXPECT_FALSE(other.lights || other.spreads) << "the limit is spent";
+    EXPECT_EQ(other.work.blank.count(), 9u) << "the atlas must say that nothing is known";
 }
 
 TEST(TileSet, takesTheFirstOfItsTiles) {
