@@ -272,6 +272,28 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
     }
 }
 
+TEST(Features, ofLightThatEntersAreThoseOfASurfaceWithoutLayersThatPassesLight) {
+    scenes::Scene scene = plainScene();
+    Material& material = scene.materials[0];
+    material.model = MaterialModel::MetallicRoughness;
+    material.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    material.clearcoat = 0.5f;
+    material.sheenColor = glm::vec3(0.5f);
+    material.emissive = glm::vec3(1.0f);
+    material.anisotropyStrength = 0.5f;
+    material.ior = 1.4f;
+    const FeatureSet drawn = materialFeatures(scene), entered = enteringFeatures(scene, 0, 0);
+    for (const Feature left : {Feature::Clearcoat, Feature::Sheen, Feature::Emission, Feature::Anisotropy,
+                               Feature::Specular, featureOf(MaterialModel::MetallicRoughness)}) {
+        EXPECT_TRUE(drawn[left]) << int(left);
+        EXPECT_FALSE(entered[left]) << int(left);
+    }
+    EXPECT_EQ(entered.soleModel, MaterialModel::Lambert);
+    EXPECT_TRUE(entered[Feature::SubsurfacePassage]);
+    EXPECT_FALSE(drawn[Feature::SubsurfacePassage]) << "light that spreads has passed before";
+    EXPECT_FALSE(entered[Feature::SubsurfaceDiffusion]);
+}
+
 TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {
     using Method = scenes::SubsurfaceMethod;
     const auto wraps = [](Method method, scenes::SubsurfaceRequest request, const std::function<void(Material&)>& set) {
