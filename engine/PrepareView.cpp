@@ -109,7 +109,7 @@ std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& 
             ++others;
             continue;
         }
-        const double texelMetres = object.sideMetres / double(spec.spreadTexels()) * material.subsurface.scaleMetres;
+        const double texelMetres = spec.spread->texelMetres * double(material.subsurface.scaleMetres);
         first = fmt::format("light does not spread over {} (material '{}'): its widest Gaussian is {:.3g} mm, and a "
                             "texel of its atlas {:.3g} mm; scaleMetres of the subsurface says how many metres a metre "
                             "of the model is, and {} how many texels there are",

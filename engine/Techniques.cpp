@@ -123,8 +123,9 @@ struct ViewWiring {
     frame::DiffusionSchedule diffusionSchedule(bool holdsAtlas) const {
         std::vector<frame::DiffusionSchedule::Object> objects(spec.spreadingViews.size());
         for (std::size_t cell = 0; cell < objects.size(); ++cell) {
-            for (const frame::DiffusionLevel& level : spec.spreadingViews[cell].spread->levels)
-                objects[cell].variancesSquareMetres.push_back(level.varianceSquareMetres);
+            const frame::LightSpread& spread = *spec.spreadingViews[cell].spread;
+            for (std::size_t level = 0; level < spread.levels.size(); ++level)
+                objects[cell].variancesSquareMetres.push_back(frame::levelReach(spread, level).mostSquareMetres());
             if (!drawn) continue;
             const frame::DrawnView::SpreadingView& own = drawn->spreadingViews[cell];
             objects[cell].key = own.key;

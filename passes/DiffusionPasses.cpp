@@ -283,10 +283,11 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
         std::optional<TextureHandle> sum;
     };
     const frame::DiffusionLevel& level = spec.spread->levels[number];
+    const frame::LevelReach reach = frame::levelReach(*spec.spread, number);
     const auto constants = [&](bool alongV) {
         return shared::DiffusionSpreadConstants{
-            glm::vec4(float(level.varianceSquareMetres), alongV ? 1.0f : 0.0f, level.isFine ? 1.0f : 0.0f, 0.0f),
-            glm::vec4(glm::vec3(level.weight), 0.0f)};
+            glm::vec4(float(reach.toSquareMetres), alongV ? 1.0f : 0.0f, float(reach.fromSquareMetres), 0.0f),
+            glm::vec4(glm::vec3(level.weight), float(frame::texelVariance(spec.settings.diffusion.half)))};
     };
     const auto run = [](const Data& out, const graph::PassContext& context, const Rectangles& rectangles,
                         const shared::DiffusionSpreadConstants& values, const gpu::PipelineState& state) {

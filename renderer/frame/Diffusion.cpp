@@ -92,15 +92,16 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
         levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
     }
     const double shown = texelVariance(texelMetres, isHalved);
-    // Taps that lie apart need light that has spread before: a level up to kWidening times as wide as that, and where a
-    // profile's widths jump more, every texel is a tap. Of these there may be twice as many where texels are smaller.
-    constexpr double kWidening = 2.0;
+    // Where a profile's widths jump by more than DIFFUSION_WIDENING, every texel is a tap. Of these there may be twice
+    // as many where texels are smaller.
     const double fineMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 2.0 / DIFFUSION_REACH;
     LightSpread spread;
+    spread.texelMetres = texelMetres;
     double before = shown;
-    const auto jumpsTo = [&](double variance) { return variance > kWidening * kWidening * before; };
+    constexpr double kSmooth = DIFFUSION_WIDENING * DIFFUSION_WIDENING;
+    const auto jumpsTo = [&](double variance) { return variance > kSmooth * before; };
     const auto add = [&](double variance, const glm::dvec3& weight) {
-        spread.levels.push_back({variance - before, weight, jumpsTo(variance)});
+        spread.levels.push_back({variance - before, weight, variance});
         before = variance;
     };
     for (const DiffusionLevel& level : levels) {
@@ -113,10 +114,14 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
         const double variance = level.varianceSquareMetres;
         while (texelMetres > 0.0 && jumpsTo(variance) && variance - before > fineMetres * fineMetres &&
                spread.levels.size() < kMostLevels)
-            add(std::max(before + fineMetres * fineMetres, kWidening * kWidening * before), glm::dvec3(0.0));
+            add(std::max(before + fineMetres * fineMetres, kSmooth * before), glm::dvec3(0.0));
         add(variance, level.weight);
     }
     return spread;
+}
+
+LevelReach levelReach(const LightSpread& spread, std::size_t level) {
+    return {level == 0 ? 0.0 : spread.levels[level - 1].spreadSquareMetres, spread.levels[level].spreadSquareMetres};
 }
 
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) {
@@ -128,6 +133,10 @@ int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) 
 
 int borderTexels(int gutter, int sideTexels) {
     return std::min(gutter, sideTexels / 16);
+}
+
+double texelMetresOf(double sideMetres, int sideTexels, int border) {
+    return sideMetres / double(sideTexels - 2 * border);
 }
 
 SpreadLightAtlas spreadLightAtlas(std::size_t objects, int sideTexels) {

@@ -36,9 +36,10 @@ std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes
 
 /// Light as it has spread so far is spread on by a Gaussian, and a share of it goes into the sum.
 struct DiffusionLevel {
-    double varianceSquareMetres = 0.0; ///< that is added, in metres of the scene
+    double varianceSquareMetres = 0.0; ///< that is added to texels of the object's mean size, in metres of the scene
     glm::dvec3 weight{0.0};
-    bool isFine = false; ///< every texel is a tap, since light is not yet smooth at this width
+    /// Of light that has spread by this level and those before, with what showing texels adds.
+    double spreadSquareMetres = 0.0;
     bool operator==(const DiffusionLevel&) const = default;
 };
 /// How an object's light spreads. All weights sum to 1 in each channel. Showing texels spreads their light already, by
@@ -47,11 +48,22 @@ struct DiffusionLevel {
 struct LightSpread {
     glm::dvec3 inPixels{0.0}, inTexels{0.0};
     std::vector<DiffusionLevel> levels; ///< from the narrowest Gaussian on
+    double texelMetres = 0.0;           ///< what it was made for
 };
-/// By how much light spreads that is sampled at texels and interpolated between them: a tent's, and where four texels
-/// became one, theirs around its middle.
+/// The least that a level spreads light from and the most that it spreads it to: a texel shows less than the mean,
+/// where it is smaller, so that its first level adds more.
+struct LevelReach {
+    double fromSquareMetres = 0.0, toSquareMetres = 0.0;
+    double mostSquareMetres() const { return toSquareMetres - fromSquareMetres; } ///< variance that it adds
+};
+LevelReach levelReach(const LightSpread& spread, std::size_t level);
+/// By how much light spreads that is sampled at texels and interpolated between them, in squares of a texel: a tent's,
+/// and where four texels became one, theirs around its middle.
+constexpr double texelVariance(bool isHalved) {
+    return 1.0 / 6.0 + (isHalved ? 1.0 / 16.0 : 0.0);
+}
 constexpr double texelVariance(double texelMetres, bool isHalved) {
-    return texelMetres * texelMetres * (1.0 / 6.0 + (isHalved ? 1.0 / 16.0 : 0.0));
+    return texelMetres * texelMetres * texelVariance(isHalved);
 }
 /// With fewer Gaussians than the profile has, neighbours become one of their mean variance. Where one is so wide that
 /// taps of the next would miss what lies between them, levels without weight stand before it. Texels of 0 metres, those
@@ -64,6 +76,9 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres);
 /// Around what the coordinates 0 to 1 cover.
 int borderTexels(int gutterTexels, int sideTexels);
+/// On a surface of which the coordinates 0 to 1 cover `sideMetres`: they lie on the texels within the border
+/// (UvAtlas::placeOf()).
+double texelMetresOf(double sideMetres, int sideTexels, int borderTexels);
 
 /// The view's picture of spread light: a square cell for each object, and above all cells one texel for each, in rows
 /// as they lie.

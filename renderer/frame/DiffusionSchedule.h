@@ -26,7 +26,7 @@ struct DiffusionTask {
 class DiffusionSchedule {
 public:
     struct Object {
-        std::vector<double> variancesSquareMetres;         ///< of its levels, as of diffusionWork()
+        std::vector<double> variancesSquareMetres;         ///< LevelReach::mostSquareMetres() of its levels
         std::uint64_t key = 0;                             ///< of all that its light is computed from
         const std::vector<DiffusionTile>* tiles = nullptr; ///< of its UV atlas
         TileSet seen;

@@ -187,10 +187,15 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;
-    const double texelMetres = object.sideMetres / double(spec.spreadTexels());
-    spec.spread = lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
-                              texelMetres, settings.diffusion.half);
-    spec.gutterTexels = frame::gutterTexels(spec.spread->levels, texelMetres);
+    const auto spreadOver = [&](int border) {
+        return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
+                           texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
+    };
+    // How wide the border is hangs on the size of a texel, and that on the border: texels without one are the smallest,
+    // and light that spreads over them reaches over the most.
+    const LightSpread widest = spreadOver(0);
+    spec.gutterTexels = frame::gutterTexels(widest.levels, widest.texelMetres);
+    spec.spread = spreadOver(borderTexels(spec.gutterTexels, spec.spreadTexels()));
     return spec;
 }
 

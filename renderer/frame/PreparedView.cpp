@@ -51,7 +51,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     addWeight(spread.inPixels);
     addWeight(spread.inTexels);
     for (const DiffusionLevel& level : spread.levels) {
-        hash.add(level.varianceSquareMetres);
+        hash.add(level.spreadSquareMetres);
         addWeight(level.weight);
     }
     hash.add(casterRevision);

@@ -1,6 +1,8 @@
 // Spreads light along one direction of the atlas, by a Gaussian whose width is in metres on the surface. Weights are
 // those of the Gaussian times the length of a tap's step, over their sum: light that is the same everywhere stays so to
 // the last digits, and a stretched texture changes nothing. Charts end where the surface is known no further.
+// Interpolating between texels spreads light already, by a tent as wide as they are, here and along this axis: a level
+// adds what is missing of its Gaussian's variance.
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 
@@ -60,25 +62,30 @@ void main()
     if (own.w == 0.0) discard;
 #endif
     float chart = abs(own.w);
-    float variance = constants.gaussian.x;
     Tap middle = tapAt(at, chart);
     float stepMetres = middle.stepMetres;
+    // Rows that lie askew show light along u too, as far as the square of that is a number.
+    float askew = constants.gaussian.y == 0.0 ? min(abs(own.z), 1e6) : 0.0;
+    precise float shown = constants.weight.w * (stepMetres * stepMetres) * (1.0 + askew * askew);
+    float before = max(constants.gaussian.z, shown);
+    precise float variance = max(constants.gaussian.x, shown) - before;
     precise vec3 lit = middle.light * stepMetres;
     precise float weights = stepMetres;
     precise float narrow = variance / max(stepMetres * stepMetres, 1e-37);
     bool isNarrow = narrow < DIFFUSION_NARROW;
     precise float perStep = sqrt(narrow);
-    bool isFine = constants.gaussian.z != 0.0 && DIFFUSION_REACH * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
+    bool isSmooth = constants.gaussian.x <= DIFFUSION_WIDENING * DIFFUSION_WIDENING * before;
+    bool isFine = !isSmooth && DIFFUSION_REACH * perStep <= float(DIFFUSION_MOST_FINE_TAPS);
     int apart = isNarrow || isFine ? 1 : int(clamp(DIFFUSION_TAP_SHARE * perStep + 0.5, 1.0, 16384.0));
     int taps = isNarrow ? 1 : int(ceil(DIFFUSION_REACH * perStep / float(apart)));
     for (int side = -1; side <= 1; side += 2) {
         precise float metres = 0.0;
-        float before = stepMetres;
+        float last = stepMetres;
         for (int i = 1; i <= taps; ++i) {
             Tap tap = tapBeside(at, side * i * apart, own.z, chart);
             if (tap.stepMetres == 0.0) break;
-            metres += 0.5 * float(apart) * (before + tap.stepMetres);
-            before = tap.stepMetres;
+            metres += 0.5 * float(apart) * (last + tap.stepMetres);
+            last = tap.stepMetres;
             precise float weight = isNarrow ? 0.5 * narrow / (1.0 - narrow) : exp(-0.5 * metres * metres / variance);
             weight *= tap.stepMetres;
             lit += weight * tap.light;

@@ -9,9 +9,11 @@
 #define TEXTURE_UNIT_DIFFUSION_UNSPREAD 3  // light that leaves the texels where it is lit
 
 // Gaussians end at so many standard deviations: their tails beyond hold a thousandth. Taps lie about this share of one
-// apart, or a texel where light is not yet smooth (DiffusionLevel::isFine), so many to either side at most.
+// apart where light has spread before to at least 1 / DIFFUSION_WIDENING of the width, and a texel where it is not yet
+// so smooth, so many to either side at most.
 #define DIFFUSION_REACH 3.5
 #define DIFFUSION_TAP_SHARE 0.7
+#define DIFFUSION_WIDENING 2.0
 #define DIFFUSION_MOST_FINE_TAPS 128
 // Where a Gaussian is narrower than this share of a texel's square, three taps have its variance.
 #define DIFFUSION_NARROW 0.4
@@ -36,8 +38,9 @@ struct DiffusionStoreConstants {
 };
 
 struct DiffusionSpreadConstants {
-    vec4 gaussian; // x variance that is added, m^2 of the scene; y 0 along u, 1 along v; z 1 where every texel is a tap
-    vec4 weight;   // rgb of what is spread so far in the sum
+    vec4 gaussian; // x variance to spread to, m^2 of the scene; y 0 along u, 1 along v; z variance to spread from, of
+                   // both no less than what showing texels adds
+    vec4 weight;   // rgb of what is spread so far in the sum; a variance that showing texels adds, squares of a texel
 };
 
 SHARED_END

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <gmock/gmock.h>
 
 #include "renderer/frame/Diffusion.h"
+#include "renderer/frame/FrameSpec.h"
+#include "scenes/Load.h"
 
 namespace tessera {
 namespace {
@@ -88,8 +91,7 @@ TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     double variance = frame::texelVariance(texelMetres, false);
     for (const DiffusionLevel& level : levels) {
         const double before = std::exchange(variance, variance + level.varianceSquareMetres);
-        EXPECT_EQ(level.isFine, variance > 4.0 * before);
-        if (level.isFine) {
+        if (variance > 4.0 * before) {
             EXPECT_LE(3.5 * std::sqrt(level.varianceSquareMetres), 64.0 * texelMetres + 1e-12)
                 << "every texel is a tap";
         }
@@ -100,8 +102,53 @@ TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     // What a narrow Gaussian has spread is not smooth at the width of a wide one.
     wide.profile = {{0.5f, glm::vec3(0.05f)}, {320.0f, glm::vec3(0.95f)}}; // 0.71 and 17.9 mm
     const std::vector<DiffusionLevel> two = frame::lightSpread(wide, 8, texelMetres).levels;
-    ASSERT_EQ(two.size(), 2u);
-    EXPECT_TRUE(two[1].isFine);
+    EXPECT_EQ(two.size(), 2u) << "every texel is a tap of both";
+}
+
+/// A square of skin with sides of a metre, whose coordinates 0 to 1 lie on the texels within the border.
+TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
+    const scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    const std::vector<frame::SpreadingObject> objects = frame::spreadingObjects(scene, {}, frame::surfaceBounds(scene));
+    ASSERT_FALSE(objects.empty());
+    const scenes::Subsurface& skin = scene.materials[std::size_t(objects[0].material)].subsurface;
+    for (const int side : {256, 512, 1024, 2048}) {
+        for (const bool isHalved : {false, true}) {
+            frame::FrameSettings settings;
+            settings.diffusion = {side, 8, isHalved};
+            const frame::FrameSpec spec = frame::makeSpreadingSpec(scene, objects[0], {}, settings);
+            frame::UvAtlas atlas;
+            atlas.sideTexels = spec.spreadTexels();
+            atlas.borderTexels = frame::borderTexels(spec.gutterTexels, spec.spreadTexels());
+            EXPECT_GT(atlas.borderTexels, 0);
+            const double texelMetres = 1.0 / (atlas.placeOf({1.0f, 0.0f}).x - atlas.placeOf({0.0f, 0.0f}).x);
+            const double shown = frame::texelVariance(texelMetres, isHalved);
+            // The narrowest Gaussian that texels do not show already.
+            const double millimetre = 1e-3 / double(skin.scaleMetres);
+            double variance = 0.0;
+            for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(skin)) {
+                variance = double(gaussian.varianceSquareMillimetres) * millimetre * millimetre;
+                if (variance > shown) break;
+            }
+            const DiffusionLevel& first = spec.spread->levels.at(0);
+            EXPECT_NEAR(first.varianceSquareMetres, variance - shown, 1e-6 * variance) << side;
+            EXPECT_NEAR(first.spreadSquareMetres, variance, 1e-6 * variance) << side;
+            EXPECT_NEAR(spec.spread->texelMetres, texelMetres, 1e-6 * texelMetres) << side;
+        }
+    }
+}
+
+/// The first level spreads all but what a texel itself shows; the others hand on to each other.
+TEST(DiffusionLevels, reachFromOneWidthToTheNext) {
+    const frame::LightSpread spread = frame::lightSpread(scenes::Subsurface{}, 8, kTexelMetres);
+    double before = 0.0;
+    for (std::size_t i = 0; i < spread.levels.size(); ++i) {
+        const frame::LevelReach reach = frame::levelReach(spread, i);
+        EXPECT_EQ(reach.fromSquareMetres, before);
+        EXPECT_NEAR(reach.toSquareMetres - std::max(before, frame::texelVariance(kTexelMetres, false)),
+                    spread.levels[i].varianceSquareMetres, 1e-20);
+        before = reach.toSquareMetres;
+    }
+    EXPECT_NEAR(before, 7.41e-6, 1e-12);
 }
 
 } // namespace
