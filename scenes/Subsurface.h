@@ -79,7 +79,9 @@ struct Subsurface {
     /// Of the body that wrapped light goes round, in the scene's metres; 0: half the smallest side of what has the
     /// material.
     float bodyRadiusMetres = 0.0f;
-    glm::vec3 absorptionPerMillimetre{0.35f, 1.1f, 1.9f}; ///< of light that passes through, by channel
+    /// Of light that passes through, by channel. The default is neither measured nor published: an ear of 3 mm passes a
+    /// third of red light, 4 % of green and 0.3 % of blue.
+    glm::vec3 absorptionPerMillimetre{0.35f, 1.1f, 1.9f};
     float preScatterShare = 0.5f; ///< 0..1: the power of the albedo before light spreads; the rest is after
     DiffusionProfile profile;     ///< none: `skin`, which scenes with many materials need not hold for each
     bool operator==(const Subsurface&) const = default;
