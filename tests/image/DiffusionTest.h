@@ -177,6 +177,24 @@ protected:
         };
         return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], truth).l2;
     }
+    /// Of the step's mean along its edge, over 96 mm of the scene: the places of the edge within texels even out.
+    double meanStepError(engine::Renderer& renderer, scenes::Scene& scene, frame::FrameSettings settings) {
+        scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 48.0 / 1024.0)};
+        settings.sizePixels = {448, 96};
+        const Picture picture = pictureOf(renderer, settings);
+        double wrong = 0.0, whole = 0.0;
+        for (int x = 0; x < picture.width; ++x) {
+            const glm::dvec3 right = scenes::builtin::spreadStep((x + 0.5 - 0.5 * picture.width) / 1024.0);
+            for (int c = 0; c < 3; ++c) {
+                double mean = 0.0;
+                for (int y = 0; y < picture.height; ++y)
+                    mean += double(picture.pixel(std::size_t(y * picture.width + x))[c]) / picture.height;
+                wrong += (mean - right[c]) * (mean - right[c]);
+                whole += right[c] * right[c];
+            }
+        }
+        return std::sqrt(wrong / whole);
+    }
     TruthError dotError(int side, shader::SourceTree shaders = shader::SourceTree()) {
         scenes::Scene scene = scenes::loadScene("diffusion_truth");
         scene.cameras = {above(scenes::builtin::kTruthDotWS, 0.25)};
