@@ -7,6 +7,7 @@
 #include "renderer/gpu/Sampler.h"
 #include "scenes/InUse.h"
 #include "scenes/Limits.h"
+#include "scenes/Shadows.h"
 #include "shaders/shared/caster_tree.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
@@ -125,7 +126,9 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const scenes::Subsurface& subsurface = scene.materials[i].subsurface;
         const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(scene.materials[i], request));
-        if (!inUse[i] || !(method.wraps || method.passes)) continue;
+        // The way inside is found among casters.
+        const bool passes = method.passes && scenes::castsShadow(scene.materials[i]);
+        if (!inUse[i] || !(method.wraps || passes)) continue;
         packed.rowOf[i] = packed.rows.size();
         shared::SubsurfaceConstants& row = packed.rows.emplace_back();
         if (method.wraps) {
@@ -133,7 +136,7 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
                                                                      : bodyRadiusMetres(scene, int(i));
             row.wrap = glm::vec4(subsurface.wrap * subsurface.wrapTint, float(radius));
         }
-        if (method.passes) {
+        if (passes) {
             packed.passed[i] = packed.rowOf[i];
             const double millimetres = 1e3 * double(subsurface.scaleMetres); // for each metre of the scene
             row.absorption = glm::vec4(millimetres * glm::dvec3(subsurface.absorptionPerMillimetre), 1.0f);

@@ -195,6 +195,108 @@ TEST_F(SubsurfaceSlow, aSlabLetsThroughAnExponentialOfItsThickness) {
     expectExponentialBehindSlabs();
 }
 
+/// Of a light at any angle, at a pixel's place on the front: the way inside, and what leaves at the angle of entry.
+glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, const glm::dvec3& placeWS,
+                      double thicknessMetres) {
+    const bool isPlaced = scenes::infoOf(light.type).hasPosition();
+    const glm::dvec3 toLight = isPlaced ? light.positionWS - placeWS : -light.directionWS;
+    const double metres2 = isPlaced ? glm::dot(toLight, toLight) : 1.0;
+    const double cosine = -toLight.z / glm::length(toLight);
+    const glm::dvec3 absorption = 1e3 * glm::dvec3(scene.materials[0].subsurface.absorptionPerMillimetre);
+    return double(light.intensity) / metres2 * cosine * glm::exp(-absorption * (thicknessMetres / cosine));
+}
+
+/// Four faces of a lamp's map lie to its sides; of a way at an angle the part along the slab's normal is 0.64 at most.
+TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
+    constexpr double kThickness = 0.01;
+    scenes::Mesh slab;
+    scenes::builtin::appendBox(slab, {-0.5, -0.5, -kThickness}, {0.5, 0.5, 0.0});
+    scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    scenes::Light sun = scene.lights[0], spot = scene.lights[2];
+    sun.directionWS = glm::normalize(glm::dvec3(0.9, -0.6, 1.0));
+    spot.positionWS = {0.8, 0.9, -1.3};
+    spot.directionWS = glm::normalize(-spot.positionWS);
+    scene.lights = {sun, spot};
+    for (const glm::dvec3& placeWS : {glm::dvec3(-1.2, 0.1, -1.0), glm::dvec3(1.2, -0.1, -1.0),
+                                      glm::dvec3(0.1, -1.2, -1.0), glm::dvec3(-0.1, 1.2, -1.0)})
+        scene.lights.push_back(test::pointLight(placeWS, 12.0f));
+    engine::Renderer renderer(context(), scene);
+    for (const PassageBar& bar : kPassageBars) {
+        if (!test::isWholeSweep() && bar.filter != frame::ShadowFilter::Traced &&
+            bar.filter != frame::ShadowFilter::Hard)
+            continue;
+        frame::FrameSettings settings;
+        settings.sizePixels = {33, 33};
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = bar.filter;
+        for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+            settings.soloLight = int(light);
+            const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
+            double worst = 0.0;
+            for (int y = 0; y < 33; ++y) {
+                for (int x = 0; x < 33; ++x) {
+                    const glm::dvec2 place = (glm::dvec2(x, 32 - y) + 0.5 - 16.5) * (0.1 / 16.5);
+                    const glm::dvec3 wanted =
+                        behindSlab(scene, scene.lights[light], glm::dvec3(place, 0.0), kThickness);
+                    for (int c = 0; c < 3; ++c) {
+                        const double found = picture.pixel(std::size_t(y * 33 + x))[c];
+                        worst = std::max(worst, std::abs(found - wanted[c]) / wanted[c]);
+                    }
+                }
+            }
+            fmt::print("slab, {}, light {}: off by {:.1e} at most\n", infoOf(bar.filter).name, light, worst);
+            EXPECT_LE(worst, bar.ofSlab) << infoOf(bar.filter).name << ", light " << light;
+        }
+    }
+}
+
+/// What passes is added to all that is reflected: a white body that absorbs nothing returns up to twice what arrives.
+TEST_F(Subsurface, lightThatPassesThroughIsAddedToAllThatIsReflected) {
+    scenes::Mesh slab;
+    scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
+    scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    scene.materials[0].subsurface.absorptionPerMillimetre = glm::vec3(0.0f);
+    scenes::Light front = scene.lights[0];
+    front.directionWS = -front.directionWS;
+    scene.lights = {scene.lights[0], front};
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {65, 65};
+    settings.shadows = test::kAllLightsCast;
+    for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        settings.shadowFilter = filter;
+        EXPECT_NEAR(middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings))), 2.0 * 3.0, 1e-4)
+            << infoOf(filter).name;
+    }
+}
+
+/// The way inside is found among casters. Others are there, so that frames have shadows.
+TEST_F(Subsurface, aBodyThatCastsNoShadowsLetsNoLightThrough) {
+    scenes::Mesh slab;
+    scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
+    scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    scene.materials.emplace_back();
+    scene.nodes.push_back(scene.nodes[0]);
+    scene.nodes.back().parentFromNode = glm::dmat4(1.0);
+    scene.nodes.back().parentFromNode[3] = glm::dvec4(5.0, 0.0, 0.0, 1.0);
+    scene.nodes.back().instances = {{0, 1}};
+    const auto middle = [&](frame::ShadowFilter filter) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {65, 65};
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = filter;
+        settings.soloLight = 0;
+        engine::Renderer renderer(context(), scene);
+        return middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
+    };
+    for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        scene.materials[0].castsShadow = true;
+        EXPECT_NEAR(middle(filter), 3.0 * std::exp(-0.02 * 3.0), 0.06) << infoOf(filter).name;
+        scene.materials[0].castsShadow = false;
+        EXPECT_EQ(middle(filter), 0.0) << infoOf(filter).name;
+    }
+}
+
 TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
     constexpr double kRadius = 0.02;
     scenes::Mesh ball;

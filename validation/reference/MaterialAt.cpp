@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/Shadows.h"
 #include "validation/reference/NormalAt.h"
 #include "validation/reference/Slots.h"
 #include "validation/reference/TangentFrame.h"
@@ -132,7 +133,8 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
     }
     point.spreads = method.spreads;
-    point.passes = method.passes;
+    // Among what casts no shadows the way inside cannot be found.
+    point.passes = method.passes && scenes::castsShadow(material);
     if (point.passes) {
         const double perMillimetre = 1000.0 * double(material.subsurface.scaleMetres);
         point.absorptionPerMetre = perMillimetre * glm::dvec3(material.subsurface.absorptionPerMillimetre);

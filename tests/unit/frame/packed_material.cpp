@@ -219,5 +219,28 @@ TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
         EXPECT_FALSE(scenes::infoOf(slot).isSrgb);
 }
 
+TEST(PackedSubsurfaces, letThroughWhatCastsShadowsAlone) {
+    scenes::Scene scene;
+    scene.meshes.resize(1);
+    scene.nodes.resize(1);
+    for (int i = 0; i < 4; ++i) {
+        Material& material = scene.materials.emplace_back();
+        material.subsurface.method =
+            i < 2 ? scenes::SubsurfaceMethod::DepthMap : scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+        material.castsShadow = i % 2 == 0;
+        scene.nodes[0].instances.push_back({0, i});
+    }
+    const PackedSubsurfaces packed = packSubsurfaces(scene, {});
+    for (const std::size_t i : {0u, 2u}) {
+        EXPECT_EQ(packed.passed[i], packed.rowOf[i]) << i;
+        ASSERT_GT(packed.rowOf[i], 0u) << i;
+        EXPECT_EQ(packed.rows[packed.rowOf[i]].absorption.a, 1.0f) << i;
+    }
+    for (const std::size_t i : {1u, 3u}) {
+        EXPECT_EQ(packed.passed[i], 0u) << i;
+        EXPECT_EQ(packed.rows[packed.rowOf[i]].absorption.a, 0.0f) << i;
+    }
+}
+
 } // namespace
 } // namespace tessera::frame
