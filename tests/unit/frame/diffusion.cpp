@@ -22,12 +22,13 @@ glm::dvec3 weightOf(const std::vector<DiffusionLevel>& levels) {
 /// Narrow enough to show every Gaussian of skin.
 constexpr double kTexelMetres = 1e-4;
 
-/// Of the red light that spreads: the mean square of a coordinate of its way.
-double meanSquare(const std::vector<DiffusionLevel>& levels) {
-    double variance = frame::texelVariance(kTexelMetres, false), mean = 0.0;
+/// Of the light that spreads, by channel: the mean square of a coordinate of its way.
+glm::dvec3 meanSquare(const std::vector<DiffusionLevel>& levels) {
+    double variance = frame::texelVariance(kTexelMetres, false);
+    glm::dvec3 mean(0.0);
     for (const DiffusionLevel& level : levels) {
         variance += level.varianceSquareMetres;
-        mean += level.weight.r * variance;
+        mean += level.weight * variance;
     }
     return mean;
 }
@@ -50,15 +51,18 @@ TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
     EXPECT_NEAR(frame::lightSpread(skin, 8, 1e-4).levels[0].varianceSquareMetres, 6.4e-7 - 1e-8 / 6.0, 1e-12);
 }
 
-TEST(DiffusionLevels, fewerKeepTheLightAndNearlyHowFarItSpreads) {
+TEST(DiffusionLevels, fewerKeepTheLightAndHowFarItSpreadsOnTheMean) {
     const scenes::Subsurface skin;
-    const double whole = meanSquare(frame::lightSpread(skin, 8, kTexelMetres).levels);
-    for (const int most : {5, 4, 3, 2, 1}) {
+    const glm::dvec3 whole = meanSquare(frame::lightSpread(skin, 8, kTexelMetres).levels);
+    // Widths are common to all channels, so that red, the one that spreads farthest, gives some of it to the others. By
+    // the published numbers alone.
+    for (const auto& [most, redShare] : {std::pair(5, 0.9972), {4, 0.9844}, {3, 0.9645}, {2, 0.4904}, {1, 0.3557}}) {
         const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, most, kTexelMetres).levels;
         EXPECT_EQ(levels.size(), std::size_t(most));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
-        // Widths are common to all channels, so that the reddest Gaussian loses some when it is merged.
-        EXPECT_NEAR(meanSquare(levels), whole, (most >= 3 ? 0.3 : 0.7) * whole) << most;
+        const glm::dvec3 own = meanSquare(levels);
+        EXPECT_NEAR(own.r / whole.r, redShare, 5e-4) << most;
+        EXPECT_NEAR(own.r + own.g + own.b, whole.r + whole.g + whole.b, 1e-9 * whole.r) << most;
         for (const DiffusionLevel& level : levels) EXPECT_GT(level.varianceSquareMetres, 0.0);
     }
 }
