@@ -330,6 +330,60 @@ TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
     }
 }
 
+/// A lamp and a spot light behind it, to the side: the way inside is the chord towards them. Where that is shorter than
+/// the radius, a texel of the map, a three-hundredth of it, shows too steep a part of the ball's other side.
+TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
+    constexpr double kRadius = 0.02;
+    constexpr int kSide = 64;
+    scenes::Mesh ball;
+    scenes::builtin::appendSphere(ball, glm::dvec3(0.0), kRadius, 256, 128);
+    scenes::Scene scene = bodyBeforeLights(ball, 1.1 * kRadius);
+    scenes::Light lamp = test::pointLight({0.03, 0.02, -0.06}, 12.0f), spot = lamp;
+    spot.type = scenes::LightType::Spot;
+    spot.directionWS = glm::normalize(-spot.positionWS);
+    spot.innerConeRadians = 0.4f;
+    spot.outerConeRadians = 0.5f;
+    scene.lights = {lamp, spot};
+    engine::Renderer renderer(context(), scene);
+    const glm::dvec3 absorption = 1e3 * glm::dvec3(scene.materials[0].subsurface.absorptionPerMillimetre);
+    for (const PassageBar& bar : kPassageBars) {
+        if (bar.filter != frame::ShadowFilter::Traced && bar.filter != frame::ShadowFilter::Hard) continue;
+        frame::FrameSettings settings;
+        settings.sizePixels = {kSide, kSide};
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = bar.filter;
+        settings.shadowMaps.resolutionTexels = 2048;
+        for (int light = 0; light < 2; ++light) {
+            settings.soloLight = light;
+            const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
+            double worst = 0.0;
+            int compared = 0;
+            for (int y = 0; y < kSide; ++y) {
+                for (int x = 0; x < kSide; ++x) {
+                    const glm::dvec2 place = (glm::dvec2(x, kSide - 1 - y) + 0.5 - 0.5 * kSide) * (2.2 / kSide);
+                    const double square = 1.0 - glm::dot(place, place);
+                    if (square < 0.09) continue; // the rim
+                    const glm::dvec3 normal(place, std::sqrt(square));
+                    const glm::dvec3 toLight = lamp.positionWS - kRadius * normal;
+                    const double cosine = -glm::dot(normal, glm::normalize(toLight));
+                    if (cosine < 0.5) continue;
+                    ++compared;
+                    const glm::dvec3 wanted = double(lamp.intensity) / glm::dot(toLight, toLight) * cosine *
+                                              glm::exp(-absorption * (2.0 * kRadius * cosine));
+                    for (int c = 0; c < 3; ++c) {
+                        const double found = double(picture.pixel(std::size_t(y * kSide + x))[c]);
+                        worst = std::max(worst, std::abs(found - wanted[c]) / wanted[c]);
+                    }
+                }
+            }
+            fmt::print("ball before a {}, {}: off by {:.2} at most of {}\n", light == 0 ? "lamp" : "spot light",
+                       infoOf(bar.filter).name, worst, compared);
+            EXPECT_GT(compared, 500);
+            EXPECT_LE(worst, bar.ofBall) << infoOf(bar.filter).name << ", light " << light;
+        }
+    }
+}
+
 TEST_F(Subsurface, whatIsInTheWayHidesLightThatPassesThroughAsTheReferenceSays) {
     scenes::Scene scene = headWith(SubsurfaceMethod::DepthMap);
     scene.materials[0].subsurface.scaleMetres = 0.1f;
