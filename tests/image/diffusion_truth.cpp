@@ -114,8 +114,8 @@ TEST_F(DiffusionTruth, anyTwoWidthsSpreadAStepAsTheClosedFormSays) {
     for (const auto& [narrow, wide] : {std::pair(0.71, 17.9), {0.3, 30.0}, {1.5, 4.5}, {2.6, 5.0}, {5.0, 9.0}}) {
         const double error = stepErrorOf(narrow, wide);
         fmt::print("{} and {} texels: {:.2e}\n", narrow, wide, error);
-        // Twice the worst that was measured.
-        EXPECT_LE(error, 2e-3) << narrow << " and " << wide;
+        // In double precision 1.1e-3 at worst.
+        EXPECT_LE(error, 1.6e-3) << narrow << " and " << wide;
     }
 }
 

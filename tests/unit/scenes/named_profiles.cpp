@@ -96,7 +96,7 @@ TEST(NamedProfiles, marbleIsAsFitted) {
 
 /// The errors that scenes/Subsurface.cpp states. One variance a tenth smaller gives 3.1, 1.8 and 1.3 %.
 TEST(NamedProfiles, marbleIsNearTheDipole) {
-    const double stated[] = {0.0276, 0.0158, 0.0122};
+    const double stated[] = {0.0275, 0.0157, 0.0121};
     for (int channel = 0; channel < 3; ++channel) {
         const double error = errorAgainstDipole(scenes::namedProfiles()[1].profile, channel);
         fmt::print("channel {}: {:.4f}\n", channel, error);
