@@ -41,9 +41,10 @@ protected:
         const frame::PreparedView prepared = engine::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
         const frame::SceneGpu sceneGpu(scene, spec.features);
-        const frame::DrawnView view{
-            prepared, &sceneGpu, nullptr, nullptr, frame::makeViewDraws(sceneGpu.drawList(), prepared.camera, false),
-            nullptr};
+        const frame::DrawnView view{prepared, &sceneGpu,
+                                    nullptr,  nullptr,
+                                    nullptr,  frame::makeViewDraws(sceneGpu.drawList(), prepared.camera, false),
+                                    nullptr};
         shader::ProgramLibrary programs;
         gpu::GraphBackend backend;
         graph::Graph graph;

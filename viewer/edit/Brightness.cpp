@@ -25,8 +25,8 @@ double illuminanceAt(const scenes::Light& light, const glm::dvec3& positionWS) {
         return strength / (by.x + by.y * metres + by.z * metres * metres);
     }
     const double area = info.isArea ? scenes::largestSeenArea(light) : 1.0; // of radiance, else candela
-    constexpr double kNearestMetres = 0.01;
-    const double nearest = std::max(metres, kNearestMetres);
+    constexpr double kLeastMetres = 0.01;
+    const double nearest = std::max(metres, kLeastMetres);
     return strength * area / (nearest * nearest);
 }
 
