@@ -298,8 +298,33 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
 }
 
 #if HAS_SUBSURFACE_PASSAGE
+// The change of a caster's depth with a column and with a row of texels. Of the neighbours on both sides the one that is
+// nearer in depth is on the same surface.
+vec2 casterSlope(FacePoint point, ivec2 texel, float caster)
+{
+    vec2 slope = vec2(0.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        ivec2 step = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
+        ivec2 before = withinFace(point, texel - step), after = withinFace(point, texel + step);
+        precise float toBefore = abs(caster - texelFetch(shadowAtlas, before, 0).r);
+        precise float toAfter = abs(caster - texelFetch(shadowAtlas, after, 0).r);
+        // At the face's rim there is one neighbour.
+        slope[axis] = before == texel ? toAfter : after == texel ? toBefore : min(toBefore, toAfter);
+    }
+    return slope;
+}
+
+float metresBehind(FacePoint point, vec4 place, float wayMetres, float caster)
+{
+    precise float behind = point.isParallel ? (caster - point.depth) / -place.w
+                                            : wayMetres * (1.0 - point.depth / max(caster, 1e-37));
+    return behind;
+}
+
 // Metres from the first caster that a face holds on the way from the light to the point, at least 0: the mean of the four
-// texels around it.
+// texels around it. In a map casters are moved away from the light by the larger of their slopes, in a cascade by the
+// width of a texel at most (passes/ShadowMapsPass.cpp); here they are where they were. On the caster's plane texels
+// beside the point may lie behind it; what is farther behind is another surface.
 float passageBehind(FacePoint point, vec4 place, float wayMetres)
 {
     precise vec2 between = point.texel - 0.5;
@@ -308,13 +333,17 @@ float passageBehind(FacePoint point, vec4 place, float wayMetres)
     precise float metres = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
-        float caster = texelFetch(shadowAtlas, withinFace(point, ivec2(corner) + step), 0).r;
-        precise float behind = point.isParallel ? (caster - point.depth) / -place.w
-                                                : wayMetres * (1.0 - point.depth / max(caster, 1e-37));
+        ivec2 texel = withinFace(point, ivec2(corner) + step);
+        float stored = texelFetch(shadowAtlas, texel, 0).r;
+        if (!(stored > 0.0)) continue; // no caster
+        vec2 slope = casterSlope(point, texel, stored);
+        precise float moved = max(slope.x, slope.y);
+        if (point.isParallel) moved = min(moved, 1.0 / point.perSize);
+        precise float caster = stored + moved, farthest = point.depth - (slope.x + slope.y);
         vec2 weight = mix(1.0 - share, share, vec2(step));
-        metres += weight.x * weight.y * (caster > 0.0 ? max(behind, 0.0) : 0.0);
+        metres += weight.x * weight.y * metresBehind(point, place, wayMetres, max(caster, farthest));
     }
-    return metres;
+    return max(metres, 0.0);
 }
 
 // The same in the face that shows the point best; below 0 where none does. The arguments are those of mappedShadow().

@@ -222,6 +222,8 @@ TEST(PackedMaterial, exactlyTheColourSlotsAreSrgb) {
 TEST(PackedSubsurfaces, letThroughWhatCastsShadowsAlone) {
     scenes::Scene scene;
     scene.meshes.resize(1);
+    scene.meshes[0].positionsOS = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    scene.meshes[0].indices = {0, 1, 2};
     scene.nodes.resize(1);
     for (int i = 0; i < 4; ++i) {
         Material& material = scene.materials.emplace_back();
