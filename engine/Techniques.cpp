@@ -132,8 +132,12 @@ struct ViewWiring {
             objects[cell].tiles = &own.uvAtlas->tiles;
             objects[cell].seen = own.seen;
         }
-        return {drawn ? drawn->diffusionMemory : nullptr, std::move(objects), holdsAtlas,
-                drawn ? drawn->spreadOne : std::function<void()>()};
+        if (!drawn) return {nullptr, std::move(objects), holdsAtlas};
+        // Who is told is known when the frame runs.
+        const auto spreadOne = [own = drawn] {
+            if (own->spreadOne) own->spreadOne();
+        };
+        return {drawn->diffusionMemory, std::move(objects), holdsAtlas, spreadOne};
     }
 
     /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
