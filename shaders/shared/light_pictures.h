@@ -1,8 +1,8 @@
 #pragma once
 // Pictures of area lights (renderer/frame/LightPictures.h) as RGBA32F texels of a buffer texture: a header each, and
 // behind all headers the texels of their levels, row after row from the top left corner. Level 0 is the picture itself,
-// level n its mean by Gaussians of the standard deviation 2^(n-1) / longer side, in parts of the picture's sides, cut at
-// the light's outline and moved so that the mean place of what is left is the texel's.
+// level n its mean by Gaussians of the standard deviation 2^(n-1) / longer side, in parts of the picture's sides, cut
+// at the light's outline and moved so that the mean place of what is left is the texel's.
 #include "interop.h"
 
 #define LIGHT_PICTURE_MOST_LEVELS 24
