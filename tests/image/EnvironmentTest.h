@@ -11,6 +11,7 @@
 #include "tests/image/ShadowTest.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
+#include "validation/compare/ReferencePicture.h"
 
 /// Light from everywhere: what its tests have in common.
 namespace tessera::test {
@@ -50,6 +51,29 @@ protected:
         settings.environment.samples = samples;
         engine::Renderer renderer(context(), scene);
         return renderer.render(engine::Technique::Deferred, settings);
+    }
+
+    struct BallError {
+        double bias, relMse;
+    };
+    /// Of one channel of a picture of ballUnderSky() against the reference.
+    BallError errorOfBall(const scenes::Scene& scene, int side, std::size_t channel) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {side, side};
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> radiance = renderer.render(engine::Technique::Deferred, settings).radiance;
+        double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
+            if (truth.picture.covered[i] == 0) continue;
+            const double own = double(radiance[4 * i + channel]), other = double(truth.picture.rgba[4 * i + channel]);
+            shown += own;
+            light += other;
+            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
+            count += 1.0;
+        }
+        return {shown / light - 1.0, squares / count};
     }
 };
 

@@ -162,29 +162,11 @@ protected:
         return double(radiance[4 * 4]);
     }
     /// Of the picture of a ball against the integral over a light.
-    struct BallError {
-        double bias, relMse;
-    };
     BallError onBall(const scenes::Material& material, LightType type) {
         scenes::Scene scene = ballUnderSky(material);
         scene.lights = {areaLight(type, {1.2, 1.5, 2.0}, {-1.2, -1.5, -2.0}, 1.0f)};
         scene.lights[0].isSeen = false; // the corner of a rectangle reaches into the picture
-        frame::FrameSettings settings;
-        settings.sizePixels = {48, 48};
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
-        double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
-        for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
-            if (truth.picture.covered[i] == 0) continue;
-            const double own = double(radiance[4 * i]), other = double(truth.picture.rgba[4 * i]);
-            shown += own;
-            light += other;
-            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
-            count += 1.0;
-        }
-        return {shown / light - 1.0, squares / count};
+        return errorOfBall(scene, 48, 0);
     }
     /// For every type, roughness by roughness, or each with some: types differ in their outlines alone.
     void expectNearTheIntegralOnABall();

@@ -228,31 +228,13 @@ protected:
         settings.sizePixels = {3, 3};
         return double(renderer_->render(Technique::Deferred, settings).radiance[4 * 4]);
     }
-    struct BallError {
-        double bias, relMse;
-    };
     /// Of the picture of a ball under a rectangle so far away, against the integral over the light.
     BallError onBall(const scenes::Material& material, double distanceMetres, const scenes::LightTexture& texture) {
         scenes::Scene scene = ballUnderSky(material);
         const glm::dvec3 towards = glm::normalize(glm::dvec3(1.2, 1.5, 2.0));
         scene.lights = {picturedArea(LightType::Rectangle, (1.0 + distanceMetres) * towards, -towards, texture)};
         scene.lights[0].isSeen = false;
-        frame::FrameSettings settings;
-        settings.sizePixels = {32, 32};
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
-        double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
-        for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
-            if (truth.picture.covered[i] == 0) continue;
-            const double own = double(radiance[4 * i + 1]), other = double(truth.picture.rgba[4 * i + 1]);
-            shown += own;
-            light += other;
-            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
-            count += 1.0;
-        }
-        return {shown / light - 1.0, squares / count};
+        return errorOfBall(scene, 32, 1);
     }
     void expectNearTheIntegralOfPictures();
 
