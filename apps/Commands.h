@@ -17,6 +17,9 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
+/// What tells of all commands, those that are added later too.
+void addCompletionCommand(CLI::App& app, Run& run);
+void addManualCommand(CLI::App& app, Run& run);
 
 /// The name of the reference renderer where a technique is expected.
 inline constexpr const char* kReferenceName = "reference";

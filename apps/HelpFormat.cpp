@@ -70,16 +70,7 @@ public:
     }
 
     std::string make_usage(const CLI::App* app, std::string name) const override {
-        std::string line = "\nUsage: " + name;
-        if (!app->get_subcommands({}).empty()) line += " COMMAND";
-        for (const CLI::Option* option : app->get_options({})) {
-            const std::string type = option->get_type_name() + (option->get_expected_max() > 1 ? "..." : "");
-            if (option->get_positional())
-                line += option->get_required() ? " " + type : " [" + type + "]";
-            else if (option->get_required())
-                line += fmt::format(" -{} {}", option->get_snames().front(), type);
-        }
-        return line + " [options]\n";
+        return "\nUsage: " + usageOf(*app, name) + "\n";
     }
 
 private:
@@ -95,6 +86,19 @@ private:
 
 std::shared_ptr<CLI::Formatter> helpFormat() {
     return std::make_shared<HelpFormat>();
+}
+
+std::string usageOf(const CLI::App& app, const std::string& name) {
+    std::string line = name;
+    if (!app.get_subcommands({}).empty()) line += " COMMAND";
+    for (const CLI::Option* option : app.get_options({})) {
+        const std::string type = option->get_type_name() + (option->get_expected_max() > 1 ? "..." : "");
+        if (option->get_positional())
+            line += option->get_required() ? " " + type : " [" + type + "]";
+        else if (option->get_required())
+            line += fmt::format(" -{} {}", option->get_snames().front(), type);
+    }
+    return line + " [options]";
 }
 
 } // namespace tessera::app

@@ -121,7 +121,7 @@ std::optional<std::string> FrameOptions::said(std::string_view key) const {
 
 void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
     app.add_flag("--quiet", options.quiet, "Errors only: no warnings, no progress");
-    app.add_flag("--verbose", options.verbose, "More detail; with --version the OpenGL strings");
+    app.add_flag("--verbose", options.verbose, "More detail; with --version the driver's limits too");
     const auto check = [&options](const std::string& name) {
         contextKind(name);
         options.context = name;
@@ -131,6 +131,12 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& options) {
            "Where pictures are made: window, egl (needs no display), or auto, which tries "
            "egl first [auto]")
         ->type_name("KIND");
+}
+
+std::vector<std::string> contextNames() {
+    std::vector<std::string> names;
+    for (const NamedContext& context : kContexts) names.emplace_back(context.name);
+    return names;
 }
 
 gpu::ContextKind contextKind(const std::string& name) {

@@ -26,6 +26,7 @@ struct GlobalOptions {
     std::string context = "auto";
 };
 void addGlobalOptions(CLI::App& app, GlobalOptions& options);
+std::vector<std::string> contextNames(); ///< that --context takes
 gpu::ContextKind contextKind(const std::string& name);
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -22,7 +23,9 @@
 #include "apps/HelpFormat.h"
 #include "apps/Interrupt.h"
 #include "apps/ParseMessage.h"
+#include "apps/Version.h"
 #include "base/Error.h"
+#include "base/OneLine.h"
 #include "renderer/frame/EnvironmentCache.h"
 
 namespace {
@@ -65,16 +68,29 @@ void configureLog(const GlobalOptions& options) {
     spdlog::set_default_logger(logger);
 }
 
+void printDriver(const gpu::Capabilities& gl, bool isVerbose) {
+    if (isVerbose) fmt::print("context    {}\nvendor     {}\n", gl.contextWay, gl.vendor);
+    fmt::print("renderer   {}{}\nOpenGL     {}\n", gl.renderer, gl.isSoftware ? " (software)" : "", gl.version);
+    if (!isVerbose) return;
+    fmt::print("GLSL       {}\nlimits     texture side {}, buffer texels {}, uniform block {} B, samples {}\n",
+               gl.glslVersion, gl.maxTextureSize, gl.maxTextureBufferTexels, gl.maxUniformBlockBytes, gl.maxSamples);
+}
+
+/// Of the program, and of the driver. Without a driver it still tells its own, unless it is asked for every detail.
 int printVersion(const GlobalOptions& options) {
-    // The context comes first: where it cannot be made, only the error is printed.
-    const std::unique_ptr<gpu::Context> context = options.verbose ? makeContext(options) : nullptr;
-    fmt::print("tessera {}\n", TESSERA_VERSION);
-    if (!context) return kGood;
-    const gpu::Capabilities& gl = context->capabilities();
-    fmt::print("context    {}\nvendor     {}\nrenderer   {}{}\nOpenGL     {}\nGLSL       {}\n", gl.contextWay,
-               gl.vendor, gl.renderer, gl.isSoftware ? " (software)" : "", gl.version, gl.glslVersion);
-    fmt::print("limits     texture side {}, buffer texels {}, uniform block {} B, samples {}\n", gl.maxTextureSize,
-               gl.maxTextureBufferTexels, gl.maxUniformBlockBytes, gl.maxSamples);
+    std::unique_ptr<gpu::Context> context;
+    std::string missing;
+    try {
+        context = makeContext(options);
+    } catch (const std::runtime_error& error) {
+        if (options.verbose) throw;
+        missing = error.what();
+    }
+    fmt::print("tessera {}\ncommit     {}\n", TESSERA_VERSION, kCommit);
+    if (context)
+        printDriver(context->capabilities(), options.verbose);
+    else
+        fmt::print("OpenGL     none: {}\n", oneLine(missing));
     return kGood;
 }
 
@@ -135,7 +151,7 @@ int runProgram(int argc, char** argv) {
     GlobalOptions global;
     bool version = false;
     addGlobalOptions(app, global);
-    app.add_flag("--version", version, "The version; with --verbose also that of OpenGL, its renderer and its limits");
+    app.add_flag("--version", version, "The version, its commit, and the OpenGL driver that draws");
     app.fallthrough();
     Run run;
     addRenderCommand(app, global, run);
@@ -146,6 +162,8 @@ int runProgram(int argc, char** argv) {
     addScenesCommand(app, run);
     addViewCommand(app, global, run);
     addDemoCommand(app, global, run);
+    addCompletionCommand(app, run);
+    addManualCommand(app, run);
     app.footer(kFooter);
     refuseEmptyValues(app);
     const std::vector<const char*> words = withoutHelpCommand({argv, argv + argc});

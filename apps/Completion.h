@@ -1,0 +1,21 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "apps/CommandText.h"
+
+/// Completion of the command line by a shell: a script that holds every command, option and name that the program takes
+/// and does not start the program.
+namespace tessera::app {
+
+std::string bashCompletion(const ProgramText& text);
+std::string zshCompletion(const ProgramText& text);
+
+struct ShellInfo {
+    std::string_view name;
+    std::string (*script)(const ProgramText& text);
+};
+std::span<const ShellInfo> shellTable();
+
+} // namespace tessera::app
