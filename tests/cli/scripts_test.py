@@ -19,6 +19,7 @@ STAND_INS = {
     "cmake": 'mkdir -p build/release build/asan; : > build/release/build.ninja; : > build/asan/build.ninja',
     "ninja": 'cat "$MACHINE/ninja-says"; exit $(cat "$MACHINE/ninja-code")',
     "glad": "",
+    "cpack": 'mkdir -p "${@: -1}"; : > "${@: -1}/tessera_1.deb"; exit $(cat "$MACHINE/cpack-code")',
     "ctest": 'case " $* " in *" -N "*) echo "  Test #7: Slow.thing" ;; *) echo "100% tests passed"; exit $(cat "$MACHINE/ctest-code") ;; esac',
 }
 
@@ -43,6 +44,7 @@ class Scripts(unittest.TestCase):
         self.ninja("ninja: Entering directory\nninja: no work to do.\n", 0)
         self.write("log", "")
         self.write("ctest-code", "0")
+        self.write("cpack-code", "0")
 
     def write(self, name, text):
         (self.machine / name).write_text(text)
@@ -85,6 +87,22 @@ class Scripts(unittest.TestCase):
 
     def testRunAloneIsAlwaysTheDemonstration(self):
         self.assertEqual(self.run_("run").stdout, f"{self.machine}: tessera demo -o {self.root}/out\n")
+
+    def testPackagesAreAlwaysMadeAnewFromAFinishedBuildAndNamed(self):
+        self.script(self.root / "build/packages/old_0.deb", "")
+        self.write("missing", "dpkg-dev")
+        result = self.run_("run", "package")
+        self.assertEqual((result.returncode, result.stdout), (0, f"{self.root}/build/packages/tessera_1.deb\n"))
+        self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], ["dpkg-dev"])
+        (build,) = self.called("ninja")
+        self.assertTrue(build.endswith(" tessera_program tessera_texts"), build)
+        self.assertEqual(self.called("cpack"), [f"cpack --config {self.root}/build/release/CPackConfig.cmake "
+                                                f"-B {self.root}/build/packages"])
+        self.write("cpack-code", "1")
+        result = self.run_("run", "package")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.ninja("FAILED: A.o\n", 1)
+        self.assertEqual((self.run_("run", "package").returncode, self.called("cpack")), (1, []))
 
     def testAChangedPackageTableIsAlwaysCheckedAgain(self):
         self.run_("run")

@@ -5,6 +5,9 @@ import pathlib
 import sys
 
 
+SETS = ("build", "test", "package", "fit", "zink", "fuzz")
+
+
 def faultsOf(table, manifest):
     """Messages on a package table's text and a parsed vcpkg.json."""
     ports = {}
@@ -13,8 +16,8 @@ def faultsOf(table, manifest):
         if not line.strip() or line.startswith("#"):
             continue
         fields = line.split(None, 3)
-        if len(fields) < 4 or fields[1] not in ("build", "test", "fit", "zink", "fuzz"):
-            messages.append(f"tools/packages.txt:{number}: a line is: package, build, test, fit, zink or fuzz, vcpkg port or -, what for")
+        if len(fields) < 4 or fields[1] not in SETS:
+            messages.append(f"tools/packages.txt:{number}: a line is: package, set ({', '.join(SETS)}), vcpkg port or -, what for")
         elif fields[2] != "-":
             ports[fields[2]] = fields[0]
     listed = {entry if isinstance(entry, str) else entry["name"] for entry in manifest["dependencies"]}
