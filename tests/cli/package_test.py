@@ -49,7 +49,7 @@ class Packages(unittest.TestCase):
             (cls.files[name],) = (WORK / "made").glob(name + "_*.deb")
             run("dpkg-deb", "--extract", cls.files[name], WORK / name)
             lines = run("dpkg-deb", "--field", cls.files[name]).splitlines()
-            cls.fields[name] = dict(line.split(": ", 1) for line in lines if not line.startswith(" "))
+            cls.fields[name] = dict(line.split(": ", 1) for line in lines if line and line[0] != " ")
         cls.usr = WORK / "tessera/usr"
         cls.environment = dict(os.environ, XDG_CACHE_HOME=str(WORK / "cache"), GALLIVM_PERF="nopt")
 

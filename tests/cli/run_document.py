@@ -17,6 +17,7 @@ import tempfile
 EXCEPTIONS = [
     (r"\./test\b.*", "runs the tests, of which this is one"),
     (r"cmake --(preset|build|install)\b.*", "builds the project again"),
+    (r"\./run package", "makes packages of the finished build, as a test of its own does"),
     (r"(ninja|ctest)\b.*", "builds or tests the project again"),
     (r"(sudo )?apt-get .*", "changes the machine"),
     (r"(git clone|pip install|vcpkg) .*", "needs a network"),
