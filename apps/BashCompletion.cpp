@@ -18,7 +18,7 @@ std::string offers(const ValueText& value) {
 }
 
 /// 'a' | 'b': a pattern of case.
-std::string pattern(const std::vector<std::string>& names) {
+std::string casePattern(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, " | "));
 }
 
@@ -30,7 +30,7 @@ std::string bashRow(const std::string& name, const std::vector<OptionText>& opti
                                    name.empty() ? "''" : name, fmt::join(all, " "));
     for (const OptionText& option : options)
         if (option.takesValue())
-            text += fmt::format("        {}) isValue=yes{} ;;\n", pattern(option.names), offers(option.value));
+            text += fmt::format("        {}) isValue=yes{} ;;\n", casePattern(option.names), offers(option.value));
     if (const std::string own = offers(operand); !own.empty()) text += fmt::format("        *){} ;;\n", own);
     return text + "        esac\n        ;;\n";
 }
@@ -89,7 +89,7 @@ std::string bashCompletion(const ProgramText& text) {
     done
     case $command in
 )",
-                          pattern(withValue));
+                          casePattern(withValue));
     ValueText commands;
     for (const CommandText& command : text.commands) commands.names.push_back(command.name);
     script += bashRow("help", {}, commands);

@@ -76,8 +76,8 @@ struct OwnValues {
 };
 constexpr OwnValues kOwnValues[] = {
     {"render", "--technique", techniqueOrReference},
+    {"", "--techniques", someTechniques}, // before the name that stress has for the same
     {"", "--technique", oneTechnique},
-    {"", "--techniques", someTechniques},
     {"compare", "--against", truthOfCompare},
     {"bench", "--against", truthOfBench},
     {"stress", "--case", stressNames},

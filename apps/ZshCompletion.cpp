@@ -18,7 +18,7 @@ std::string zshText(const std::string& text, std::string_view special = "[]:\\")
 }
 
 /// ":FILE:_files", what _arguments does for a value.
-std::string action(const OptionText& option) {
+std::string valueSpec(const OptionText& option) {
     const ValueText& value = option.value;
     const std::string names = fmt::format("{}", fmt::join(value.names, " "));
     const std::string kind = zshText(option.type);
@@ -40,11 +40,11 @@ std::string optionSpec(const OptionText& option) {
                                : option.names.size() > 1 ? fmt::format("({})", fmt::join(option.names, " "))
                                                          : "";
     return fmt::format("'{}{}[{}]{}'", isOnce, quotedNames, zshText(option.help),
-                       option.takesValue() ? action(option) : "");
+                       option.takesValue() ? valueSpec(option) : "");
 }
 
 std::string operandSpec(const OptionText& operand) {
-    return fmt::format("'{}{}'", operand.isRepeated ? "*" : operand.isRequired ? "" : ":", action(operand));
+    return fmt::format("'{}{}'", operand.isRepeated ? "*" : operand.isRequired ? "" : ":", valueSpec(operand));
 }
 
 std::string argumentsCall(const std::string& indent, const std::vector<OptionText>& options,

@@ -88,6 +88,8 @@ TEST_F(Completion, bashTakesWordsAsTheProgramDoes) {
     EXPECT_THAT(offered({"render", "hall", "--technique", "="}), Contains("deferred"));
     // Several in one word.
     EXPECT_THAT(offered({"compare", "hall", "--techniques", "forward,tiled"}), ElementsAre("forward,tiled_deferred"));
+    for (const char* name : {"--techniques", "--technique"})
+        EXPECT_THAT(offered({"stress", name, "forward,tiled"}), ElementsAre("forward,tiled_deferred"));
     // A value is no option, even where it begins like one.
     EXPECT_THAT(offered({"render", "hall", "--exposure", "-"}), IsEmpty());
     EXPECT_THAT(offered({"scenes", ""}), IsEmpty());
