@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/Options.h"
+#include "apps/Request.h"
 #include "apps/Outputs.h"
 #include "validation/bench/BenchRecord.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "apps/Options.h"
+#include "apps/Request.h"
 #include "engine/Renderer.h"
 
 namespace tessera::app {

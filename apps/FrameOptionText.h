@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "apps/Options.h"
+#include "apps/Request.h"
 #include "viewer/save/OptionText.h"
 
 namespace tessera::app {

@@ -1,22 +1,12 @@
 #pragma once
-#include <functional>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "engine/Settings.h"
-#include "renderer/frame/PreparedView.h"
-#include "renderer/gpu/Context.h"
-#include "scenes/CameraChange.h"
-#include "scenes/Load.h"
+#include "apps/Request.h"
 
-/// What the command line says, and its translation into the library's terms. Every name is looked up in the library's
-/// tables, so an error can list the valid names.
+/// What the command line says.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.
@@ -26,61 +16,11 @@ struct GlobalOptions {
     std::string context = "auto";
 };
 void addGlobalOptions(CLI::App& app, GlobalOptions& options);
-std::vector<std::string> contextNames(); ///< that --context takes
-gpu::ContextKind contextKind(const std::string& name);
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 
-/// The options of a frame, common to all commands that draw or plan one. Unset ones take the scene's value, else the
-/// default.
-struct FrameOptions {
-    std::string scene;
-    std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
-    std::optional<std::string> memoryLimit;
-    std::optional<int> lights;
-    bool noDefaultLight = false;
-    std::optional<std::string> environment;    ///< as scenes::LoadOptions has it
-    std::optional<std::string> clip;           ///< the same
-    std::vector<scenes::HookValue> hookValues; ///< the same
-    scenes::ImportWishes import;               ///< the same
-    scenes::CameraChange pose;                 ///< of the camera that is chosen
-
-    /// What was said of the setting of that key.
-    std::optional<std::string> said(std::string_view key) const;
-};
 /// All but the scene.
 void addFrameSettings(CLI::App& command, FrameOptions& options);
 /// The scene, which is required where `defaultScene` is empty, and the rest.
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
-
-/// A scene and how to look at it.
-struct Request : engine::ViewRequest {
-    scenes::Scene scene;
-    std::vector<std::string> files; ///< that the scene was read from
-};
-/// scenes::poseScene(), of which an error names the scene's file and the time.
-void poseAt(scenes::Scene& scene, double timeSeconds, const std::string& file);
-
-/// The scene alone, as the options have it: at the time that they, else the scene ask for, the camera they choose where
-/// they place it.
-/// Names of the files it was read from are added to `files`.
-scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr);
-/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
-Request resolveWithoutScene(const FrameOptions& options);
-/// Options that name things of the request's scene, and the scene's own options where the command line sets none.
-void resolveForScene(const FrameOptions& options, Request& request);
-/// Places the camera that the options, else the scene choose, so that no clip moves it any more, and turns the light
-/// along it that the scene was given for want of its own. Throws InputError for what no camera can have.
-void placeCamera(const FrameOptions& options, scenes::Scene& scene);
-/// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError.
-Request resolve(const FrameOptions& options);
-
-/// How loadScene() is asked for the scene. Throws InputError.
-scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
-
-/// Which settings of shadows were said and change nothing of a picture, and why: a sentence or two each.
-std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
-                                         const frame::PreparedView& prepared);
-engine::Technique techniqueNamed(const std::string& name);
-glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 
 } // namespace tessera::app

@@ -1,0 +1,221 @@
+#include "apps/Request.h"
+
+#include <cctype>
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "base/OneLine.h"
+#include "scenes/Pose.h"
+#include "validation/bench/ShadowKey.h"
+
+namespace tessera::app {
+
+namespace {
+
+/// The row of `table` called `name`, or InputError with the nearest names.
+template <typename Table>
+const auto& rowNamed(const Table& table, const std::string& name, std::string_view kind) {
+    std::vector<std::string_view> names;
+    for (const auto& row : table) {
+        if (row.name == name) return row;
+        names.push_back(row.name);
+    }
+    throw InputError(fmt::format("unknown {} '{}': {}", kind, name, suggestNames(name, names)));
+}
+
+struct NamedContext {
+    std::string_view name;
+    gpu::ContextKind kind;
+};
+constexpr NamedContext kContexts[] = {
+    {"auto", gpu::ContextKind::Auto}, {"window", gpu::ContextKind::Window}, {"egl", gpu::ContextKind::Egl}};
+
+/// 512M, 4G: a whole number of bytes, or of 2^10, 2^20, 2^30 of them.
+std::uint64_t bytesNamed(const std::string& text) {
+    struct Unit {
+        char letter;
+        int bits;
+    };
+    constexpr Unit kUnits[] = {{'K', 10}, {'M', 20}, {'G', 30}};
+    const char* end = text.data() + text.size();
+    std::uint64_t number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    int bits = rest == end ? 0 : -1;
+    for (const Unit& unit : kUnits)
+        if (end - rest == 1 && *rest == unit.letter) bits = unit.bits;
+    if (error != std::errc() || bits < 0 || number == 0 || number > std::numeric_limits<std::uint64_t>::max() >> bits)
+        throw InputError(
+            fmt::format("--memory-limit '{}' is no size; give bytes, or K, M or G of them, as in 4G", text));
+    return number << bits;
+}
+
+/// What the options say of a setting.
+engine::TextSource fromOptions(const FrameOptions& options, const engine::Setting& setting,
+                               const scenes::Scene* scene = nullptr) {
+    return {options.called(setting), scene};
+}
+
+/// The time that the options, else the scene ask for.
+double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
+    const engine::Setting& time = engine::settingOf("time");
+    engine::ViewRequest request;
+    if (const auto said = options.said("time"))
+        time.read(request, *said, fromOptions(options, time));
+    else
+        engine::takeWishes(scene, options.scene, request, [](const engine::Setting& setting) {
+            return setting.key != "time"; // of the others the texts alone are read
+        });
+    return request.settings.timeSeconds;
+}
+
+} // namespace
+
+std::optional<std::string> FrameOptions::said(std::string_view key) const {
+    const auto found = settings.find(key);
+    return found == settings.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string> contextNames() {
+    std::vector<std::string> names;
+    for (const NamedContext& context : kContexts) names.emplace_back(context.name);
+    return names;
+}
+
+gpu::ContextKind contextKind(const std::string& name) {
+    return rowNamed(kContexts, name, "context").kind;
+}
+
+scenes::LightUnits lightUnitsNamed(const std::string& name) {
+    return rowNamed(scenes::kLightUnits, name, "unit of light").units;
+}
+
+scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
+    scenes::LoadOptions load;
+    load.lights = options.lights;
+    load.defaultLight = !options.noDefaultLight;
+    load.environment = options.environment;
+    load.clip = options.clip;
+    load.hookValues = options.hookValues;
+    load.import = options.import;
+    if (const auto size = options.said("size")) {
+        const glm::dvec2 pixels = sizeNamed(std::string(options.called(engine::settingOf("size"))), *size);
+        load.aspect = pixels.x / pixels.y;
+    }
+    if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
+    return load;
+}
+
+void poseAt(scenes::Scene& scene, double timeSeconds, const std::string& file) {
+    try {
+        scenes::poseScene(scene, timeSeconds);
+    } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}: at {:g} s of {}: {}", file, timeSeconds, scenes::clipText(scene), error.what()));
+    }
+}
+
+scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files, std::stop_token stop) {
+    scenes::LoadOptions load = loadOptionsOf(options);
+    load.files = files;
+    load.stop = std::move(stop);
+    scenes::Scene scene = scenes::loadScene(options.scene, load);
+    if (scenes::isPlaying(scene)) poseAt(scene, secondsFor(options, scene), options.scene);
+    placeCamera(options, scene);
+    return scene;
+}
+
+void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
+    const std::optional<std::string> said = options.said("camera");
+    if (!said && options.pose == scenes::CameraChange()) return;
+    const std::optional<std::string>& name = said ? said : scene.options.camera;
+    engine::ViewRequest request;
+    if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
+    scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
+    const glm::dmat4 before = camera.worldFromCamera;
+    camera = scenes::changedCamera(camera, options.pose);
+    if (camera.worldFromCamera != before)
+        std::erase_if(scene.rig.cameras,
+                      [&](const scenes::Carried& carried) { return carried.element == request.settings.camera; });
+}
+
+Request resolveWithoutScene(const FrameOptions& options) {
+    Request request;
+    for (const engine::Setting& setting : engine::settingTable())
+        if (const auto text = options.said(setting.key)) setting.read(request, *text, fromOptions(options, setting));
+    if (options.memoryLimit) bytesNamed(*options.memoryLimit);
+    return request;
+}
+
+void resolveForScene(const FrameOptions& options, Request& request) {
+    const auto isSaid = [&](const engine::Setting& setting) { return options.said(setting.key).has_value(); };
+    engine::takeWishes(request.scene, options.scene, request, isSaid);
+    for (const engine::Setting& setting : engine::settingTable())
+        if (const auto text = setting.isOfScene ? options.said(setting.key) : std::nullopt)
+            setting.read(request, *text, fromOptions(options, setting, &request.scene));
+}
+
+void warnOfScene(const scenes::Scene& scene) {
+    for (const std::string& warning : scene.warnings) spdlog::warn("{}", oneLine(scene.name + ": " + warning));
+    if (const std::string clip = scenes::clipText(scene); !clip.empty())
+        spdlog::info("{}", oneLine(scene.name + ": " + clip));
+    for (const std::string& note : scene.notes) spdlog::info("{}", oneLine(scene.name + ": " + note));
+}
+
+Request resolve(const FrameOptions& options, std::stop_token stop) {
+    Request request = resolveWithoutScene(options);
+    request.scene = loadFor(options, &request.files, std::move(stop));
+    resolveForScene(options, request);
+    warnOfScene(request.scene);
+    return request;
+}
+
+std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
+                                         const frame::PreparedView& prepared) {
+    std::vector<std::string> messages;
+    if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
+            continue;
+        const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+        if (setting.key == "shadowFilter" && filter.usesMaps && filter.heedsSizes && prepared.lights.shadowed > 0 &&
+            !prepared.lights.features[frame::Feature::SoftShadows]) {
+            messages.push_back(fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows "
+                                           "has a size",
+                                           options.called(setting), filter.name,
+                                           infoOf(frame::ShadowFilter::Hard).name));
+            continue;
+        }
+        std::string why = setting.whyIdle(request);
+        const auto rows = validation::shadowSettingTable();
+        const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);
+        if (prepared.lights.shadowed == 0)
+            why = "There are no shadows: " +
+                  frame::whyNoShadows(request.scene, prepared.lights, request.settings.shadows);
+        else if (why.empty() && row != rows.end() && !row->matters(prepared.lights, request.settings.shadowFilter))
+            why = std::string(row->absent);
+        if (why.empty()) continue;
+        why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
+        messages.push_back(fmt::format("{} changes nothing. {}", options.called(setting), why));
+    }
+    return messages;
+}
+
+engine::Technique techniqueNamed(const std::string& name) {
+    engine::ViewRequest request;
+    engine::settingOf("technique").read(request, name);
+    return request.technique;
+}
+
+glm::ivec2 sizeNamed(const std::string& flag, const std::string& text) {
+    engine::ViewRequest request;
+    engine::settingOf("size").read(request, text, {flag, nullptr});
+    return request.settings.sizePixels;
+}
+
+} // namespace tessera::app
