@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "apps/BenchRun.h"
+#include "apps/BenchJob.h"
 #include "apps/Commands.h"
 #include "apps/ErrorLine.h"
 #include "apps/FrameOptionText.h"
@@ -8,14 +8,9 @@
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
 #include "apps/Shard.h"
-#include "apps/Version.h"
 #include "base/Error.h"
-#include "base/Names.h"
-#include "engine/ChooseSamples.h"
 #include "scenes/import/FileBytes.h"
 #include "validation/bench/BenchReport.h"
-#include "validation/bench/MachineName.h"
-#include "validation/compare/ReferencePicture.h"
 
 namespace tessera::app {
 
@@ -23,64 +18,17 @@ namespace {
 
 constexpr const char* kReport = "/report.html";
 
-struct BenchCommandOptions {
-    FrameOptions frame;
-    std::vector<std::string> scenes, merge;
-    std::string folder, matrix, shard, against;
-    std::optional<int> frames;
+struct BenchCommandOptions : BenchJobOptions {
+    std::vector<std::string> merge;
+    std::string folder, matrix, shard;
     bool resume = false;
 };
-
-struct NamedTruth {
-    std::string_view name;
-    validation::BenchTruth truth;
-};
-constexpr NamedTruth kTruths[] = {{"reference", validation::BenchTruth::Reference},
-                                  {"forward", validation::BenchTruth::Forward}};
-
-std::optional<validation::BenchTruth> benchTruthNamed(const std::string& name) {
-    if (name.empty()) return {};
-    std::vector<std::string_view> names;
-    for (const NamedTruth& row : kTruths) {
-        if (row.name == name) return row.truth;
-        names.push_back(row.name);
-    }
-    throw InputError(
-        fmt::format("--against '{}' is nothing that bench measures against: {}", name, suggestNames(name, names)));
-}
 
 validation::BenchMatrix matrixOf(const BenchCommandOptions& options) {
     if (options.matrix.empty()) return {};
     scenes::LoadLedger ledger(loadOptionsOf(options.frame).memoryLimitBytes);
     const std::vector<std::byte> bytes = scenes::readFileBytes(options.matrix, ledger);
     return validation::parseMatrix({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options.matrix, ledger);
-}
-
-/// Everything that will be measured; names, and files against the outputs, are checked for every scene before the first
-/// frame is drawn.
-validation::BenchPlan planOf(const BenchCommandOptions& options, Outputs& outputs) {
-    validation::BenchMatrix matrix = matrixOf(options);
-    if (const auto technique = options.frame.said("technique"); technique && matrix.techniques.empty())
-        matrix.techniques.push_back(techniqueNamed(*technique));
-    validation::BenchPlan plan;
-    for (const std::string& scene : options.scenes) {
-        FrameOptions frame = options.frame;
-        frame.scene = scene;
-        const Request request = resolve(frame);
-        outputs.reads(request.files);
-        const frame::FrameSettings& settings = request.settings;
-        requireLitPicture(settings, "bench");
-        if (settings.samples != 1) throw InputError("bench measures frames of one sample a pixel; give --samples 1");
-        if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
-            validation::requireReferenceTakes(settings);
-        validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {
-            frame.lights = lights;
-            return loadFor(frame);
-        });
-    }
-    if (plan.groups.empty())
-        throw InputError("the matrix leaves nothing to measure: no technique takes any of its culling methods");
-    return plan;
 }
 
 std::string commandOf(const BenchCommandOptions& options) {
@@ -137,34 +85,15 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
         throw InputError("bench needs a SCENE to measure, or --merge with the folders of finished shards");
     requireFolderPlace(options.folder);
     Outputs outputs = outputsOf(options);
-    BenchRun run;
-    run.options.against = benchTruthNamed(options.against);
-    if (options.frames) run.options.frames = *options.frames;
-    if (run.options.frames < 1) throw InputError(fmt::format("--frames {} is less than one frame", run.options.frames));
     const auto [shard, shards] = shardNamed(options.shard);
-    run.plan = planOf(options, outputs);
-    if (options.frame.said("filter")) run.options.errorFilter = run.plan.groups.front().points.front().settings.filter;
+    const auto reads = [&](const std::vector<std::string>& files) { outputs.reads(files); };
+    BenchRun run = benchRunOf(options, matrixOf(options), reads);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
-    for (validation::PlannedGroup& group : run.plan.groups) {
-        group.settings = engine::settingsOn(context->capabilities(), group.settings);
-        for (validation::BenchPoint& point : group.points)
-            point.settings = engine::settingsOn(context->capabilities(), point.settings);
-    }
-    const validation::RunIdentity identity{validation::machineName(),
-                                           context->capabilities().renderer,
-                                           kCommit,
-                                           frameOptionText(options.frame),
-                                           options.against,
-                                           run.options.frames,
-                                           shard,
-                                           shards,
-                                           commandOf(options)};
-    run.load = [&](const validation::PlannedGroup& group) {
-        FrameOptions frame = options.frame;
-        frame.scene = group.scene;
-        frame.lights = group.lightsToLoad;
-        return loadFor(frame);
-    };
+    settleOn(context->capabilities(), run.plan);
+    validation::RunIdentity identity = identityOf(options, context->capabilities(), run);
+    identity.shard = shard;
+    identity.shards = shards;
+    identity.command = commandOf(options);
     run.write = [&](const validation::BenchRecord& record) { write(outputs, options.folder, record); };
     makeFolder(options.folder);
     const validation::BenchStore store(options.folder, identity, run.plan,

@@ -43,28 +43,33 @@ void requireLitPicture(const frame::FrameSettings& settings, const char* command
                                  name, command, name));
 }
 
-validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet) {
-    const std::vector<validation::PlannedGroup>& groups = run.plan.groups;
-    std::vector<GroupState> states(groups.size());
+std::size_t stepsOf(const gpu::Capabilities& gl, const validation::BenchStore& store, const BenchRun& run) {
     std::size_t steps = 0;
+    for (std::size_t i = 0; i < run.plan.groups.size(); ++i)
+        if (store.isOfShard(i)) steps += validation::stepsOf(gl, run.plan.groups[i], store.load(i), run.options);
+    return steps;
+}
+
+validation::BenchRecord measureMissing(gpu::Context& context, const validation::BenchStore& store, BenchRun run) {
+    const std::vector<validation::PlannedGroup>& groups = run.plan.groups;
     for (std::size_t i = 0; i < groups.size(); ++i) {
         if (!store.isOfShard(i)) continue;
-        states[i] = store.load(i);
-        steps += validation::stepsOf(context.capabilities(), groups[i], states[i], run.options);
-    }
-    Progress progress("measuring", steps, quiet);
-    run.options.progress = [&progress](std::size_t done) { progress.advance(done); };
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        if (!store.isOfShard(i) || states[i].isDone) continue;
-        run.options.keep = [&](const GroupState& state) { store.keep(i, state); };
+        GroupState state = store.load(i);
+        if (state.isDone) continue;
+        run.options.keep = [&](const GroupState& now) { store.keep(i, now); };
         run.options.keepPicture = [&](const std::string& name, const DisplayImage& image) {
             return store.keepPicture(i, name, image);
         };
-        validation::measureGroup(context, loadAsPlanned(run, groups[i]), groups[i], run.options, states[i]);
+        validation::measureGroup(context, loadAsPlanned(run, groups[i]), groups[i], run.options, state);
         run.write(validation::recordIn(store.folder()));
     }
-    progress.finish();
     return validation::recordIn(store.folder());
+}
+
+validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet) {
+    Progress progress("measuring", stepsOf(context.capabilities(), store, run), quiet);
+    run.options.progress = [&progress](std::size_t done) { progress.advance(done); };
+    return measureMissing(context, store, std::move(run));
 }
 
 } // namespace tessera::app

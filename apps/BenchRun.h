@@ -11,7 +11,7 @@ namespace tessera::app {
 /// A benchmark to run, or to go on with.
 struct BenchRun {
     validation::BenchPlan plan;
-    validation::BenchOptions options; ///< progress and keep are set by runBench()
+    validation::BenchOptions options; ///< keep and keepPicture are set by measureMissing()
     std::function<scenes::Scene(const validation::PlannedGroup&)> load;
     /// Called after every group, to write the finished groups; the others are marked as missing.
     std::function<void(const validation::BenchRecord&)> write;
@@ -20,8 +20,13 @@ struct BenchRun {
 /// Which technique to take is a question of the lit picture alone: throws InputError for a debug view.
 void requireLitPicture(const frame::FrameSettings& settings, const char* command);
 
-/// Measures missing groups, saves them in the store, shows progress, and returns the store's contents. Throws
-/// InputError if a scene has changed since the plan was made.
+/// How many steps of BenchOptions::progress the missing groups take.
+std::size_t stepsOf(const gpu::Capabilities& gl, const validation::BenchStore& store, const BenchRun& run);
+/// Measures missing groups, saves them in the store, and returns the store's contents. Throws InputError if a scene has
+/// changed since the plan was made.
+validation::BenchRecord measureMissing(gpu::Context& context, const validation::BenchStore& store, BenchRun run);
+
+/// The same with a progress bar.
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet);
 
 /// Tells the outputs what a benchmark writes into its folder: bench.json, bench.csv, and the files of BenchStore.

@@ -21,9 +21,6 @@ void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addCompletionCommand(CLI::App& app, Run& run);
 void addManualCommand(CLI::App& app, Run& run);
 
-/// The name of the reference renderer where a technique is expected.
-inline constexpr const char* kReferenceName = "reference";
-
 /// Exit codes of the documented command line.
 inline constexpr int kGood = 0;
 inline constexpr int kFailed = 1;

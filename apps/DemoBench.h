@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/Request.h"
 #include "apps/Outputs.h"
+#include "apps/Request.h"
 #include "validation/bench/BenchRecord.h"
 
 namespace tessera::app {

@@ -2,53 +2,34 @@
 
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
+#include "apps/Planning.h"
 #include "base/Error.h"
-#include "engine/ChooseSamples.h"
-#include "engine/Renderer.h"
-#include "validation/compare/Measure.h"
 
 namespace tessera::app {
 
 namespace {
 
-struct PlanOptions {
-    FrameOptions frame;
-    std::vector<std::string> also; ///< cameras of further views
+struct PlanOptions : PlanningOptions {
     std::string json, dot;
-    bool measure = false;
 };
 
 int plan(const PlanOptions& options, const GlobalOptions& global) {
     const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
     if (printsJson && printsDot)
         throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
-    if (options.measure && !options.also.empty())
-        throw InputError("--measure times a frame of one view; leave --also out");
-    if (options.frame.said("technique") == kReferenceName)
-        throw InputError("the reference has no plan: it follows a ray a pixel in double precision, without passes and "
-                         "without OpenGL; give another technique");
+    requirePlan(options);
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) requireOutput(path);
     Outputs outputs({options.json, options.dot});
-    Request request = resolve(options.frame);
+    const Request request = resolve(options.frame);
     outputs.reads(request.files);
     engine::requireTaken(request);
-    std::vector<engine::ViewRequest> views{request};
-    for (const std::string& camera : options.also) {
-        views.push_back(request);
-        engine::settingOf("camera").read(views.back(), camera, {"--also", &request.scene});
-    }
-    std::unique_ptr<gpu::Context> context;
-    if (options.measure) {
-        context = makeContext(global);
-        request.settings = engine::settingsOn(context->capabilities(), request.settings);
-    }
-    graph::Plan plan = views.size() > 1 ? engine::planViews(request.scene, views)
-                                        : engine::planFrame(request.scene, request.technique, request.settings);
-    if (context) {
+    const auto measured = [&] {
+        const std::unique_ptr<gpu::Context> context = makeContext(global);
         engine::Renderer renderer(*context, request.scene);
-        validation::measurePlan(plan, renderer, request.technique, request.settings);
-    }
+        return measuredPlan(request, renderer, context->capabilities());
+    };
+    const graph::Plan plan = options.measure ? measured() : planOf(options, request);
     if (!options.json.empty()) outputs.write(options.json, graph::planJson(plan));
     if (!options.dot.empty()) outputs.write(options.dot, graph::planDot(plan));
     if (!printsJson && !printsDot) fmt::print("{}", graph::planText(plan));

@@ -55,10 +55,9 @@ std::uint64_t bytesNamed(const std::string& text) {
     return number << bits;
 }
 
-/// What the options say of a setting.
-engine::TextSource fromOptions(const FrameOptions& options, const engine::Setting& setting,
-                               const scenes::Scene* scene = nullptr) {
-    return {options.called(setting), scene};
+/// As the command line calls a setting.
+engine::TextSource fromCommandLine(const engine::Setting& setting, const scenes::Scene* scene = nullptr) {
+    return {setting.flag, scene};
 }
 
 /// The time that the options, else the scene ask for.
@@ -66,7 +65,7 @@ double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
     const engine::Setting& time = engine::settingOf("time");
     engine::ViewRequest request;
     if (const auto said = options.said("time"))
-        time.read(request, *said, fromOptions(options, time));
+        time.read(request, *said, fromCommandLine(time));
     else
         engine::takeWishes(scene, options.scene, request, [](const engine::Setting& setting) {
             return setting.key != "time"; // of the others the texts alone are read
@@ -104,7 +103,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.hookValues = options.hookValues;
     load.import = options.import;
     if (const auto size = options.said("size")) {
-        const glm::dvec2 pixels = sizeNamed(std::string(options.called(engine::settingOf("size"))), *size);
+        const glm::dvec2 pixels = sizeNamed(std::string(engine::settingOf("size").flag), *size);
         load.aspect = pixels.x / pixels.y;
     }
     if (options.memoryLimit) load.memoryLimitBytes = bytesNamed(*options.memoryLimit);
@@ -147,7 +146,7 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
 Request resolveWithoutScene(const FrameOptions& options) {
     Request request;
     for (const engine::Setting& setting : engine::settingTable())
-        if (const auto text = options.said(setting.key)) setting.read(request, *text, fromOptions(options, setting));
+        if (const auto text = options.said(setting.key)) setting.read(request, *text, fromCommandLine(setting));
     if (options.memoryLimit) bytesNamed(*options.memoryLimit);
     return request;
 }
@@ -157,7 +156,7 @@ void resolveForScene(const FrameOptions& options, Request& request) {
     engine::takeWishes(request.scene, options.scene, request, isSaid);
     for (const engine::Setting& setting : engine::settingTable())
         if (const auto text = setting.isOfScene ? options.said(setting.key) : std::nullopt)
-            setting.read(request, *text, fromOptions(options, setting, &request.scene));
+            setting.read(request, *text, fromCommandLine(setting, &request.scene));
 }
 
 void warnOfScene(const scenes::Scene& scene) {
@@ -187,8 +186,7 @@ std::vector<std::string> unheededShadows(const FrameOptions& options, const Requ
             !prepared.lights.features[frame::Feature::SoftShadows]) {
             messages.push_back(fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows "
                                            "has a size",
-                                           options.called(setting), filter.name,
-                                           infoOf(frame::ShadowFilter::Hard).name));
+                                           setting.flag, filter.name, infoOf(frame::ShadowFilter::Hard).name));
             continue;
         }
         std::string why = setting.whyIdle(request);
@@ -201,7 +199,7 @@ std::vector<std::string> unheededShadows(const FrameOptions& options, const Requ
             why = std::string(row->absent);
         if (why.empty()) continue;
         why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
-        messages.push_back(fmt::format("{} changes nothing. {}", options.called(setting), why));
+        messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
     }
     return messages;
 }

@@ -16,6 +16,9 @@
 /// name is looked up in the library's tables, so an error can list the valid names.
 namespace tessera::app {
 
+/// The name of the reference renderer where a technique is expected.
+inline constexpr const char* kReferenceName = "reference";
+
 std::vector<std::string> contextNames(); ///< that --context takes
 gpu::ContextKind contextKind(const std::string& name);
 scenes::LightUnits lightUnitsNamed(const std::string& name);
@@ -33,12 +36,9 @@ struct FrameOptions {
     std::vector<scenes::HookValue> hookValues; ///< the same
     scenes::ImportWishes import;               ///< the same
     scenes::CameraChange pose;                 ///< of the camera that is chosen
-    bool areFlags = true; ///< messages call a setting as the command line does, "--exposure", else "exposure"
 
     /// What was said of the setting of that key.
     std::optional<std::string> said(std::string_view key) const;
-    /// The setting as messages call it.
-    std::string_view called(const engine::Setting& setting) const { return areFlags ? setting.flag : setting.name; }
 };
 /// A scene and how to look at it.
 struct Request : engine::ViewRequest {

@@ -1,0 +1,36 @@
+#include "apps/Planning.h"
+
+#include "base/Error.h"
+#include "engine/ChooseSamples.h"
+#include "validation/compare/Measure.h"
+
+namespace tessera::app {
+
+void requirePlan(const PlanningOptions& options) {
+    if (options.measure && !options.also.empty())
+        throw InputError("--measure times a frame of one view; leave --also out");
+    if (options.frame.said("technique") == kReferenceName)
+        throw InputError("the reference has no plan: it follows a ray a pixel in double precision, without passes and "
+                         "without OpenGL; give another technique");
+}
+
+graph::Plan planOf(const PlanningOptions& options, const Request& request) {
+    engine::requireTaken(request);
+    std::vector<engine::ViewRequest> views{request};
+    for (const std::string& camera : options.also) {
+        views.push_back(request);
+        engine::settingOf("camera").read(views.back(), camera, {"--also", &request.scene});
+    }
+    return views.size() > 1 ? engine::planViews(request.scene, views)
+                            : engine::planFrame(request.scene, request.technique, request.settings);
+}
+
+graph::Plan measuredPlan(const Request& request, engine::Renderer& renderer, const gpu::Capabilities& gl) {
+    engine::requireTaken(request);
+    const frame::FrameSettings settings = engine::settingsOn(gl, request.settings);
+    graph::Plan plan = engine::planFrame(request.scene, request.technique, settings);
+    validation::measurePlan(plan, renderer, request.technique, settings);
+    return plan;
+}
+
+} // namespace tessera::app
