@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "apps/FramePattern.h"
 #include "apps/FrameSequence.h"
 #include "apps/Numbers.h"
+#include "apps/OnePicture.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "apps/Shard.h"
@@ -94,50 +94,23 @@ std::string makerText(const std::string& renderer) {
     return text;
 }
 
-/// Says why, where a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene or is black, and
-/// how many of its pixels are no numbers; of a sequence about the first such picture alone. `cut` says how shadows may
-/// have made pixels NaN, or nothing.
-void warnOfPicture(const std::string& path, const scenes::Scene& scene, frame::DebugView view,
-                   const std::vector<float>& rgba, const std::string& cut, bool& hasWarned) {
-    std::size_t covered = 0, bad = 0;
-    bool hasNaN = false;
-    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights that is no surprise
-    for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
-        covered += rgba[pixel + 3] > 0.0f;
-        bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
-        hasNaN = hasNaN || std::isnan(rgba[pixel]);
-        isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
-    }
-    if ((covered > 0 && bad == 0 && !isBlack) || std::exchange(hasWarned, true)) return;
-    std::string why = "the camera sees nothing of the scene; check --eye, --target, --near and --far; backs of "
-                      "one-sided surfaces and triangles without area do not show";
-    if (scenes::triangleCount(scene) == 0) why = "the scene has no triangles to draw";
-    if (covered > 0)
-        why = "is black: no light reaches the surfaces in view; --view diffuse shows them without light, and lights "
-              "may be out of range, behind the surfaces or off";
-    if (bad > 0)
-        why = fmt::format("{} of its pixels are infinite or no numbers; {}", bad,
-                          hasNaN && !cut.empty() ? cut : "a light is too bright or too near");
-    spdlog::warn("{}", oneLine(path + ": " + why));
+/// Warns of a picture that shows nothing, as faultOf() says; of a sequence about the first such picture alone.
+void warnOfPicture(const std::string& path, const std::string& fault, bool& hasWarned) {
+    if (fault.empty() || std::exchange(hasWarned, true)) return;
+    spdlog::warn("{}", oneLine(path + ": " + fault));
 }
 
 /// Without a context, unless the scene's hook needs one to run: the display picture has exposure and sRGB alone.
 void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
     frame::FrameSettings& settings = job.request.settings;
-    // As compare does; hardware filtering is available on request.
-    if (!options.frame.said("filter")) settings.filter = frame::TextureFilter::Exact;
-    validation::requireReferenceTakes(settings);
+    settleForReference(options.frame, settings);
     const bool isLinear = extensionOf(options.output) == ".exr";
-    if (!isLinear && settings.toneMap != frame::ToneMap::None)
-        throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
+    if (!isLinear) requireReferenceShows(settings);
     job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
-    for (const engine::Setting& setting : engine::settingTable())
-        if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" &&
-            options.frame.said(setting.key))
-            spdlog::warn("{} changes nothing. The reference follows rays of its own", setting.flag);
+    for (const std::string& text : unheededByReference(options.frame)) spdlog::warn("{}", text);
     if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
         fmt::print("the reference shows the environment behind the scene as it is, without a blur\n");
     bool hasWarned = false;
@@ -153,10 +126,8 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
         Picture picture =
             renderer ? validation::referencePicture(*renderer, one, rowDone, validation::Leeway::None).picture
                      : validation::referencePicture(job.request.scene, one, rowDone, validation::Leeway::None).picture;
-        warnOfPicture(path, job.request.scene, one.view, picture.rgba, "", hasWarned);
-        if (isLinear) return encodeExr(picture);
-        for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
-        return encodePng(toDisplayImage(picture)).bytes;
+        warnOfPicture(path, faultOf(job.request.scene, one.view, picture.rgba, ""), hasWarned);
+        return isLinear ? encodeExr(picture) : encodePng(shownReference(std::move(picture), settings)).bytes;
     });
 }
 
@@ -221,7 +192,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
             !unseen.empty() && !std::exchange(hasWarnedOfSpread, true))
             spdlog::warn("{}", oneLine(path + ": " + unseen));
         const engine::DrawnShadows shadows = renderer.shadows();
-        warnOfPicture(path, request.scene, one.view, picture.radiance, shadows.cut, hasWarned);
+        warnOfPicture(path, faultOf(request.scene, one.view, picture.radiance, shadows.cut), hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
         const std::vector<std::string> own =

@@ -1,0 +1,59 @@
+#include "apps/OnePicture.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "validation/compare/ReferencePicture.h"
+
+namespace tessera::app {
+
+std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span<const float> rgba,
+                    const std::string& cut) {
+    std::size_t covered = 0, bad = 0;
+    bool hasNaN = false;
+    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights that is no surprise
+    for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
+        covered += rgba[pixel + 3] > 0.0f;
+        bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
+        hasNaN = hasNaN || std::isnan(rgba[pixel]);
+        isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
+    }
+    if (bad > 0)
+        return fmt::format("{} of its pixels are infinite or no numbers; {}", bad,
+                           hasNaN && !cut.empty() ? cut : "a light is too bright or too near");
+    if (covered > 0)
+        return isBlack ? "is black: no light reaches the surfaces in view; --view diffuse shows them without light, "
+                         "and lights may be out of range, behind the surfaces or off"
+                       : "";
+    if (scenes::triangleCount(scene) == 0) return "the scene has no triangles to draw";
+    return "the camera sees nothing of the scene; check --eye, --target, --near and --far; backs of one-sided "
+           "surfaces and triangles without area do not show";
+}
+
+void settleForReference(const FrameOptions& options, frame::FrameSettings& settings) {
+    // As compare does; hardware filtering is available on request.
+    if (!options.said("filter")) settings.filter = frame::TextureFilter::Exact;
+    validation::requireReferenceTakes(settings);
+}
+
+void requireReferenceShows(const frame::FrameSettings& settings) {
+    if (settings.toneMap != frame::ToneMap::None)
+        throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
+}
+
+DisplayImage shownReference(Picture picture, const frame::FrameSettings& settings) {
+    for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
+    return toDisplayImage(picture);
+}
+
+std::vector<std::string> unheededByReference(const FrameOptions& options) {
+    std::vector<std::string> messages;
+    for (const engine::Setting& setting : engine::settingTable())
+        if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" && options.said(setting.key))
+            messages.push_back(fmt::format("{} changes nothing. The reference follows rays of its own", setting.flag));
+    return messages;
+}
+
+} // namespace tessera::app
