@@ -104,6 +104,17 @@ class Scripts(unittest.TestCase):
         self.ninja("FAILED: A.o\n", 1)
         self.assertEqual((self.run_("run", "package").returncode, self.called("cpack")), (1, []))
 
+    def testThePythonModuleIsBuiltByItselfAndItsPackagesAreOnlyInstalledForIt(self):
+        self.write("missing", "pybind11-dev")
+        self.run_("run", "scenes")
+        self.assertEqual(self.called("apt-get"), [])
+        result = self.run_("run", "python")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], ["pybind11-dev"])
+        self.assertIn("cmake --preset python", self.calls)
+        self.assertTrue(self.called("ninja")[0].endswith("build/python tessera_python"), self.calls)
+        self.assertIn(f"export PYTHONPATH={self.root}/build/python\n", result.stdout)
+
     def testAChangedPackageTableIsAlwaysCheckedAgain(self):
         self.run_("run")
         with (self.root / "tools/packages.txt").open("a") as table:

@@ -12,12 +12,15 @@ import sys
 from sources import sourcesOf
 
 # Folders whose sources are one target each; the longest that holds a file counts.
-TARGETS = ("apps", "base", "engine", "passes", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
+TARGETS = ("apps", "base", "engine", "passes", "python", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
            "tests/cli/program", "tests/viewer")
 # Sources of other folders that tests/CMakeLists.txt compiles into a target too.
 GUESTS = {
     "tests/unit": ["apps/" + part + ".cpp" for part in ("ErrorLine", "FirstLook", "FrameOptionText", "Numbers", "Options",
-                                                        "OutputFolder", "Outputs", "Progress")] + ["tests/support/TestScenes.cpp"],
+                                                        "OutputFolder", "Outputs", "Progress", "Keywords", "Request")] + ["tests/support/TestScenes.cpp"],
+    "python": ["apps/" + part + ".cpp" for part in ("BenchJob", "BenchRun", "Comparison", "FilterEnvironment", "FrameOptionText",
+                                                    "Keywords", "OnePicture", "OutputFolder", "Outputs", "Planning", "Progress",
+                                                    "Request")] + ["viewer/save/OptionText.cpp"],
     "tests/image": ["tests/support/TestScenes.cpp", "tests/support/CullingScenes.cpp"],
     "tests/cli/program": ["tests/support/Process.cpp"],
     "tests/viewer": ["tests/support/Process.cpp"],

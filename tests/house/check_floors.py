@@ -1,6 +1,6 @@
 """check_floors.py ROOT: no file includes a floor above its own, and no folders of a floor include each other in a circle.
 
-The floors, top to bottom: apps, viewer, validation, engine, passes, renderer, shaders, base; scenes stands beside renderer and
+The floors, top to bottom: python, apps, viewer, validation, engine, passes, renderer, shaders, base; scenes stands beside renderer and
 knows nothing of it. Passes know nothing of each other: the engine wires them. OpenGL stays inside renderer/gpu, and a render
 graph knows nothing of it. Tests and the command line may include everything.
 """
@@ -28,6 +28,7 @@ ROOMS = {
     "validation/reference": ("scenes",),
     "validation": ("validation/reference", "engine", "passes", "renderer", "scenes", "shaders", "base"),
     "viewer": ("validation", "engine", "passes", "renderer", "scenes", "shaders", "base"),
+    "python": ("apps", "validation", "engine", "renderer", "scenes", "base"),
     "apps": ("viewer", "validation", "engine", "passes", "renderer", "scenes", "shaders", "base"),
 }
 # Single includes that go past the table, with the reason.

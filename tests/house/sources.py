@@ -3,7 +3,7 @@
 import pathlib
 import subprocess
 
-FOLDERS = ("apps", "base", "engine", "passes", "renderer", "scenes", "shaders", "tests", "tools", "validation", "viewer")
+FOLDERS = ("apps", "base", "engine", "passes", "python", "renderer", "scenes", "shaders", "tests", "tools", "validation", "viewer")
 
 
 def sourcesOf(root, suffixes=(".h", ".cpp")):

@@ -1,0 +1,150 @@
+#include "python/Arguments.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "apps/Keywords.h"
+
+namespace py = pybind11;
+
+namespace tessera::python {
+
+namespace {
+
+[[noreturn]] void refuseType(std::string_view called, std::string_view needed, const py::handle& value) {
+    throw py::type_error(fmt::format("{} is {}; {} is needed", called, Py_TYPE(value.ptr())->tp_name, needed));
+}
+
+bool isNumber(const py::handle& value) {
+    return !PyBool_Check(value.ptr()) &&
+           (PyIndex_Check(value.ptr()) || PyFloat_Check(value.ptr()) || py::hasattr(value, "__float__"));
+}
+
+double numberOf(const py::handle& value, std::string_view called) {
+    if (!isNumber(value)) refuseType(called, "a number", value);
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred()) throw py::error_already_set();
+    return number;
+}
+
+/// A number as the command line takes it; whole ones, NumPy's too, to the last digit.
+std::string numberTextOf(const py::handle& value, std::string_view called) {
+    if (!PyIndex_Check(value.ptr())) return fmt::format("{}", numberOf(value, called));
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!whole) throw py::error_already_set();
+    return py::str(whole);
+}
+
+bool isList(const py::handle& value) {
+    return PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr()) && !PyBytes_Check(value.ptr());
+}
+
+/// The numbers of a sequence, a tuple or an array, such as (640, 360).
+std::vector<py::object> itemsOf(const py::handle& value) {
+    std::vector<py::object> items;
+    for (const py::handle item : py::iter(value)) items.push_back(py::reinterpret_borrow<py::object>(item));
+    return items;
+}
+
+/// The value of a setting, whatever its kind, as the command line would say it.
+std::string settingText(const engine::Setting& setting, std::string_view called, const py::handle& value) {
+    if (PyUnicode_Check(value.ptr())) return value.cast<std::string>();
+    if (PyBool_Check(value.ptr())) {
+        if (!std::holds_alternative<engine::SwitchKind>(setting.value.kind))
+            refuseType(called, "a str or a number", value);
+        return value.cast<bool>() ? "on" : "off";
+    }
+    if (isNumber(value)) return numberTextOf(value, called);
+    if (!isList(value)) refuseType(called, "a str, a number, a bool or (width, height)", value);
+    std::string text;
+    for (const py::object& item : itemsOf(value)) text += (text.empty() ? "" : "x") + numberTextOf(item, called);
+    return text;
+}
+
+app::KeywordValue loadValue(app::KeywordKind kind, std::string_view called, const py::handle& value) {
+    app::KeywordValue taken;
+    switch (kind) {
+    case app::KeywordKind::WholeNumber:
+    case app::KeywordKind::Number:
+        taken.number = numberOf(value, called);
+        break;
+    case app::KeywordKind::Switch:
+        if (!PyBool_Check(value.ptr())) refuseType(called, "a bool", value);
+        taken.isOn = value.cast<bool>();
+        break;
+    case app::KeywordKind::Text:
+        taken.text = pathOf(value, called);
+        break;
+    case app::KeywordKind::TextOrNumber:
+        taken.text = nameOrNumberOf(value, called);
+        break;
+    case app::KeywordKind::Point: {
+        const std::vector<py::object> items = isList(value) ? itemsOf(value) : std::vector<py::object>();
+        if (items.size() != 3) refuseType(called, "three numbers, such as (0, 1.5, -2),", value);
+        for (glm::length_t i = 0; i < 3; ++i) taken.point[i] = numberOf(items[std::size_t(i)], called);
+        break;
+    }
+    case app::KeywordKind::Hooks:
+        if (!py::isinstance<py::dict>(value)) refuseType(called, "a dict of names and numbers", value);
+        for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(value)) {
+            if (!PyUnicode_Check(name.ptr())) refuseType(called, "a dict of names and numbers", name);
+            taken.hooks.push_back({name.cast<std::string>(), float(numberOf(number, called))});
+        }
+        break;
+    }
+    return taken;
+}
+
+void takeOne(const std::string& word, const py::handle& value, std::string_view function,
+             const std::vector<std::string_view>& further, app::FrameOptions& options) {
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (app::keywordOf(setting.flag) != word) continue;
+        if (value.is_none()) return;
+        options.settings.insert_or_assign(std::string(setting.key), settingText(setting, word, value));
+        return;
+    }
+    for (const app::LoadKeyword& row : app::loadKeywords()) {
+        if (row.keyword != word) continue;
+        if (value.is_none()) return;
+        app::takeKeyword(word, loadValue(row.kind, word, value), options);
+        return;
+    }
+    throw py::type_error(
+        fmt::format("{}() has no keyword '{}': {}", function, word, app::suggestKeywords(word, further)));
+}
+
+} // namespace
+
+void takeKeywords(const py::kwargs& keywords, std::string_view function, app::FrameOptions& options,
+                  const std::vector<std::string_view>& further) {
+    for (const auto& [word, value] : keywords) {
+        const auto name = word.cast<std::string>();
+        takeOne(name, value, function, further, options);
+    }
+}
+
+std::string pathOf(const py::handle& value, std::string_view called) {
+    const auto path = py::reinterpret_steal<py::object>(PyOS_FSPath(value.ptr()));
+    if (!path) {
+        PyErr_Clear();
+        refuseType(called, "a str or a path", value);
+    }
+    // Names of files may be bytes that are no UTF-8.
+    PyObject* encoded = nullptr;
+    if (PyUnicode_FSConverter(path.ptr(), &encoded) == 0) throw py::error_already_set();
+    return py::reinterpret_steal<py::bytes>(encoded);
+}
+
+std::vector<std::string> pathsOf(const py::handle& value, std::string_view called) {
+    if (!isList(value)) return {pathOf(value, called)};
+    std::vector<std::string> paths;
+    for (const py::object& item : itemsOf(value)) paths.push_back(pathOf(item, called));
+    return paths;
+}
+
+std::string nameOrNumberOf(const py::handle& value, std::string_view called) {
+    return isNumber(value) ? numberTextOf(value, called) : pathOf(value, called);
+}
+
+} // namespace tessera::python

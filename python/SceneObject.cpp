@@ -1,0 +1,109 @@
+#include "python/SceneObject.h"
+
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/FrameOptionText.h"
+#include "scenes/Pose.h"
+
+namespace tessera::python {
+
+/// The worker's share of a scene.
+struct SceneObject::Slot {
+    std::optional<LoadedScene> loaded;
+
+    Slot() = default;
+    ~Slot() { all().erase(this); }
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
+
+    /// Those that may hold something, on the worker's thread.
+    static std::set<Slot*>& all() {
+        static std::set<Slot*> slots;
+        return slots;
+    }
+    static void dropAll() {
+        for (Slot* slot : std::exchange(all(), {})) slot->loaded.reset();
+    }
+};
+
+namespace {
+
+/// Width to height as text, in lowest terms: of a size a load depends on no more.
+std::string aspectText(const std::string& size) {
+    const glm::ivec2 pixels = app::sizeNamed("--size", size);
+    const int common = std::gcd(pixels.x, pixels.y);
+    return fmt::format("{}x{}", pixels.x / common, pixels.y / common);
+}
+
+/// What of the options a load depends on, as text.
+std::string loadText(const app::FrameOptions& options, bool isPlaying) {
+    app::FrameOptions ofLoad = options;
+    ofLoad.settings.clear();
+    if (const auto size = options.said("size")) ofLoad.settings["size"] = aspectText(*size);
+    // The pose is that of the camera which is chosen.
+    if (const auto camera = options.said("camera"); camera && options.pose != scenes::CameraChange())
+        ofLoad.settings["camera"] = *camera;
+    if (const auto time = options.said("time"); time && isPlaying) ofLoad.settings["time"] = *time;
+    return options.scene + app::frameOptionText(ofLoad) + " " + options.memoryLimit.value_or("");
+}
+
+} // namespace
+
+engine::Renderer& LoadedScene::rendererOn(gpu::Context& context) {
+    if (!renderer) renderer = std::make_unique<engine::Renderer>(context, request.scene);
+    return *renderer;
+}
+
+SceneObject::SceneObject(app::FrameOptions options) : options_(std::move(options)), slot_(new Slot) {
+    static std::once_flag isTold;
+    std::call_once(isTold, [] { Worker::get().atEnd([] { Slot::dropAll(); }); });
+}
+
+SceneObject::~SceneObject() {
+    Worker::get().destroyThere([slot = slot_] { delete slot; });
+}
+
+LoadedScene& SceneObject::resolved(const app::FrameOptions& options, const Job& job) {
+    // A mistake in them is found before a large scene is read for nothing.
+    app::Request request = app::resolveWithoutScene(options);
+    std::optional<LoadedScene>& loaded = slot_->loaded;
+    if (!loaded || loadText(options, scenes::isPlaying(loaded->request.scene)) != loaded->asLoaded) {
+        loaded.reset(); // two scenes may be too much for the memory
+        Slot::all().insert(slot_);
+        std::vector<std::string> files;
+        try {
+            request.scene = app::loadFor(options, &files, job.stop());
+        } catch (const scenes::LoadStopped&) {
+            throw Stopped();
+        }
+        app::warnOfScene(request.scene);
+        loaded.emplace();
+        loaded->asLoaded = loadText(options, scenes::isPlaying(request.scene));
+        loaded->request.scene = std::move(request.scene);
+        loaded->request.files = std::move(files);
+    }
+    static_cast<engine::ViewRequest&>(loaded->request) = static_cast<const engine::ViewRequest&>(request);
+    app::resolveForScene(options, loaded->request);
+    return *loaded;
+}
+
+void SceneObject::drop() {
+    slot_->loaded.reset();
+}
+
+SceneFacts factsOf(const app::Request& request) {
+    const scenes::Scene& scene = request.scene;
+    SceneFacts facts{scene.name, scenes::triangleCount(scene), scene.lights.size(), scene.materials.size(), {}, {}, {}};
+    for (const scenes::Camera& camera : scene.cameras) facts.cameras.push_back(camera.name);
+    facts.notes = scene.notes;
+    facts.files = request.files;
+    return facts;
+}
+
+} // namespace tessera::python

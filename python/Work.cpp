@@ -1,0 +1,165 @@
+#include "python/Work.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "apps/FilterEnvironment.h"
+#include "apps/OnePicture.h"
+#include "apps/Outputs.h"
+#include "base/OneLine.h"
+#include "engine/PrepareView.h"
+#include "engine/Rendering.h"
+#include "scenes/LoadLedger.h"
+#include "validation/compare/ReferencePicture.h"
+#include "validation/pictures/ShownPicture.h"
+
+namespace tessera::python {
+
+namespace {
+
+/// What a driver draws half and leaves is drawn anew the next time, with all that was made for it.
+template <typename Work>
+auto orDrop(SceneObject& scene, const Work& work) {
+    try {
+        return work();
+    } catch (...) {
+        scene.drop();
+        throw;
+    }
+}
+
+void warnAbout(const std::string& what, const std::string& text) {
+    if (!text.empty()) spdlog::warn("{}", oneLine(what + ": " + text));
+}
+
+/// The renderer of the loaded scene, with its environment filtered where frames of the request look it up.
+engine::Renderer& readyRenderer(LoadedScene& loaded, gpu::Context& context) {
+    engine::Renderer& renderer = loaded.rendererOn(context);
+    const bool looksUp =
+        frame::makeFrameSpec(loaded.request.scene, {}, loaded.request.settings).usesFilteredEnvironment();
+    if (looksUp && !std::exchange(loaded.hasFiltered, true)) app::filterEnvironment(loaded.request, renderer, true);
+    return renderer;
+}
+
+Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
+    app::Request& request = loaded.request;
+    app::settleForReference(options, request.settings);
+    for (const std::string& text : app::unheededByReference(options)) spdlog::warn("{}", text);
+    job.expect(std::size_t(request.settings.sizePixels.y));
+    const auto rowDone = [&job] { job.advance(); };
+    constexpr auto kNone = validation::Leeway::None;
+    Rendered rendered;
+    rendered.picture =
+        request.scene.hook
+            ? validation::referencePicture(loaded.rendererOn(Worker::get().context()), request.settings, rowDone, kNone)
+                  .picture
+            : validation::referencePicture(request.scene, request.settings, rowDone, kNone).picture;
+    warnAbout(request.scene.name, app::faultOf(request.scene, request.settings.view, rendered.picture.rgba, ""));
+    if (request.settings.toneMap == frame::ToneMap::None)
+        rendered.shown = app::shownReference(rendered.picture, request.settings);
+    rendered.technique = app::kReferenceName;
+    return rendered;
+}
+
+Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
+    app::Request& request = loaded.request;
+    engine::requireTaken(request);
+    request.settings.display = true;
+    engine::Renderer& renderer = readyRenderer(loaded, Worker::get().context());
+    renderer.tellSpread([&job](std::size_t done, std::size_t objects) {
+        if (done == 0)
+            job.expect(objects);
+        else
+            job.advance();
+    });
+    const engine::RenderedFrame frame = renderer.render(request.technique, request.settings);
+    renderer.tellSpread({});
+    const engine::DrawnShadows shadows = renderer.shadows();
+    const std::string& name = request.scene.name;
+    warnAbout(name, renderer.missingTextures());
+    warnAbout(name, renderer.unseenSpread());
+    warnAbout(name, app::faultOf(request.scene, request.settings.view, frame.radiance, shadows.cut));
+    warnAbout(name, shadows.missing);
+    for (const std::string& text : app::unheededShadows(
+             options, request, engine::prepareView(request.scene, request.technique, request.settings)))
+        spdlog::warn("{}", text);
+    Rendered rendered;
+    rendered.picture = engine::toPicture(frame);
+    rendered.shown = validation::shownPicture(frame, shadows, name, request.technique, request.settings.view);
+    rendered.technique = infoOf(request.technique).name;
+    return rendered;
+}
+
+} // namespace
+
+Rendered render(SceneObject& scene, app::FrameOptions options, Job& job) {
+    const bool isReference = options.said("technique") == app::kReferenceName;
+    if (isReference) options.settings.erase("technique");
+    LoadedScene& loaded = scene.resolved(options, job);
+    return orDrop(scene, [&] {
+        Rendered rendered = isReference ? renderReference(loaded, options, job) : renderByContext(loaded, options, job);
+        rendered.scene = loaded.request.scene.name;
+        rendered.view = frame::debugViewInfo(loaded.request.settings.view).name;
+        return rendered;
+    });
+}
+
+std::string compareJson(SceneObject& scene, const app::ComparisonOptions& options, Job& job) {
+    validation::Truth truth = app::truthOf(options);
+    LoadedScene& loaded = scene.resolved(options.frame, job);
+    app::Comparison comparison = app::comparisonOf(options, loaded.request, std::move(truth));
+    app::warnOfComparison(options, loaded.request, comparison);
+    return orDrop(scene, [&] {
+        gpu::Context& context = Worker::get().context();
+        app::warnOfDriver(context.capabilities(), loaded.request, comparison);
+        engine::Renderer& renderer = readyRenderer(loaded, context);
+        job.expect(validation::stepCount(loaded.request.scene, comparison.request));
+        comparison.request.renderedOne = [&job] { job.advance(); };
+        return validation::compareJson(app::runComparison(renderer, context.capabilities(), comparison).record);
+    });
+}
+
+std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Job& job) {
+    app::requirePlan(options);
+    LoadedScene& loaded = scene.resolved(options.frame, job);
+    if (!options.measure) return graph::planJson(app::planOf(options, loaded.request));
+    engine::requireTaken(loaded.request);
+    return orDrop(scene, [&] {
+        gpu::Context& context = Worker::get().context();
+        return graph::planJson(app::measuredPlan(loaded.request, loaded.rendererOn(context), context.capabilities()));
+    });
+}
+
+std::string benchJson(const BenchWishes& wishes, Job& job) {
+    validation::BenchMatrix matrix;
+    if (!wishes.matrix.empty()) {
+        scenes::LoadLedger ledger(app::loadOptionsOf(wishes.options.frame).memoryLimitBytes);
+        matrix = validation::parseMatrix(wishes.matrix, "matrix", ledger);
+    }
+    app::Outputs outputs;
+    app::addBenchFiles(wishes.folder, outputs);
+    app::BenchRun run = app::benchRunOf(wishes.options, std::move(matrix),
+                                        [&](const std::vector<std::string>& files) { outputs.reads(files); });
+    gpu::Context& context = Worker::get().context();
+    app::settleOn(context.capabilities(), run.plan);
+    validation::RunIdentity identity = app::identityOf(wishes.options, context.capabilities(), run);
+    identity.command = wishes.command;
+    const validation::BenchStore store(wishes.folder, identity, run.plan,
+                                       wishes.resumes ? validation::EarlierRun::Resume : validation::EarlierRun::Keep);
+    run.write = [&](const validation::BenchRecord& record) { app::writeBenchFiles(outputs, wishes.folder, record); };
+    run.options.progress = [&job](std::size_t steps) { job.advance(steps); };
+    job.expect(app::stepsOf(context.capabilities(), store, run));
+    const validation::BenchRecord record = app::measureMissing(context, store, std::move(run));
+    app::writeBenchFiles(outputs, wishes.folder, record);
+    return validation::benchJson(record);
+}
+
+SceneFacts load(SceneObject& scene, Job& job) {
+    app::FrameOptions options = scene.options();
+    if (options.said("technique") == app::kReferenceName) options.settings.erase("technique");
+    return factsOf(scene.resolved(options, job).request);
+}
+
+} // namespace tessera::python
