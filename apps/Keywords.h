@@ -31,9 +31,9 @@ std::span<const LoadKeyword> loadKeywords();
 struct KeywordValue {
     double number = 0.0; ///< WholeNumber, Number
     bool isOn = false;   ///< Switch
-    std::string text;    ///< Text, TextOrNumber
+    std::string text{};  ///< Text, TextOrNumber
     glm::dvec3 point{0.0};
-    std::vector<scenes::HookValue> hooks;
+    std::vector<scenes::HookValue> hooks{};
 };
 /// Takes a value over into the options. Throws InputError where it is none that the command line would take.
 void takeKeyword(std::string_view keyword, const KeywordValue& value, FrameOptions& options);

@@ -55,8 +55,10 @@ std::string settingText(const engine::Setting& setting, std::string_view called,
             refuseType(called, "a str or a number", value);
         return value.cast<bool>() ? "on" : "off";
     }
-    if (isNumber(value)) return numberTextOf(value, called);
-    if (!isList(value)) refuseType(called, "a str, a number, a bool or (width, height)", value);
+    if (!isList(value)) { // arrays call themselves numbers too
+        if (!isNumber(value)) refuseType(called, "a str, a number, a bool or (width, height)", value);
+        return numberTextOf(value, called);
+    }
     std::string text;
     for (const py::object& item : itemsOf(value)) text += (text.empty() ? "" : "x") + numberTextOf(item, called);
     return text;
