@@ -8,6 +8,7 @@
 #include "apps/FilterEnvironment.h"
 #include "apps/OnePicture.h"
 #include "apps/Outputs.h"
+#include "base/Error.h"
 #include "base/OneLine.h"
 #include "engine/PrepareView.h"
 #include "engine/Rendering.h"
@@ -24,6 +25,8 @@ template <typename Work>
 auto orDrop(SceneObject& scene, const Work& work) {
     try {
         return work();
+    } catch (const InputError&) { // before anything is drawn
+        throw;
     } catch (...) {
         scene.drop();
         throw;

@@ -10,6 +10,7 @@ import ast
 import gc
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -285,6 +286,27 @@ class WhileItWorks(unittest.TestCase):
         says = "import tessera; scene = tessera.load('spheres'); picture = tessera.render(scene, size=(16, 9)); print('end')"
         result = subprocess.run([sys.executable, "-X", "dev", "-c", says], capture_output=True, text=True, timeout=120)
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "end\n", ""))
+
+
+class Documents(Folder):
+    def testTheCodeOfThePageRuns(self):
+        page = (REPOSITORY / "docs/python.md").read_text()
+        blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+        self.assertGreater(len(blocks), 4)
+        result = subprocess.run([sys.executable, "-c", "".join(blocks)], cwd=self.folder, capture_output=True, text=True,
+                                timeout=600)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertGreater((self.folder / "hall.exr").stat().st_size, 0)
+        self.assertIn("36 36\n", result.stdout)
+
+    def testThePackageForPipHasTheVersionOfTheProject(self):
+        try:
+            import setuptools  # noqa: F401
+        except ImportError:
+            self.skipTest("setuptools is missing (Debian 12: apt-get install python3-setuptools)")
+        result = subprocess.run([sys.executable, "-B", "setup.py", "--version"], cwd=REPOSITORY / "python", capture_output=True,
+                                text=True, timeout=60)
+        self.assertEqual(result.stdout.split()[-1], tessera.__version__, result.stderr)
 
 
 class Stubs(unittest.TestCase):
