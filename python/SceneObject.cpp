@@ -46,10 +46,10 @@ std::string loadText(const app::FrameOptions& options, bool isPlaying) {
     app::FrameOptions ofLoad = options;
     ofLoad.settings.clear();
     if (const auto size = options.said("size")) ofLoad.settings["size"] = aspectText(*size);
-    // The pose is that of the camera which is chosen.
-    if (const auto camera = options.said("camera"); camera && options.pose != scenes::CameraChange())
-        ofLoad.settings["camera"] = *camera;
-    if (const auto time = options.said("time"); time && isPlaying) ofLoad.settings["time"] = *time;
+    if (options.pose != scenes::CameraChange()) { // which is of the camera that is chosen, where it then is
+        if (const auto camera = options.said("camera")) ofLoad.settings["camera"] = *camera;
+        if (const auto time = options.said("time"); time && isPlaying) ofLoad.settings["time"] = *time;
+    }
     return options.scene + app::frameOptionText(ofLoad) + " " + options.memoryLimit.value_or("");
 }
 
@@ -58,6 +58,15 @@ std::string loadText(const app::FrameOptions& options, bool isPlaying) {
 engine::Renderer& LoadedScene::rendererOn(gpu::Context& context) {
     if (!renderer) renderer = std::make_unique<engine::Renderer>(context, request.scene);
     return *renderer;
+}
+
+void LoadedScene::pose(const std::string& file) {
+    const double timeSeconds = request.settings.timeSeconds;
+    if (posedAtSeconds == timeSeconds || !scenes::isPlaying(request.scene)) return;
+    posedAtSeconds.reset(); // where posing fails, that is nowhere
+    app::poseAt(request.scene, timeSeconds, file);
+    if (renderer) renderer->geometryChanged();
+    posedAtSeconds = timeSeconds;
 }
 
 SceneObject::SceneObject(app::FrameOptions options) : options_(std::move(options)), slot_(new Slot) {
@@ -90,6 +99,7 @@ LoadedScene& SceneObject::resolved(const app::FrameOptions& options, const Job& 
     }
     static_cast<engine::ViewRequest&>(loaded->request) = static_cast<const engine::ViewRequest&>(request);
     app::resolveForScene(options, loaded->request);
+    loaded->pose(options.scene);
     return *loaded;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,11 @@ struct LoadedScene {
     app::Request request;
     std::unique_ptr<engine::Renderer> renderer; ///< of the request's scene; null until one is asked for
     bool hasFiltered = false;                   ///< the environment
+    std::optional<double> posedAtSeconds;       ///< where a clip plays; none: anywhere
 
     engine::Renderer& rendererOn(gpu::Context& context);
+    /// Shows a scene whose clip plays at the time of the request.
+    void pose(const std::string& file);
 };
 
 /// A scene that is loaded once and drawn often: what a caller of Python holds. The memory is the worker's, which drops

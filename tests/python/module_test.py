@@ -11,6 +11,7 @@ import gc
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ import textwrap
 import threading
 import unittest
 import warnings
+from base64 import b64encode
 
 from find_module import REPOSITORY, numpy, tessera
 
@@ -30,6 +32,24 @@ def programSays(*words):
     result = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=300)
     assert result.returncode in (0, 3), result.stderr
     return result.stdout
+
+
+def movingTriangle():
+    """A glTF model: a triangle that moves from x = 0 to x = 1 m within a second."""
+    positions = struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0)
+    times, places = struct.pack("<2f", 0, 1), struct.pack("<6f", 0, 0, 0, 1, 0, 0)
+    data = positions + times + places
+    view = lambda offset, length: {"buffer": 0, "byteOffset": offset, "byteLength": length}
+    accessor = lambda number, count, kind, **bounds: {"bufferView": number, "componentType": 5126, "count": count, "type": kind,
+                                                      **bounds}
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + b64encode(data).decode()}],
+            "bufferViews": [view(0, 36), view(36, 8), view(44, 24)],
+            "accessors": [accessor(0, 3, "VEC3", min=[-1, -1, 0], max=[1, 1, 0]), accessor(1, 2, "SCALAR", min=[0], max=[1]),
+                          accessor(2, 2, "VEC3")],
+            "animations": [{"samplers": [{"input": 1, "output": 2}],
+                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}
 
 
 class Folder(unittest.TestCase):
@@ -160,6 +180,23 @@ class Scenes(unittest.TestCase):
                 again = tessera.render(scene, **keywords).rgba
                 fresh = tessera.render("spheres", **{"lights": 5, **keywords}).rgba
                 numpy.testing.assert_array_equal(again, fresh)
+
+    def testAClipIsShownAtTheTimeOfEachPicture(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "moving.gltf"
+            path.write_text(json.dumps(movingTriangle()))
+            scene = tessera.load(path, **SIZE)
+            pictures = []
+            for seconds in (0, 0.5, 1, 0.25, 0):
+                again = tessera.render(scene, time=seconds).rgba
+                numpy.testing.assert_array_equal(again, tessera.render(path, time=seconds, **SIZE).rgba)
+                pictures.append(again.copy())
+            self.assertFalse((pictures[0] == pictures[1]).all())
+            numpy.testing.assert_array_equal(pictures[0], pictures[-1])
+            placed = {"eye": (0, 0, 4), "target": (0, 0, 0)}
+            for seconds in (1, 0):
+                numpy.testing.assert_array_equal(tessera.render(scene, time=seconds, **placed).rgba,
+                                                 tessera.render(path, time=seconds, **placed, **SIZE).rgba)
 
     def testKeywordsOfTheLoadHoldUnlessTheyAreSaidAnew(self):
         scene = tessera.load("spheres", technique="forward", **SIZE)
