@@ -115,6 +115,14 @@ class Scripts(unittest.TestCase):
         self.assertTrue(self.called("ninja")[0].endswith("build/python tessera_python"), self.calls)
         self.assertIn(f"export PYTHONPATH={self.root}/build/python\n", result.stdout)
 
+    def testTheTestsOfThePythonModuleAreRunWithItAndOtherwiseWithoutIt(self):
+        self.script(self.machine / "bin" / "ctest", 'echo "ctest $* of $TESSERA_PYTHON_MODULE" >> "$MACHINE/log"')
+        self.run_("test")
+        self.assertEqual([call.endswith(" of ") for call in self.called("ctest")], [True, True])
+        self.run_("test", "--python", "--all")
+        self.assertEqual([call.endswith(f" of {self.root}/build/python") for call in self.called("ctest")], [True])
+        self.assertIn("tessera_python", self.called("ninja")[1])
+
     def testAChangedPackageTableIsAlwaysCheckedAgain(self):
         self.run_("run")
         with (self.root / "tools/packages.txt").open("a") as table:

@@ -1,0 +1,9 @@
+#pragma once
+#include <pybind11/pybind11.h>
+
+namespace tessera::python {
+
+/// Adds the class tessera.Picture, of Rendered.
+void definePicture(pybind11::module_& module);
+
+} // namespace tessera::python
