@@ -5,6 +5,7 @@
 #include "apps/Commands.h"
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
+#include "apps/Shard.h"
 #include "base/Error.h"
 #include "validation/stress/StressRecord.h"
 
@@ -14,20 +15,28 @@ namespace {
 
 struct StressOptions {
     std::vector<std::string> cases;
-    std::string techniques, json;
+    std::string techniques, json, shard;
     bool quick = false, list = false;
 };
 
 /// Steps of the progress bar; cases count alike.
 constexpr std::size_t kSteps = 1000;
 
+/// The shard's part of the cases that are asked for: every Nth of them.
 std::vector<const validation::StressCase*> casesOf(const StressOptions& options) {
+    const Shard shard = shardNamed(options.shard);
     std::vector<const validation::StressCase*> cases;
     if (options.cases.empty())
         for (const validation::StressCase& row : validation::stressCases()) cases.push_back(&row);
     for (const std::string& name : options.cases)
         for (const validation::StressCase* row : validation::stressCasesNamed(name)) cases.push_back(row);
-    return cases;
+    if (cases.size() < std::size_t(shard.count))
+        throw InputError(fmt::format("--shard {}: of more shards than there are cases, {}; give fewer", options.shard,
+                                     cases.size()));
+    std::vector<const validation::StressCase*> part;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+        if (shard.has(i)) part.push_back(cases[i]);
+    return part;
 }
 
 std::vector<engine::Technique> techniquesOf(const StressOptions& options) {
@@ -83,12 +92,14 @@ void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->type_name("A,B");
     command->add_option("--json", options->json, "Writes the figures as JSON; - prints them alone")->type_name("FILE");
     command->add_flag("--quick", options->quick, "Fewer samples and lights: some seconds instead of minutes");
+    command->add_option("--shard", options->shard, "Runs part I of N, every Nth case")->type_name("I/N");
     command->add_flag("--list", options->list, "Lists the cases and what each holds, and runs nothing");
     command->footer(R"(Examples
   tessera stress --quick                                a short form of every case
   tessera stress --case directions                      one group of cases
   tessera stress --case scene/far --technique deferred  one case with one technique
   tessera stress --json stress.json                     everything, over 10 million samples
+  tessera stress --shard 1/4 --json part1.json          the first of four parts, for as many machines
 
 Exit code 3 says that a case did not hold.)");
     command->callback([options, &global, &run] { run = [options, &global] { return stress(*options, global); }; });

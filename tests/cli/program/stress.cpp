@@ -29,6 +29,29 @@ TEST_F(StressCommand, aCaseTellsItsFiguresOnTheTerminalAndAsJson) {
     EXPECT_EQ(techniques, (std::set<std::string>{"deferred", "forward"}));
 }
 
+TEST_F(StressCommand, theShardsHaveEveryResultOfAWholeRunOnceAndAsItIsThere) {
+    const auto casesOf = [this](const std::string& name, const Words& more) {
+        Words words{"stress", "--quick", "--case", "terms", "--json", name};
+        words.insert(words.end(), more.begin(), more.end());
+        runGood(words);
+        return json(name)["cases"];
+    };
+    const nlohmann::json whole = casesOf("whole.json", {});
+    ASSERT_GT(whole.size(), 3u);
+    nlohmann::json together = nlohmann::json::array();
+    const nlohmann::json shards[] = {casesOf("1.json", {"--shard", "1/3"}), casesOf("2.json", {"--shard", "2/3"}),
+                                     casesOf("3.json", {"--shard", "3/3"})};
+    // Shader functions alone have a result each: every third is a shard's.
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        ASSERT_LT(i / 3, shards[i % 3].size());
+        together.push_back(shards[i % 3][i / 3]);
+    }
+    EXPECT_EQ(together, whole);
+    EXPECT_EQ(shards[0].size() + shards[1].size() + shards[2].size(), whole.size());
+    expectError(kBadInput, {"stress", "--case", "terms", "--shard", "1/1000"}, {"--shard 1/1000", "give fewer"});
+    expectError(kBadInput, {"stress", "--shard", "3/2"}, {"--shard 3/2", "1/4"});
+}
+
 TEST_F(StressCommand, theListShowsEveryGroupAndRunsNothing) {
     const std::string list = runGood({"stress", "--list"});
     for (const char* group :
