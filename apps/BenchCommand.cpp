@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "apps/BenchJob.h"
@@ -10,13 +12,15 @@
 #include "apps/Shard.h"
 #include "base/Error.h"
 #include "scenes/import/FileBytes.h"
+#include "validation/bench/BenchMachines.h"
+#include "validation/bench/BenchMerge.h"
 #include "validation/bench/BenchReport.h"
 
 namespace tessera::app {
 
 namespace {
 
-constexpr const char* kReport = "/report.html";
+constexpr const char *kReport = "/report.html", *kMachines = "/machines.json";
 
 struct BenchCommandOptions : BenchJobOptions {
     std::vector<std::string> merge;
@@ -55,9 +59,8 @@ void write(const Outputs& outputs, const std::string& folder, const validation::
     outputs.write(folder + kReport, validation::reportHtml(validation::benchReport(record, folder)));
 }
 
-int finish(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record) {
-    write(outputs, folder, record);
-    fmt::print("{}report    {}{}\n", validation::benchTable(record), folder, kReport);
+/// The program's exit code for what was measured.
+int verdict(const validation::BenchRecord& record) {
     for (const validation::BenchGroup& group : record.groups) {
         for (const validation::BenchResult& result : group.results) {
             if (result.counters.falseNegatives == 0) continue;
@@ -69,11 +72,42 @@ int finish(const Outputs& outputs, const std::string& folder, const validation::
     return kGood;
 }
 
+int finish(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record) {
+    write(outputs, folder, record);
+    fmt::print("{}report    {}{}\n", validation::benchTable(record), folder, kReport);
+    return verdict(record);
+}
+
+/// A page of all machines, and one of each.
+int mergeMachines(const BenchCommandOptions& options, const std::vector<std::vector<std::string>>& shardsOfMachines) {
+    Outputs outputs({options.folder + kReport, options.folder + kMachines});
+    const auto folderOf = [&](std::size_t i) { return validation::machineFolder(options.folder, i); };
+    for (std::size_t i = 0; i < shardsOfMachines.size(); ++i) {
+        addBenchFiles(folderOf(i), outputs);
+        outputs.add(folderOf(i) + kReport);
+    }
+    for (const std::string& shard : options.merge) outputs.reads({shard + "/parts/run.json"});
+    const validation::FolderLock lock = validation::mergeMachines(shardsOfMachines, options.folder);
+    std::vector<validation::MachineBench> machines;
+    int code = kGood;
+    for (std::size_t i = 0; i < shardsOfMachines.size(); ++i) {
+        machines.push_back({folderOf(i).substr(options.folder.size() + 1), validation::recordIn(folderOf(i))});
+        write(outputs, folderOf(i), machines.back().record);
+    }
+    outputs.write(options.folder + kMachines, validation::machinesJson(machines));
+    outputs.write(options.folder + kReport, validation::reportHtml(validation::machinesReport(machines)));
+    fmt::print("{}report    {}{}\n", validation::machinesTable(machines), options.folder, kReport);
+    for (const validation::MachineBench& machine : machines) code = std::max(code, verdict(machine.record));
+    return code;
+}
+
 int merge(const BenchCommandOptions& options) {
     if (!options.scenes.empty() || !options.matrix.empty() || !options.shard.empty() || options.resume)
         throw InputError("--merge puts finished shards together and measures nothing: leave scenes, --matrix, --shard "
                          "and --resume out");
     requireFolderPlace(options.folder);
+    const std::vector<std::vector<std::string>> machines = validation::shardsByMachine(options.merge);
+    if (machines.size() > 1) return mergeMachines(options, machines);
     const Outputs outputs = outputsOf(options);
     const validation::FolderLock lock = validation::mergeRuns(options.merge, options.folder);
     return finish(outputs, options.folder, validation::recordIn(options.folder));
@@ -127,7 +161,9 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     addWholeNumber(*command, "--frames", options->frames, "Frames of each point that are timed [20]", "N");
     command->add_flag("--resume", options->resume, "Goes on where a run in DIR was interrupted");
     command->add_option("--shard", options->shard, "Measures part I of N, whole groups of points")->type_name("I/N");
-    command->add_option("--merge", options->merge, "Puts finished shards together in the output folder")
+    command
+        ->add_option("--merge", options->merge,
+                     "Puts finished shards together in the output folder; of several machines in a column each")
         ->type_name("DIR")
         ->expected(1, -1);
     command->footer(R"(Examples
@@ -137,6 +173,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
   tessera bench head -o out --shadows all --matrix m.json with {"shadow": ["traced", "pcf"], "shadowWidth": [3, 5]}
   tessera bench hall -o out --resume                    after an interruption: nothing is measured twice
   tessera bench -o all --merge part1 part2              shards 1/2 and 2/2 put together
+  tessera bench -o both --merge mine theirs             one run by two machines, a column each
 
 Points of one scene, light count and size take turns, so that all of them meet the same machine.)");
     command->callback([options, &global, &run] { run = [options, &global] { return bench(*options, global); }; });

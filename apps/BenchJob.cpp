@@ -91,6 +91,7 @@ validation::RunIdentity identityOf(const BenchJobOptions& options, const gpu::Ca
     validation::RunIdentity identity;
     identity.machine = validation::machineName();
     identity.renderer = gl.renderer;
+    identity.driver = gl.version;
     identity.commit = kCommit;
     identity.settings = frameOptionText(options.frame);
     identity.against = options.against;

@@ -57,6 +57,7 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
     shown.settings["size"] = fmt::format("{}x{}", sizePixels.x, sizePixels.y);
     const validation::RunIdentity identity{validation::machineName(),
                                            context.capabilities().renderer,
+                                           context.capabilities().version,
                                            kCommit,
                                            frameOptionText(shown),
                                            "",

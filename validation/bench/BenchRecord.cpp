@@ -142,6 +142,7 @@ std::string benchJson(const BenchRecord& record) {
     const Json json = {{"schema", kBenchSchema},
                        {"machine", record.machine},
                        {"renderer", record.renderer},
+                       {"driver", record.driver},
                        {"commit", record.commit},
                        {"command", record.command},
                        {"frames", record.frames},
@@ -160,6 +161,9 @@ std::string unfinishedText(const BenchRecord& record) {
     if (record.isComplete) return "";
     std::size_t measured = 0;
     for (const BenchGroup& group : record.groups) measured += group.results.size();
+    if (record.isShare)
+        return fmt::format("This machine measured {} of {} points. Others measured the rest.", measured,
+                           record.plannedPoints);
     return fmt::format("Unfinished: {} of {} points are measured, and figures and recommendations may change with the "
                        "others. {}.",
                        measured, record.plannedPoints,

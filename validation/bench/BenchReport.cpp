@@ -39,9 +39,10 @@ Report benchReport(const BenchRecord& record, const std::string& folder) {
     std::size_t points = 0;
     for (const BenchGroup& group : record.groups) points += group.results.size();
     report.facts = {{"Machine", record.machine},
-                    {"Points", fmt::format("{}{}", points, record.isComplete ? "" : ", unfinished")},
+                    {"Points", fmt::format("{}{}", points, record.isComplete || record.isShare ? "" : ", unfinished")},
                     {"Frames of each", fmt::format("{}", record.frames)},
-                    {"Commit", record.commit}};
+                    {"Commit", record.commit},
+                    {"OpenGL", record.driver}};
     report.commands = {record.command};
     const BenchGroup* headline = headlineGroup(record);
     if (!headline) {

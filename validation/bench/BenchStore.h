@@ -15,7 +15,9 @@ inline constexpr int kMostShards = 10000;
 
 /// What a run is. Points may be put beside each other only where all of this but the shard and the command is the same.
 struct RunIdentity {
-    std::string machine, renderer, commit;
+    std::string machine, renderer;
+    std::string driver; ///< the version of OpenGL that it tells, and with it its own
+    std::string commit;
     std::string settings; ///< the options of the frames
     std::string against;  ///< the requested truth of the errors
     int frames = 0;
@@ -60,11 +62,5 @@ BenchRecord recordIn(const std::string& folder);
 
 /// The bytes of a picture that is kept.
 std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::string& file);
-
-/// Puts finished shards of one run together in `folder`, which is made where it is missing, and returns the lock on it
-/// for what else is to be written there. Throws InputError when they are of different runs or of a scene that changed
-/// between them, saying in what, when a shard is unfinished, missing or given twice, and when the folder holds an
-/// unfinished run; std::runtime_error when another process uses the folder.
-FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& folder);
 
 } // namespace tessera::validation

@@ -125,6 +125,31 @@ TEST_F(BenchRuns, shardsThatCannotBeMergedAreRefusedInOneLine) {
     expectError(2, shortCommand("one", {"--shard", "1/2", "--resume"}), {"group-000.json", "is damaged", "remove it"});
 }
 
+TEST_F(BenchRuns, runsOfTwoMachinesMergeIntoAPageWithAColumnEach) {
+    runGood(shortCommand("mine"));
+    std::filesystem::copy(path("mine"), path("theirs"), std::filesystem::copy_options::recursive);
+    nlohmann::ordered_json run = nlohmann::ordered_json::parse(text("theirs/parts/run.json"));
+    run["machine"] = "64 x Chip <of theirs>";
+    folder_.write("theirs/parts/run.json", run.dump(1));
+    const std::string table = runGood({"bench", "--merge", "mine", "theirs", "-o", "both"});
+    EXPECT_THAT(table, testing::AllOf(HasSubstr("machine 1"), HasSubstr("machine 2: 64 x Chip <of theirs>; "),
+                                      HasSubstr("both/report.html")));
+    const Json machines = json("both/machines.json");
+    EXPECT_EQ(machines["points"].size(), 2u);
+    for (const Json& point : machines["points"]) {
+        ASSERT_EQ(point["machines"].size(), 2u);
+        EXPECT_EQ(point["machines"][0], point["machines"][1]) << "the same run, measured once";
+    }
+    EXPECT_EQ(text("both/machines/1/bench.csv"), text("mine/bench.csv"));
+    EXPECT_EQ(json("both/machines/2/bench.json")["machine"], "64 x Chip <of theirs>");
+    EXPECT_THAT(text("both/report.html"), HasSubstr("64 x Chip &lt;of theirs&gt;"));
+    // Again, over what is there.
+    runGood({"bench", "--merge", "mine", "theirs", "-o", "both"});
+    expectError(2, {"bench", "--merge", "mine", "theirs", "-o", "mine"}, {"mine holds a bench", "another folder"});
+    expectError(2, {"bench", "--merge", "both/machines/1", "both/machines/2", "-o", "both"},
+                {"cannot be written over"});
+}
+
 TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsRefused) {
     const auto paint = [&](const char* colour) {
         writeQuad(fmt::format(R"({{"name": "paint", "model": "lambert", "k_d": {}}})", colour),

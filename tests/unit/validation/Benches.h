@@ -58,7 +58,8 @@ inline BenchPlan madeUpPlan(int groups) {
 }
 
 inline RunIdentity madeUpIdentity(int shard = 1, int shards = 1) {
-    return {"2 x Chip", "llvmpipe", "abc", " --size 64x32", "", 5, shard, shards, "tessera bench hall -o out"};
+    return {"2 x Chip", "llvmpipe", "4.5 Mesa", "abc",  " --size 64x32",
+            "",         5,          shard,      shards, "tessera bench hall -o out"};
 }
 
 } // namespace tessera::validation

@@ -10,6 +10,7 @@
 #include "base/Error.h"
 #include "tests/support/TempFolder.h"
 #include "tests/unit/validation/Benches.h"
+#include "validation/bench/BenchMerge.h"
 
 namespace tessera::validation {
 namespace {
@@ -200,7 +201,7 @@ TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     const std::string deep(100'000, '[');
     EXPECT_THAT(read("run.json", changed("{", "{\"x\": " + deep + std::string(deep.size(), ']') + ",")),
                 HasSubstr("nests"));
-    EXPECT_THAT(read("run.json", changed("\"schema\": 6", "\"schema\": 3")), HasSubstr("another version of tessera"));
+    EXPECT_THAT(read("run.json", changed("\"schema\": 7", "\"schema\": 3")), HasSubstr("another version of tessera"));
     EXPECT_THAT(read("run.json", "{"), testing::AllOf(whole, HasSubstr("to measure all of it again")));
 }
 
