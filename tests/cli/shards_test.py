@@ -169,6 +169,7 @@ class Shards(unittest.TestCase):
         self.refused("'' cannot be divided", *start)
         for option in (["--shard", "1/2"], ["--resume"], ["-oelsewhere"], ["--output=elsewhere"]):
             self.refused("is given by this tool", *start, "bench", "hall", *option)
+        self.refused("at least one", *start[:-1], "--jobs", "0", "--", "stress")
         self.refused("leave --shards out", *start, "render", "hall")
         self.refused("line break", *start, "bench", "a\nb")
         start[5:7] = []

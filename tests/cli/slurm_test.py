@@ -205,7 +205,7 @@ class Cluster(unittest.TestCase):
     def testAKilledProgramAndAKilledNodeAreRequeuedAndMergedShardsAreOneRun(self):
         matrix = {"technique": ["forward", "deferred"], "layout": ["exact", "packed"], "lights": [4, 16]}
         (self.folder / "matrix.json").write_text(json.dumps(matrix))
-        command = ["bench", "lattice", "--size", "320x180", "--frames", "40", "--matrix", "matrix.json"]
+        command = ["bench", "lattice", "--size", "320x180", "--frames", "200", "--matrix", "matrix.json"]
         submitted = subprocess.run([sys.executable, "-B", SHARDS, "slurm", "--program", PROGRAM, "--shards", "2", "-o", "results",
                                     "--", *command], cwd=self.folder, env=self.slurm.environment, text=True, capture_output=True)
         self.assertEqual(submitted.returncode, 0, submitted.stderr)

@@ -154,6 +154,8 @@ def requireSense(work, arguments):
             raise Refused(f"{option} is given by this tool; leave it out of the command")
     if any("\n" in word for word in [*words, str(arguments.output), os.getcwd()]):
         raise Refused("a word or path with a line break cannot be passed on; name it otherwise")
+    if arguments.jobs is not None and arguments.jobs < 1:
+        raise Refused("--jobs: at least one part runs at once")
     if work.isByScene:
         scenes = scenesOf(words)
         stems = [pathlib.Path(scene).stem for scene in scenes]

@@ -16,9 +16,9 @@
 
 namespace tessera::validation {
 
-namespace fs = std::filesystem;
-
 namespace {
+
+namespace fs = std::filesystem;
 
 /// What `read` makes of the file's JSON; a damaged file is the user's to decide about, and `remedy` says how.
 template <typename Read>
