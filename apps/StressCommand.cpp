@@ -99,7 +99,7 @@ void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
   tessera stress --case directions                      one group of cases
   tessera stress --case scene/far --technique deferred  one case with one technique
   tessera stress --json stress.json                     everything, over 10 million samples
-  tessera stress --shard 1/4 --json part1.json          the first of four parts, for as many machines
+  tessera stress --shard 1/4 --json part1.json          the first of four parts
 
 Exit code 3 says that a case did not hold.)");
     command->callback([options, &global, &run] { run = [options, &global] { return stress(*options, global); }; });

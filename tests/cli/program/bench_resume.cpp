@@ -147,7 +147,7 @@ TEST_F(BenchRuns, runsOfTwoMachinesMergeIntoAPageWithAColumnEach) {
     runGood({"bench", "--merge", "mine", "theirs", "-o", "both"});
     expectError(2, {"bench", "--merge", "mine", "theirs", "-o", "mine"}, {"mine holds a bench", "another folder"});
     expectError(2, {"bench", "--merge", "both/machines/1", "both/machines/2", "-o", "both"},
-                {"cannot be written over"});
+                {"would be written over"});
 }
 
 TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsRefused) {
