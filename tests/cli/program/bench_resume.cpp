@@ -146,8 +146,7 @@ TEST_F(BenchRuns, runsOfTwoMachinesMergeIntoAPageWithAColumnEach) {
     // Again, over what is there.
     runGood({"bench", "--merge", "mine", "theirs", "-o", "both"});
     expectError(2, {"bench", "--merge", "mine", "theirs", "-o", "mine"}, {"mine holds a bench", "another folder"});
-    expectError(2, {"bench", "--merge", "both/machines/1", "both/machines/2", "-o", "both"},
-                {"would be written over"});
+    expectError(2, {"bench", "--merge", "both/machines/1", "both/machines/2", "-o", "both"}, {"would be written over"});
 }
 
 TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsRefused) {
