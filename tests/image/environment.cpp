@@ -1,12 +1,16 @@
 // Light from everywhere in frames: techniques, what is left out, options, and what can be told without a reference.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/Median.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
+#include "tests/support/AnimatedModels.h"
+#include "tests/support/ShaderMutant.h"
 
 namespace tessera {
 namespace {
@@ -22,6 +26,7 @@ protected:
     void expectPruningChangesNoBit();
 };
 using EnvironmentPicturesSlow = Environment;
+using EnvironmentCostSlow = Environment;
 
 void Environment::expectAllTechniquesAlike() {
     struct Case {
@@ -309,6 +314,58 @@ TEST_F(Environment, extremeMapsGiveFiniteLight) {
             }
         }
     }
+}
+
+/// A model with textures in the studio, against the same model unlit, and against a shader whose look-ups of filtered
+/// light are constants: what is left of the cost is arithmetic. Light lists are none, so all of it is the environment.
+TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {
+    const auto file = fileOfAssets("WaterBottle/WaterBottle.gltf");
+    if (!file) GTEST_SKIP() << "there is no WaterBottle in the folder of assets";
+    scenes::Scene lit = scenes::loadScene(file->string());
+    lit.lights.clear();
+    lit.environment = builtinEnvironment("studio");
+    scenes::Scene unlit = lit;
+    for (scenes::Material& material : unlit.materials) material.model = scenes::MaterialModel::SingleColor;
+    unlit.environment = {};
+    const ShaderMutant withoutLookUps;
+    withoutLookUps.replace("lib/environment/filtered_map.glsl", "return textureLod(filteredEnvironment, uv, 0.0).rgb;",
+                           "return vec3(0.5, 0.4, 0.3);");
+    struct Variant {
+        const char* name;
+        const scenes::Scene& scene;
+        std::unique_ptr<engine::Renderer> renderer;
+        std::vector<double> frames, lighting;
+    };
+    Variant variants[] = {{"unlit", unlit, std::make_unique<engine::Renderer>(context(), unlit), {}, {}},
+                          {"lit", lit, std::make_unique<engine::Renderer>(context(), lit), {}, {}},
+                          {"lit without look-ups",
+                           lit,
+                           std::make_unique<engine::Renderer>(context(), lit, withoutLookUps.tree()),
+                           {},
+                           {}}};
+    frame::FrameSettings settings;
+    settings.sizePixels = {1280, 720};
+    settings.environment.backdrop = frame::Backdrop::Off;
+    for (int round = -1; round < 9; ++round) {
+        for (Variant& variant : variants) {
+            variant.renderer->backend().setProfiling(true);
+            const engine::RenderedFrame frame = variant.renderer->render(Technique::Deferred, settings);
+            if (round < 0) continue; // compiles
+            double all = 0.0, lighting = 0.0;
+            for (const gpu::PassTiming& timing : variant.renderer->backend().passTimings()) {
+                const double ms = timing.gpuMs.value_or(timing.cpuMs);
+                all += ms;
+                if (timing.name.starts_with("lighting")) lighting += ms;
+                if (round == 0) fmt::print("{}: {} {:.2f} ms\n", variant.name, timing.name, ms);
+            }
+            variant.frames.push_back(all);
+            variant.lighting.push_back(lighting);
+        }
+    }
+    for (const Variant& variant : variants)
+        fmt::print("{}: frame {:.2f} ms, lighting {:.2f} ms\n", variant.name, medianOf(variant.frames),
+                   medianOf(variant.lighting));
+    EXPECT_GT(medianOf(variants[1].frames), medianOf(variants[2].frames));
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
+#include "base/Error.h"
 #include "validation/bench/BenchRecord.h"
 #include "validation/bench/BenchStore.h"
 
@@ -60,6 +62,17 @@ inline BenchPlan madeUpPlan(int groups) {
 inline RunIdentity madeUpIdentity(int shard = 1, int shards = 1) {
     return {"2 x Chip", "llvmpipe", "4.5 Mesa", "abc",  " --size 64x32",
             "",         5,          shard,      shards, "tessera bench hall -o out"};
+}
+
+/// The text of the refusal that an action ends in.
+template <typename Action>
+std::string refusal(Action&& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing was refused";
 }
 
 } // namespace tessera::validation

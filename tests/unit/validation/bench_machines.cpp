@@ -49,16 +49,6 @@ protected:
         return benches;
     }
 
-    template <typename Action>
-    static std::string refusal(Action&& action) {
-        try {
-            action();
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "nothing was refused";
-    }
-
     test::TempFolder folder_;
 };
 
