@@ -77,15 +77,15 @@ Mesh tube(int sides) {
 }
 
 TEST(UvAtlas, acrossASeamTheSurfaceGoesOnAtItsOtherSide) {
-    constexpr int kSide = 96, kBorder = 16;
-    const UvAtlas atlas = makeUvAtlas(tube(8), glm::dmat4(1.0), kSide, kBorder, 8);
+    constexpr int kAtlasSide = 96, kBorder = 16;
+    const UvAtlas atlas = makeUvAtlas(tube(8), glm::dmat4(1.0), kAtlasSide, kBorder, 8);
     EXPECT_EQ(atlas.chartCount, 1u);
     for (int out = 1; out <= 8; ++out) {
         const UvTexel& before = atlas.at(kBorder - out, 40);
         ASSERT_EQ(before.chart, 1);
-        EXPECT_NEAR(before.continued.x, kSide - kBorder - out + 0.5, 1e-4) << out;
+        EXPECT_NEAR(before.continued.x, kAtlasSide - kBorder - out + 0.5, 1e-4) << out;
         EXPECT_NEAR(before.continued.y, 40.5, 1e-4);
-        const UvTexel& behind = atlas.at(kSide - kBorder - 1 + out, 40);
+        const UvTexel& behind = atlas.at(kAtlasSide - kBorder - 1 + out, 40);
         EXPECT_NEAR(behind.continued.x, kBorder + out - 0.5, 1e-4) << out;
     }
 }

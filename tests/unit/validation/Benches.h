@@ -66,7 +66,7 @@ inline RunIdentity madeUpIdentity(int shard = 1, int shards = 1) {
 
 /// The text of the refusal that an action ends in.
 template <typename Action>
-std::string refusal(Action&& action) {
+std::string benchRefusal(Action&& action) {
     try {
         action();
     } catch (const InputError& error) {

@@ -114,7 +114,7 @@ TEST_F(BenchMachines, anotherDriverIsAnotherMachine) {
 TEST_F(BenchMachines, whatCannotStandSideBySideIsRefusedAndNothingIsWritten) {
     const std::string a = shardOn("a", "A", 1, 2, 8.0), b = shardOn("b", "B", 1, 2, 20.0);
     const auto refused = [&](const std::vector<std::string>& shards, const std::string& out = "all") {
-        return refusal([&] { mergeMachines(shardsByMachine(shards), path(out)); });
+        return benchRefusal([&] { mergeMachines(shardsByMachine(shards), path(out)); });
     };
     EXPECT_THAT(refused({a, b}), HasSubstr("2 of 4 groups of points were measured by no machine"));
     EXPECT_THAT(refused({a, shardOn("c", "B", 2, 2, 20.0, "def")}), HasSubstr("commit differs"));

@@ -67,7 +67,7 @@ TEST_F(BenchStoring, savedResultsAreReadBackAfterTheProgramsEnd) {
 TEST_F(BenchStoring, anUnfinishedRunIsNotOverwrittenWithoutRequest) {
     const std::string out = folder("out");
     { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }
-    EXPECT_THAT(refusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
+    EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
                 testing::AllOf(HasSubstr("resume it"), HasSubstr("parts")));
     finishedShard("done", 1, 1, 2);
     EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep));
@@ -76,7 +76,7 @@ TEST_F(BenchStoring, anUnfinishedRunIsNotOverwrittenWithoutRequest) {
 TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     const std::string out = finishedShard("out", 1, 2, 2);
     const auto resumed = [&](const RunIdentity& identity, const BenchPlan& plan) {
-        return refusal([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
+        return benchRefusal([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
     };
     RunIdentity other = madeUpIdentity(1, 2);
     other.machine = "64 x Chip";
@@ -98,13 +98,13 @@ TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
     const std::string a = finishedShard("a", 1, 2, 2);
     BenchPlan changed = madeUpPlan(2);
     changed.groups[1].fingerprint ^= 1;
-    EXPECT_THAT(refusal([&] { BenchStore(a, madeUpIdentity(1, 2), changed, EarlierRun::Resume); }),
+    EXPECT_THAT(benchRefusal([&] { BenchStore(a, madeUpIdentity(1, 2), changed, EarlierRun::Resume); }),
                 testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("name another folder")));
     {
         const BenchStore store(folder("b"), madeUpIdentity(2, 2), changed, EarlierRun::Keep);
         store.keep(1, finished(1));
     }
-    EXPECT_THAT(refusal([&] {
+    EXPECT_THAT(benchRefusal([&] {
                     mergeRuns({a, folder("b")}, folder("all"));
                 }),
                 testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("measure every shard")));
@@ -146,7 +146,7 @@ TEST_F(BenchStoring, mergedShardsEqualOneRun) {
 TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNotMerged) {
     const std::string a = finishedShard("a", 1, 2, 3), b = finishedShard("b", 2, 2, 3);
     const auto merged = [&](const std::vector<std::string>& shards) {
-        return refusal([&] { mergeRuns(shards, folder("all")); });
+        return benchRefusal([&] { mergeRuns(shards, folder("all")); });
     };
     EXPECT_THAT(merged({a}), HasSubstr("shard 2/2 is missing"));
     EXPECT_THAT(merged({a, b, a}), HasSubstr("both shard 1/2"));
@@ -155,7 +155,7 @@ TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNotMerged) {
     EXPECT_THAT(merged({a, folder("nothing")}), HasSubstr("holds no bench"));
     { const BenchStore begun(folder("e"), madeUpIdentity(2, 2), madeUpPlan(3), EarlierRun::Keep); }
     EXPECT_THAT(merged({a, folder("e")}), HasSubstr("is not finished"));
-    EXPECT_THAT(refusal([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
+    EXPECT_THAT(benchRefusal([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
     EXPECT_EQ(merged({a, b}), "nothing was refused");
 }
 
@@ -163,7 +163,7 @@ TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     const std::string out = finishedShard("out", 1, 1, 1);
     const auto read = [&](const std::string& file, const std::string& text) {
         std::ofstream(out + "/parts/" + file) << text;
-        const std::string said = refusal([&] { recordIn(out); });
+        const std::string said = benchRefusal([&] { recordIn(out); });
         EXPECT_THAT(said, testing::AllOf(HasSubstr(file), testing::Not(HasSubstr("json.exception")),
                                          testing::Not(HasSubstr("\n"))));
         return said;
@@ -205,10 +205,11 @@ TEST_F(BenchStoring, picturesAreFilesOfTheirRunAndAreThereBeforeShardsAreMerged)
     };
     std::ofstream(folder("secret") + "/notes.txt") << "private";
     const std::string outside = shardWith("outside", "../../secret/notes.txt");
-    EXPECT_THAT(refusal([&] { recordIn(outside); }), HasSubstr("is no name of a picture beside it"));
-    EXPECT_THAT(refusal([&] { mergeRuns({outside}, folder("all")); }), HasSubstr("is no name of a picture beside it"));
+    EXPECT_THAT(benchRefusal([&] { recordIn(outside); }), HasSubstr("is no name of a picture beside it"));
+    EXPECT_THAT(benchRefusal([&] { mergeRuns({outside}, folder("all")); }),
+                HasSubstr("is no name of a picture beside it"));
     const std::string incomplete = shardWith("incomplete", "group-000-truth.png");
-    EXPECT_THAT(refusal([&] { mergeRuns({incomplete}, folder("all")); }),
+    EXPECT_THAT(benchRefusal([&] { mergeRuns({incomplete}, folder("all")); }),
                 testing::AllOf(HasSubstr(incomplete), HasSubstr("group-000-truth.png"), HasSubstr("is missing")));
     EXPECT_TRUE(fs::is_empty(folder("all")));
 }
