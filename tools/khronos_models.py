@@ -38,7 +38,7 @@ EXTENSIONS = {
     "EXT_meshopt_compression": (RIGHT, ""),
     "EXT_texture_webp": (RIGHT, ""),
     "KHR_animation_pointer": (RIGHT, ""),
-    "KHR_draco_mesh_compression": (RIGHT, "shown by the plain geometry beside it"),
+    "KHR_draco_mesh_compression": (RIGHT, ""),
     "KHR_lights_punctual": (RIGHT, ""),
     "KHR_materials_anisotropy": (APPROXIMATE, "stretched highlights of the environment are sums of sixteen look-ups"),
     "KHR_materials_clearcoat": (RIGHT, ""),

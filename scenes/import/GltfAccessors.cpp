@@ -1,6 +1,7 @@
 #include "scenes/import/GltfAccessors.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
 
@@ -88,7 +89,7 @@ Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t by
 }
 
 template <typename Value, typename Convert>
-std::vector<Value> Accessors::read(int index, Convert convert) {
+std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed, Convert convert) {
     const model::Accessor& accessor = accessorAt(index);
     const std::string place = fmt::format("/accessors/{}", index);
     const auto width = static_cast<std::size_t>(accessor.components);
@@ -105,7 +106,13 @@ std::vector<Value> Accessors::read(int index, Convert convert) {
             values[to * width + c] = convert(element + c * source.componentBytes, accessor.componentType);
     };
 
-    if (accessor.bufferView != kNone) {
+    if (!packed.empty()) {
+        const std::size_t componentBytes = bytesOf(accessor.componentType);
+        assert(packed.size() == accessor.count * width * componentBytes);
+        reserve();
+        for (std::size_t i = 0; i < accessor.count; ++i)
+            copyElement({packed.data(), componentBytes * width, componentBytes}, i, i);
+    } else if (accessor.bufferView != kNone) {
         const std::size_t stride =
             document_.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
         const Source source = placed(index, accessor.bufferView, accessor.byteOffset, accessor.count,
@@ -141,12 +148,12 @@ const model::Accessor& Accessors::accessorAt(int index) const {
     return document_.model.accessors[static_cast<std::size_t>(index)];
 }
 
-Elements Accessors::elements(int index) {
+Elements Accessors::elements(int index, std::span<const std::byte> packed) {
     const model::Accessor& accessor = accessorAt(index);
     if (accessor.components == 0)
         document_.fail(fmt::format("/accessors/{}", index), "is a matrix, which no vertex attribute is");
     return {accessor.count, accessor.components, accessor.normalized, accessor.componentType,
-            read<float>(index, [&accessor](const std::byte* bytes, ComponentType type) {
+            read<float>(index, packed, [&accessor](const std::byte* bytes, ComponentType type) {
                 return toFloat(bytes, type, accessor.normalized);
             })};
 }
@@ -159,7 +166,7 @@ std::vector<std::uint32_t> Accessors::indices(int index) {
     if (accessor.components != 1 || !isUnsigned)
         document_.fail(fmt::format("/accessors/{}", index),
                        "holds indices, so it must be SCALAR of UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT");
-    return read<std::uint32_t>(index, toUnsigned);
+    return read<std::uint32_t>(index, {}, toUnsigned);
 }
 
 } // namespace tessera::scenes::gltf

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scenes/import/GltfBuffers.h"
@@ -25,7 +26,9 @@ class Accessors {
 public:
     Accessors(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
 
-    Elements elements(int accessor);
+    /// `packed`, where it has data, stands for the accessor's buffer view: as many elements as it says, one after
+    /// another.
+    Elements elements(int accessor, std::span<const std::byte> packed = {});
     std::vector<std::uint32_t> indices(int accessor);
 
 private:
@@ -34,7 +37,7 @@ private:
                   std::size_t components, std::size_t byteStride);
     const model::Accessor& accessorAt(int index) const;
     template <typename Value, typename Convert>
-    std::vector<Value> read(int accessor, Convert convert);
+    std::vector<Value> read(int accessor, std::span<const std::byte> packed, Convert convert);
 
     const Document& document_;
     Buffers& buffers_;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/GltfDraco.h"
+
 namespace tessera::scenes::gltf {
 namespace {
 
@@ -22,6 +24,18 @@ public:
           meshName_(std::move(meshName)) {}
 
     bool has(const std::string& attribute) const { return attributes_->contains(attribute); }
+
+    /// Where the primitive has a stream of KHR_draco_mesh_compression, it stands for the accessors it names and for the
+    /// indices. Called first.
+    void decode() {
+        if (!primitive_.draco) return;
+        if (primitive_.mode == kFan)
+            context_.document.fail(place_ + "/mode", "is 6, a fan; KHR_draco_mesh_compression holds lists or strips");
+        decoded_ = decodeDraco(context_.document, context_.buffers, primitive_, place_, meshName_);
+    }
+
+    /// In which corners() are to be read: what the library decodes is a list, whatever was encoded.
+    int mode() const { return decoded_ ? kTriangles : primitive_.mode; }
 
     void fillVertices(Mesh& mesh) {
         const Elements positions = read("POSITION", {3});
@@ -98,6 +112,14 @@ public:
 
     /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without.
     std::vector<std::uint32_t> corners() {
+        if (decoded_) {
+            for (const std::uint32_t corner : decoded_->corners)
+                if (corner >= vertexCount_)
+                    context_.document.fail(place_, fmt::format("a triangle of mesh '{}' names vertex {}, but there are "
+                                                               "only {} positions",
+                                                               meshName_, corner, vertexCount_));
+            return std::move(decoded_->corners);
+        }
         if (primitive_.indices < 0) {
             if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
                 fail("POSITION", "has more vertices than 32-bit indices can name");
@@ -151,8 +173,15 @@ private:
                                fmt::format("accessor {} of mesh '{}' {}", accessor, meshName_, what));
     }
 
+    /// The elements of an attribute that the stream holds, else nothing. Morph targets are never in it.
+    std::span<const std::byte> decoded(const std::string& attribute) const {
+        if (!decoded_ || attributes_ != &primitive_.attributes) return {};
+        const auto found = decoded_->attributes.find(attribute);
+        return found == decoded_->attributes.end() ? std::span<const std::byte>() : found->second;
+    }
+
     Elements read(const std::string& attribute, std::initializer_list<int> components) {
-        Elements elements = context_.accessors.elements(attributes_->at(attribute));
+        Elements elements = context_.accessors.elements(attributes_->at(attribute), decoded(attribute));
         if (std::ranges::find(components, elements.components) == components.end())
             fail(attribute, fmt::format("has {} components an element; {} needs {}", elements.components, attribute,
                                         components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4"));
@@ -212,6 +241,7 @@ private:
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
+    std::optional<DracoGeometry> decoded_;
 };
 
 // ---- Triangles and normals -----------------------------------------------------------------------------------------
@@ -364,18 +394,19 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
         context.warn(fmt::format("{}: mesh '{}' has no POSITION and is left out", place, mesh.name));
         return std::nullopt;
     }
+    reader.decode();
     reader.fillVertices(mesh);
     if (deforms.byTargets) reader.fillTargets(shape.targets);
     if (deforms.byJoints) reader.fillInfluences(shape);
     std::vector<std::uint32_t> corners = reader.corners();
-    if (primitive.mode == kTriangles && corners.size() % 3 != 0)
+    if (reader.mode() == kTriangles && corners.size() % 3 != 0)
         context.warn(
             fmt::format("{}: mesh '{}' has {} corners, which is no multiple of 3; the last triangle is left out", place,
                         mesh.name, corners.size()));
-    if (primitive.mode != kTriangles) // three corners for every one after the second
+    if (reader.mode() != kTriangles) // three corners for every one after the second
         ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
                       [&] { return fmt::format("{}: {}", context.document.file, place); });
-    mesh.indices = trianglesOf(primitive.mode, std::move(corners));
+    mesh.indices = trianglesOf(reader.mode(), std::move(corners));
     reader.warnOfUnused();
     finishNormals(context, place, shape);
     ledger.settle(mark, context.buffers.heldBytes() + bytesOf(shape));

@@ -107,6 +107,12 @@ void Primitive::read(Object& object) {
     object.optional("targets", targets, IndexOf{"accessors"});
     object.optional("extensions", unneeded<AnyObject>());
     object.optional("extensions/KHR_materials_variants/mappings", variantMappings);
+    object.optional("extensions/KHR_draco_mesh_compression", draco);
+}
+
+void Draco::read(Object& object) {
+    object.required("bufferView", bufferView, IndexOf{"bufferViews"});
+    object.required("attributes", attributes, kInts);
 }
 
 void VariantMapping::read(Object& object) {

@@ -45,6 +45,14 @@ struct VariantMapping {
     void read(Object& object);
 };
 
+/// KHR_draco_mesh_compression.
+struct Draco {
+    int bufferView = kNone;
+    std::map<std::string, int> attributes; ///< identifiers in the stream
+
+    void read(Object& object);
+};
+
 struct Primitive {
     std::map<std::string, int> attributes; ///< accessors
     int indices = kNone;
@@ -52,6 +60,7 @@ struct Primitive {
     int mode = 4;
     std::vector<std::map<std::string, int>> targets; ///< accessors by attribute
     std::vector<VariantMapping> variantMappings;
+    std::optional<Draco> draco; ///< what holds the indices, and the attributes that it names
 
     void read(Object& object);
 };

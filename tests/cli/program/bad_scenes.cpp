@@ -88,8 +88,8 @@ TEST_F(BadScenes, gltfDataOutOfRangeIsRefusedByName) {
     cycle.json["nodes"] = Json::parse(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
     expectRefused(cycle, {"/nodes"});
     Builder extension;
-    extension.json["extensionsUsed"] = extension.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    expectRefused(extension, {"KHR_draco_mesh_compression"});
+    extension.json["extensionsUsed"] = extension.json["extensionsRequired"] = {"KHR_gaussian_splatting"};
+    expectRefused(extension, {"KHR_gaussian_splatting"});
 }
 
 TEST_F(BadScenes, filesThatAreNoGltfAreRefused) {

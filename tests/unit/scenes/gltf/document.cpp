@@ -102,10 +102,10 @@ TEST(GltfDocument, emptySceneIsImported) {
 
 TEST(GltfDocument, requiredExtensionThatIsNotSupportedIsRefused) {
     Builder builder;
-    builder.merge(R"({"extensionsUsed": ["KHR_draco_mesh_compression", "KHR_texture_basisu"],
-                      "extensionsRequired": ["KHR_draco_mesh_compression", "KHR_texture_basisu"]})");
+    builder.merge(R"({"extensionsUsed": ["KHR_gaussian_splatting", "KHR_texture_basisu"],
+                      "extensionsRequired": ["KHR_gaussian_splatting", "KHR_texture_basisu"]})");
     EXPECT_NE(builder.error().find(
-                  "/extensionsRequired: the model requires KHR_draco_mesh_compression, KHR_texture_basisu, which "
+                  "/extensionsRequired: the model requires KHR_gaussian_splatting, KHR_texture_basisu, which "
                   "are not supported"),
               std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include "DracoStream.h"
 #include "GltfBuilder.h"
 #include "scenes/Pose.h"
 #include "tests/support/UnderLedger.h"
@@ -88,8 +89,16 @@ Json richRig() {
     return builder.json;
 }
 
+/// The same of what is compressed by Draco.
+Json richDraco() {
+    Builder builder;
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint16_t>{0, 1, 2}, 5123, "SCALAR", 3);
+    addDraco(builder, dracoTriangle());
+    return builder.json;
+}
+
 std::vector<Json> richDocuments() {
-    return {richDocument(), richRig()};
+    return {richDocument(), richRig(), richDraco()};
 }
 
 /// Imported and posed, or refused as input: anything else escapes and fails the test.

@@ -1,0 +1,270 @@
+#include "scenes/import/GltfDraco.h"
+
+#include <array>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "scenes/import/GltfAccessors.h"
+
+namespace tessera::scenes::gltf {
+namespace {
+
+// What the decoder holds at once, counted in the library's sources, 1.5.5, and rounded up.
+constexpr std::uint64_t kCornerBytes = 80;      ///< the corner table, the faces and the maps between them
+constexpr std::uint64_t kSeamCornerBytes = 40;  ///< the corner table of an attribute with seams
+constexpr std::uint64_t kPointBytes = 32;       ///< the maps from points to an attribute's values
+constexpr std::uint64_t kPortableBytes = 8;     ///< a component as an integer, and its prediction
+constexpr std::uint64_t kTableBytes = 8u << 20; ///< the decoder's tables of symbols, at most 2^20 entries
+constexpr std::uint64_t kMetadataRatio = 64;    ///< blocks of the heap that a byte of metadata may become
+constexpr std::size_t kMostComponents = 16;     ///< of an accessor's element
+constexpr std::string_view kBroken = "is broken or cut short";
+
+/// Of those that an accessor may have.
+bool isComponentType(draco::DataType type) {
+    return (type >= draco::DT_INT8 && type <= draco::DT_UINT32) || type == draco::DT_FLOAT32;
+}
+
+/// What of the stream is checked before the library reserves memory for it.
+class Claims {
+public:
+    Claims(const Document& document, const model::Primitive& primitive, const std::string& place)
+        : document_(document), primitive_(primitive), place_(place) {}
+
+    /// At the head of a stream's triangles. Throws InputError with what is wrong.
+    void checkTriangles(std::uint64_t faces, std::uint64_t seamTables) const {
+        const std::uint64_t corners = 3 * faces;
+        if (primitive_.indices != kNone && accessor(primitive_.indices).count != corners)
+            throw InputError(fmt::format("holds {} triangles, but accessor {} says {} indices", faces,
+                                         primitive_.indices, accessor(primitive_.indices).count));
+        charge(corners * (kCornerBytes + seamTables * kSeamCornerBytes));
+    }
+
+    /// When all attributes are known, and before their values are read. Throws InputError with what is wrong.
+    void checkAttributes(const draco::PointCloud& points) const {
+        for (const auto& [name, id] : primitive_.draco->attributes) {
+            const auto named = primitive_.attributes.find(name);
+            if (named == primitive_.attributes.end()) continue;
+            const model::Accessor& wanted = accessor(named->second);
+            const draco::PointAttribute* stored = points.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+            if (stored == nullptr) throw InputError(fmt::format("holds no attribute {}, which {} names", id, name));
+            if (!isComponentType(stored->data_type()))
+                throw InputError(fmt::format("holds {} in a component type that glTF does not have", name));
+            if (points.num_points() != wanted.count)
+                throw InputError(fmt::format("holds {} vertices, but accessor {} of {} says {}", points.num_points(),
+                                             named->second, name, wanted.count));
+            if (stored->num_components() != wanted.components)
+                throw InputError(fmt::format("holds {} with {} components an element, but accessor {} says {}", name,
+                                             stored->num_components(), named->second, wanted.components));
+        }
+        std::uint64_t bytesEach = 0; // of a point; the stream may hold attributes that nobody names
+        for (int i = 0; i < points.num_attributes(); ++i) {
+            const draco::PointAttribute& stored = *points.attribute(i);
+            const auto componentBytes = static_cast<std::uint64_t>(draco::DataTypeLength(stored.data_type()));
+            bytesEach += kPointBytes + stored.num_components() * (componentBytes + kPortableBytes);
+        }
+        const std::uint64_t count = points.num_points(), most = std::numeric_limits<std::uint64_t>::max();
+        charge(count > 0 && bytesEach > most / count ? most : count * bytesEach);
+    }
+
+    void charge(std::uint64_t bytes) const {
+        document_.ledger.charge(bytes, [&] { return fmt::format("{}: {}", document_.file, place_); });
+    }
+
+private:
+    const model::Accessor& accessor(int index) const {
+        return document_.model.accessors[static_cast<std::size_t>(index)];
+    }
+
+    const Document& document_;
+    const model::Primitive& primitive_;
+    const std::string& place_;
+};
+
+/// Faces, and attributes that have a corner table of their own, as the head of a stream's triangles claims. Nothing
+/// where it is cut short. Source: Draco bitstream specification 2.2, "Connectivity".
+std::optional<std::pair<std::uint32_t, std::uint8_t>> claimedTriangles(const draco::DecoderBuffer& stream,
+                                                                       bool isEdgebreaker) {
+    draco::DecoderBuffer head; // reads on its own
+    head.Init(stream.data_head(), static_cast<std::size_t>(stream.remaining_size()), stream.bitstream_version());
+    std::uint8_t traversal = 0, seamTables = 0;
+    std::uint32_t vertices = 0, faces = 0;
+    if (!isEdgebreaker) {
+        if (!draco::DecodeVarint(&faces, &head)) return std::nullopt;
+    } else if (!head.Decode(&traversal) || !draco::DecodeVarint(&vertices, &head) ||
+               !draco::DecodeVarint(&faces, &head) || !head.Decode(&seamTables)) {
+        return std::nullopt;
+    }
+    return std::pair(faces, seamTables);
+}
+
+/// A decoder of the library that checks the claims on its way. Exceptions wait until the library has returned, which
+/// may be built without them.
+template <typename Decoder, bool kIsEdgebreaker>
+class CheckedDecoder : public Decoder {
+public:
+    explicit CheckedDecoder(const Claims& claims) : claims_(claims) {}
+
+    void decode(draco::DecoderBuffer& stream, draco::Mesh& mesh) {
+        const draco::Status status = this->Decode(draco::DecoderOptions(), &stream, &mesh);
+        if (failure_) std::rethrow_exception(failure_);
+        if (!status.ok()) throw InputError(fmt::format("{} ({})", kBroken, status.error_msg_string()));
+    }
+
+protected:
+    bool DecodeConnectivity() override {
+        return isGood([&] {
+                   const auto claimed = claimedTriangles(*this->buffer(), kIsEdgebreaker);
+                   if (!claimed) throw InputError(std::string(kBroken));
+                   claims_.checkTriangles(claimed->first, claimed->second);
+               }) &&
+               Decoder::DecodeConnectivity();
+    }
+
+    bool DecodeAllAttributes() override {
+        return isGood([&] { claims_.checkAttributes(*this->point_cloud()); }) && Decoder::DecodeAllAttributes();
+    }
+
+private:
+    template <typename Check>
+    bool isGood(Check check) {
+        try {
+            check();
+            return true;
+        } catch (...) {
+            failure_ = std::current_exception();
+            return false;
+        }
+    }
+
+    const Claims& claims_;
+    std::exception_ptr failure_;
+};
+
+/// Throws InputError with what is wrong.
+void decodeStream(std::span<const std::byte> bytes, const Claims& claims, draco::Mesh& mesh) {
+    draco::DecoderBuffer stream;
+    stream.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::DecoderBuffer head;
+    head.Init(stream.data_head(), bytes.size());
+    draco::DracoHeader header;
+    if (const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&head, &header); !status.ok())
+        throw InputError(fmt::format("is no stream of Draco ({})", status.error_msg_string()));
+    if (header.encoder_type != draco::TRIANGULAR_MESH) throw InputError("is of points, not of a mesh");
+    if (header.version_major != draco::kDracoMeshBitstreamVersionMajor ||
+        header.version_minor != draco::kDracoMeshBitstreamVersionMinor)
+        throw InputError(fmt::format("is of version {}.{} of Draco's format; 2.2 is glTF's", header.version_major,
+                                     header.version_minor));
+    claims.charge(kTableBytes);
+    if ((header.flags & METADATA_FLAG_MASK) != 0) claims.charge(kMetadataRatio * bytes.size());
+    if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
+        CheckedDecoder<draco::MeshSequentialDecoder, false>(claims).decode(stream, mesh);
+    else if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
+        CheckedDecoder<draco::MeshEdgebreakerDecoder, true>(claims).decode(stream, mesh);
+    else
+        throw InputError(fmt::format("is of the unknown method {}", header.encoder_method));
+}
+
+template <typename Component>
+bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, std::size_t components,
+                  std::byte* to) {
+    std::array<Component, kMostComponents> converted{};
+    if (!stored.ConvertValue<Component>(value, static_cast<std::int8_t>(components), converted.data())) return false;
+    std::memcpy(to, converted.data(), components * sizeof(Component));
+    return true;
+}
+
+bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, const model::Accessor& wanted,
+                  std::byte* to) {
+    const auto components = static_cast<std::size_t>(wanted.components);
+    switch (wanted.componentType) {
+    case model::ComponentType::Byte:
+        return convertPoint<std::int8_t>(stored, value, components, to);
+    case model::ComponentType::UnsignedByte:
+        return convertPoint<std::uint8_t>(stored, value, components, to);
+    case model::ComponentType::Short:
+        return convertPoint<std::int16_t>(stored, value, components, to);
+    case model::ComponentType::UnsignedShort:
+        return convertPoint<std::uint16_t>(stored, value, components, to);
+    case model::ComponentType::UnsignedInt:
+        return convertPoint<std::uint32_t>(stored, value, components, to);
+    case model::ComponentType::Float:
+        break;
+    }
+    return convertPoint<float>(stored, value, components, to);
+}
+
+/// The values of an attribute, which is as its accessor says (Claims::checkAttributes).
+std::vector<std::byte> packed(const draco::Mesh& mesh, const draco::PointAttribute& stored, const std::string& name,
+                              const model::Accessor& wanted) {
+    const std::size_t elementBytes = bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components);
+    std::vector<std::byte> bytes(mesh.num_points() * elementBytes);
+    for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
+        const draco::AttributeValueIndex value = stored.mapped_index(draco::PointIndex(i));
+        if (value.value() >= stored.size() || !convertPoint(stored, value, wanted, bytes.data() + i * elementBytes))
+            throw InputError(
+                fmt::format("holds in element {} of {} what its accessor's component type cannot", i, name));
+    }
+    return bytes;
+}
+
+std::vector<std::uint32_t> cornersOf(const draco::Mesh& mesh) {
+    std::vector<std::uint32_t> corners;
+    corners.reserve(3 * std::size_t{mesh.num_faces()});
+    for (std::uint32_t face = 0; face < mesh.num_faces(); ++face)
+        for (const draco::PointIndex point : mesh.face(draco::FaceIndex(face))) {
+            if (point.value() >= mesh.num_points())
+                throw InputError(
+                    fmt::format("{}: a triangle names vertex {} of {}", kBroken, point.value(), mesh.num_points()));
+            corners.push_back(point.value());
+        }
+    return corners;
+}
+
+} // namespace
+
+DracoGeometry decodeDraco(const Document& document, Buffers& buffers, const model::Primitive& primitive,
+                          const std::string& place, const std::string& meshName) {
+    const std::string stream = place + "/extensions/KHR_draco_mesh_compression";
+    const std::span<const std::byte> bytes = buffers.view(primitive.draco->bufferView);
+    const std::uint64_t mark = document.ledger.usedBytes();
+    const Claims claims(document, primitive, stream);
+    DracoGeometry geometry;
+    std::uint64_t keptBytes = 0;
+    try {
+        draco::Mesh mesh;
+        decodeStream(bytes, claims, mesh);
+        const auto keep = [&](std::uint64_t more) {
+            claims.charge(more);
+            keptBytes += more;
+        };
+        for (const auto& [name, id] : primitive.draco->attributes) {
+            const auto named = primitive.attributes.find(name);
+            if (named == primitive.attributes.end()) continue;
+            const model::Accessor& wanted = document.model.accessors[static_cast<std::size_t>(named->second)];
+            keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components));
+            const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+            geometry.attributes[name] = packed(mesh, stored, name, wanted);
+        }
+        keep(3 * std::uint64_t{mesh.num_faces()} * sizeof(std::uint32_t));
+        geometry.corners = cornersOf(mesh);
+    } catch (const MemoryRefused&) {
+        throw; // names the place already
+    } catch (const InputError& error) {
+        document.fail(stream, fmt::format("the stream of mesh '{}' {}", meshName, error.what()));
+    }
+    document.ledger.settle(mark, keptBytes);
+    return geometry;
+}
+
+} // namespace tessera::scenes::gltf
