@@ -5,31 +5,35 @@ Usage: tools/khronos_models.py FOLDER OUTPUT [--program build/release/apps/tesse
                                [--leave-out PATTERN]... [--document docs/khronos-models.md]
 
 Of each model one file is shown, as it is without options: lit by the built-in studio, from the supplied camera, or by
-and from what the model brings. OUTPUT receives
+and from what the model brings. One that moves is shown at its begin, and looked at over the length of its first clip.
+OUTPUT receives
 
   sheet.png    all pictures with their names, clipped at white
-  table.md     model, status (right, approximate or refused) and why
-  models.csv   mean luminance of the covered pixels; share of the picture's width or height, whichever is more, that
-               they span; seconds; warnings
+  table.md     model, status (right, approximate, refused, crashed or nothing to draw), figures and why
+  models.csv   the figures: mean luminance of the covered pixels; share of the picture's width or height, whichever is
+               more, that they span; whether they touch its edge; whose camera it is; seconds; warnings
 
-With --document the table replaces what stands between the two markers of that file. A model's status follows from the
-extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1 where a model that was
-drawn is black or covers nothing. Only Python's own library is needed.
+With --document the table, and below it the totals, replace what stands between the two markers of that file. A model's
+status follows from the extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1
+where a model crashes, is black or covers nothing, or is too small or cut off in the supplied camera. Only Python's own
+library is needed.
 """
 import argparse
 import array
+import collections
 import csv
 import fnmatch
 import itertools
 import json
 import pathlib
+import signal
 import struct
 import subprocess
 import sys
 import time
 import zlib
 
-RIGHT, APPROXIMATE, REFUSED = "right", "approximate", "refused"
+RIGHT, APPROXIMATE, REFUSED, CRASHED, NOTHING = "right", "approximate", "refused", "crashed", "nothing to draw"
 
 # What of an extension is drawn. One that is not here is left out, with a warning of the program.
 EXTENSIONS = {
@@ -37,6 +41,7 @@ EXTENSIONS = {
     "EXT_mesh_gpu_instancing": (RIGHT, ""),
     "EXT_meshopt_compression": (RIGHT, ""),
     "EXT_texture_webp": (RIGHT, ""),
+    "FAKE_materials_quantumRendering": (RIGHT, "no such extension: left out, and said"),
     "KHR_animation_pointer": (RIGHT, ""),
     "KHR_draco_mesh_compression": (RIGHT, ""),
     "KHR_lights_punctual": (RIGHT, ""),
@@ -57,11 +62,18 @@ EXTENSIONS = {
     "KHR_mesh_quantization": (RIGHT, ""),
     "KHR_texture_basisu": (RIGHT, "shown with the plain pictures beside it"),
     "KHR_texture_transform": (RIGHT, ""),
+    "KHR_xmp": (RIGHT, "words about the model: left out, and said"),
     "KHR_xmp_json_ld": (RIGHT, "words about the model"),
 }
 # Said of nearly every model, and no fault of the picture.
-EXPECTED = ("the scene has no light: ", "the scene has no camera: ")
-BLACK = 0.005  # mean luminance: a fortieth of the studio's walls
+NO_CAMERA = "the scene has no camera: "
+EXPECTED = ("the scene has no light: ", NO_CAMERA)
+NO_TRIANGLES = "the scene has no triangles to draw"
+BAD_INPUT = 2  # the program's exit code for files that it refuses
+MOST_SECONDS = 900  # that a picture may take
+BLACK = 0.02  # mean luminance after exposure, which is 1 without options: a tenth of the studio's walls
+LEAST_SPAN = 0.55  # of the picture's width or height, by what the supplied camera is to frame
+MOMENTS = 4  # after the first, at which a model that moves is looked at
 BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"
 # The same model in another container; the first that is there is shown.
 CONTAINERS = ("", "glTF", "glTF-Binary", "glTF-Embedded")
@@ -91,21 +103,48 @@ def models_below(folder, left_out=()):
     return models
 
 
-def extensions_of(path):
-    """Those that a document says it uses; none where it cannot be read, which the program tells better."""
+def document_of(path):
+    """The JSON of a model; an empty one where it cannot be read, which the program tells better."""
     data = path.read_bytes()
     try:
         if data[:4] == b"glTF":
             data = data[20 : 20 + struct.unpack_from("<I", data, 12)[0]]
-        return sorted(json.loads(data).get("extensionsUsed", []))
-    except (ValueError, struct.error, AttributeError, TypeError):
+        document = json.loads(data)
+        return document if isinstance(document, dict) else {}
+    except (ValueError, struct.error):
+        return {}
+
+
+def extensions_of(document):
+    """Those that a document says it uses."""
+    try:
+        return sorted(document.get("extensionsUsed", []))
+    except TypeError:
         return []
 
 
+def times_of(document):
+    """The seconds at which a model is looked at: its begin, and steps to the end of its first clip."""
+    try:
+        samplers = document["animations"][0]["samplers"]
+        length = max(document["accessors"][sampler["input"]]["max"][0] for sampler in samplers)
+        return [length * step / MOMENTS for step in range(MOMENTS + 1)] if length > 0 else [0.0]
+    except (KeyError, IndexError, TypeError, ValueError):
+        return [0.0]
+
+
 def status_of(extensions, code, lines):
-    """The status of a model and why, from its extensions, the program's exit code and what it said."""
-    if code != 0:
+    """The status of a model and why, from its extensions, the program's exit code and what it said. A negative code is
+    that of a signal, None is too much time."""
+    if code == BAD_INPUT:
         return REFUSED, lines[-1] if lines else f"exit code {code}"
+    if code != 0:
+        how = f"took more than {MOST_SECONDS} s" if code is None else f"exit code {code}"
+        if code is not None and code < 0:
+            how = f"signal {signal.Signals(-code).name}" if -code in set(signal.Signals) else f"signal {-code}"
+        return CRASHED, "; ".join([how, *lines[-1:]])
+    if any(NO_TRIANGLES in line for line in lines):
+        return NOTHING, "; ".join(line for line in lines if "left out" in line)
     reasons = [EXTENSIONS[name] for name in extensions if name in EXTENSIONS]
     unknown = [(APPROXIMATE, f"{name} is left out") for name in extensions if name not in EXTENSIONS]
     said = [
@@ -119,12 +158,76 @@ def status_of(extensions, code, lines):
     return status, "; ".join(dict.fromkeys(shown))
 
 
+# ---- Figures -------------------------------------------------------------------------------------------------------
+
+# Of what a model covers: mean luminance, the larger share of the picture's sides that it spans, and whether it touches
+# the edge, over all moments but the luminance; and whether the program supplied the camera.
+Figures = collections.namedtuple("Figures", "luminance span is_cut is_framed")
+# figures is None where there is no picture.
+Row = collections.namedtuple("Row", "name status why figures")
+
+
+def percent(share):
+    return f"{100.0 * share:.0f} %"
+
+
+def figures_of(pictures, is_framed):
+    """Of the pictures of one model at some moments, the first at its begin."""
+    boxes = [box for box in (picture.box() for picture in pictures) if box]
+    if not boxes:
+        return Figures(0.0, 0.0, False, is_framed)
+    width, height = pictures[0].width, pictures[0].height
+    left, top = (min(box[side] for box in boxes) for side in (0, 1))
+    right, bottom = (max(box[side] for box in boxes) for side in (2, 3))
+    span = max((right - left + 1) / width, (bottom - top + 1) / height)
+    is_cut = left == 0 or top == 0 or right == width - 1 or bottom == height - 1
+    return Figures(pictures[0].luminance(), span, is_cut, is_framed)
+
+
+# Why a model fails, by the name in the totals.
+FAULTS = {
+    "crashed": lambda row: row.status == CRASHED,
+    "black": lambda row: is_drawn(row) and not row.figures.luminance >= BLACK,
+    f"framed under {percent(LEAST_SPAN)}": lambda row: is_judged(row) and row.figures.span < LEAST_SPAN,
+    "cut off": lambda row: is_judged(row) and row.figures.is_cut,
+}
+
+
+def is_drawn(row):
+    return row.figures is not None and row.status != NOTHING
+
+
+def is_judged(row):
+    """Whether the supplied camera is to frame it; where a model brings cameras, they are its own affair."""
+    return is_drawn(row) and row.figures.is_framed and row.figures.span > 0.0
+
+
+def faults_of(row):
+    return [name for name, is_fault in FAULTS.items() if is_fault(row)]
+
+
+def totals_of(rows):
+    """One line: how many models there are of each status, and of each fault."""
+    counts = collections.Counter(row.status for row in rows)
+    faults = collections.Counter(fault for row in rows for fault in faults_of(row))
+    statuses = ", ".join(f"{counts[status]} {status}" for status in (RIGHT, APPROXIMATE, REFUSED, NOTHING))
+    return f"{len(rows)} models: {statuses}; " + ", ".join(f"{faults[name]} {name}" for name in FAULTS)
+
+
 def table_of(rows):
     def cell(text):
         return text.replace("|", "\\|").replace("\n", " ")
 
-    lines = ["| model | status | why |", "|---|---|---|"]
-    lines += [f"| {cell(name)} | {status} | {cell(why)} |" for name, status, why in rows]
+    def cells(row):
+        if not is_drawn(row):
+            return ["", "", "", ""]
+        figures = row.figures
+        camera = "supplied" if figures.is_framed else "its own"
+        return [f"{figures.luminance:.2g}", f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
+
+    names = ["model", "status", "luminance", "share", "edge", "camera", "why"]
+    lines = ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
+    lines += ["| " + " | ".join([cell(row.name), row.status, *cells(row), cell(row.why)]) + " |" for row in rows]
     return "\n".join(lines) + "\n"
 
 
@@ -145,17 +248,25 @@ class Picture:
     def __init__(self, width, height, planes):
         self.width, self.height, self.planes = width, height, planes
 
-    def measure(self):
-        """Mean luminance of the covered pixels, and the share of the width or height, whichever is more, they span."""
-        covered = [i for i, a in enumerate(self.planes["A"]) if a > 0.5]
+    def covered(self):
+        """Places of the pixels in which something is drawn, row by row."""
+        return [i for i, a in enumerate(self.planes["A"]) if a > 0.5]
+
+    def luminance(self):
+        """The mean over the covered pixels, after exposure without options: times 1."""
+        covered = self.covered()
         if not covered:
-            return 0.0, 0.0
+            return 0.0
         r, g, b = (self.planes[c] for c in "RGB")
-        mean = sum(0.2126 * r[i] + 0.7152 * g[i] + 0.0722 * b[i] for i in covered) / len(covered)
+        return sum(0.2126 * r[i] + 0.7152 * g[i] + 0.0722 * b[i] for i in covered) / len(covered)
+
+    def box(self):
+        """First and last covered pixel: left, top, right, bottom; None without any."""
+        covered = self.covered()
+        if not covered:
+            return None
         columns = [i % self.width for i in covered]
-        across = (max(columns) - min(columns) + 1) / self.width
-        down = (covered[-1] // self.width - covered[0] // self.width + 1) / self.height
-        return mean, max(across, down)
+        return min(columns), covered[0] // self.width, max(columns), covered[-1] // self.width
 
     def bytes(self):
         """RGB of 8 bits, sRGB, clipped."""
@@ -267,12 +378,16 @@ def sheet_of(pictures, size, columns=6):
 # ---- Program -------------------------------------------------------------------------------------------------------
 
 
-def render(program, path, picture, size):
-    """The exit code, what was said without names of programs and files, and the seconds that it took."""
-    start = time.monotonic()
+def render(program, path, picture, size, seconds=0.0):
+    """The exit code (None after MOST_SECONDS), and what was said without names of programs and files, of a model at a
+    time."""
     command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}"]
-    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
-    seconds = time.monotonic() - start
+    if seconds > 0.0:
+        command += ["--time", f"{seconds:g}"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS)
+    except subprocess.TimeoutExpired:
+        return None, []
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
@@ -281,7 +396,24 @@ def render(program, path, picture, size):
             line = line.removeprefix(prefix)
         if line:
             lines.append(line)
-    return done.returncode, lines, seconds
+    return done.returncode, lines
+
+
+def look_at(name, program, path, picture, size):
+    """The row of a model, its RGB at its begin or None, and what was said."""
+    document = document_of(path)
+    shown, said = [], []
+    for seconds in times_of(document):
+        picture.unlink(missing_ok=True)
+        code, lines = render(program, path, picture, size, seconds)
+        said = said or lines
+        if code != 0:
+            return Row(name, *status_of(extensions_of(document), code, lines), None), None, lines
+        shown.append(read_exr(picture.read_bytes()))
+    picture.unlink(missing_ok=True)
+    status, why = status_of(extensions_of(document), 0, said)
+    figures = figures_of(shown, any(NO_CAMERA in line for line in said))
+    return Row(name, status, why, figures), shown[0].bytes(), said
 
 
 def size_in(text):
@@ -305,35 +437,35 @@ def main(arguments):
     if options.document:
         with_table(options.document.read_text(), "")  # before all the work
     options.output.mkdir(parents=True, exist_ok=True)
-    rows, figures, pictures, bad = [], [], [], []
+    rows, records, pictures = [], [], []
     for number, (name, path) in enumerate(models.items(), 1):
-        picture = options.output / "model.exr"
-        picture.unlink(missing_ok=True)
-        code, lines, seconds = render(options.program, path, picture, options.size)
-        status, why = status_of(extensions_of(path), code, lines)
-        luminance, span, rgb = "", "", None
-        if code == 0:
-            shown = read_exr(picture.read_bytes())
-            mean, share = shown.measure()
-            luminance, span, rgb = f"{mean:.4f}", f"{share:.3f}", shown.bytes()
-            if not mean >= BLACK:
-                bad.append(f"{name}: its mean luminance is {mean:.4f} over {share:.3f} of the picture")
-        rows.append((name, status, why))
-        figures.append((name, status, luminance, span, f"{seconds:.2f}", " / ".join(lines)))
+        start = time.monotonic()
+        row, rgb, said = look_at(name, options.program, path, options.output / "model.exr", options.size)
+        seconds = time.monotonic() - start
+        figures = ["", "", "", ""]
+        if row.figures:
+            figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
+            figures.append("supplied" if row.figures.is_framed else "its own")
+        rows.append(row)
+        records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
         pictures.append((name, rgb))
-        print(f"{number}/{len(models)} {name}: {status}, {seconds:.1f} s", flush=True)
-        picture.unlink(missing_ok=True)
+        told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
+        print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
     (options.output / "sheet.png").write_bytes(png_of(*sheet_of(pictures, options.size)))
+    totals = totals_of(rows)
     table = table_of(rows)
     (options.output / "table.md").write_text(table)
     with open(options.output / "models.csv", "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(("model", "status", "mean luminance", "span", "seconds", "warnings"))
-        writer.writerows(figures)
+        writer.writerow(("model", "status", "mean luminance", "span", "cut", "camera", "seconds", "warnings"))
+        writer.writerows(records)
     if options.document:
-        options.document.write_text(with_table(options.document.read_text(), table))
-    for line in bad:
-        print(line, file=sys.stderr)
+        options.document.write_text(with_table(options.document.read_text(), f"{table}\n{totals}.\n"))
+    print(totals)
+    bad = [row for row in rows if faults_of(row)]
+    for row in bad:
+        figures = row.figures and f"luminance {row.figures.luminance:.4f}, spans {row.figures.span:.3f}"
+        print(f"{row.name}: {', '.join(faults_of(row))}: {figures or row.why}", file=sys.stderr)
     return 1 if bad else 0
 
 

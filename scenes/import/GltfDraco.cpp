@@ -21,7 +21,7 @@ namespace tessera::scenes::gltf {
 namespace {
 
 // What the decoder holds at once, counted in the library's sources, 1.5.5, and rounded up.
-constexpr std::uint64_t kCornerBytes = 80;      ///< the corner table, the faces and the maps between them
+constexpr std::uint64_t kDracoCornerBytes = 80; ///< the corner table, the faces and the maps between them
 constexpr std::uint64_t kSeamCornerBytes = 40;  ///< the corner table of an attribute with seams
 constexpr std::uint64_t kPointBytes = 32;       ///< the maps from points to an attribute's values
 constexpr std::uint64_t kPortableBytes = 8;     ///< a component as an integer, and its prediction
@@ -47,7 +47,7 @@ public:
         if (primitive_.indices != kNone && accessor(primitive_.indices).count != corners)
             throw InputError(fmt::format("holds {} triangles, but accessor {} says {} indices", faces,
                                          primitive_.indices, accessor(primitive_.indices).count));
-        charge(corners * (kCornerBytes + seamTables * kSeamCornerBytes));
+        charge(corners * (kDracoCornerBytes + seamTables * kSeamCornerBytes));
     }
 
     /// When all attributes are known, and before their values are read. Throws InputError with what is wrong.
@@ -205,8 +205,8 @@ bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueInde
 }
 
 /// The values of an attribute, which is as its accessor says (Claims::checkAttributes).
-std::vector<std::byte> packed(const draco::Mesh& mesh, const draco::PointAttribute& stored, const std::string& name,
-                              const model::Accessor& wanted) {
+std::vector<std::byte> packedElements(const draco::Mesh& mesh, const draco::PointAttribute& stored,
+                                      const std::string& name, const model::Accessor& wanted) {
     const std::size_t elementBytes = bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components);
     std::vector<std::byte> bytes(mesh.num_points() * elementBytes);
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
@@ -254,7 +254,7 @@ DracoGeometry decodeDraco(const Document& document, Buffers& buffers, const mode
             const model::Accessor& wanted = document.model.accessors[static_cast<std::size_t>(named->second)];
             keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components));
             const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-            geometry.attributes[name] = packed(mesh, stored, name, wanted);
+            geometry.attributes[name] = packedElements(mesh, stored, name, wanted);
         }
         keep(3 * std::uint64_t{mesh.num_faces()} * sizeof(std::uint32_t));
         geometry.corners = cornersOf(mesh);

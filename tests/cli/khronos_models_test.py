@@ -93,11 +93,23 @@ class KhronosModels(unittest.TestCase):
     def test_extensions_are_read_of_both_containers_and_of_broken_files_none(self):
         used = ["KHR_materials_unlit", "EXT_texture_webp"]
         for glb in (False, True):
-            self.assertEqual(tool.extensions_of(self.model("a.glb", used, glb)), sorted(used))
+            self.assertEqual(tool.extensions_of(tool.document_of(self.model("a.glb", used, glb))), sorted(used))
         for broken in (b"", b"glTF", b"glTF" + bytes(30), b"{", b"[]", b'{"extensionsUsed": [1, "a"]}'):
             path = self.model("b.gltf")
             path.write_bytes(broken)
-            self.assertEqual(tool.extensions_of(path), [], broken)
+            self.assertEqual(tool.extensions_of(tool.document_of(path)), [], broken)
+            self.assertEqual(tool.times_of(tool.document_of(path)), [0.0], broken)
+
+    def test_models_that_move_are_looked_at_over_their_first_clip(self):
+        document = {
+            "accessors": [{"max": [2.0]}, {"max": [6.0]}, {"max": [9.0]}],
+            "animations": [{"samplers": [{"input": 0}, {"input": 1}]}, {"samplers": [{"input": 2}]}],
+        }
+        self.assertEqual(tool.times_of(document), [0.0, 1.5, 3.0, 4.5, 6.0])
+        document["accessors"][0]["max"] = document["accessors"][1]["max"] = [0.0]
+        self.assertEqual(tool.times_of(document), [0.0])
+        del document["accessors"][0]["max"]
+        self.assertEqual(tool.times_of(document), [0.0])
 
     def test_every_extension_that_is_read_has_a_row(self):
         source = (REPOSITORY / "scenes/import/GltfDocument.cpp").read_text()
@@ -118,14 +130,29 @@ class KhronosModels(unittest.TestCase):
              ("approximate", "KHR_new is left out")),
             ([], 0, ["2 primitive(s) of lines are left out"], ("approximate", "2 primitive(s) of lines are left out")),
             (["KHR_materials_volume"], 2, ["a", "requires X"], ("refused", "requires X")),
-            ([], 137, [], ("refused", "exit code 137")),
+            ([], 2, [], ("refused", "exit code 2")),
+            (["FAKE_materials_quantumRendering"], 0,
+             ["the extension FAKE_materials_quantumRendering is not supported and was ignored"],
+             ("right", "no such extension: left out, and said")),
+            (["KHR_xmp"], 0, ["the extension KHR_xmp is not supported and was ignored"],
+             ("right", "words about the model: left out, and said")),
+            ([], 0, ["1 primitive(s) of points are left out", "the scene has no triangles to draw"],
+             ("nothing to draw", "1 primitive(s) of points are left out")),
+            ([], 137, [], ("crashed", "exit code 137")),
+            ([], 1, ["a", "no memory"], ("crashed", "exit code 1; no memory")),
+            ([], -11, ["a"], ("crashed", "signal SIGSEGV; a")),
+            ([], None, [], ("crashed", "took more than 900 s")),
         ]  # fmt: skip
         for extensions, code, lines, expected in cases:
             self.assertEqual(tool.status_of(extensions, code, lines), expected)
 
     def test_the_table_replaces_the_one_between_its_markers(self):
-        table = tool.table_of([("A", "right", ""), ("B", "refused", "a | b")])
-        self.assertEqual(table.splitlines()[2:], ["| A | right |  |", "| B | refused | a \\| b |"])
+        figures = tool.Figures(0.12345, 0.876, True, False)
+        table = tool.table_of([tool.Row("A", "right", "", figures), tool.Row("B", "refused", "a | b", None)])
+        self.assertEqual(
+            table.splitlines()[2:],
+            ["| A | right | 0.12 | 88 % | cut | its own |  |", "| B | refused |  |  |  |  | a \\| b |"],
+        )
         old = f"# Title\n{tool.BEGIN}\nold\n{tool.END}\nrest\n"
         new = tool.with_table(old, table)
         self.assertEqual(new, f"# Title\n{tool.BEGIN}\n{table}{tool.END}\nrest\n")
@@ -154,10 +181,56 @@ class KhronosModels(unittest.TestCase):
                 return 1.0 if 2 <= x < 5 and y in (1, 7) else 0.0
             return {"R": 0.1, "G": 0.2, "B": 0.4}[channel] if 2 <= x < 5 and y in (1, 7) else 100.0
 
-        mean, share = tool.read_exr(exr(20, 10, value, 3)).measure()
-        self.assertAlmostEqual(mean, 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4, 6)
-        self.assertEqual(share, 0.7)
-        self.assertEqual(tool.read_exr(exr(2, 2, lambda *_: 0.0, 3)).measure(), (0.0, 0.0))
+        picture = tool.read_exr(exr(20, 10, value, 3))
+        self.assertAlmostEqual(picture.luminance(), 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4, 6)
+        self.assertEqual(picture.box(), (2, 1, 4, 7))
+        nothing = tool.read_exr(exr(2, 2, lambda *_: 0.0, 3))
+        self.assertEqual((nothing.luminance(), nothing.box()), (0.0, None))
+
+    def covering(self, left, top, right, bottom, value=0.5):
+        """A picture of 20 x 10 in which these pixels are covered."""
+        def of(channel, x, y):
+            inside = left <= x <= right and top <= y <= bottom
+            return float(inside) if channel == "A" else value
+
+        return tool.read_exr(exr(20, 10, of, 3))
+
+    def test_figures_are_those_of_all_moments(self):
+        first, second = self.covering(8, 4, 9, 5, 0.25), self.covering(3, 4, 3, 5, 0.75)
+        figures = tool.figures_of([first, second], True)
+        self.assertAlmostEqual(figures.luminance, 0.25, 6)
+        self.assertEqual(figures[1:], (7 / 20, False, True))
+        self.assertEqual(tool.figures_of([self.covering(3, 2, 3, 8)], True).span, 0.7, "of the height")
+        for box in ((0, 4, 5, 5), (8, 0, 9, 5), (8, 4, 19, 5), (8, 4, 9, 9)):
+            self.assertTrue(tool.figures_of([first, self.covering(*box)], True).is_cut, box)
+        self.assertEqual(tool.figures_of([self.covering(1, 1, 0, 0)], True), (0.0, 0.0, False, True))
+
+    def test_faults_are_told_of_what_the_supplied_camera_frames(self):
+        def faults(luminance, span, is_cut, is_framed=True, status="right"):
+            return tool.faults_of(tool.Row("A", status, "", tool.Figures(luminance, span, is_cut, is_framed)))
+
+        self.assertEqual(faults(0.02, 0.55, False), [])
+        self.assertEqual(faults(0.0199, 0.55, False), ["black"])
+        self.assertEqual(faults(float("nan"), 0.55, False), ["black"])
+        self.assertEqual(faults(0.02, 0.549, False), ["framed under 55 %"])
+        self.assertEqual(faults(0.02, 1.0, True), ["cut off"])
+        self.assertEqual(faults(0.01, 0.5, True, is_framed=False), ["black"])
+        self.assertEqual(faults(0.0, 0.0, False), ["black"], "it covers nothing")
+        self.assertEqual(faults(0.0, 0.0, False, status="nothing to draw"), [])
+        self.assertEqual(tool.faults_of(tool.Row("A", "crashed", "", None)), ["crashed"])
+        self.assertEqual(tool.faults_of(tool.Row("A", "refused", "", None)), [])
+
+    def test_the_totals_are_one_line(self):
+        rows = [
+            tool.Row("A", "right", "", tool.Figures(0.5, 0.9, False, True)),
+            tool.Row("B", "approximate", "", tool.Figures(0.01, 0.3, True, True)),
+            tool.Row("C", "crashed", "", None),
+        ]
+        self.assertEqual(
+            tool.totals_of(rows),
+            "3 models: 1 right, 1 approximate, 0 refused, 0 nothing to draw; "
+            "1 crashed, 1 black, 1 framed under 55 %, 1 cut off",
+        )
 
     def test_the_sheet_shows_pictures_above_their_names(self):
         red, blue = b"\xff\0\0" * 40 * 8, b"\0\0\xff" * 40 * 8
@@ -179,44 +252,96 @@ class KhronosModels(unittest.TestCase):
             code = tool.main([str(self.folder / "models"), str(self.folder / "out"), "--size", "8x4", *options])
         return code, failed.getvalue()
 
-    def test_each_model_is_drawn_once_and_black_ones_are_told(self):
-        self.model("Box.gltf", ["KHR_materials_volume"])
-        self.model("Old.gltf")
-        (self.folder / "lit.exr").write_bytes(exr(8, 4, lambda channel, x, y: 0.5 if channel != "A" else 1.0, 3))
-        (self.folder / "black.exr").write_bytes(exr(8, 4, lambda channel, x, y: 0.0 if channel != "A" else 1.0, 3))
+    def picture(self, name, value, left=0):
+        """A picture of 8 x 4, covered from column `left` but for the edges; all over if that is 0."""
+        def of(channel, x, y):
+            return value if channel != "A" else float(left == 0 or (left <= x < 7 and 1 <= y < 3))
+
+        (self.folder / f"{name}.exr").write_bytes(exr(8, 4, of, 3))
+
+    def program(self):
+        """A stand-in for the program: Old is refused, Ill crashes, all others are what the file "shown" names."""
         program = self.folder / "tessera"
         program.write_text(f"""#!{shutil.which("sh")}
 echo "$*" >> {self.folder}/log
 case "$2" in
     *Old.gltf) echo "tessera: error: $2: is glTF 1.0" >&2; exit 2 ;;
-    *) echo "tessera: warning: Box: something is left out" >&2; cp "{self.folder}/$(cat {self.folder}/shown).exr" "$4" ;;
+    *Ill.gltf) kill -s SEGV $$ ;;
+    *) cat {self.folder}/said >&2; cp "{self.folder}/$(cat {self.folder}/shown).exr" "$4" ;;
 esac
 """)
         program.chmod(0o755)
+        return ["--program", str(program)]
+
+    def show(self, picture, *said):
+        (self.folder / "shown").write_text(picture)
+        (self.folder / "said").write_text("".join(f"tessera: warning: {line}\n" for line in said))
+
+    def rows(self):
+        with open(self.folder / "out/models.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_each_model_is_drawn_once_and_told_of(self):
+        self.model("Box.gltf", ["KHR_materials_volume"])
+        self.model("Old.gltf")
+        self.picture("lit", 0.5)
+        program = self.program()
+        self.show("lit", "Box: something is left out")
         document = self.folder / "document.md"
         document.write_text(f"{tool.BEGIN}\n{tool.END}\n")
-        (self.folder / "shown").write_text("lit")
-        code, failed = self.run_tool("--program", str(program), "--document", str(document))
+        code, failed = self.run_tool(*program, "--document", str(document))
         self.assertEqual((code, failed), (0, ""))
         log = (self.folder / "log").read_text().splitlines()
         self.assertEqual(len(log), 2)
         self.assertRegex(log[0], r"^render .*/Box\.gltf -o .*/model\.exr --size 8x4$")
         table = (self.folder / "out/table.md").read_text()
-        self.assertIn("| Box | approximate | bodies bend", table)
+        self.assertIn("| Box | approximate | 0.5 | 100 % | cut | its own | bodies bend", table)
         self.assertIn("; something is left out |", table)
-        self.assertIn("| Old | refused | is glTF 1.0 |", table)
-        self.assertIn(table, document.read_text())
-        with open(self.folder / "out/models.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual((rows[0]["mean luminance"], rows[0]["span"]), ("0.5000", "1.000"))
-        self.assertEqual(rows[0]["warnings"], "something is left out")
+        self.assertIn("| Old | refused |  |  |  |  | is glTF 1.0 |", table)
+        self.assertIn(f"{table}\n2 models: 0 right, 1 approximate, 1 refused, ", document.read_text())
+        rows = self.rows()
+        self.assertEqual((rows[0]["mean luminance"], rows[0]["span"], rows[0]["cut"]), ("0.5000", "1.000", "1"))
+        self.assertEqual((rows[0]["camera"], rows[0]["warnings"]), ("its own", "something is left out"))
         self.assertEqual(rows[1]["mean luminance"], "")
         self.assertEqual(pixels_of((self.folder / "out/sheet.png").read_bytes())[:2], (16, 4 + tool.LINE))
         self.assertFalse((self.folder / "out/model.exr").exists())
-        (self.folder / "shown").write_text("black")
-        code, failed = self.run_tool("--program", str(program))
-        self.assertEqual(code, 1)
-        self.assertIn("Box: its mean luminance is 0.0000", failed)
+
+    def test_models_that_are_black_framed_badly_or_crash_fail(self):
+        self.model("Box.gltf")
+        program = self.program()
+        self.picture("lit", 0.5, 1)
+        self.picture("black", 0.01, 1)
+        self.picture("small", 0.5, 4)
+        self.picture("large", 0.5)
+        camera = "the scene has no camera: looking at its whole through the camera 'default'"
+        cases = [
+            ("lit", "", [camera]),
+            ("black", "Box: black: luminance 0.0100, spans 0.750\n", [camera]),
+            ("small", "Box: framed under 55 %: luminance 0.5000, spans 0.500\n", [camera]),
+            ("small", "", []),
+            ("large", "Box: cut off: luminance 0.5000, spans 1.000\n", [camera]),
+            ("large", "", []),
+        ]
+        for picture, told, said in cases:
+            self.show(picture, *said)
+            self.assertEqual(self.run_tool(*program), (1 if told else 0, told), picture)
+        self.model("Ill.gltf")
+        self.show("lit", camera)
+        code, failed = self.run_tool(*program)
+        self.assertEqual((code, failed), (1, "Ill: crashed: signal SIGSEGV\n"))
+        self.assertEqual([row["status"] for row in self.rows()], ["right", "crashed"])
+
+    def test_what_moves_is_drawn_at_five_moments(self):
+        path = self.model("Box.gltf")
+        samplers = [{"input": 0}]
+        path.write_text(json.dumps({"accessors": [{"max": [2]}], "animations": [{"samplers": samplers}]}))
+        self.picture("lit", 0.5, 1)
+        program = self.program()
+        self.show("lit")
+        self.assertEqual(self.run_tool(*program), (0, ""))
+        log = (self.folder / "log").read_text().splitlines()
+        ends = ["--size 8x4", "--time 0.5", "--time 1", "--time 1.5", "--time 2"]
+        self.assertEqual([line.endswith(end) for line, end in zip(log, ends, strict=True)], 5 * [True])
 
 
 if __name__ == "__main__":
