@@ -91,20 +91,19 @@ private:
     const std::string& place_;
 };
 
-/// Faces, and attributes that have a corner table of their own, as the head of a stream's triangles claims. Nothing
-/// where it is cut short. Source: Draco bitstream specification 2.2, "Connectivity".
+/// Faces, and attributes that have a corner table of their own, as the head of a stream's triangles claims, which of
+/// Edgebreaker begins behind the kind of traversal. Nothing where it is cut short. Source: Draco bitstream
+/// specification 2.2, "Connectivity".
 std::optional<std::pair<std::uint32_t, std::uint8_t>> claimedTriangles(const draco::DecoderBuffer& stream,
                                                                        bool isEdgebreaker) {
     draco::DecoderBuffer head; // reads on its own
     head.Init(stream.data_head(), static_cast<std::size_t>(stream.remaining_size()), stream.bitstream_version());
-    std::uint8_t traversal = 0, seamTables = 0;
+    std::uint8_t seamTables = 0;
     std::uint32_t vertices = 0, faces = 0;
-    if (!isEdgebreaker) {
-        if (!draco::DecodeVarint(&faces, &head)) return std::nullopt;
-    } else if (!head.Decode(&traversal) || !draco::DecodeVarint(&vertices, &head) ||
-               !draco::DecodeVarint(&faces, &head) || !head.Decode(&seamTables)) {
-        return std::nullopt;
-    }
+    const bool isWhole = isEdgebreaker ? draco::DecodeVarint(&vertices, &head) && draco::DecodeVarint(&faces, &head) &&
+                                             head.Decode(&seamTables)
+                                       : draco::DecodeVarint(&faces, &head);
+    if (!isWhole) return std::nullopt;
     return std::pair(faces, seamTables);
 }
 

@@ -1,13 +1,16 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "GltfBuilder.h"
 
 namespace tessera::scenes::gltf::test {
 
-/// What the stream of dracoTriangle() says of itself. From 2^16 to 2^21 vertices are not written.
+/// What the stream of dracoTriangle() says of itself.
 struct DracoClaims {
-    std::uint32_t faces = 1, vertices = 3;
+    std::uint32_t faces = 1;        ///< the first 2^15 are written
+    std::uint32_t vertices = 3;     ///< at most 2^16 - 1; three are written
+    std::uint8_t components = 3;    ///< of the positions
     std::uint8_t componentType = 9; ///< DT_FLOAT32
 };
 
@@ -23,13 +26,14 @@ inline Bytes dracoTriangle(DracoClaims claims = {}) {
     addVarint(claims.faces);
     addVarint(claims.vertices);
     bytes.push_back(1); // indices that are not compressed, as wide as the vertices need
-    const std::size_t width = claims.vertices < 1u << 8 ? 1 : claims.vertices < 1u << 16 ? 2 : 4;
-    for (const std::uint8_t index : {0, 1, 2}) {
-        bytes.push_back(index);
-        bytes.insert(bytes.end(), width - 1, 0);
-    }
-    // One decoder of one attribute: POSITION, component type, 3 components, not normalized, identifier 0, raw values.
-    bytes.insert(bytes.end(), {1, 1, 0, claims.componentType, 3, 0, 0, 0});
+    const std::size_t width = claims.vertices < 256 ? 1 : 2;
+    for (std::uint32_t face = 0; face < std::min(claims.faces, 1u << 15); ++face)
+        for (const std::uint8_t index : {0, 1, 2}) {
+            bytes.push_back(index);
+            bytes.insert(bytes.end(), width - 1, 0);
+        }
+    // One decoder of one attribute: POSITION, type and number of components, not normalized, identifier 0, raw values.
+    bytes.insert(bytes.end(), {1, 1, 0, claims.componentType, claims.components, 0, 0, 0});
     for (const float value : {0.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 0.0f, 2.0f, 0.0f})
         for (const std::byte byte : bytesOf(std::vector<float>{value}))
             bytes.push_back(std::to_integer<std::uint8_t>(byte));
