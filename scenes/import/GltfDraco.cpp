@@ -221,7 +221,7 @@ std::vector<std::uint32_t> cornersOf(const draco::Mesh& mesh) {
     std::vector<std::uint32_t> corners;
     corners.reserve(3 * std::size_t{mesh.num_faces()});
     for (std::uint32_t face = 0; face < mesh.num_faces(); ++face)
-        for (const draco::PointIndex point : mesh.face(draco::FaceIndex(face))) {
+        for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(face))) {
             if (point.value() >= mesh.num_points())
                 throw InputError(
                     fmt::format("{}: a triangle names vertex {} of {}", kBroken, point.value(), mesh.num_points()));
