@@ -136,11 +136,9 @@ void placeCamera(const FrameOptions& options, scenes::Scene& scene) {
     engine::ViewRequest request;
     if (name) engine::settingOf("camera").read(request, *name, {{}, &scene});
     scenes::Camera& camera = scene.cameras[std::size_t(request.settings.camera)];
-    const glm::dmat4 before = camera.worldFromCamera;
+    const scenes::Camera before = camera;
     camera = scenes::changedCamera(camera, options.pose);
-    if (camera.worldFromCamera != before)
-        std::erase_if(scene.rig.cameras,
-                      [&](const scenes::Carried& carried) { return carried.element == request.settings.camera; });
+    scenes::ownCamera(scene, std::size_t(request.settings.camera), before);
 }
 
 Request resolveWithoutScene(const FrameOptions& options) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/Pose.h"
 
 namespace tessera::scenes {
 namespace {
@@ -26,12 +27,16 @@ public:
         }
         for (std::size_t i = 0; i < rig_.numbers.size(); ++i) {
             begin("resting number", i, {});
-            const AnimatedOwner owner = infoOf(rig_.numbers[i].property).owner;
-            require(owner == AnimatedOwner::Light || owner == AnimatedOwner::Material, "is no light's or material's");
-            if (rig_.numbers[i].element == kNone) continue;
-            requireIndex(rig_.numbers[i].element,
-                         owner == AnimatedOwner::Light ? scene_.lights.size() : scene_.materials.size(),
-                         owner == AnimatedOwner::Light ? "light" : "material");
+            const auto& [property, element, number, slot] = rig_.numbers[i];
+            const AnimatedPropertyInfo& info = infoOf(property);
+            require(ownsNumbers(info.owner) && info.member.index() != 0, "is no number of a light, material or camera");
+            require((info.owner == AnimatedOwner::Texture) == (slot < TextureSlot::Count),
+                    "names a texture, and is none's, or the other way round");
+            if (element == kNone) continue;
+            requireIndex(element, elementCount(scene_, info.owner),
+                         info.owner == AnimatedOwner::Light    ? "light"
+                         : info.owner == AnimatedOwner::Camera ? "camera"
+                                                               : "material");
         }
         for (std::size_t i = 0; i < rig_.clips.size(); ++i) checkClip(i);
         for (std::size_t i = 0; i < rig_.skins.size(); ++i) checkSkin(i);
@@ -92,6 +97,10 @@ private:
         for (const AnimationChannel& channel : clip.channels) {
             const AnimatedPropertyInfo& info = infoOf(channel.property);
             requireIndex(channel.sampler, clip.samplers.size(), "sampler");
+            if (channel.factor != kNone) {
+                requireIndex(channel.factor, clip.samplers.size(), "sampler");
+                require(clip.samplers[std::size_t(channel.factor)].width == 1, "a factor needs 1 number");
+            }
             auto width = std::size_t(info.width);
             if (info.owner == AnimatedOwner::Node) {
                 requireIndex(channel.target, rig_.nodes.size(), "resting node");

@@ -149,8 +149,8 @@ public:
         addAll(interpolation, width, timesSeconds, values);
     }
     void add(const AnimationChannel& channel) {
-        const auto& [property, target, sampler] = channel;
-        addAll(property, target, sampler);
+        const auto& [property, target, sampler, factor] = channel;
+        addAll(property, target, sampler, factor);
     }
     void add(const Clip& clip) {
         const auto& [name, samplers, channels] = clip;
@@ -165,8 +165,8 @@ public:
         addAll(node, weights);
     }
     void add(const RestNumber& rest) {
-        const auto& [property, element, number] = rest;
-        addAll(property, element, number);
+        const auto& [property, element, number, slot] = rest;
+        addAll(property, element, number, slot);
     }
     void add(const Skin& skin) {
         const auto& [name, joints, jointFromBind] = skin;

@@ -4,7 +4,7 @@
 
 #include "scenes/Scene.h"
 
-/// How many lights a scene may have and how far lengths may go.
+/// How many lights a scene may have and how far lengths may go (kFarthestMetres of scenes/Camera.h).
 namespace tessera::scenes {
 
 /// The most lights that a scene can have. Software rasterisers end loops early, and shaders cannot visit more
@@ -18,10 +18,6 @@ void requireDrawableLights(const std::string& source, std::size_t lights);
 inline constexpr int kMostSubsurfaces = 255;
 
 inline constexpr std::size_t kMostNameBytes = 4096; ///< of a scene or anything in it; messages and tables show names
-
-// Beyond these, squares of distances or depths leave fp32, and techniques would disagree.
-inline constexpr double kNearestPlaneMetres = 1e-9; ///< near plane of a perspective camera, at least
-inline constexpr double kFarthestMetres = 1e15;     ///< any coordinate in the world, near plane or half height, at most
 
 /// Whether a place in the world lies within the limits.
 inline bool isNearEnough(const glm::dvec3& positionWS) {

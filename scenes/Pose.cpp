@@ -137,31 +137,62 @@ void deformAll(Scene& scene, const Pose& pose) {
     }
 }
 
+/// Writes numbers into a member of `owner` if it has that member, each component by way of `bounded`.
 template <typename Owner>
-void setNumber(Owner& owner, const AnimatedMember& member, const glm::dvec4& number) {
-    // Splines go past their keys; a member that has bounds stays within them, and none is negative.
-    const auto within = [&](const auto& fields, auto memberOfOwner, double value) {
-        const auto field = fieldOf(fields, memberOfOwner);
-        if (field.what != nullptr) return float(std::clamp(value, field.least, field.most));
-        return std::isinf(value) ? kInfinity : float(std::clamp(value, 0.0, kAnyNumber)); // a range may be infinite
-    };
+void setMember(Owner& owner, const AnimatedMember& member, const glm::dvec4& number, const auto& bounded) {
     std::visit(
         [&](auto memberOfAny) {
             if constexpr (requires { owner.*memberOfAny; }) {
-                const auto bounded = [&](double value) {
-                    if constexpr (std::is_same_v<Owner, Light>)
-                        return within(kLightFields, memberOfAny, value);
-                    else
-                        return within(kMaterialFields, memberOfAny, value);
-                };
                 auto& value = owner.*memberOfAny;
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
-                    value = bounded(number.x);
+                using Value = std::decay_t<decltype(value)>;
+                if constexpr (std::is_floating_point_v<Value>)
+                    value = Value(bounded(memberOfAny, number.x));
                 else
-                    for (glm::length_t i = 0; i < value.length(); ++i) value[i] = bounded(number[i]);
+                    for (glm::length_t i = 0; i < value.length(); ++i)
+                        value[i] = float(bounded(memberOfAny, number[i]));
             }
         },
         member);
+}
+
+/// What a clip says. Splines go past their keys; a member that has bounds stays within them, and no other number of a
+/// light or material is negative.
+template <typename Owner>
+void setPosed(Owner& owner, const AnimatedPropertyInfo& info, const glm::dvec4& number) {
+    setMember(owner, info.member, number, [&](auto member, double value) {
+        double least = info.least, most = info.most;
+        const auto narrow = [&](const auto& field) {
+            least = std::max(least, field.what != nullptr ? field.least : 0.0);
+            if (field.what != nullptr) most = std::min(most, field.most);
+        };
+        if constexpr (std::is_same_v<Owner, Light>) narrow(fieldOf(kLightFields, member));
+        if constexpr (std::is_same_v<Owner, Material>) narrow(fieldOf(kMaterialFields, member));
+        value = std::clamp(value, least, most);
+        return std::isinf(value) ? value : std::clamp(value, -kAnyNumber, kAnyNumber); // a range may be infinite
+    });
+}
+
+/// What it is by itself, which keeps to its bounds.
+void setRest(auto& owner, const RestNumber& rest) {
+    setMember(owner, infoOf(rest.property).member, rest.number, [](auto, double value) { return value; });
+}
+
+/// Calls `use` with the part of a scene that a number at rest, of an element that is there, belongs to.
+void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
+    const auto element = std::size_t(rest.element);
+    switch (infoOf(rest.property).owner) {
+    case AnimatedOwner::Light:
+        return use(scene.lights[element]);
+    case AnimatedOwner::Material:
+        return use(scene.materials[element]);
+    case AnimatedOwner::Texture:
+        return use(scene.materials[element].texture(rest.slot).transform);
+    case AnimatedOwner::Camera:
+        return use(scene.cameras[element]);
+    case AnimatedOwner::Node:
+    case AnimatedOwner::Weights:
+        return; // have lists of their own
+    }
 }
 
 /// Lets no inner cone be wider than its outer one. What the pose says of the outer one counts where it says both.
@@ -178,13 +209,24 @@ void nestCones(Scene& scene, const Pose& pose) {
         }
 }
 
-glm::vec4 numberOf(const auto& owner, const AnimatedMember& member) {
-    glm::vec4 number(0.0f);
+/// Lets every far plane lie beyond the near one.
+void partPlanes(Scene& scene, const Pose& pose) {
+    for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
+        const RestNumber& rest = scene.rig.numbers[i];
+        if (infoOf(rest.property).owner != AnimatedOwner::Camera || rest.element == kNone || !pose.numbers[i]) continue;
+        Camera& camera = scene.cameras[std::size_t(rest.element)];
+        constexpr double kLeastRatio = 1.0 + 1e-6;
+        camera.farMetres = std::max(camera.farMetres, kLeastRatio * camera.nearMetres);
+    }
+}
+
+glm::dvec4 numberOf(const auto& owner, const AnimatedMember& member) {
+    glm::dvec4 number(0.0);
     std::visit(
         [&](auto memberOfAny) {
             if constexpr (requires { owner.*memberOfAny; }) {
                 const auto& value = owner.*memberOfAny;
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, float>)
+                if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
                     number.x = value;
                 else
                     for (glm::length_t i = 0; i < value.length(); ++i) number[i] = value[i];
@@ -194,17 +236,21 @@ glm::vec4 numberOf(const auto& owner, const AnimatedMember& member) {
     return number;
 }
 
-/// Calls `use` for each number at rest that a clip which plays changes, where its light or material is still there.
+/// Calls `use` for each number at rest that a clip which plays changes, where what has it is still there.
 void forEachPlayed(const Rig& rig, const auto& use) {
     std::vector<bool> isPlayed(rig.numbers.size());
     for (const int playing : rig.playing)
-        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels) {
-            const AnimatedOwner owner = infoOf(channel.property).owner;
-            if (owner == AnimatedOwner::Light || owner == AnimatedOwner::Material)
-                isPlayed[std::size_t(channel.target)] = true;
-        }
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels)
+            if (ownsNumbers(infoOf(channel.property).owner)) isPlayed[std::size_t(channel.target)] = true;
     for (std::size_t i = 0; i < isPlayed.size(); ++i)
         if (isPlayed[i] && rig.numbers[i].element != kNone) use(rig.numbers[i]);
+}
+
+/// Lets cameras stay as they are.
+void leaveCameras(Rig& rig) {
+    rig.cameras.clear();
+    for (RestNumber& rest : rig.numbers)
+        if (infoOf(rest.property).owner == AnimatedOwner::Camera) rest.element = kNone;
 }
 
 } // namespace
@@ -250,6 +296,11 @@ Pose poseAt(const Rig& rig, double timeSeconds) {
             const AnimationSampler& sampler = clip.samplers[std::size_t(channel.sampler)];
             value.resize(std::size_t(sampler.width));
             valueAt(sampler, channel.property == AnimatedProperty::Rotation, timeSeconds, value);
+            if (channel.factor != kNone) {
+                double factor = 1.0;
+                valueAt(clip.samplers[std::size_t(channel.factor)], false, timeSeconds, std::span(&factor, 1));
+                for (double& one : value) one *= factor;
+            }
             const auto target = std::size_t(channel.target);
             switch (channel.property) {
             case AnimatedProperty::Translation:
@@ -283,13 +334,10 @@ void applyPose(Scene& scene, const Pose& pose) {
         const RestNumber& rest = rig.numbers[i];
         const std::optional<glm::dvec4>& number = pose.numbers[i];
         if (rest.element == kNone || !number) continue;
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        if (info.owner == AnimatedOwner::Light)
-            setNumber(scene.lights[std::size_t(rest.element)], info.member, *number);
-        else
-            setNumber(scene.materials[std::size_t(rest.element)], info.member, *number);
+        useOwner(scene, rest, [&](auto& owner) { setPosed(owner, infoOf(rest.property), *number); });
     }
     nestCones(scene, pose);
+    partPlanes(scene, pose);
     deformAll(scene, pose);
     if (!rig.lights.empty() || !rig.cameras.empty()) {
         const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
@@ -307,19 +355,19 @@ void applyPose(Scene& scene, const Pose& pose) {
 void takeRest(Scene& scene) {
     for (RestNumber& rest : scene.rig.numbers) {
         if (rest.element == kNone) continue;
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        const auto element = std::size_t(rest.element);
-        rest.number = info.owner == AnimatedOwner::Light ? numberOf(scene.lights[element], info.member)
-                                                         : numberOf(scene.materials[element], info.member);
+        useOwner(scene, rest, [&](auto& owner) { rest.number = numberOf(owner, infoOf(rest.property).member); });
     }
 }
 
 std::vector<Material> restingMaterials(const Scene& scene) {
     std::vector<Material> materials = scene.materials;
     forEachPlayed(scene.rig, [&](const RestNumber& rest) {
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        if (info.owner == AnimatedOwner::Material)
-            setNumber(materials[std::size_t(rest.element)], info.member, rest.number);
+        if (!isOfMaterial(infoOf(rest.property).owner)) return;
+        Material& material = materials[std::size_t(rest.element)];
+        if (rest.slot == TextureSlot::Count)
+            setRest(material, rest);
+        else
+            setRest(material.texture(rest.slot).transform, rest);
     });
     return materials;
 }
@@ -338,12 +386,8 @@ void poseScene(Scene& scene, double timeSeconds) {
 
 void playClip(Scene& scene, const std::string& nameOrNumber) {
     Rig& rig = scene.rig;
-    scene.materials = restingMaterials(scene);
-    forEachPlayed(rig, [&](const RestNumber& rest) {
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        if (info.owner == AnimatedOwner::Light)
-            setNumber(scene.lights[std::size_t(rest.element)], info.member, rest.number);
-    });
+    forEachPlayed(rig,
+                  [&](const RestNumber& rest) { useOwner(scene, rest, [&](auto& owner) { setRest(owner, rest); }); });
     rig.playing.clear();
     for (std::size_t i = 0; i < rig.clips.size(); ++i)
         if (rig.clips[i].name == nameOrNumber) rig.playing.push_back(int(i));
@@ -423,9 +467,8 @@ LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t ta
 
 void restLights(Scene& scene) {
     for (const RestNumber& rest : scene.rig.numbers) {
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        if (info.owner == AnimatedOwner::Light && rest.element != kNone)
-            setNumber(scene.lights[std::size_t(rest.element)], info.member, rest.number);
+        if (infoOf(rest.property).owner == AnimatedOwner::Light && rest.element != kNone)
+            setRest(scene.lights[std::size_t(rest.element)], rest);
     }
 }
 
@@ -452,12 +495,29 @@ void keepLights(Scene& scene, std::size_t count) {
 
 void leaveLightsAndCameras(Scene& scene) {
     setLightLinks(scene.rig, linksAfterReplacing(scene.rig, 0, scene.lights.size(), 0));
-    scene.rig.cameras.clear();
+    leaveCameras(scene.rig);
 }
 
 void dropCameras(Scene& scene) {
     scene.cameras.clear();
-    scene.rig.cameras.clear();
+    leaveCameras(scene.rig);
+}
+
+void ownCamera(Scene& scene, std::size_t camera, const Camera& before) {
+    Rig& rig = scene.rig;
+    const Camera& now = scene.cameras[camera];
+    if (now.worldFromCamera != before.worldFromCamera)
+        std::erase_if(rig.cameras, [&](const Carried& carried) { return std::size_t(carried.element) == camera; });
+    for (RestNumber& rest : rig.numbers) {
+        const AnimatedPropertyInfo& info = infoOf(rest.property);
+        const bool isOfIt = info.owner == AnimatedOwner::Camera && rest.element == int(camera);
+        if (isOfIt && numberOf(now, info.member) != numberOf(before, info.member)) rest.element = kNone;
+    }
+}
+
+std::size_t elementCount(const Scene& scene, AnimatedOwner owner) {
+    if (owner == AnimatedOwner::Light) return scene.lights.size();
+    return owner == AnimatedOwner::Camera ? scene.cameras.size() : scene.materials.size();
 }
 
 } // namespace tessera::scenes

@@ -27,11 +27,11 @@ void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSecond
 Pose poseAt(const Rig& rig, double timeSeconds);
 
 /// Writes a pose of the scene's rig into the scene: transforms of nodes, deformed meshes, lights and cameras that nodes
-/// carry, and numbers of lights and materials that a clip which plays changes. It depends on the pose alone, not on
+/// carry, and numbers that a clip which plays changes. It depends on the pose alone, not on
 /// earlier ones. Throws InputError where something then lies too far away or nowhere.
 void applyPose(Scene& scene, const Pose& pose);
 
-/// Takes the numbers of lights and materials as they are now for those at rest. To be called before a clip is posed: a
+/// Takes the numbers that clips may change as they are now for those at rest. To be called before a clip is posed: a
 /// scene file may say other numbers than the model that its clips come from.
 void takeRest(Scene& scene);
 
@@ -59,6 +59,10 @@ std::string clipText(const Scene& scene);
 void keepLights(Scene& scene, std::size_t count);
 /// Takes away all cameras, and what the rig knows of them.
 void dropCameras(Scene& scene);
+/// Lets clips leave alone what of a camera is not as it was `before`: its place, or a number.
+void ownCamera(Scene& scene, std::size_t camera, const Camera& before);
+/// How many of those there are in a scene that RestNumber::element counts in.
+std::size_t elementCount(const Scene& scene, AnimatedOwner owner);
 
 /// Which lights clips change and nodes carry.
 struct LightLinks {

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/Animation.h"
+#include "scenes/Camera.h"
 #include "scenes/Environment.h"
 #include "scenes/Hook.h"
 #include "scenes/Image.h"
@@ -71,20 +72,7 @@ bool hasKeys(const Light& light, LightKeyed of);
 /// flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);
 
-// ---- Cameras, options, scene ---------------------------------------------------------------------------------------
-
-enum class Projection : std::uint8_t { Perspective, Orthographic };
-
-struct Camera {
-    std::string name;
-    Projection projection = Projection::Perspective;
-    glm::dmat4 worldFromCamera{1.0}; ///< rigid; the camera looks along -Z, Y up
-    double fovYRadians = 0.7853981633974483;
-    double halfHeightMetres = 1.0;                              ///< Orthographic
-    double nearMetres = 0.1;                                    ///< > 0 (Perspective), may be 0 (Orthographic)
-    double farMetres = std::numeric_limits<double>::infinity(); ///< nothing beyond is drawn
-    bool operator==(const Camera&) const = default;
-};
+// ---- Options, scene -------------------------------------------------------------------------------------------------
 
 /// The value that a scene asks for of a setting, as its file has it.
 using Wish = std::variant<bool, double, std::string, std::vector<double>>;

@@ -14,6 +14,8 @@ namespace {
 constexpr std::string_view kNodesPointer = "/nodes/";
 constexpr std::string_view kMaterialsPointer = "/materials/";
 constexpr std::string_view kLightsPointer = "/extensions/KHR_lights_punctual/lights/";
+constexpr std::string_view kCamerasPointer = "/cameras/";
+constexpr std::string_view kArrays[] = {kNodesPointer, kMaterialsPointer, kLightsPointer, kCamerasPointer};
 
 /// Cuts "/nodes/" and a number from the begin of "/nodes/3/translation", and the slash after.
 std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view array) {
@@ -30,11 +32,28 @@ std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view 
 /// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
 std::string changedBy(const model::AnimationChannel& channel) {
     if (channel.path != "pointer") return fmt::format("{}{}/{}", kNodesPointer, channel.node, channel.path);
-    for (const std::string_view array : {kNodesPointer, kMaterialsPointer, kLightsPointer}) {
+    for (const std::string_view array : kArrays) {
         std::string_view path = channel.pointer;
         if (const auto index = cutIndex(path, array)) return fmt::format("{}{}/{}", array, *index, path);
     }
     return channel.pointer;
+}
+
+/// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
+std::string kindOf(std::string_view pointer) {
+    std::string kind;
+    for (std::size_t i = 0; i < pointer.size(); ++i) {
+        const bool isDigit = pointer[i] >= '0' && pointer[i] <= '9';
+        if (!isDigit || kind.empty() || kind.back() != '/') {
+            kind += pointer[i];
+            continue;
+        }
+        const std::size_t end = std::min(pointer.find('/', i), pointer.size());
+        const std::string_view part = pointer.substr(i, end - i);
+        kind += part.find_first_not_of("0123456789") == part.npos ? std::string_view("*") : part;
+        i = end - 1;
+    }
+    return kind;
 }
 
 /// Channels that change one thing of the document, of which the last counts; the specification forbids others.
@@ -48,6 +67,23 @@ const AnimatedPropertyInfo* propertyAt(std::string_view path, auto isOwner) {
     const auto found = std::ranges::find_if(
         rows, [&](const AnimatedPropertyInfo& row) { return row.path == path && isOwner(row.owner); });
     return found == rows.end() ? nullptr : &*found;
+}
+
+const AnimatedPropertyInfo* propertyOf(AnimatedOwner owner, std::string_view path) {
+    return propertyAt(path, [&](AnimatedOwner of) { return of == owner; });
+}
+
+/// KHR_materials_pbrSpecularGlossiness has others in the place of these (Materials::convertSpecularGlossiness).
+bool isReplacedBySpecularGlossiness(AnimatedProperty property) {
+    constexpr AnimatedProperty kReplaced[] = {AnimatedProperty::BaseColor,           AnimatedProperty::Metallic,
+                                              AnimatedProperty::PerceptualRoughness, AnimatedProperty::Ior,
+                                              AnimatedProperty::SpecularFactor,      AnimatedProperty::SpecularColor};
+    return std::ranges::find(kReplaced, property) != std::end(kReplaced);
+}
+bool isOfSpecularGlossiness(TextureSlot slot) {
+    constexpr TextureSlot kOwn[] = {TextureSlot::BaseColor, TextureSlot::MetallicRoughness, TextureSlot::SpecularColor,
+                                    TextureSlot::SpecularFactor};
+    return std::ranges::find(kOwn, slot) != std::end(kOwn);
 }
 
 } // namespace
@@ -78,10 +114,10 @@ int Rigging::restNode(int index) {
     return entry->second;
 }
 
-int Rigging::restNumber(AnimatedProperty property, int element) {
+int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot) {
     std::vector<RestNumber>& numbers = context_.scene.rig.numbers;
-    const auto [entry, isNew] = numbers_.try_emplace({property, element}, static_cast<int>(numbers.size()));
-    if (isNew) numbers.push_back({property, element});
+    const auto [entry, isNew] = numbers_.try_emplace({property, element, slot}, static_cast<int>(numbers.size()));
+    if (isNew) numbers.push_back({property, element, glm::dvec4(0.0), slot});
     return entry->second;
 }
 
@@ -103,25 +139,68 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
     return animated;
 }
 
-std::optional<Rigging::Animated> Rigging::animatedNumber(AnimatedOwner owner, std::size_t index,
-                                                         std::string_view path) {
-    const AnimatedPropertyInfo* const info = propertyAt(path, [&](AnimatedOwner of) { return of == owner; });
-    if (info == nullptr) return {};
-    const model::Model& model = context_.document.model;
+std::optional<Rigging::Animated> Rigging::animatedOfLight(std::size_t index, std::string_view path) {
+    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Light, path);
+    const std::vector<model::Light>& lights = context_.document.model.lights;
+    if (info == nullptr || index >= lights.size()) return {};
     Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    if (owner == AnimatedOwner::Light) {
-        if (index >= model.lights.size()) return {};
-        if (info->property == AnimatedProperty::LightIntensity) animated.scale = model.lights[index].wattsPerUnit;
-        for (const int light : lights_[static_cast<int>(index)])
-            animated.targets.push_back(restNumber(info->property, light));
+    if (info->property == AnimatedProperty::LightIntensity) animated.scale = lights[index].wattsPerUnit;
+    for (const int light : lights_[static_cast<int>(index)])
+        animated.targets.push_back(restNumber(info->property, light));
+    return animated;
+}
+
+std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, std::string_view path) {
+    const std::vector<model::Material>& materials = context_.document.model.materials;
+    if (index >= materials.size()) return {};
+    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Material, path);
+    if (info == nullptr) return animatedOfTexture(index, path);
+    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+    const model::Material& stored = materials[index];
+    const bool isOfEmission =
+        info->property == AnimatedProperty::Emissive || info->property == AnimatedProperty::EmissiveStrength;
+    const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
+    const bool isOfUnlit =
+        info->property == AnimatedProperty::BaseColor || info->property == AnimatedProperty::AlphaCutoff;
+    // What other programs make of a material changes nothing here.
+    if (isUnlit && !isOfUnlit) return animated;
+    if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
+    animated.emissiveFactor = stored.emissiveFactor;
+    if (const std::optional<int> material = materials_.imported(static_cast<int>(index)))
+        animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, *material));
+    return animated;
+}
+
+/// None where the document has no texture there, whose transform would change nothing.
+std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, std::string_view path) {
+    const model::Material& stored = context_.document.model.materials[index];
+    for (std::size_t i = 0; i < stored.textures.size(); ++i) {
+        const auto& [place, slot] = model::kTexturePlaces[i];
+        if (!path.starts_with(place) || path.size() == place.size() || path[place.size()] != '/') continue;
+        const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Texture, path.substr(place.size() + 1));
+        if (info == nullptr || stored.textures[i].texture == kNone) return {};
+        Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+        if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // has another texture there
+        const std::optional<int> material = materials_.imported(static_cast<int>(index));
+        if (material && context_.scene.materials[static_cast<std::size_t>(*material)].texture(slot).image != kNone)
+            animated.targets.push_back(restNumber(info->property, *material, slot));
         return animated;
     }
-    if (index >= model.materials.size()) return {};
-    const model::Material& stored = model.materials[index];
-    const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
-    if (info->property == AnimatedProperty::Emissive && (isUnlit || stored.emissiveStrength != 1.0f)) return {};
-    if (const std::optional<int> material = materials_.imported(static_cast<int>(index)))
-        animated.targets.push_back(restNumber(info->property, *material));
+    return {};
+}
+
+std::optional<Rigging::Animated> Rigging::animatedOfCamera(std::size_t index, std::string_view path) {
+    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Camera, path);
+    const std::vector<model::Camera>& cameras = context_.document.model.cameras;
+    if (info == nullptr || index >= cameras.size()) return {};
+    const bool isPerspective = cameras[index].projection == Projection::Perspective;
+    if (info->path.starts_with("perspective/") != isPerspective) return {};
+    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+    const bool isUpsideDown =
+        info->property == AnimatedProperty::CameraHalfHeight && cameras[index].orthographic.ymag < 0;
+    if (isUpsideDown) animated.scale = -1.0; // its size counts, as where it is imported
+    for (const int camera : cameras_[static_cast<int>(index)])
+        animated.targets.push_back(restNumber(info->property, camera));
     return animated;
 }
 
@@ -129,9 +208,9 @@ std::optional<Rigging::Animated> Rigging::animatedByPointer(const std::string& p
     std::string_view path = pointer;
     if (const auto node = cutIndex(path, kNodesPointer))
         return *node < sceneNodes_.size() ? animatedOfNode(static_cast<int>(*node), path) : std::nullopt;
-    if (const auto light = cutIndex(path, kLightsPointer)) return animatedNumber(AnimatedOwner::Light, *light, path);
-    if (const auto material = cutIndex(path, kMaterialsPointer))
-        return animatedNumber(AnimatedOwner::Material, *material, path);
+    if (const auto light = cutIndex(path, kLightsPointer)) return animatedOfLight(*light, path);
+    if (const auto material = cutIndex(path, kMaterialsPointer)) return animatedOfMaterial(*material, path);
+    if (const auto camera = cutIndex(path, kCamerasPointer)) return animatedOfCamera(*camera, path);
     return {};
 }
 
@@ -170,6 +249,27 @@ void Rigging::warnOfMorphless() {
         why = fmt::format("its {} has no morph targets",
                           named("mesh", model.meshes[static_cast<std::size_t>(node.mesh)].name, node.mesh));
     context_.warn(fmt::format("/animations: weights of {} are animated, but {}; they are left out", which, why));
+}
+
+void Rigging::leaveOut(const std::string& pointer, std::size_t channels) {
+    constexpr std::size_t kMostNamed = 16;
+    leftOut_ += channels;
+    std::string kind = kindOf(pointer);
+    if (leftOutPaths_.contains(kind)) return;
+    if (leftOutPaths_.size() < kMostNamed)
+        leftOutPaths_.emplace(std::move(kind), pointer);
+    else
+        hasMoreLeftOut_ = true;
+}
+
+void Rigging::warnOfLeftOut() {
+    if (leftOut_ == 0) return;
+    std::vector<std::string_view> paths;
+    for (const auto& [kind, path] : leftOutPaths_) paths.push_back(path);
+    if (hasMoreLeftOut_) paths.push_back("and others");
+    context_.warn(fmt::format("/animations: {} {} that cannot be animated, and {} left out: {}", leftOut_,
+                              leftOut_ == 1 ? "channel changes something" : "channels change things",
+                              leftOut_ == 1 ? "is" : "are", fmt::join(paths, ", ")));
 }
 
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
@@ -256,17 +356,24 @@ Clip Rigging::clip(int index) {
     // What one thing of the document is in the scene may be much, such as all lights that it stands for.
     for (const auto& [i, count] : counting) {
         const model::AnimationChannel& channel = stored.channels[i];
-        const std::optional<Animated> what = animated(channel);
+        std::optional<Animated> what = animated(channel);
         if (const std::optional<int> node = morphlessNode(channel); !what && node) {
             morphless_.insert(*node);
             continue;
         }
         if (!what) {
-            if (leftOut_ == 0) leftOutPath_ = channel.pointer.empty() ? channel.path : channel.pointer;
-            leftOut_ += count;
+            leaveOut(channel.pointer.empty() ? channel.path : channel.pointer, count);
             continue;
         }
         if (what->targets.empty()) continue;
+        const bool isStrength = what->property == AnimatedProperty::EmissiveStrength;
+        if (what->property == AnimatedProperty::Emissive) {
+            std::string_view path = channel.pointer;
+            const std::size_t material = cutIndex(path, kMaterialsPointer).value_or(0);
+            const std::string strength =
+                fmt::format("{}{}/{}", kMaterialsPointer, material, infoOf(AnimatedProperty::EmissiveStrength).path);
+            if (!places.contains(strength)) what->scale = double(document.model.materials[material].emissiveStrength);
+        }
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
         const auto [entry, isNew] =
@@ -280,11 +387,18 @@ Clip Rigging::clip(int index) {
                             clip.samplers[static_cast<std::size_t>(entry->second)].width));
         // Things of the document may be one of the scene's.
         for (const int target : what->targets) {
-            const auto [same, isFirst] = channels.try_emplace({what->property, target}, clip.channels.size());
-            if (isFirst)
-                clip.channels.push_back({what->property, target, entry->second});
-            else
-                clip.channels[same->second].sampler = entry->second;
+            const AnimatedProperty changes = isStrength ? AnimatedProperty::Emissive : what->property;
+            const auto [same, isFirst] = channels.try_emplace({changes, target}, clip.channels.size());
+            if (isFirst && isStrength) { // of a factor that stays as it is, unless another channel changes it too
+                document.charge(2 * sizeof(AnimationSampler) + 4 * sizeof(float), "animations", index);
+                const glm::vec3& factor = what->emissiveFactor;
+                clip.channels.push_back({changes, target, static_cast<int>(clip.samplers.size())});
+                clip.samplers.push_back({Interpolation::Linear, 3, {0.0f}, {factor.x, factor.y, factor.z}});
+            } else if (isFirst) {
+                clip.channels.push_back({changes, target, entry->second});
+            }
+            AnimationChannel& made = clip.channels[same->second];
+            (isStrength ? made.factor : made.sampler) = entry->second;
         }
     }
     document.ledger.settle(mark, context_.buffers.heldBytes() + bytesOf(clip));

@@ -229,6 +229,7 @@ void Material::read(Object& object) {
     scenes::Material& layers = unlit ? unneededLayers : surface;
     object.optional("emissiveFactor", layers.emissive, kFromZero);
     object.optional("extensions/KHR_materials_emissive_strength/emissiveStrength", emissiveStrength, kFromZero);
+    emissiveFactor = layers.emissive;
     layers.emissive *= emissiveStrength;
     object.optional("extensions/KHR_materials_ior/ior", ior, kFromZero);
     object.optional("extensions/KHR_materials_specular/specularFactor", layers.specularFactor, kFraction);

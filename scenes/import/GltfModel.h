@@ -204,7 +204,8 @@ struct Material {
     scenes::Material surface;                                    ///< but its textures and index of refraction
     std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
     double ior = 1.5;
-    float emissiveStrength = 1.0f; ///< in surface.emissive
+    glm::vec3 emissiveFactor{0.0f};
+    float emissiveStrength = 1.0f; ///< in surface.emissive, as emissiveFactor is
     std::optional<SpecularGlossiness> specularGlossiness;
 
     void read(Object& object);

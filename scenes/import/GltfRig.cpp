@@ -145,8 +145,10 @@ void Rigging::addCarried(int index) {
         carriedLights_.push_back({static_cast<int>(context_.scene.lights.size()) - 1, sceneNode});
         lights_[node.light].push_back(carriedLights_.back().element);
     }
-    if (node.camera != kNone)
+    if (node.camera != kNone) {
         carriedCameras_.push_back({static_cast<int>(context_.scene.cameras.size()) - 1, sceneNode});
+        cameras_[node.camera].push_back(carriedCameras_.back().element);
+    }
 }
 
 /// Keeps those that a clip may move.
@@ -175,10 +177,7 @@ void Rigging::finish() {
     takeRest(context_.scene);
     if (!rig.clips.empty()) rig.playing.push_back(0);
     warnOfMorphless();
-    if (leftOut_ > 0)
-        context_.warn(fmt::format("/animations: {} {} that cannot be animated, such as {}, and {} left out", leftOut_,
-                                  leftOut_ == 1 ? "channel changes something" : "channels change things", leftOutPath_,
-                                  leftOut_ == 1 ? "is" : "are"));
+    warnOfLeftOut();
     carryAll();
 }
 

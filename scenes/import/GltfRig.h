@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,8 @@ private:
         std::vector<int> targets; ///< as AnimationChannel::target
         std::size_t width = 0;    ///< numbers of a value
         double scale = 1.0;       ///< of the document's values
+        /// Of the channel that AnimatedProperty::EmissiveStrength makes: what its values multiply.
+        glm::vec3 emissiveFactor{0.0f};
     };
 
     const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms);
@@ -57,29 +60,36 @@ private:
     std::optional<Animated> animated(const model::AnimationChannel& channel);
     std::optional<Animated> animatedByPointer(const std::string& pointer);
     std::optional<Animated> animatedOfNode(int node, std::string_view path);
-    std::optional<Animated> animatedNumber(AnimatedOwner owner, std::size_t index, std::string_view path);
+    std::optional<Animated> animatedOfLight(std::size_t index, std::string_view path);
+    std::optional<Animated> animatedOfMaterial(std::size_t index, std::string_view path);
+    std::optional<Animated> animatedOfTexture(std::size_t material, std::string_view path);
+    std::optional<Animated> animatedOfCamera(std::size_t index, std::string_view path);
     /// The node whose weights a channel changes though its mesh has no morph targets; none: another channel.
     std::optional<int> morphlessNode(const model::AnimationChannel& channel) const;
     void warnOfMorphless();
     int restNode(int node);
-    int restNumber(AnimatedProperty property, int element);
+    int restNumber(AnimatedProperty property, int element, TextureSlot slot = TextureSlot::Count);
+    /// Notes that channels of a pointer are left out.
+    void leaveOut(const std::string& pointer, std::size_t channels);
+    void warnOfLeftOut();
     AnimationSampler sampler(int animation, int index, const Animated& animated);
     void carryAll();
 
     Context& context_;
     Materials& materials_;
     std::vector<int> sceneNodes_;
-    std::vector<bool> hasAnimatedWeights_;                         ///< by node of the document
-    std::map<std::pair<int, Deforms>, std::vector<Drawn>> shapes_; ///< by mesh of the document
-    std::map<int, int> skins_;                                     ///< of the rig, by those of the document
-    std::map<int, int> weights_, nodes_;                           ///< of the rig, by nodes of the document
-    std::map<std::pair<AnimatedProperty, int>, int> numbers_;      ///< of the rig
+    std::vector<bool> hasAnimatedWeights_;                                  ///< by node of the document
+    std::map<std::pair<int, Deforms>, std::vector<Drawn>> shapes_;          ///< by mesh of the document
+    std::map<int, int> skins_;                                              ///< of the rig, by those of the document
+    std::map<int, int> weights_, nodes_;                                    ///< of the rig, by nodes of the document
+    std::map<std::tuple<AnimatedProperty, int, TextureSlot>, int> numbers_; ///< of the rig
     std::vector<Standing> standing_;
-    std::map<int, std::vector<int>> lights_; ///< of the scene, by those of the document
+    std::map<int, std::vector<int>> lights_, cameras_; ///< of the scene, by those of the document
     std::vector<Carried> carriedLights_, carriedCameras_;
-    std::size_t leftOut_ = 0; ///< channels
-    std::string leftOutPath_; ///< of the first of these
-    std::set<int> morphless_; ///< nodes of morphlessNode(), of the document
+    std::size_t leftOut_ = 0;                         ///< channels
+    std::map<std::string, std::string> leftOutPaths_; ///< the first of each kind, by its kind
+    bool hasMoreLeftOut_ = false;                     ///< kinds than are named
+    std::set<int> morphless_;                         ///< nodes of morphlessNode(), of the document
 };
 
 } // namespace tessera::scenes::gltf

@@ -230,7 +230,7 @@ void dropReplacedMaterials(Scene& scene, std::size_t ownMaterials, const std::ve
         for (MeshInstance& instance : node.instances)
             instance.material = newMaterial[static_cast<std::size_t>(instance.material)];
     for (RestNumber& rest : scene.rig.numbers)
-        if (infoOf(rest.property).owner == AnimatedOwner::Material && rest.element != kNone)
+        if (isOfMaterial(infoOf(rest.property).owner) && rest.element != kNone)
             rest.element = newMaterial[static_cast<std::size_t>(rest.element)];
 
     for (const Material& material : scene.materials)

@@ -56,11 +56,15 @@ bool OpenScene::showTime(double timeSeconds) {
 void OpenScene::playClip(const std::string& nameOrNumber) {
     const std::vector<int> before = scene_.rig.playing;
     const Lights lights = scene_.lights;
+    const std::vector<scenes::Camera> cameras = cameras_;
     try {
+        scene_.cameras = cameras_;
         scenes::playClip(scene_, nameOrNumber);
+        cameras_ = scene_.cameras; // at rest
         pose(0.0);
     } catch (...) {
         scene_.lights = lights;
+        scene_.cameras = cameras_ = cameras;
         scene_.materials = scenes::restingMaterials(scene_);
         scene_.rig.playing = before;
         pose(shownSeconds_);
@@ -89,19 +93,26 @@ void OpenScene::followClipCamera(bool follows) {
 
 void OpenScene::pose(double timeSeconds) {
     if (!scenes::hasPoses(scene_)) return;
+    scene_.cameras[std::size_t(camera_)] = sceneCamera(); // clips change the scene's own, not the user's
     scenes::poseScene(scene_, timeSeconds);
-    for (const scenes::Carried& carried : scene_.rig.cameras) {
-        const auto camera = std::size_t(carried.element);
-        cameras_[camera].worldFromCamera = scene_.cameras[camera].worldFromCamera;
-    }
+    cameras_ = scene_.cameras;
+    scene_.cameras[std::size_t(camera_)] = rig_.camera();
     placeShownCamera();
 }
 
 void OpenScene::placeShownCamera() {
     const auto isShown = [&](const scenes::Carried& carried) { return carried.element == camera_; };
-    if (std::ranges::none_of(scene_.rig.cameras, isShown)) return;
-    if (places(placed_)) return applyRig();
-    const scenes::Camera start = scenes::changedCamera(sceneCamera(), placed_);
+    const auto isOfShown = [&](const scenes::RestNumber& rest) {
+        return scenes::infoOf(rest.property).owner == scenes::AnimatedOwner::Camera && rest.element == camera_;
+    };
+    if (std::ranges::none_of(scene_.rig.cameras, isShown) && std::ranges::none_of(scene_.rig.numbers, isOfShown))
+        return;
+    scenes::Camera start = scenes::changedCamera(sceneCamera(), placed_);
+    if (places(placed_)) { // it stands still, and only its lens may change
+        start.worldFromCamera = rig_.start().worldFromCamera;
+        rig_.startAt(start, rig_.home());
+        return applyRig();
+    }
     const CameraPose home = poseOf(start, rig_.home().focusMetres);
     if (isLed()) return begin(start, home);
     rig_.startAt(start, home); // it is where it was, and the clip's camera is home

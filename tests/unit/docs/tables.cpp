@@ -105,7 +105,9 @@ TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
     const std::map<AnimatedOwner, std::string> owners{{AnimatedOwner::Node, "a node"},
                                                       {AnimatedOwner::Weights, "a node's mesh"},
                                                       {AnimatedOwner::Light, "a light"},
-                                                      {AnimatedOwner::Material, "a material"}};
+                                                      {AnimatedOwner::Material, "a material"},
+                                                      {AnimatedOwner::Texture, "a material's texture"},
+                                                      {AnimatedOwner::Camera, "a camera"}};
     Rows rows;
     for (const scenes::AnimatedPropertyInfo& info : scenes::animatedProperties())
         rows.push_back({code(info.path), owners.at(info.owner),

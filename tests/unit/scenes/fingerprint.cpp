@@ -199,6 +199,8 @@ const std::vector<Change>& changes() {
         {"rest weights.node", [](Scene& s) { s.rig.weights[0].node = 1; }},
         {"rest weights.weights", [](Scene& s) { s.rig.weights[0].weights[0] = 1.0f; }},
         {"rest number.property", [](Scene& s) { s.rig.numbers[0].property = AnimatedProperty::LightRange; }},
+        {"channel.factor", [](Scene& s) { s.rig.clips[0].channels[0].factor = 1; }},
+        {"rest number.slot", [](Scene& s) { s.rig.numbers[0].slot = TextureSlot::Normal; }},
         {"rest number.element", [](Scene& s) { s.rig.numbers[0].element = 1; }},
         {"rest number.number", [](Scene& s) { s.rig.numbers[0].number.x = 3.0f; }},
         {"skin.name", [](Scene& s) { s.rig.skins[0].name += 'x'; }},

@@ -209,6 +209,37 @@ scenes::Scene riggedAndMoving() {
     return scene;
 }
 
+TEST(OpenScene, aClipsLensIsFollowedWhereverTheUserMovesTheCamera) {
+    scenes::Scene scene = riggedAndSeen();
+    scene.rig.numbers.push_back({scenes::AnimatedProperty::CameraFovY, 0});
+    scenes::Clip& clip = scene.rig.clips[0];
+    clip.samplers.push_back({scenes::Interpolation::Linear, 1, {0.0f, 1.0f}, {0.5f, 1.0f}});
+    clip.channels.push_back({scenes::AnimatedProperty::CameraFovY, 1, 3});
+    scenes::takeRest(scene);
+    const double restRadians = scene.cameras[0].fovYRadians;
+    OpenScene open("rigged.gltf", {}, scene, {});
+    const auto shown = [&] { return open.scene().cameras[0]; };
+    open.showTime(1.0);
+    EXPECT_EQ(shown().fovYRadians, 1.0);
+    EXPECT_EQ(shown().worldFromCamera, scene.cameras[0].worldFromCamera);
+    CameraPose pose = open.rig().pose();
+    pose.focusMetres *= 2.0;
+    open.rig().jumpTo(pose);
+    open.applyRig();
+    const glm::dmat4 moved = shown().worldFromCamera;
+    open.showTime(0.5);
+    EXPECT_EQ(shown().fovYRadians, 0.75);
+    EXPECT_EQ(shown().worldFromCamera, moved);
+    open.playClip("none");
+    EXPECT_EQ(shown().fovYRadians, restRadians) << "at rest again";
+    scenes::CameraChange wide;
+    wide.fovYDegrees = 90.0;
+    open.place(wide);
+    open.playClip("0");
+    open.showTime(0.5);
+    EXPECT_NEAR(shown().fovYRadians, 1.5707963267948966, 1e-12) << "the user's own stays";
+}
+
 TEST(OpenScene, clipsMoveLightsAsFarAsTheyAreNotEdited) {
     OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
     const auto expectLight = [&](std::size_t index, const glm::dvec3& positionWS, float intensity) {

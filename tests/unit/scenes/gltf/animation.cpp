@@ -1,6 +1,11 @@
 #include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +18,7 @@ namespace tessera::scenes::gltf::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kFloatType = 5126, kShortType = 5122, kUnsignedByteType = 5121, kUnsignedShortType = 5123;
 constexpr float kHalf = 0.70710678f;
@@ -157,14 +163,19 @@ TEST(GltfAnimation, aHundredThousandKeysOfAFileAreFollowed) {
 TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
     Builder builder = movingTriangle();
     Json& channels = builder.json["animations"][0]["channels"];
-    for (const char* pointer : {"/cameras/0/perspective/yfov", "/nodes/0/visible"})
+    for (const char* pointer :
+         {"/nodes/0/extensions/KHR_node_visibility/visible", "/cameras/0/orthographic/xmag",
+          "/nodes/1/extensions/KHR_node_visibility/visible", "/extensions/EXT_lights_image_based/lights/0/intensity"})
         channels.push_back(
             {{"sampler", 0},
              {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
     const Scene scene = builder.import();
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("/animations: 2 channels change things that cannot be animated, such as "
-                                             "/cameras/0/perspective/yfov, and are left out"));
+    EXPECT_THAT(scene.warnings[0],
+                HasSubstr("/animations: 4 channels change things that cannot be animated, and are left out: "
+                          "/cameras/0/orthographic/xmag, /extensions/EXT_lights_image_based/lights/0/intensity, "
+                          "/nodes/0/extensions/KHR_node_visibility/visible"));
+    EXPECT_THAT(scene.warnings[0], Not(HasSubstr("/nodes/1"))) << "each kind is named once";
     expectPlace(drawnAt(scene, 1.0)[0], {2.0, 0.0, 0.0});
 }
 
@@ -244,6 +255,170 @@ TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
     EXPECT_EQ(cones({}, 0.0), glm::vec2(0.125f, 0.25f)) << "at rest again";
     EXPECT_EQ(cones({2}, 1.0), glm::vec2(0.25f)) << "the inner cone stays within the outer one";
     EXPECT_EQ(cones({2}, 0.0), glm::vec2(0.0f, 0.25f));
+}
+
+/// Adds a clip of what a pointer names, from the values at 0 s to as many at 1 s.
+void addPointer(Builder& builder, const std::string& pointer, const std::vector<float>& values) {
+    constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    const int output = builder.add(values, kFloatType, kTypes[values.size() / 2 - 1], 2);
+    addClip(builder, {0, 1}, output,
+            {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}});
+}
+
+/// All clips of a scene at a time.
+void poseAll(Scene& scene, double timeSeconds) {
+    scene.rig.playing.clear();
+    for (std::size_t clip = 0; clip < scene.rig.clips.size(); ++clip) scene.rig.playing.push_back(int(clip));
+    poseScene(scene, timeSeconds);
+    EXPECT_NO_THROW(checkScene(scene));
+}
+
+TEST(GltfAnimation, pointersReachEveryNumberOfAMaterialInTheTable) {
+    Builder builder;
+    builder.material();
+    std::size_t clips = 0;
+    const auto least = [](const AnimatedPropertyInfo& info) {
+        return info.path.ends_with("ior") || info.path.ends_with("Ior") ? 1.0f : 0.0f;
+    };
+    for (const AnimatedPropertyInfo& info : animatedProperties()) {
+        if (info.owner != AnimatedOwner::Material || info.property == AnimatedProperty::EmissiveStrength) continue;
+        std::vector<float> values(std::size_t(info.width), least(info) + 0.25f);
+        values.resize(2 * values.size(), least(info) + 0.75f);
+        addPointer(builder, fmt::format("/materials/0/{}", info.path), values);
+        ++clips;
+    }
+    Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    ASSERT_EQ(scene.rig.numbers.size(), clips);
+    const Material atRest = scene.materials[0];
+    poseAll(scene, 0.5);
+    for (const AnimatedPropertyInfo& info : animatedProperties()) {
+        if (info.owner != AnimatedOwner::Material) continue;
+        const float wanted = least(info) + 0.5f;
+        std::visit(
+            [&](auto member) {
+                if constexpr (requires { scene.materials[0].*member; }) {
+                    const auto& value = scene.materials[0].*member;
+                    EXPECT_EQ(value, std::decay_t<decltype(value)>(wanted)) << info.path;
+                }
+            },
+            info.member);
+    }
+    playClip(scene, "none");
+    EXPECT_EQ(scene.materials[0], atRest);
+}
+
+TEST(GltfAnimation, emissionIsTheProductOfItsFactorAndItsStrengthAtEachTime) {
+    const std::string factor = "/materials/0/emissiveFactor",
+                      strength = "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength";
+    const auto emissionWith = [&](const std::vector<std::pair<std::string, std::vector<float>>>& channels) {
+        Builder builder;
+        builder.material() = Json::parse(R"({"emissiveFactor": [1, 0.5, 0],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
+        for (const auto& [pointer, values] : channels) addPointer(builder, pointer, values);
+        Json& animations = builder.json["animations"];
+        while (animations.size() > 1) { // into one clip
+            const Json last = animations.back();
+            animations.erase(animations.size() - 1);
+            Json channel = last["channels"][0];
+            channel["sampler"] = animations[0]["samplers"].size();
+            animations[0]["samplers"].push_back(last["samplers"][0]);
+            animations[0]["channels"].push_back(channel);
+        }
+        Scene scene = builder.import();
+        EXPECT_TRUE(scene.warnings.empty());
+        EXPECT_EQ(scene.materials[0].emissive, glm::vec3(4.0f, 2.0f, 0.0f));
+        poseAll(scene, 0.5);
+        const glm::vec3 emission = scene.materials[0].emissive;
+        playClip(scene, "none");
+        EXPECT_EQ(scene.materials[0].emissive, glm::vec3(4.0f, 2.0f, 0.0f)) << "at rest again";
+        return emission;
+    };
+    const std::vector<float> red{0, 0, 0, 1, 0, 0}, stronger{2, 4};
+    EXPECT_EQ(emissionWith({{factor, red}}), glm::vec3(2.0f, 0.0f, 0.0f));
+    EXPECT_EQ(emissionWith({{strength, stronger}}), glm::vec3(3.0f, 1.5f, 0.0f));
+    EXPECT_EQ(emissionWith({{factor, red}, {strength, stronger}}), glm::vec3(1.5f, 0.0f, 0.0f));
+    EXPECT_EQ(emissionWith({{strength, stronger}, {factor, red}}), glm::vec3(1.5f, 0.0f, 0.0f)) << "in any order";
+}
+
+TEST(GltfAnimation, whatAnUnlitMaterialDoesNotShowIsPassedOverInSilence) {
+    Builder builder;
+    builder.material() = Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})");
+    addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
+    addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {0, 0, 0, 1, 1, 1, 1, 1});
+    Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.rig.numbers.size(), 1u);
+    poseAll(scene, 0.5);
+    EXPECT_EQ(scene.materials[0].baseColor.x, 0.5f);
+}
+
+TEST(GltfAnimation, pointersMoveTurnAndScaleEachTextureOfAMaterialByItself) {
+    Builder builder;
+    builder.json["images"] = Json::array({{{"uri", "data:image/png;base64," + base64(pngRedBlue())}}});
+    builder.json["textures"] = Json::array({{{"source", 0}}});
+    builder.material() = Json::parse(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+        "normalTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0]}}}})");
+    const std::string color = "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/";
+    addPointer(builder, color + "offset", {0, 0, 1, 3});
+    addPointer(builder, color + "scale", {1, 1, 3, -2});
+    addPointer(builder, color + "rotation", {-1, 2});
+    addPointer(builder, "/materials/0/normalTexture/extensions/KHR_texture_transform/offset", {0, 0, 0, 8});
+    addPointer(builder, "/materials/0/emissiveTexture/extensions/KHR_texture_transform/offset", {0, 0, 0, 8});
+    Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("/materials/0/emissiveTexture/extensions")) << "it has no such texture";
+    const Material atRest = scene.materials[0];
+    poseAll(scene, 0.5);
+    const Material& posed = scene.materials[0];
+    EXPECT_EQ(posed.texture(TextureSlot::BaseColor).transform,
+              (TextureTransform{glm::vec2(0.5f, 1.5f), glm::vec2(2.0f, -0.5f), 0.5f}));
+    EXPECT_EQ(posed.texture(TextureSlot::Normal).transform.offset, glm::vec2(0.0f, 4.0f));
+    EXPECT_EQ(restingMaterials(scene)[0], atRest);
+    playClip(scene, "none");
+    EXPECT_EQ(scene.materials[0], atRest);
+}
+
+TEST(GltfAnimation, pointersReachTheLensesOfCameras) {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0}, {"camera": 0}, {"camera": 1}, {"camera": 1}],
+                      "scenes": [{"nodes": [0, 1, 2, 3]}],
+                      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.5}},
+                                  {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": -2, "znear": 0,
+                                                                            "zfar": 10}}]})");
+    addPointer(builder, "/cameras/0/perspective/yfov", {0.5f, 1.5f});
+    addPointer(builder, "/cameras/0/perspective/zfar", {0, 1}); // not beyond the near plane
+    addPointer(builder, "/cameras/1/orthographic/ymag", {-2, -4});
+    addPointer(builder, "/cameras/1/orthographic/znear", {0, 1});
+    addPointer(builder, "/cameras/1/orthographic/zfar", {8, 4});
+    addPointer(builder, "/cameras/1/perspective/yfov", {1, 2}); // it has none
+    Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("1 channel changes something that cannot be animated, and is left out: "
+                                             "/cameras/1/perspective/yfov"));
+    ASSERT_EQ(scene.cameras.size(), 3u);
+    const std::vector<Camera> atRest = scene.cameras;
+    poseAll(scene, 0.5);
+    EXPECT_EQ(scene.cameras[0].fovYRadians, 1.0);
+    EXPECT_GT(scene.cameras[0].farMetres, 0.5);
+    EXPECT_LT(scene.cameras[0].farMetres, 0.51);
+    for (const std::size_t camera : {1u, 2u}) {
+        EXPECT_EQ(scene.cameras[camera].halfHeightMetres, 3.0);
+        EXPECT_EQ(scene.cameras[camera].nearMetres, 0.5);
+        EXPECT_EQ(scene.cameras[camera].farMetres, 6.0);
+    }
+    playClip(scene, "none");
+    EXPECT_EQ(scene.cameras, atRest);
+    // Who says another lens than the model's owns it.
+    const Camera before = scene.cameras[0];
+    scene.cameras[0].fovYRadians = 0.25;
+    ownCamera(scene, 0, before);
+    poseAll(scene, 1.0);
+    EXPECT_EQ(scene.cameras[0].fovYRadians, 0.25);
+    EXPECT_EQ(scene.cameras[0].farMetres, 1.0);
+    leaveLightsAndCameras(scene);
+    poseAll(scene, 0.0);
+    EXPECT_EQ(scene.cameras[1].halfHeightMetres, 4.0) << "as it was";
 }
 
 TEST(GltfAnimation, lightsAndCamerasOnMovingNodesMove) {
