@@ -1,8 +1,15 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <stdexcept>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "tests/cli/program/Cli.h"
+#include "tests/support/Random.h"
 
 namespace tessera::test {
 namespace {
@@ -96,6 +103,50 @@ TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles)
     EXPECT_EQ(pictures("whole_").size(), 60u);
     EXPECT_TRUE(pictures("killed_") == pictures("whole_"));
     EXPECT_THAT(runGood(words("killed_")), MatchesRegex(summary(0, 60)));
+}
+
+TEST_F(FrameSequences, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWhole) {
+    const auto words = [](const std::string& name) { return command({"--frames", "120", "-o", name + "%04d.exr"}); };
+    runGood(words("whole_"));
+    const std::map<std::string, std::string> whole = pictures("whole_");
+    Words killed{kProgram};
+    for (const std::string& word : words("killed_")) killed.push_back(word);
+    const auto countWritten = [&] {
+        return std::ranges::count_if(fs::directory_iterator(folder_.path()), [](const fs::directory_entry& entry) {
+            const std::string name = entry.path().filename().string();
+            return name.starts_with("killed_") && name.ends_with(".exr");
+        });
+    };
+    Random random(20261127);
+    int kills = 0;
+    for (int attempt = 0; attempt < 12; ++attempt) {
+        const auto before = countWritten();
+        const std::chrono::microseconds delay(random.index(40'000));
+        SCOPED_TRACE(fmt::format("killed {} us after its first picture", delay.count()));
+        Process process(killed, {folder_.path(), {}, 60.0});
+        std::atomic<bool> hasEnded = false;
+        std::thread killer([&] {
+            while (!hasEnded && countWritten() == before) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            std::this_thread::sleep_for(delay);
+            try {
+                process.send(SIGKILL);
+            } catch (const std::runtime_error&) { // it had ended
+            }
+        });
+        const ProcessResult result = process.wait();
+        hasEnded = true;
+        killer.join();
+        for (const auto& [name, bytes] : pictures("killed_")) EXPECT_TRUE(bytes == whole.at(name)) << name;
+        if (result.exitCode) {
+            EXPECT_EQ(*result.exitCode, 0) << result.err;
+            break;
+        }
+        ++kills;
+    }
+    EXPECT_GE(kills, 2);
+    runGood(words("killed_"));
+    EXPECT_TRUE(pictures("killed_") == whole);
+    EXPECT_THAT(runGood(words("killed_")), MatchesRegex(summary(0, 120)));
 }
 
 TEST_F(FrameSequences, onlyWhatIsMissingOrOfOtherSettingsIsDrawn) {
