@@ -184,6 +184,85 @@ TEST_F(ViewerEdits, aLightAddedAndDraggedGoesWithThePointer) {
     EXPECT_LT(glm::distance(sum / count, glm::dvec2(there - kPictureCorner)), 4.0);
 }
 
+/// A row of the light that is selected, the first one below the buttons being 1, in the panel Lights. The light is a
+/// point light.
+enum PointLightRow { kMovesRow = 8, kWayRow = 9, kKeysOfIntensityRow = 11, kFirstPointRow = 10, kClosedRow = 15 };
+constexpr int kButtonsPixels = 197, kCheckboxX = 120, kAddKeyX = 140, kKeyTimeX = 40;
+
+class ViewerLightLife : public ViewerEdits {
+protected:
+    /// A viewer at 1.5 s whose panel Lights shows the one light of the scene, with room for all its rows.
+    DrivenViewer openLight() {
+        folder_.write("lamp.json", R"({
+            "tessera": 1,
+            "base": {"file": "builtin:room"},
+            "lights": [{"name": "lamp", "type": "point", "position": [0, 1.5, 0], "intensity": 8}]
+        })");
+        DrivenViewer viewer = open({"lamp.json", "--time", "1.5"});
+        viewer.waitForWhole(0);
+        for (const Section closed : {Section::View, Section::Technique, Section::Scene}) toggle(viewer, closed);
+        toggle(viewer, Section::Lights);
+        viewer.click({120, barOf(viewer, Section::Lights) + kFirstSwitchPixels});
+        viewer.pause(0.5);
+        return viewer;
+    }
+    static glm::ivec2 inLightRow(const DrivenViewer& viewer, int row, int x) {
+        return {x, barOf(viewer, Section::Lights) + kButtonsPixels + row * kRowPixels};
+    }
+    nlohmann::json savedLight(const DrivenViewer& viewer) { return readJson(saveScene(viewer)).at("lights").at(0); }
+    static void undoOnce(const DrivenViewer& viewer) {
+        viewer.moveTo(kMiddle);
+        viewer.key("ctrl+z");
+        viewer.pause(0.5);
+    }
+};
+
+TEST_F(ViewerLightLife, aKeyIsAddedAtTheTimeThatIsShownDraggedInTimeSavedAndUndone) {
+    DrivenViewer viewer = openLight();
+    viewer.click(inLightRow(viewer, kKeysOfIntensityRow, kAddKeyX));
+    viewer.pause(0.5);
+    nlohmann::json light = savedLight(viewer);
+    ASSERT_TRUE(light.contains("keyframes")) << light;
+    EXPECT_EQ(light.at("keyframes").at("intensity").at("times"), nlohmann::json::array({1.5})) << light;
+    EXPECT_EQ(light.at("keyframes").at("intensity").at("values"), nlohmann::json::array({8.0})) << light;
+    const glm::ivec2 time = inLightRow(viewer, kKeysOfIntensityRow + 1, kKeyTimeX);
+    viewer.drag(time, time + glm::ivec2(50, 0));
+    viewer.pause(0.5);
+    light = savedLight(viewer);
+    EXPECT_GT(light.at("keyframes").at("intensity").at("times").at(0).get<double>(), 1.9) << light;
+    undoOnce(viewer);
+    light = savedLight(viewer);
+    EXPECT_EQ(light.at("keyframes").at("intensity").at("times"), nlohmann::json::array({1.5})) << "the drag is a step";
+    undoOnce(viewer);
+    EXPECT_FALSE(savedLight(viewer).contains("keyframes"));
+}
+
+TEST_F(ViewerLightLife, aPathIsChosenOpenedItsPointsDraggedSavedAndUndone) {
+    DrivenViewer viewer = openLight();
+    viewer.click(inLightRow(viewer, kMovesRow, kCheckboxX));
+    viewer.pause(0.5);
+    EXPECT_EQ(savedLight(viewer).at("animation").at("type"), "orbit");
+    const glm::ivec2 way = inLightRow(viewer, kWayRow, 200);
+    constexpr int kFirstEntry = 24, kEntry = 18, kPath = 2; // orbit, wobble, path, keyframes
+    viewer.click(way);
+    viewer.click(way + glm::ivec2(0, kFirstEntry + kPath * kEntry));
+    viewer.pause(0.5);
+    nlohmann::json path = savedLight(viewer).at("animation");
+    EXPECT_EQ(path.at("type"), "path") << path;
+    EXPECT_FALSE(path.contains("open"));
+    ASSERT_EQ(path.at("points").size(), 4u);
+    viewer.click(inLightRow(viewer, kClosedRow, kCheckboxX));
+    const glm::ivec2 x = inLightRow(viewer, kFirstPointRow + 1, 125); // of the second point
+    viewer.drag(x, x + glm::ivec2(60, 0));
+    viewer.pause(0.5);
+    const nlohmann::json edited = savedLight(viewer).at("animation");
+    EXPECT_EQ(edited.value("open", false), true) << edited;
+    EXPECT_GT(edited.at("points").at(1).at(0).get<double>(), path.at("points").at(1).at(0).get<double>() + 0.01);
+    EXPECT_EQ(edited.at("points").at(0), path.at("points").at(0));
+    for (int i = 0; i < 2; ++i) undoOnce(viewer);
+    EXPECT_EQ(savedLight(viewer).at("animation"), path);
+}
+
 TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     DrivenViewer viewer = open({"spheres"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));

@@ -8,6 +8,7 @@
 #include "viewer/edit/Bounded.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/panels/ChooseNamed.h"
+#include "viewer/panels/LightLifeRows.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/SceneEdits.h"
@@ -156,14 +157,6 @@ bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
     return true;
 }
 
-bool dragVector(const char* label, glm::dvec3& value, float speed, double most) {
-    row(label);
-    return edit(value, -most, most, [&](glm::dvec3& edited) {
-        return ImGui::DragScalarN((std::string("##") + label).c_str(), ImGuiDataType_Double, &edited.x, 3, speed,
-                                  nullptr, nullptr, "%.3f");
-    });
-}
-
 bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
     bool changed = false;
     const auto most = float(scenes::kMostRadiusMetres);
@@ -258,20 +251,6 @@ void scatterRows(State& state) {
     tip("Ctrl+Z brings the old ones back");
 }
 
-bool animationRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
-    bool moves = light.animation || !light.keyframes.empty();
-    if (!moves && !scenes::infoOf(light.type).hasPosition()) return false;
-    row("Moves");
-    if (!ImGui::Checkbox("by itself", &moves)) return false;
-    constexpr double kPeriodSeconds = 6.0;
-    if (moves) {
-        orbitLight(light, 0.05 * sceneSizeMetres, kPeriodSeconds, timeSeconds);
-    } else {
-        stopLight(light, timeSeconds);
-    }
-    return true;
-}
-
 /// Lights whose flicker is switched on one after another flicker differently.
 bool flickerRows(scenes::Light& light, std::size_t index) {
     row("Flickers");
@@ -312,7 +291,7 @@ void lightsPanel(State& state) {
         const auto index = std::size_t(state.selectedLight);
         scenes::Light edited = lights[index];
         bool changed = lightRows(edited, timeSeconds, size);
-        changed |= animationRows(edited, timeSeconds, size);
+        changed |= lightLifeRows(edited, timeSeconds, size);
         changed |= flickerRows(edited, index);
         if (changed) open.changeLight(index, std::move(edited), widgetGesture());
     }

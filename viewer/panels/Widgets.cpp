@@ -39,8 +39,16 @@ std::string idOf(const char* label) {
 void row(const char* label) {
     ImGui::AlignTextToFramePadding();
     text(label);
-    ImGui::SameLine(ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x);
+    secondColumn();
+}
+
+void secondColumn() {
+    ImGui::SameLine(ImGui::GetCursorStartPos().x + labelWidth());
     ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+float labelWidth() {
+    return kLabelShare * ImGui::GetWindowContentRegionMax().x;
 }
 
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
@@ -97,6 +105,14 @@ bool angleSlider(const char* label, float& radians, float leastDegrees, float mo
     row(label);
     return edit(radians, glm::radians(leastDegrees), glm::radians(mostDegrees), [&](float& edited) {
         return ImGui::SliderAngle(idOf(label).c_str(), &edited, leastDegrees, mostDegrees, "%.1f deg");
+    });
+}
+
+bool dragVector(const char* label, glm::dvec3& value, float speed, double most) {
+    row(label);
+    return edit(value, -most, most, [&](glm::dvec3& edited) {
+        return ImGui::DragScalarN(idOf(label).c_str(), ImGuiDataType_Double, &edited.x, 3, speed, nullptr, nullptr,
+                                  "%.3f");
     });
 }
 

@@ -21,6 +21,9 @@ struct Choice {
 
 /// A row of a panel: the label on the left; the next widget takes the rest of the width.
 void row(const char* label);
+/// Goes on in the row where its widget stands; what is left of that is labelWidth() wide.
+void secondColumn();
+float labelWidth();
 
 /// A list that drops down, in a row of its own. Returns the new choice.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
@@ -47,6 +50,8 @@ bool slider(const char* label, float& value, float least, float most, const char
 bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format);
 /// The same of an angle, which is shown in degrees.
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
+/// The components of a vector, in a row of its own; `speed` is theirs a pixel of a drag.
+bool dragVector(const char* label, glm::dvec3& value, float speed, double most);
 /// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters. Its swatch opens a
 /// picker in sRGB.
 bool colorRow(const char* label, glm::vec3& color, float most = 1.0f);

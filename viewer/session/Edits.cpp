@@ -17,6 +17,11 @@ struct ChangeVerb {
     bool (*holds)(const Element& before, const Element& after);
 };
 
+/// A light that is moved takes its path along (placeLight()).
+bool isInPlace(const Light& before, const Light& after) {
+    return before.positionWS == after.positionWS;
+}
+
 constexpr ChangeVerb<Light> kLightVerbs[] = {
     {"change type of", [](const Light& a, const Light& b) { return a.type != b.type; }},
     {"switch on", [](const Light& a, const Light& b) { return !a.enabled && b.enabled; }},
@@ -24,6 +29,17 @@ constexpr ChangeVerb<Light> kLightVerbs[] = {
     {"stop",
      [](const Light& a, const Light& b) {
          return (a.animation && !b.animation) || (!a.keyframes.empty() && b.keyframes.empty());
+     }},
+    {"change keyframes of",
+     [](const Light& a, const Light& b) {
+         const bool areKeyed = a.animation && b.animation && a.animation->kind == b.animation->kind;
+         if (a.directionWS != b.directionWS) return false; // turned by hand, which ends keys
+         return a.keyframes != b.keyframes || (areKeyed && isInPlace(a, b) && a.animation->keys != b.animation->keys);
+     }},
+    {"change path of",
+     [](const Light& a, const Light& b) {
+         if (!a.animation || !b.animation || a.animation == b.animation) return false;
+         return isInPlace(a, b) || a.animation->kind != b.animation->kind;
      }},
     {"colour", [](const Light& a, const Light& b) { return a.color != b.color; }},
     {"change intensity of", [](const Light& a, const Light& b) { return a.intensity != b.intensity; }},

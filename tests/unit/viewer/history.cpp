@@ -259,6 +259,15 @@ TEST(History, textsSayWhatWasDoneAndToWhat) {
     stopped.color.x = 0.5f;
     stopped.keyframes.clear();
     EXPECT_EQ(changeText(keyed, stopped, "lamp"), "stop light 'lamp'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.keyframes.emplace_back(); }), "change keyframes of light 'lamp 3'");
+    scenes::Light moving = light, slower;
+    moving.animation.emplace().pointsWS = {{0, 0, 0}, {1, 0, 0}};
+    slower = moving;
+    slower.animation->periodSeconds = 9.0;
+    EXPECT_EQ(changeText(moving, slower, "lamp"), "change path of light 'lamp'");
+    slower = moving;
+    placeLight(slower, 0.0, {5, 0, 0});
+    EXPECT_EQ(changeText(moving, slower, "lamp"), "move light 'lamp'");
     EXPECT_EQ(text([](scenes::Light& l) { l.castsShadow = true; }), "change light 'lamp 3'");
     scenes::Material material, glowing;
     glowing.emissive.x = 1.0f;

@@ -1,10 +1,14 @@
 // The rows of a light, by its type.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
 
+#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
+#include "viewer/edit/LightLife.h"
 #include "viewer/panels/Panels.h"
 
 namespace tessera::viewer {
@@ -42,6 +46,42 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
         EXPECT_EQ(isIn(text, "Range"), type.hasPosition()) << text;
         EXPECT_NE(text.find(fmt::format(" {} }}\n", type.unit)), std::string::npos) << type.unit << " in" << text;
     }
+}
+
+TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
+    scenes::Scene scene = scenes::loadScene("room", {});
+    scene.lights.assign(1, {});
+    State state;
+    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    state.selectedLight = 0;
+    state.looks[0].settings.timeSeconds = 1.5;
+    const auto expectRows = [&](const char* what, const std::vector<const char*>& some,
+                                const std::vector<const char*>& others) {
+        const scenes::Light before = state.open->scene().lights[0];
+        const std::string text = textOf([&] { lightsPanel(state); });
+        for (const char* word : some) EXPECT_NE(text.find(word), std::string::npos) << what << ": " << word << text;
+        for (const char* word : others) EXPECT_EQ(text.find(word), std::string::npos) << what << ": " << word << text;
+        EXPECT_TRUE(state.open->scene().lights[0] == before) << "drawing it changes nothing";
+    };
+    const auto change = [&](const auto& edit) { test::changeLight(state, 0, edit); };
+    expectRows("still", {"Keys of position", "Keys of color", "Keys of intensity", "Add at 1.50 s"},
+               {"Way", "Keys of direction", "Period", "Between"});
+    change([](scenes::Light& light) { light.type = scenes::LightType::Spot; });
+    expectRows("a spot", {"Keys of direction"}, {"Way"});
+    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Orbit, 0.0, 1.0); });
+    expectRows("an orbit", {"Way", "Centre", "Axis", "Period", "Phase"}, {"Keys of position", "Point 0"});
+    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Wobble, 0.0, 1.0); });
+    expectRows("a wobble", {"Amplitude", "Period"}, {"Centre", "Keys of position"});
+    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Path, 0.0, 1.0); });
+    expectRows("a path", {"Point 0", "Point 3", "Line", "closed", "ahead", "Period"}, {"Centre", "Keys of position"});
+    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Keyframes, 0.0, 1.0); });
+    expectRows("keys", {"Keys of position", "Between", "After", "1.50 s", "6.00 s"}, {"Period", "Point 0"});
+    change([](scenes::Light& light) {
+        chooseType(light, scenes::LightType::Directional, 1.0);
+        light.animation.reset();
+        addKey(light, scenes::LightKeyed::Intensity, 2.25);
+    });
+    expectRows("a sun", {"Keys of direction", "Keys of intensity", "2.25 s"}, {"Way", "Keys of position"});
 }
 
 TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
