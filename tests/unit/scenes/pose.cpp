@@ -321,6 +321,64 @@ TEST(Poses, anIncludedRigMovesBelowItsRoot) {
     EXPECT_NO_THROW(checkScene(whole));
 }
 
+/// riggedScene(), whose clip narrows the lens too.
+Scene zoomingScene() {
+    Scene scene = riggedScene();
+    scene.rig.numbers.push_back({AnimatedProperty::CameraFovY, 0});
+    scene.rig.clips[0].samplers.push_back({Interpolation::Linear, 1, {0.0f, 1.0f}, {0.75f, 0.25f}});
+    scene.rig.clips[0].channels.push_back({AnimatedProperty::CameraFovY, 1, 3});
+    takeRest(scene);
+    return scene;
+}
+
+TEST(Poses, aLensOfAnIncludedPartIsThatOfItsOwnCamera) {
+    Scene whole = zoomingScene();
+    whole.rig.playing.clear();
+    const double restRadians = whole.cameras[0].fovYRadians;
+    appendScene(whole, zoomingScene(), "part", glm::dmat4(1.0));
+    ASSERT_EQ(whole.cameras.size(), 2u);
+    poseScene(whole, 1.0);
+    EXPECT_NO_THROW(checkScene(whole));
+    EXPECT_EQ(whole.cameras[0].fovYRadians, restRadians);
+    EXPECT_EQ(whole.cameras[1].fovYRadians, 0.25);
+    dropCameras(whole);
+    EXPECT_NO_THROW(poseScene(whole, 0.5));
+    EXPECT_NO_THROW(checkScene(whole));
+}
+
+TEST(Poses, splinesThatGoPastTheirKeysLeaveALensThatCanBe) {
+    Scene scene = zoomingScene();
+    scene.rig.clips[0].samplers[3].values = {-3.0f, 9.0f};
+    for (const double timeSeconds : {0.0, 1.0}) {
+        poseScene(scene, timeSeconds);
+        EXPECT_NO_THROW(checkScene(scene)) << timeSeconds;
+    }
+}
+
+TEST(Poses, aFactorMultipliesAndIsOneNumber) {
+    Scene scene = riggedScene();
+    scene.rig.clips[0].channels[2].factor = 1; // from 0 to 1, of an intensity from 1 to 2
+    EXPECT_NO_THROW(checkScene(scene));
+    poseScene(scene, 0.5);
+    EXPECT_FLOAT_EQ(scene.lights[0].intensity, 0.75f);
+    scene.rig.clips[0].channels[2].factor = 0; // rotations
+    EXPECT_THROW(checkScene(scene), InputError);
+    scene.rig.clips[0].channels[2].factor = 9;
+    EXPECT_THROW(checkScene(scene), InputError);
+}
+
+TEST(Poses, numbersThatBelongToNothingAreRefused) {
+    for (const RestNumber& number :
+         {RestNumber{AnimatedProperty::EmissiveStrength, 0}, RestNumber{AnimatedProperty::Rotation, 0},
+          RestNumber{AnimatedProperty::TextureOffset, 0},
+          RestNumber{AnimatedProperty::Metallic, 0, glm::dvec4(0.0), TextureSlot::Normal},
+          RestNumber{AnimatedProperty::CameraFovY, 5}}) {
+        Scene scene = riggedScene();
+        scene.rig.numbers.push_back(number);
+        EXPECT_THROW(checkScene(scene), InputError) << infoOf(number.property).path;
+    }
+}
+
 TEST(Poses, lightsThatAreLeftOutAreLeftAlone) {
     Scene scene = riggedScene();
     keepLights(scene, 0);
