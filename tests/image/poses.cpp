@@ -182,6 +182,75 @@ TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
               anew.render(Technique::Forward, settings).radiance);
 }
 
+/// A ball of a checkered material without layers, of which a clip makes glass with all of them within a second, while
+/// it moves the texture and widens the lens.
+scenes::Scene transforming() {
+    using scenes::AnimatedProperty;
+    scenes::Scene scene = test::ballUnderSun();
+    scenes::Image& checker = scene.images.emplace_back();
+    checker.name = "checker";
+    checker.width = checker.height = 8;
+    for (int i = 0; i < 64; ++i)
+        for (int channel = 0; channel < 4; ++channel)
+            checker.texels.push_back(std::byte(channel == 3 || (i + i / 8) % 2 == 0 ? 255 : 40));
+    const int ball = int(scene.materials.size());
+    scenes::Material& material = scene.materials.emplace_back();
+    material.name = "ball";
+    material.metallic = 0.0f;
+    material.texture(scenes::TextureSlot::BaseColor).image = int(scene.images.size()) - 1;
+    scene.nodes[0].instances[0].material = ball;
+    struct Change {
+        AnimatedProperty property;
+        std::vector<float> from, to;
+        scenes::TextureSlot slot = scenes::TextureSlot::Count;
+    };
+    const Change changes[] = {
+        {AnimatedProperty::Transmission, {0.0f}, {0.75f}},
+        {AnimatedProperty::Clearcoat, {0.0f}, {1.0f}},
+        {AnimatedProperty::SheenColor, {0, 0, 0}, {0.5f, 0.25f, 0.0f}},
+        {AnimatedProperty::Iridescence, {0.0f}, {1.0f}},
+        {AnimatedProperty::AnisotropyStrength, {0.0f}, {0.5f}},
+        {AnimatedProperty::Emissive, {0, 0, 0}, {0.0f, 0.125f, 0.0f}},
+        {AnimatedProperty::PerceptualRoughness, {1.0f}, {0.25f}},
+        {AnimatedProperty::TextureOffset, {0, 0}, {0.3f, 0.1f}, scenes::TextureSlot::BaseColor},
+        {AnimatedProperty::TextureRotation, {0.0f}, {0.7f}, scenes::TextureSlot::BaseColor},
+        {AnimatedProperty::CameraFovY, {0.8f}, {1.2f}},
+    };
+    scenes::Clip& clip = scene.rig.clips.emplace_back();
+    clip.name = "transform";
+    for (const Change& change : changes) {
+        const bool isLens = change.property == AnimatedProperty::CameraFovY;
+        clip.channels.push_back({change.property, int(scene.rig.numbers.size()), int(clip.samplers.size())});
+        scene.rig.numbers.push_back({change.property, isLens ? 0 : ball, glm::dvec4(0.0), change.slot});
+        std::vector<float> values = change.from;
+        values.insert(values.end(), change.to.begin(), change.to.end());
+        clip.samplers.push_back({scenes::Interpolation::Linear, int(change.from.size()), {0.0f, 1.0f}, values});
+    }
+    scene.rig.playing = {0};
+    scenes::takeRest(scene);
+    scenes::checkScene(scene);
+    scenes::poseScene(scene, 0.0);
+    return scene;
+}
+
+TEST_F(Poses, layersTexturesGlassAndLensesThatComeAndGoAreDrawnAsByANewRenderer) {
+    scenes::Scene scene = transforming();
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 91};
+    const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
+    for (const double seconds : {0.5, 1.0, 0.0}) {
+        SCOPED_TRACE(seconds);
+        scenes::poseScene(scene, seconds);
+        renderer.geometryChanged();
+        const std::vector<float> posed = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_EQ(posed == first, seconds == 0.0);
+        engine::Renderer anew(context(), scene);
+        EXPECT_TRUE(posed == anew.render(Technique::Deferred, settings).radiance);
+        if (seconds == 0.5) expectParity(renderer, settings);
+    }
+}
+
 TEST_F(Poses, aBillionSecondsBeforeAndAfterTheClipShowItsEnds) {
     scenes::Scene scene = waving(test::ballUnderSun());
     engine::Renderer renderer(context(), scene);
