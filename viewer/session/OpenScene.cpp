@@ -92,7 +92,6 @@ void OpenScene::followClipCamera(bool follows) {
 }
 
 void OpenScene::pose(double timeSeconds) {
-    if (!scenes::hasPoses(scene_)) return;
     scene_.cameras[std::size_t(camera_)] = sceneCamera(); // clips change the scene's own, not the user's
     scenes::poseScene(scene_, timeSeconds);
     cameras_ = scene_.cameras;
