@@ -1,90 +1,22 @@
 #include "scenes/import/GltfRig.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <span>
 
 #include <fmt/format.h>
 
+#include "scenes/import/GltfPointers.h"
+
 namespace tessera::scenes::gltf {
 namespace {
-
-constexpr std::string_view kNodesPointer = "/nodes/";
-constexpr std::string_view kMaterialsPointer = "/materials/";
-constexpr std::string_view kLightsPointer = "/extensions/KHR_lights_punctual/lights/";
-constexpr std::string_view kCamerasPointer = "/cameras/";
-constexpr std::string_view kArrays[] = {kNodesPointer, kMaterialsPointer, kLightsPointer, kCamerasPointer};
-
-/// Cuts "/nodes/" and a number from the begin of "/nodes/3/translation", and the slash after.
-std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view array) {
-    if (!pointer.starts_with(array)) return {};
-    const char* const begin = pointer.data() + array.size();
-    const char* const end = pointer.data() + pointer.size();
-    std::size_t index = 0;
-    const auto [rest, error] = std::from_chars(begin, end, index);
-    if (error != std::errc() || rest == end || *rest != '/') return {};
-    pointer = {rest + 1, end};
-    return index;
-}
-
-/// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
-std::string changedBy(const model::AnimationChannel& channel) {
-    if (channel.path != "pointer") return fmt::format("{}{}/{}", kNodesPointer, channel.node, channel.path);
-    for (const std::string_view array : kArrays) {
-        std::string_view path = channel.pointer;
-        if (const auto index = cutIndex(path, array)) return fmt::format("{}{}/{}", array, *index, path);
-    }
-    return channel.pointer;
-}
-
-/// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
-std::string kindOf(std::string_view pointer) {
-    std::string kind;
-    for (std::size_t i = 0; i < pointer.size(); ++i) {
-        const bool isDigit = pointer[i] >= '0' && pointer[i] <= '9';
-        if (!isDigit || kind.empty() || kind.back() != '/') {
-            kind += pointer[i];
-            continue;
-        }
-        const std::size_t end = std::min(pointer.find('/', i), pointer.size());
-        const std::string_view part = pointer.substr(i, end - i);
-        kind += part.find_first_not_of("0123456789") == part.npos ? std::string_view("*") : part;
-        i = end - 1;
-    }
-    return kind;
-}
 
 /// Channels that change one thing of the document, of which the last counts; the specification forbids others.
 struct Rivals {
     std::size_t last = 0;
     std::size_t count = 0;
 };
-
-const AnimatedPropertyInfo* propertyAt(std::string_view path, auto isOwner) {
-    const auto rows = animatedProperties();
-    const auto found = std::ranges::find_if(
-        rows, [&](const AnimatedPropertyInfo& row) { return row.path == path && isOwner(row.owner); });
-    return found == rows.end() ? nullptr : &*found;
-}
-
-const AnimatedPropertyInfo* propertyOf(AnimatedOwner owner, std::string_view path) {
-    return propertyAt(path, [&](AnimatedOwner of) { return of == owner; });
-}
-
-/// KHR_materials_pbrSpecularGlossiness has others in the place of these (Materials::convertSpecularGlossiness).
-bool isReplacedBySpecularGlossiness(AnimatedProperty property) {
-    constexpr AnimatedProperty kReplaced[] = {AnimatedProperty::BaseColor,           AnimatedProperty::Metallic,
-                                              AnimatedProperty::PerceptualRoughness, AnimatedProperty::Ior,
-                                              AnimatedProperty::SpecularFactor,      AnimatedProperty::SpecularColor};
-    return std::ranges::find(kReplaced, property) != std::end(kReplaced);
-}
-bool isOfSpecularGlossiness(TextureSlot slot) {
-    constexpr TextureSlot kOwn[] = {TextureSlot::BaseColor, TextureSlot::MetallicRoughness, TextureSlot::SpecularColor,
-                                    TextureSlot::SpecularFactor};
-    return std::ranges::find(kOwn, slot) != std::end(kOwn);
-}
 
 } // namespace
 
@@ -119,105 +51,6 @@ int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot
     const auto [entry, isNew] = numbers_.try_emplace({property, element, slot}, static_cast<int>(numbers.size()));
     if (isNew) numbers.push_back({property, element, glm::dvec4(0.0), slot});
     return entry->second;
-}
-
-std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_view path) {
-    const AnimatedPropertyInfo* const info = propertyAt(
-        path, [](AnimatedOwner owner) { return owner == AnimatedOwner::Node || owner == AnimatedOwner::Weights; });
-    if (info == nullptr) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    if (sceneNodes_[static_cast<std::size_t>(index)] == kNone) return animated; // nothing of the scene moves
-    if (info->owner == AnimatedOwner::Weights) {
-        const auto rest = weights_.find(index);
-        if (rest == weights_.end()) return {};
-        animated.targets.push_back(rest->second);
-        animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].weights.size();
-        return animated;
-    }
-    if (context_.document.model.nodes[static_cast<std::size_t>(index)].matrix) return {}; // has no parts to change
-    animated.targets.push_back(restNode(index));
-    return animated;
-}
-
-std::optional<Rigging::Animated> Rigging::animatedOfLight(std::size_t index, std::string_view path) {
-    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Light, path);
-    const std::vector<model::Light>& lights = context_.document.model.lights;
-    if (info == nullptr || index >= lights.size()) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    if (info->property == AnimatedProperty::LightIntensity) animated.scale = lights[index].wattsPerUnit;
-    for (const int light : lights_[static_cast<int>(index)])
-        animated.targets.push_back(restNumber(info->property, light));
-    return animated;
-}
-
-std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, std::string_view path) {
-    const std::vector<model::Material>& materials = context_.document.model.materials;
-    if (index >= materials.size()) return {};
-    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Material, path);
-    if (info == nullptr) return animatedOfTexture(index, path);
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    const model::Material& stored = materials[index];
-    const bool isOfEmission =
-        info->property == AnimatedProperty::Emissive || info->property == AnimatedProperty::EmissiveStrength;
-    const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
-    const bool isOfUnlit =
-        info->property == AnimatedProperty::BaseColor || info->property == AnimatedProperty::AlphaCutoff;
-    // What other programs make of a material changes nothing here.
-    if (isUnlit && !isOfUnlit) return animated;
-    if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
-    animated.emissiveFactor = stored.emissiveFactor;
-    if (const std::optional<int> material = materials_.imported(static_cast<int>(index)))
-        animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, *material));
-    return animated;
-}
-
-/// None where the document has no texture there, whose transform would change nothing.
-std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, std::string_view path) {
-    const model::Material& stored = context_.document.model.materials[index];
-    for (std::size_t i = 0; i < stored.textures.size(); ++i) {
-        const auto& [place, slot] = model::kTexturePlaces[i];
-        if (!path.starts_with(place) || path.size() == place.size() || path[place.size()] != '/') continue;
-        const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Texture, path.substr(place.size() + 1));
-        if (info == nullptr || stored.textures[i].texture == kNone) return {};
-        Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-        if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // has another texture there
-        const std::optional<int> material = materials_.imported(static_cast<int>(index));
-        if (material && context_.scene.materials[static_cast<std::size_t>(*material)].texture(slot).image != kNone)
-            animated.targets.push_back(restNumber(info->property, *material, slot));
-        return animated;
-    }
-    return {};
-}
-
-std::optional<Rigging::Animated> Rigging::animatedOfCamera(std::size_t index, std::string_view path) {
-    const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Camera, path);
-    const std::vector<model::Camera>& cameras = context_.document.model.cameras;
-    if (info == nullptr || index >= cameras.size()) return {};
-    const bool isPerspective = cameras[index].projection == Projection::Perspective;
-    if (info->path.starts_with("perspective/") != isPerspective) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    const bool isUpsideDown =
-        info->property == AnimatedProperty::CameraHalfHeight && cameras[index].orthographic.ymag < 0;
-    if (isUpsideDown) animated.scale = -1.0; // its size counts, as where it is imported
-    for (const int camera : cameras_[static_cast<int>(index)])
-        animated.targets.push_back(restNumber(info->property, camera));
-    return animated;
-}
-
-std::optional<Rigging::Animated> Rigging::animatedByPointer(const std::string& pointer) {
-    std::string_view path = pointer;
-    if (const auto node = cutIndex(path, kNodesPointer))
-        return *node < sceneNodes_.size() ? animatedOfNode(static_cast<int>(*node), path) : std::nullopt;
-    if (const auto light = cutIndex(path, kLightsPointer)) return animatedOfLight(*light, path);
-    if (const auto material = cutIndex(path, kMaterialsPointer)) return animatedOfMaterial(*material, path);
-    if (const auto camera = cutIndex(path, kCamerasPointer)) return animatedOfCamera(*camera, path);
-    return {};
-}
-
-/// None where the scene has no such thing that can change.
-std::optional<Rigging::Animated> Rigging::animated(const model::AnimationChannel& channel) {
-    if (channel.path == "pointer") return animatedByPointer(channel.pointer);
-    return channel.node == kNone ? std::nullopt : animatedOfNode(channel.node, channel.path);
 }
 
 std::optional<int> Rigging::morphlessNode(const model::AnimationChannel& channel) const {
