@@ -128,7 +128,9 @@ std::size_t addKey(Light& light, LightKeyed member, double timeSeconds) {
         if (member == LightKeyed::Position) {
             light.animation.emplace().kind = LightAnimationKind::Keyframes;
         } else {
-            light.keyframes.emplace_back().of = member;
+            // In the order of files, which is that of keyedMembers().
+            const auto place = std::ranges::upper_bound(light.keyframes, member, {}, &LightKeys::of);
+            light.keyframes.insert(place, LightKeys())->of = member;
             if (member == LightKeyed::Direction && light.animation) light.animation->looksAhead = false;
         }
         keys = keysIn(light, member);

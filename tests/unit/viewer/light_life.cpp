@@ -86,6 +86,16 @@ TEST(LightLife, keysMoveInTimeAsFarAsTheirNeighboursAndTakeValues) {
     EXPECT_TRUE(savedAndRead(light) == light);
 }
 
+TEST(LightLife, keysInAnyOrderAreSavedAsKeyframesAlone) {
+    Light light = spot();
+    for (const LightKeyed member : {LightKeyed::Intensity, LightKeyed::Direction, LightKeyed::Color})
+        addKey(light, member, 1.0);
+    const nlohmann::json written(scenes::write::lightJson(light));
+    EXPECT_EQ(written.at("keyframes").size(), 3u);
+    EXPECT_FALSE(written.contains("fields")) << written;
+    EXPECT_TRUE(savedAndRead(light) == light);
+}
+
 TEST(LightLife, withItsLastKeyALightIsWhatThatSaid) {
     for (const LightKeyed member : kMembers) {
         Light light = spot();

@@ -355,8 +355,7 @@ TEST(GltfAnimation, whatAnUnlitMaterialDoesNotShowIsPassedOverInSilence) {
 
 TEST(GltfAnimation, pointersMoveTurnAndScaleEachTextureOfAMaterialByItself) {
     Builder builder;
-    builder.json["images"] = Json::array({{{"uri", "data:image/png;base64," + base64(pngRedBlue())}}});
-    builder.json["textures"] = Json::array({{{"source", 0}}});
+    builder.addTexture();
     builder.material() = Json::parse(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
         "normalTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0]}}}})");
     const std::string color = "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/";
