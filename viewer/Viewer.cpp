@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/AtomicFile.h"
 #include "base/EndRequest.h"
-#include "base/Extension.h"
 #include "renderer/frame/EnvironmentCache.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
@@ -19,6 +19,7 @@
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
+#include "viewer/session/FileTypes.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
@@ -197,7 +198,7 @@ private:
             recovering_ = question->scene;
             return load(recovering_);
         }
-        if (answer == Answer::Keep) saver_.scene(); // where that fails nothing else happens
+        if (answer == Answer::Keep && !saveScene()) return; // where that fails nothing else happens
         if (question->about == Question::About::Opening) return load(question->scene, question->variant);
         isDiscarding_ = true;
         window_.close();
@@ -232,9 +233,67 @@ private:
         log_.line("recovered " + left.string());
     }
 
-    static bool isEnvironmentFile(const std::string& file) {
-        const std::string extension = extensionOf(file);
-        return extension == ".hdr" || extension == ".exr";
+    /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
+    void openFile(const std::string& file) {
+        const FileType* const type = fileTypeOf(file);
+        if (type != nullptr && type->opens == FileType::Opens::Environment) return chooseEnvironment(file);
+        open(file);
+    }
+
+    // ---- Files ----
+    static std::filesystem::path startFolder() {
+        std::error_code error;
+        return std::filesystem::current_path(error);
+    }
+
+    void askWhatToOpen() {
+        const std::vector<std::string> folders = foldersOf(state_.recent);
+        std::error_code error;
+        const bool hasRecent = !folders.empty() && std::filesystem::is_directory(folders.front(), error);
+        state_.files.emplace(FileDialog::Purpose::Open,
+                             hasRecent ? std::filesystem::path(folders.front()) : startFolder());
+        pulse_.settle();
+        log_.line("asks what to open");
+    }
+
+    /// With a reason: the folder of the path cannot be written, so another is proposed.
+    void askWhereToSave(const std::filesystem::path& path, const std::string& reason = {}) {
+        const std::filesystem::path given = path.has_parent_path() ? path.parent_path() : startFolder();
+        const std::filesystem::path folder = reason.empty() ? given : homeFolder().value_or(given);
+        state_.files.emplace(FileDialog::Purpose::Save, folder, path.filename().string(), reason);
+        pulse_.settle();
+        if (!reason.empty()) log_.line("error " + reason);
+        log_.line("asks where to save");
+    }
+
+    /// Asks for another name where no file can be written under this one.
+    bool mayWrite(const std::string& path) {
+        try {
+            requireWritable(path);
+            return true;
+        } catch (const std::exception& error) {
+            askWhereToSave(path, error.what());
+            return false;
+        }
+    }
+
+    /// Whether it was saved, under a free name.
+    bool saveScene() {
+        const std::string path = saver_.freeName(".json");
+        if (!mayWrite(path)) return false;
+        saver_.scene(path);
+        return true;
+    }
+
+    void savePicture(glm::ivec2 size, const char* ending) {
+        if (const std::string path = saver_.freeName(ending); mayWrite(path)) saver_.picture(size, path);
+    }
+
+    void saveAs(const std::string& path, glm::ivec2 size) {
+        if (!mayWrite(path)) return;
+        const FileType* const type = fileTypeOf(path);
+        if (type != nullptr && type->saves == FileType::Saves::Scene) return saver_.scene(path);
+        saver_.picture(size, path);
     }
 
     /// For the scene that is open.
@@ -314,8 +373,10 @@ private:
             log_.line("note " + fault);
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
         }
-        for (const std::string& file : window_.takeDrops())
-            (isEnvironmentFile(file) ? state_.requests.environment : state_.requests.open) = file;
+        for (const std::string& file : window_.takeDrops()) {
+            state_.files.reset();
+            state_.requests.chosen = file;
+        }
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame();
@@ -386,6 +447,10 @@ private:
             if (requests.open) open(*requests.open);
         });
         attempt([&] {
+            if (requests.chosen) openFile(*requests.chosen);
+        });
+        if (requests.askWhatToOpen) askWhatToOpen();
+        attempt([&] {
             if (requests.variant) openVariant(*requests.variant);
         });
         attempt([&] {
@@ -405,9 +470,11 @@ private:
         const gpu::Rectangle place = areaPixels();
         if (!state_.open || place.width < 1 || place.height < 1) return;
         const glm::ivec2 size(place.width, place.height);
-        if (requests.savePng) saver_.picture(size, ".png");
-        if (requests.saveExr) saver_.picture(size, ".exr");
-        if (requests.saveScene) saver_.scene();
+        if (requests.savePng) savePicture(size, ".png");
+        if (requests.saveExr) savePicture(size, ".exr");
+        if (requests.saveScene) saveScene();
+        if (requests.askWhereToSave) askWhereToSave(saver_.freeName(".json"));
+        if (requests.saveAs) saveAs(*requests.saveAs, size);
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) copyCommand(size);
         if (requests.scatter) replaceByScattered(state_);
@@ -420,6 +487,7 @@ private:
     }
 
     void copyCommand(glm::ivec2 size) {
+        if (hasEdits() && !saveScene()) return;
         state_.command = saver_.command(size);
         window_.setClipboard(state_.command);
         state_.notice = {"Copied: " + state_.command, false};

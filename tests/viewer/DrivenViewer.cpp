@@ -127,6 +127,10 @@ void DrivenViewer::key(const std::string& chord) const {
     desktop_.xdotool({"key", chord});
 }
 
+void DrivenViewer::type(const std::string& text) const {
+    desktop_.xdotool({"type", "--delay", "40", text});
+}
+
 void DrivenViewer::hold(const std::string& key, double seconds) const {
     desktop_.xdotool({"keydown", key, "sleep", fmt::format("{:.3f}", seconds), "keyup", key});
 }

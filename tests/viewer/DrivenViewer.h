@@ -47,6 +47,7 @@ public:
 
     // ---- What a user does ----
     void key(const std::string& chord) const; ///< xdotool's names: "F12", "ctrl+s"
+    void type(const std::string& text) const; ///< letter by letter
     void hold(const std::string& key, double seconds) const;
     void moveTo(glm::ivec2 pixel) const;
     void click(glm::ivec2 pixel) const;

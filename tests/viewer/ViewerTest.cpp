@@ -52,6 +52,11 @@ void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
     viewer.pause(0.5);
 }
 
+void ViewerTest::addLight(const DrivenViewer& viewer) {
+    toggle(viewer, Section::Lights);
+    viewer.click(inRow(viewer, Section::Lights, 1, 50));
+}
+
 void ViewerTest::chooseScene(const DrivenViewer& viewer, std::string_view builtin) {
     const auto index = std::find(std::begin(kBuiltin), std::end(kBuiltin), builtin) - std::begin(kBuiltin);
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + int(index) * kEntryPixels);

@@ -67,6 +67,8 @@ protected:
     }
     /// Opens a section, or closes it.
     static void toggle(const DrivenViewer& viewer, Section section);
+    /// Opens the panel of lights, and adds one.
+    static void addLight(const DrivenViewer& viewer);
     /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.
     static void chooseScene(const DrivenViewer& viewer, std::string_view builtin);
     static void chooseRecentScene(const DrivenViewer& viewer, int index);

@@ -196,6 +196,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);
+    fileDialog(state, scale);
     questionDialog(state, scale);
     // What is dragged is let go: the next edit is a step of its own.
     if (state.open && !state.isDragging && !ImGui::IsAnyItemActive()) state.open->endGesture();

@@ -282,8 +282,8 @@ void lightsPanel(State& state) {
     OpenScene& open = *state.open;
     const Lights& lights = open.scene().lights;
     const double timeSeconds = state.active().settings.timeSeconds;
+    listButtons(state); // first: they stay in view however long the list is
     lightList(state);
-    listButtons(state);
     if (state.selectedLight >= int(lights.size())) state.selectedLight = scenes::kNone;
     if (state.selectedLight != scenes::kNone) {
         const scenes::Box3& bounds = open.boundsWS();

@@ -25,6 +25,9 @@ void savePanel(State& state);
 /// Asks what State::question says, over all else; draws nothing where that is none.
 void questionDialog(State& state, float scale);
 
+/// Asks for a file, over the picture and the panels, as State::files says; draws nothing where that is none.
+void fileDialog(State& state, float scale);
+
 /// Every key, over the picture.
 void helpOverlay(State& state, float scale);
 

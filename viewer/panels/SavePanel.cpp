@@ -27,11 +27,13 @@ void savePanel(State& state) {
     if (ImGui::Button("Revert", {half, 0.0f})) revert(state);
     ImGui::EndDisabled();
     tip("Back to the scene as it was opened or saved last");
+    if (ImGui::Button("Save as ... (Ctrl+Shift+S)", {-FLT_MIN, 0.0f})) state.requests.askWhereToSave = true;
+    tip("The scene or the picture, in a folder and under a name of your choice");
     ImGui::SetNextItemWidth(-FLT_MIN);
     std::string& command = state.command;
     if (!command.empty())
         ImGui::InputText("##command", command.data(), command.size() + 1, ImGuiInputTextFlags_ReadOnly);
-    paragraph("Files go to the folder the program was started in, under the first free number.");
+    paragraph("The other buttons write into the folder the program was started in, under the first free number.");
 }
 
 } // namespace tessera::viewer

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cfloat>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -63,10 +64,12 @@ void variantList(State& state) {
 
 void scenePanel(State& state) {
     sceneList(state);
+    if (ImGui::Button("Open ... (Ctrl+O)", {-FLT_MIN, 0.0f})) state.requests.askWhatToOpen = true;
+    tip("A scene, a model or an environment of your own");
     if (!state.loading.empty()) {
         paragraph(fmt::format("Loading {} ...", shortName(state.loading)));
     } else {
-        ImGui::TextDisabled("or drop a file onto the window");
+        ImGui::TextDisabled("or drop a file anywhere onto the window");
     }
     if (!state.open) return;
     variantList(state);

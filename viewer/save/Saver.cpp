@@ -1,10 +1,10 @@
 #include "viewer/save/Saver.h"
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 #include "base/AtomicFile.h"
+#include "base/Extension.h"
 #include "base/PictureFile.h"
 #include "engine/Rendering.h"
 #include "validation/pictures/ShownPicture.h"
@@ -29,8 +29,8 @@ TraceFrame traced(const FrameTimes& frame) {
 
 } // namespace
 
-std::string Saver::stem() const {
-    return savedStem(state_.open->source());
+std::string Saver::freeName(const char* ending) const {
+    return freePath(savedStem(state_.open->source()), ending).string();
 }
 
 void Saver::tell(const std::string& path) {
@@ -38,13 +38,12 @@ void Saver::tell(const std::string& path) {
     log_.line("saved " + path);
 }
 
-void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
+void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
     Look look = drawnLook(state_, state_.activeSide);
     look.settings.sizePixels = sizePixels;
-    look.settings.display = std::string_view(ending) != ".exr";
+    look.settings.display = extensionOf(path) != ".exr";
     engine::Renderer& renderer = *screen_.renderer();
     const engine::RenderedFrame frame = renderer.render(look.technique, look.settings);
-    const std::string path = freePath(stem(), ending).string();
     if (look.settings.display) {
         writePng(path, validation::shownPicture(frame, renderer.shadows(), state_.open->scene().name, look.technique,
                                                 look.settings.view));
@@ -54,9 +53,8 @@ void Saver::picture(glm::ivec2 sizePixels, const char* ending) {
     tell(path);
 }
 
-void Saver::scene() {
+void Saver::scene(const std::string& path) {
     OpenScene& open = *state_.open;
-    const std::string path = freePath(stem(), ".json").string();
     saveScene(path, open.scene(), open.origin());
     open.becomes(std::filesystem::absolute(path).string());
     noteRecent(state_.recent, open.source());
@@ -65,7 +63,7 @@ void Saver::scene() {
 
 std::string Saver::command(glm::ivec2 sizePixels) {
     OpenScene& open = *state_.open;
-    if (open.isEdited()) scene();
+    if (open.isEdited()) scene(freeName(".json"));
     const Look look = drawnLook(state_, state_.activeSide);
     RenderRequest request;
     request.source = open.source();
@@ -79,7 +77,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.settings = look.settings;
     request.settings.sizePixels = sizePixels;
     request.pose = open.cameraChange();
-    const std::string text = renderCommand(request, open.scene(), freePath(stem(), ".exr").string());
+    const std::string text = renderCommand(request, open.scene(), freeName(".exr"));
     log_.line("command " + text);
     return text;
 }
@@ -87,7 +85,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
 void Saver::trace() {
     std::vector<TraceFrame> frames;
     for (const FrameTimes& frame : state_.timings.frames()) frames.push_back(traced(frame));
-    const std::string path = freePath(stem(), ".trace.json").string();
+    const std::string path = freeName(".trace.json");
     writeFileAtomically(path, chromeTrace(frames, screen_.capabilities().renderer));
     tell(path);
 }

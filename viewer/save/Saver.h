@@ -5,24 +5,27 @@
 
 namespace tessera::viewer {
 
-/// Writes the window's contents to files of the current folder (freePath). Throws exceptions of drawing and writing.
+/// Writes the window's contents to files. Throws exceptions of drawing and writing.
 class Saver {
 public:
     Saver(State& state, Screen& screen, const EventLog& log) : state_(state), screen_(screen), log_(log) {}
 
-    /// The active side's picture at full resolution, as `tessera render` writes it.
-    void picture(glm::ivec2 sizePixels, const char* ending);
+    /// A name of the current folder that is free (freePath), after the open scene.
+    std::string freeName(const char* ending) const;
+    /// The active side's picture at full resolution, as `tessera render` writes it; by the name's end as a display
+    /// shows it, or its radiance.
+    void picture(glm::ivec2 sizePixels, const std::string& path);
     /// The scene with its edits and current camera. From then on that file is the open scene, and the first of the
     /// recent ones.
-    void scene();
-    /// The command line that renders the active side's picture. A scene that was edited is saved first.
+    void scene(const std::string& path);
+    /// The command line that renders the active side's picture. A scene that was edited is saved under a free name
+    /// first.
     std::string command(glm::ivec2 sizePixels);
-    /// The latest frames' timings, for chrome://tracing or Perfetto.
+    /// The latest frames' timings, for chrome://tracing or Perfetto, under a free name.
     void trace();
 
 private:
     void tell(const std::string& path);
-    std::string stem() const;
 
     State& state_;
     Screen& screen_;

@@ -156,7 +156,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
 }
 
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {
-    if (drag_ != Drag::None || claims.mouse || state.question || !area.contains(event.position)) return;
+    if (drag_ != Drag::None || claims.mouse || state.isAsking() || !area.contains(event.position)) return;
     button_ = event.code;
     pressedAt_ = event.position;
     if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
@@ -281,13 +281,17 @@ void Controls::key(const InputEvent& event, State& state, const Claims& claims) 
     // Keys that are let go are heard even while text is typed, so that none stays held.
     bool* held = flyKey(flying_, event.code);
     const bool commands = (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
-    if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.question;
+    if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.isAsking();
     if (!event.down || event.repeated) return;
     // Keys that stand for words go by the letter on them, others by their place: W A S D.
     const int written = event.letter != 0 ? event.letter : event.code;
     if (state.question) {
         for (const AnswerChoice& choice : answersTo(state.question->about))
             if (choice.key == written && !commands) state.requests.answer = choice.answer;
+        return;
+    }
+    if (state.files) {
+        if (event.code == GLFW_KEY_ESCAPE) state.files.reset();
         return;
     }
     if (claims.keyboard) return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viewer/edit/Scatter.h"
+#include "viewer/session/FileDialog.h"
 #include "viewer/session/Look.h"
 #include "viewer/session/OpenScene.h"
 #include "viewer/session/Question.h"
@@ -35,6 +36,10 @@ struct Notice {
 /// What panels and keys ask for that is more than a change of the state; done between two frames.
 struct Requests {
     std::optional<std::string> open;        ///< a scene
+    std::optional<std::string> chosen;      ///< a file that was dropped or chosen: a scene or an environment
+    std::optional<std::string> saveAs;      ///< the scene or the picture, as the name's end says
+    bool askWhatToOpen = false;
+    bool askWhereToSave = false;
     std::optional<std::string> variant;     ///< that the open scene's models are to show; empty: none
     std::optional<std::string> environment; ///< as --environment takes it
     std::optional<std::string> clip;        ///< as --clip takes it
@@ -94,6 +99,7 @@ struct State {
     Timings timings;
 
     std::optional<Question> question; ///< waits for an answer, and all else waits for that
+    std::optional<FileDialog> files;  ///< asks for a file, and waits for a question
 
     Notice notice;
     std::vector<std::string> shaderFaults;
@@ -104,6 +110,8 @@ struct State {
         if (!inspects) return std::nullopt;
         return pointedPlace ? pointedPlace : pinnedPlace;
     }
+    /// The picture and its keys wait.
+    bool isAsking() const { return question || files; }
     int sides() const { return compare == Compare::Off ? 1 : 2; }
     Look& active() { return looks[std::size_t(activeSide)]; }
     const Look& active() const { return looks[std::size_t(activeSide)]; }

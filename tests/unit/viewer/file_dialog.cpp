@@ -1,0 +1,199 @@
+#include "viewer/session/FileDialog.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "scenes/Load.h"
+#include "tests/support/TempFolder.h"
+#include "viewer/session/FileTypes.h"
+
+namespace tessera::viewer {
+namespace {
+
+using Purpose = FileDialog::Purpose;
+using Names = std::vector<std::string>;
+
+/// A folder with something of all kinds.
+class Files : public testing::Test {
+protected:
+    Files() {
+        for (const char* name : {"b.glb", "A.JSON", "sky.hdr", "notes.txt", "picture.png", ".hidden.glb",
+                                 "models/one.gltf", "models/other.gltf", "maps/x.exr"})
+            folder_.write(name, "");
+    }
+    FileDialog open() const { return {Purpose::Open, folder_.path()}; }
+    FileDialog save(const std::string& name) const { return {Purpose::Save, folder_.path(), name}; }
+    std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
+    tessera::test::TempFolder folder_;
+};
+
+Names namesOf(const FileDialog& dialog) {
+    Names names;
+    for (const FileEntry& entry : dialog.entries()) names.push_back(entry.name + (entry.isFolder ? "/" : ""));
+    return names;
+}
+
+TEST_F(Files, theListHasFoldersAndThenWhatCanBeOpened) {
+    EXPECT_EQ(namesOf(open()), (Names{"../", "maps/", "models/", "A.JSON", "b.glb", "sky.hdr"}));
+    EXPECT_EQ(namesOf(save("")), (Names{"../", "maps/", "models/", "A.JSON", "picture.png"}));
+    EXPECT_EQ(namesOf({Purpose::Open, "/"}).front().find(".."), std::string::npos) << "nothing is above the root";
+}
+
+TEST_F(Files, typedTextNarrowsTheListInAnyCaseAndEnterTakesItsFirst) {
+    FileDialog dialog = open();
+    dialog.type("m");
+    EXPECT_EQ(namesOf(dialog), (Names{"maps/", "models/"}));
+    dialog.type("a");
+    EXPECT_EQ(namesOf(dialog), (Names{"A.JSON"}));
+    EXPECT_EQ(dialog.accept(), at("A.JSON"));
+    dialog.type(".h");
+    EXPECT_EQ(namesOf(dialog), (Names{".hidden.glb"}));
+    dialog.type("models/o");
+    EXPECT_EQ(namesOf(dialog), (Names{"one.gltf", "other.gltf"}));
+    EXPECT_EQ(dialog.accept(), at("models/one.gltf"));
+}
+
+TEST_F(Files, arrowsChooseAndEnterGoesIntoFoldersAndUp) {
+    FileDialog dialog = open();
+    EXPECT_EQ(dialog.accept(), std::nullopt) << "nothing is chosen";
+    for (int i = 0; i < 3; ++i) dialog.step(1);
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.folder(), folder_.path() / "models");
+    dialog.step(-1); // from the end
+    EXPECT_EQ(dialog.entries()[*dialog.chosen()].name, "other.gltf");
+    dialog.step(-100);
+    EXPECT_EQ(dialog.accept(), std::nullopt); // ".."
+    EXPECT_EQ(dialog.folder(), folder_.path());
+    dialog.type("b");
+    dialog.step(100);
+    EXPECT_EQ(dialog.accept(), at("b.glb"));
+}
+
+TEST_F(Files, tabLengthensTheTextAsFarAsNamesAgree) {
+    FileDialog dialog = open();
+    dialog.type("mo");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "models/");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "models/o");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "models/o");
+    dialog.type("models/ot");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "models/other.gltf");
+    dialog.type("nothing");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "nothing");
+    // Letters are not cut into bytes.
+    folder_.write("x\xc3\xa4.glb", "");
+    folder_.write("x\xc3\xb6.glb", "");
+    dialog.type("x");
+    dialog.complete();
+    EXPECT_EQ(dialog.text(), "x");
+}
+
+TEST_F(Files, aPathIsTakenFromTheRootAndFromHome) {
+    FileDialog dialog{Purpose::Open, "/"};
+    dialog.type(at("b.glb"));
+    EXPECT_EQ(dialog.accept(), at("b.glb"));
+    dialog.type(at("models"));
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.folder(), folder_.path() / "models");
+    EXPECT_EQ(dialog.text(), "");
+    const char* const before = std::getenv("HOME");
+    const std::string kept = before != nullptr ? before : "";
+    ::setenv("HOME", folder_.path().c_str(), 1);
+    dialog.type("~/sky.hdr");
+    EXPECT_EQ(dialog.accept(), at("sky.hdr"));
+    dialog.type("~");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.folder(), folder_.path());
+    if (before != nullptr)
+        ::setenv("HOME", kept.c_str(), 1);
+    else
+        ::unsetenv("HOME");
+}
+
+TEST_F(Files, whatCannotBeOpenedOrReadTellsWhy) {
+    FileDialog dialog = open();
+    dialog.type("absent.glb");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.fault(), at("absent.glb") + " is not there");
+    dialog.type("notes.txt");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.fault(), at("notes.txt") + " is no file that can be opened");
+    dialog.goTo(folder_.path() / "nowhere");
+    EXPECT_EQ(dialog.fault(), at("nowhere") + " cannot be read: No such file or directory");
+    EXPECT_EQ(namesOf(dialog), Names{"../"}) << "one gets back";
+    if (::geteuid() == 0) return; // whom no folder keeps out
+    std::filesystem::permissions(folder_.path() / "maps", std::filesystem::perms::none);
+    dialog.goTo(folder_.path() / "maps");
+    EXPECT_EQ(dialog.fault(), at("maps") + " cannot be read: Permission denied");
+    std::filesystem::permissions(folder_.path() / "maps", std::filesystem::perms::owner_all);
+}
+
+TEST_F(Files, builtInScenesAreAListOfTheirOwnAndNamesAmongFiles) {
+    FileDialog dialog = open();
+    dialog.showBuiltin();
+    EXPECT_EQ(dialog.folder(), std::nullopt);
+    EXPECT_EQ(dialog.entries().size(), scenes::builtinScenes().size());
+    dialog.type("sph");
+    EXPECT_EQ(dialog.accept(), "spheres");
+    dialog.goTo(folder_.path());
+    dialog.type("room");
+    EXPECT_EQ(dialog.accept(), "room");
+}
+
+TEST_F(Files, aNameThatIsThereIsReplacedOnlyWhenSaid) {
+    FileDialog dialog = save("new.json");
+    EXPECT_EQ(dialog.accept(), at("new.json"));
+    dialog.type("picture.png");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_TRUE(dialog.asksToReplace());
+    EXPECT_EQ(dialog.accept(), std::nullopt) << "Enter twice is no answer";
+    EXPECT_EQ(dialog.accept(true), at("picture.png"));
+    dialog.type("picture2.png");
+    EXPECT_FALSE(dialog.asksToReplace());
+    dialog.type("picture.jpg");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.fault(), "A name ends in one of .json, .exr, .png");
+    dialog.type("nowhere/a.png");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.fault(), at("nowhere") + " is no folder");
+}
+
+TEST_F(Files, aNameGoesAlongIntoFoldersThatAreChosen) {
+    FileDialog dialog = save("new.exr");
+    dialog.step(2);
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.folder(), folder_.path() / "maps");
+    EXPECT_EQ(dialog.accept(), at("maps/new.exr"));
+    dialog.choose(1); // x.exr, which is there
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.text(), "x.exr");
+    EXPECT_TRUE(dialog.asksToReplace());
+    EXPECT_EQ(dialog.accept(true), at("maps/x.exr"));
+}
+
+TEST(RecentFolders, areThoseOfFilesEachOnce) {
+    EXPECT_EQ(foldersOf(Names{"/a/b.glb", "/c/d.json", "/a/e.obj"}), (Names{"/a", "/c"}));
+}
+
+TEST(FileTypes, areFoundInAnyCaseAndSayOnceWhatTheyAre) {
+    std::set<std::string_view> seen;
+    for (const FileType& type : fileTypes()) {
+        EXPECT_TRUE(seen.insert(type.extension).second) << type.extension;
+        EXPECT_EQ(fileTypeOf("a" + std::string(type.extension)), &type);
+        EXPECT_FALSE(type.meaning.empty()) << type.extension;
+    }
+    EXPECT_EQ(fileTypeOf("A.GLB"), fileTypeOf("a.glb"));
+    EXPECT_EQ(fileTypeOf("a.txt"), nullptr);
+    EXPECT_EQ(fileTypeOf("glb"), nullptr);
+}
+
+} // namespace
+} // namespace tessera::viewer

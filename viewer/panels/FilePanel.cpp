@@ -1,0 +1,191 @@
+// The dialog about files: the list of a folder, and the field of a path, which keeps the keyboard.
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/Panels.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+using Purpose = FileDialog::Purpose;
+
+constexpr std::size_t kLongestPath = 4096; ///< bytes, the most that Linux takes
+
+/// Up, Down and Tab in the field.
+int heedKey(ImGuiInputTextCallbackData* data) {
+    FileDialog& dialog = *static_cast<FileDialog*>(data->UserData);
+    dialog.type({data->Buf, std::size_t(data->BufTextLen)});
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
+        dialog.step(data->EventKey == ImGuiKey_UpArrow ? -1 : 1);
+    } else {
+        dialog.complete();
+        if (dialog.text().size() >= kLongestPath) return 0;
+        data->DeleteChars(0, data->BufTextLen);
+        data->InsertChars(0, dialog.text().c_str());
+    }
+    return 0;
+}
+
+/// Ends the dialog with a file, where one is meant.
+void accept(State& state, bool replaces) {
+    const std::optional<std::string> file = state.files->accept(replaces);
+    if (!file) return;
+    (state.files->purpose() == Purpose::Open ? state.requests.chosen : state.requests.saveAs) = *file;
+    state.files.reset();
+}
+
+void placeButton(const char* label, const std::optional<std::filesystem::path>& folder, const char* meaning,
+                 FileDialog& dialog) {
+    ImGui::BeginDisabled(!folder);
+    const bool isPressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    tip(folder ? fmt::format("{}: {}", meaning, folder->string()) : meaning);
+    ImGui::SameLine();
+    if (isPressed) dialog.goTo(*folder);
+}
+
+/// Where to look: folders that one is likely to want.
+void placeRow(const State& state, FileDialog& dialog) {
+    std::optional<std::filesystem::path> above;
+    if (dialog.folder() && dialog.folder()->has_relative_path()) above = dialog.folder()->parent_path();
+    placeButton("Up", above, "The folder above", dialog);
+    placeButton("Home", homeFolder(), "Your own folder", dialog);
+    std::error_code error;
+    const std::filesystem::path start = std::filesystem::current_path(error);
+    placeButton("Start folder", error ? std::nullopt : std::optional(start), "Where the program was started", dialog);
+    if (dialog.purpose() == Purpose::Open) {
+        if (ImGui::Button("Built-in scenes")) dialog.showBuiltin();
+        tip("Scenes that need no file");
+        ImGui::SameLine();
+    }
+    const std::vector<std::string> recent = foldersOf(state.recent);
+    ImGui::BeginDisabled(recent.empty());
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool isOpen = ImGui::BeginCombo("##recent", "Recent folders");
+    ImGui::EndDisabled();
+    if (!isOpen) return;
+    closeOnEscape();
+    for (const std::string& folder : recent) {
+        if (ImGui::Selectable(folder.c_str())) dialog.goTo(folder);
+        tip("A folder of a scene that was opened lately");
+    }
+    ImGui::EndCombo();
+}
+
+/// A click chooses, a double click accepts. Whether it did.
+bool entryRows(FileDialog& dialog, float height) {
+    if (!ImGui::BeginChild("list", {0.0f, height}, true)) {
+        ImGui::EndChild();
+        return false;
+    }
+    std::optional<std::size_t> clicked;
+    bool isAccepted = false;
+    const std::span<const FileEntry> entries = dialog.entries();
+    ImGuiListClipper clipper; // folders hold thousands of files
+    clipper.Begin(int(entries.size()));
+    const bool isMoved = dialog.takeMoved();
+    if (dialog.chosen() && isMoved)
+        clipper.ForceDisplayRangeByIndices(int(*dialog.chosen()), int(*dialog.chosen()) + 1);
+    while (clipper.Step()) {
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const FileEntry& entry = entries[std::size_t(i)];
+            const bool isChosen = dialog.chosen() == std::size_t(i);
+            const std::string name = entry.name + (entry.isFolder ? "/" : "");
+            ImGui::PushID(i);
+            if (ImGui::Selectable(name.c_str(), isChosen, ImGuiSelectableFlags_AllowDoubleClick)) {
+                clicked = std::size_t(i);
+                isAccepted = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            }
+            tip(entry.meaning);
+            if (isChosen && isMoved) ImGui::SetScrollHereY();
+            ImGui::PopID();
+        }
+    }
+    if (entries.empty() && dialog.fault().empty())
+        ImGui::TextDisabled("Nothing here that can be %s", dialog.purpose() == Purpose::Open ? "opened" : "replaced");
+    ImGui::EndChild();
+    if (clicked) dialog.choose(*clicked); // after the rows: it may make others
+    return isAccepted;
+}
+
+/// The field of the path. Whether Enter was pressed in it.
+bool pathField(FileDialog& dialog) {
+    std::array<char, kLongestPath> buffer{};
+    const std::string& text = dialog.text();
+    std::memcpy(buffer.data(), text.data(), std::min(text.size(), kLongestPath - 1));
+    const bool isFree = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::IsAnyItemActive() &&
+                        !ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (isFree) ImGui::SetKeyboardFocusHere();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
+                                      ImGuiInputTextFlags_CallbackHistory;
+    const char* const hint = dialog.purpose() == Purpose::Open ? "name, path or ~/path; Tab completes, arrows choose"
+                                                               : "name or path; Tab completes, arrows choose";
+    const bool isEntered =
+        ImGui::InputTextWithHint("##path", hint, buffer.data(), buffer.size(), flags, heedKey, &dialog);
+    dialog.type(buffer.data());
+    return isEntered;
+}
+
+/// Opens or saves what is meant; a file that is there is replaced by a button of its own.
+void answerButtons(State& state, bool isEntered) {
+    FileDialog& dialog = *state.files;
+    const bool asksToReplace = dialog.asksToReplace();
+    const char* const label = dialog.purpose() == Purpose::Open ? "Open (Enter)" : "Save (Enter)";
+    bool isAccepted = ImGui::Button(label) || isEntered;
+    tip(dialog.purpose() == Purpose::Open ? "Opens the file, or goes into the folder"
+                                          : "Saves under this name: .json the scene, .png or .exr the picture");
+    bool replaces = asksToReplace && isEntered && ImGui::GetIO().KeyCtrl;
+    ImGui::SameLine();
+    if (asksToReplace) {
+        if (ImGui::Button("Replace (Ctrl+Enter)")) isAccepted = replaces = true;
+        tip("Writes over the file that is there");
+        ImGui::SameLine();
+    }
+    const bool isCancelled = ImGui::Button("Cancel (Esc)");
+    tip("Back, and nothing is done");
+    if (isCancelled)
+        state.files.reset();
+    else if (isAccepted)
+        accept(state, replaces);
+}
+
+} // namespace
+
+void fileDialog(State& state, float scale) {
+    constexpr const char* kId = "###files";
+    constexpr float kWidth = 640.0f, kHeight = 480.0f;
+    const bool isAsked = state.files && !state.question;
+    const char* const title =
+        state.files && state.files->purpose() == Purpose::Save ? "Save as###files" : "Open###files";
+    if (isAsked && !ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(kWidth * scale, display.x), std::min(kHeight * scale, display.y)});
+    const ImGuiWindowFlags flags =
+        ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+    if (!ImGui::BeginPopupModal(title, nullptr, flags)) return;
+    if (!isAsked) {
+        ImGui::CloseCurrentPopup();
+    } else {
+        FileDialog& dialog = *state.files;
+        if (!dialog.reason().empty()) errorParagraph(dialog.reason());
+        placeRow(state, dialog);
+        paragraph(dialog.folder() ? dialog.folder()->string() : std::string("Built-in scenes"));
+        const float line = ImGui::GetFrameHeightWithSpacing();
+        const float below = 2.0f * line + 2.0f * ImGui::GetTextLineHeightWithSpacing();
+        const bool isAccepted = entryRows(dialog, std::max(ImGui::GetContentRegionAvail().y - below, 3.0f * line));
+        const bool isEntered = pathField(dialog);
+        if (!dialog.fault().empty()) errorParagraph(dialog.fault());
+        answerButtons(state, isEntered || isAccepted);
+    }
+    ImGui::EndPopup();
+}
+
+} // namespace tessera::viewer

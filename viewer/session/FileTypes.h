@@ -1,0 +1,23 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace tessera::viewer {
+
+/// What the viewer opens and saves, by the ends of names: the one list that dialog, drops and messages follow.
+struct FileType {
+    enum class Opens : std::uint8_t { Nothing, Scene, Environment };
+    enum class Saves : std::uint8_t { Nothing, Scene, Display, Radiance };
+    std::string_view extension; ///< ".png"
+    Opens opens = Opens::Nothing;
+    Saves saves = Saves::Nothing;
+    std::string_view meaning; ///< of what is saved, else of what is opened
+};
+std::span<const FileType> fileTypes();
+
+/// That of a name; null where the viewer neither opens nor saves any such file.
+const FileType* fileTypeOf(const std::filesystem::path& file);
+
+} // namespace tessera::viewer
