@@ -52,7 +52,7 @@ std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
-    return windowSizeFor(*options.pictureSize, options.preferences.showsPanel);
+    return windowSizeFor(*options.pictureSize, options.preferences.showsPanel ? options.preferences.panelWidth : 0.0f);
 }
 
 class Viewer {

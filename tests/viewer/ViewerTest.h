@@ -16,22 +16,22 @@ namespace tessera::test {
 /// log.
 class ViewerTest : public testing::Test {
 protected:
-    /// Of the panels, from the top.
+    /// Of the panels, from the top, of a scene in which nothing moves.
     enum class Section {
         Scene,
-        Technique,
-        View,
-        Environment,
-        Shadows,
-        Subsurface,
-        Camera,
-        Compare,
         Lights,
         Materials,
+        View,
+        Environment,
+        Camera,
+        Save,
+        Technique,
+        Shadows,
+        Subsurface,
+        Compare,
         Timings,
         LightCulling,
-        Graph,
-        Save
+        Graph
     };
 
     static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(glm::ivec2(1280, 800)); }

@@ -30,6 +30,10 @@ protected:
         viewer.waitFor("opened " + builtin, mark);
         return pictureIn(viewer, viewer.waitForWhole(mark));
     }
+    /// Folds what is open, so that nothing scrolls where another section opens.
+    static void makeRoom(const DrivenViewer& viewer) {
+        for (const Section open : {Section::View, Section::Scene}) toggle(viewer, open);
+    }
     nlohmann::json readJson(const std::string& name) { return nlohmann::json::parse(shell("cat '" + name + "'")); }
 };
 
@@ -120,15 +124,15 @@ TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
 TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {
     DrivenViewer viewer = open({"hall"});
     viewer.waitForWhole(0);
-    const int view = barOf(viewer, Section::View);
-    const glm::ivec2 technique(200, barOf(viewer, Section::Technique));
+    const int below = barOf(viewer, Section::Environment);
+    const glm::ivec2 view(200, barOf(viewer, Section::View));
     const std::size_t mark = viewer.mark();
     viewer.key("F12");
-    viewer.click(technique); // while the picture is drawn and written
+    viewer.click(view); // while the picture is drawn and written
     viewer.waitFor("saved ", mark);
     viewer.moveTo(kMiddle);
     viewer.pause(1.0);
-    EXPECT_LT(barOf(viewer, Section::View), view) << "the section above was not closed";
+    EXPECT_LT(barOf(viewer, Section::Environment), below) << "the section above was not closed";
 }
 
 TEST_F(ViewerEdits, editsDuringALoadAreNotDiscardedWithoutRequest) {
@@ -262,12 +266,11 @@ TEST_F(ViewerLightLife, aPathIsChosenOpenedItsPointsDraggedSavedAndUndone) {
 TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     DrivenViewer viewer = open({"spheres"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
+    makeRoom(viewer);
     std::size_t mark = viewer.mark();
-    viewer.click({720, 460});
+    viewer.click({720, 460}); // which opens the panel of materials
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
-    for (const Section closed : {Section::View, Section::Technique, Section::Scene}) // so that nothing scrolls
-        toggle(viewer, closed);
-    toggle(viewer, Section::Materials);
+    viewer.pause(0.5);
     constexpr int kMetallicRow = 4;
     const glm::ivec2 most = inRow(viewer, Section::Materials, kMetallicRow, 286);
     const Shot metal = after(viewer, [&] { viewer.click(most); });
@@ -289,12 +292,11 @@ TEST_F(ViewerEdits, aSwatchShowsTheColourThatThePictureShows) {
     viewer.waitForWhole(0);
     const glm::ivec3 shown = viewer.capture().at(kMiddle);
     EXPECT_EQ(shown, glm::ivec3(170, 89, 149)) << "sRGB of its linear values";
+    makeRoom(viewer);
     const std::size_t mark = viewer.mark();
     viewer.click(kMiddle);
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
-    for (const Section closed : {Section::View, Section::Technique, Section::Scene}) // so that nothing scrolls
-        toggle(viewer, closed);
-    toggle(viewer, Section::Materials);
+    viewer.pause(0.5);
     constexpr int kColourRow = 3, kSwatchX = 280;
     EXPECT_EQ(viewer.capture().at(inRow(viewer, Section::Materials, kColourRow, kSwatchX)), shown);
 }

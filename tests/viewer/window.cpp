@@ -51,6 +51,24 @@ TEST_F(ViewerWindow, settingsAreRememberedFromRunToRun) {
     EXPECT_NE(viewer.waitFor("drawn", 0).find("technique clustered_forward"), std::string::npos);
 }
 
+TEST_F(ViewerWindow, panelsAreAsWideAndAsFoldedAsTheyWereLeft) {
+    int lights = 0;
+    {
+        DrivenViewer viewer = open({"room"});
+        viewer.waitForWhole(0);
+        toggle(viewer, Section::Scene);
+        lights = barOf(viewer, Section::Lights);
+        const std::size_t mark = viewer.mark();
+        viewer.drag({kPanelPixels + 1, 300}, {kPanelPixels + 101, 300});
+        EXPECT_EQ(viewer.waitForWhole(mark).x, 1280 - kPanelPixels - 101);
+        viewer.key("ctrl+q");
+        EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+    }
+    DrivenViewer viewer = open({"room"});
+    EXPECT_EQ(viewer.waitForWhole(0).x, 1280 - kPanelPixels - 101);
+    EXPECT_EQ(barOf(viewer, Section::Lights), lights);
+}
+
 TEST_F(ViewerWindow, theReasonOfAFailedLoadIsShown) {
     folder_.write("broken.json", "{\"tessera\": 1, \"materials\": [{\"name\": 3}]}");
     DrivenViewer viewer = open({"broken.json"});

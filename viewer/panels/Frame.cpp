@@ -19,7 +19,6 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kPanelWidth = 300.0f;
 constexpr float kStatusHeight = 22.0f;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
@@ -27,13 +26,56 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoFocusOnAppearing; // which would let go what the user holds
 
 float panelWidth(const State& state, float scale) {
-    return state.showsPanel ? kPanelWidth * scale : 0.0f;
+    return state.showsPanel ? state.panelWidth * scale : 0.0f;
 }
 
-void section(const char* title, bool open, const auto& panel) {
-    if (!ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    ImGui::PushID(title);
-    panel();
+/// A part of the panels.
+struct Section {
+    const char* title;
+    bool isOpen; ///< until the user opens or folds it
+    void (*show)(State&, const Facts&);
+    std::optional<Selected> selected = {}; ///< whose selection brings it into view
+    bool (*isThere)(const State&) = [](const State& state) { return state.open != nullptr; };
+};
+
+bool hasMovement(const State& state) {
+    return state.open && (canMove(state) || !state.open->scene().rig.clips.empty());
+}
+
+/// From the top: what a scene holds, how it is seen, then what those want who study techniques. Until a scene is there
+/// nobody knows how its picture begins.
+constexpr Section kSections[] = {
+    {"Scene", true, [](State& state, const Facts&) { scenePanel(state); }, {}, [](const State&) { return true; }},
+    {"Lights", false, [](State& state, const Facts&) { lightsPanel(state); }, Selected::Light},
+    {"Materials", false, [](State& state, const Facts&) { materialsPanel(state); }, Selected::Material},
+    {"View", true, [](State& state, const Facts&) { viewPanel(state); }},
+    {"Environment", false, [](State& state, const Facts&) { environmentPanel(state); }},
+    {"Camera", false, [](State& state, const Facts&) { cameraPanel(state); }},
+    {"Animation", true, [](State& state, const Facts&) { animationPanel(state); }, {}, hasMovement},
+    {"Save", false, [](State& state, const Facts&) { savePanel(state); }},
+    {"Technique", false, [](State& state, const Facts&) { framePanel(state); }},
+    {"Shadows", false, shadowsPanel},
+    {"Subsurface scattering", false, [](State& state, const Facts&) { skinPanel(state); }},
+    {"Compare", false, comparePanel},
+    {"Timings", false, timingsPanel},
+    {"Light culling", false, cullingPanel},
+    {"Graph", false, graphPanel},
+};
+
+void showSection(State& state, const Facts& facts, const Section& section) {
+    const auto known = state.sections.find(section.title);
+    const bool wasOpen = known != state.sections.end() ? known->second : section.isOpen;
+    const bool isRevealed = section.selected && state.reveals == section.selected;
+    ImGui::SetNextItemOpen(wasOpen || isRevealed);
+    const bool isOpen = ImGui::CollapsingHeader(section.title);
+    if (isRevealed) {
+        state.reveals.reset();
+        if (!wasOpen || !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.0f);
+    }
+    if (isOpen != wasOpen) state.sections[section.title] = isOpen;
+    if (!isOpen) return;
+    ImGui::PushID(section.title);
+    section.show(state, facts);
     ImGui::PopID();
     ImGui::Spacing();
 }
@@ -41,27 +83,22 @@ void section(const char* title, bool open, const auto& panel) {
 void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize({panelWidth(state, scale), height});
-    if (ImGui::Begin("Panels", nullptr, kFixed)) {
-        section("Scene", true, [&] { scenePanel(state); });
-    }
-    if (state.open) { // until then nobody knows how its picture begins
-        section("Technique", true, [&] { framePanel(state); });
-        section("View", true, [&] { viewPanel(state); });
-        section("Environment", false, [&] { environmentPanel(state); });
-        section("Shadows", false, [&] { shadowsPanel(state, facts); });
-        section("Subsurface scattering", false, [&] { skinPanel(state); });
-        section("Camera", false, [&] { cameraPanel(state); });
-        section("Compare", false, [&] { comparePanel(state, facts); });
-        section("Lights", false, [&] { lightsPanel(state); });
-        section("Materials", false, [&] { materialsPanel(state); });
-        if (canMove(state) || !state.open->scene().rig.clips.empty())
-            section("Animation", true, [&] { animationPanel(state); });
-        section("Timings", false, [&] { timingsPanel(state, facts); });
-        section("Light culling", false, [&] { cullingPanel(state, facts); });
-        section("Graph", false, [&] { graphPanel(state, facts); });
-        section("Save", false, [&] { savePanel(state); });
-    }
+    if (ImGui::Begin("Panels", nullptr, kFixed))
+        for (const Section& section : kSections)
+            if (section.isThere(state)) showSection(state, facts, section);
     ImGui::End();
+}
+
+/// A line where the panels' edge can be dragged.
+void drawPanelEdge(const State& state, const PictureArea& area, float scale) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool isPointed =
+        !io.WantCaptureMouse && !ImGui::IsAnyMouseDown() && isAtPanelEdge(state, area, {io.MousePos.x, io.MousePos.y});
+    if (!isPointed && !state.isPanelEdgeHeld) return;
+    const float x = area.corner.x + 0.5f * scale;
+    ImGui::GetBackgroundDrawList()->AddLine({x, area.corner.y}, {x, area.corner.y + area.size.y},
+                                            ImGui::GetColorU32(ImGuiCol_CheckMark), 2.0f * scale);
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
 /// Tiles are lit one by one, so that a single object has shares.
@@ -175,8 +212,8 @@ PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
     return area;
 }
 
-glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel) {
-    return pictureSize + glm::ivec2(showsPanel ? kPanelWidth : 0.0f, kStatusHeight);
+glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth) {
+    return pictureSize + glm::ivec2(panelWidth, kStatusHeight);
 }
 
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
@@ -193,6 +230,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawNames(state, facts, area, scale);
         drawInspector(state, facts, area);
         drawDragText(state, area);
+        drawPanelEdge(state, area, scale);
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

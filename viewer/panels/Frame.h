@@ -7,8 +7,8 @@ namespace tessera::viewer {
 /// Where the picture is in a window of this size, screen coordinates; of no size where there is no room.
 PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale);
 
-/// The window that leaves a picture of this size.
-glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, bool showsPanel);
+/// The window that leaves a picture of this size beside panels of a width, 0 where they are hidden.
+glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth);
 
 /// All panels around the picture, the line below it, and its overlays.
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale);

@@ -14,6 +14,7 @@ namespace tessera::viewer {
 namespace {
 
 constexpr float kDividerReach = 6.0f; ///< screen coordinates to either side that grab it
+constexpr float kPanelReach = 4.0f;   ///< the same of the picture's left side, which moves the panels' edge
 constexpr float kMarkerReach = 9.0f;  ///< the same around a light's marker, and around its handles
 constexpr float kClickReach = 3.0f;   ///< movement of a hand during a click
 constexpr double kDoubleClickSeconds = 0.4;
@@ -121,6 +122,10 @@ bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& p
            std::abs(point.x - dividerX) <= kDividerReach * area.scale;
 }
 
+bool isAtPanelEdge(const State& state, const PictureArea& area, const glm::vec2& point) {
+    return state.showsPanel && area.contains(point) && point.x - area.corner.x < kPanelReach * area.scale;
+}
+
 void Controls::handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims) {
     for (const InputEvent& event : events) {
         switch (event.kind) {
@@ -169,7 +174,10 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
             state.dragText = turnText(state.active().settings.environment.rotationDegrees);
         }
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
-        if (isAtDivider(state, area, event.position)) {
+        if (isAtPanelEdge(state, area, event.position)) {
+            drag_ = Drag::PanelEdge;
+            state.isPanelEdgeHeld = true;
+        } else if (isAtDivider(state, area, event.position)) {
             drag_ = Drag::Divider;
             state.isDividerHeld = true;
         } else if (event.modifiers & GLFW_MOD_ALT) {
@@ -211,7 +219,7 @@ void Controls::click(const InputEvent& event, State& state, const PictureArea& a
 void Controls::endDrag(State& state) {
     drag_ = Drag::None;
     handle_.reset();
-    state.isDragging = state.isDividerHeld = false;
+    state.isDragging = state.isDividerHeld = state.isPanelEdgeHeld = false;
     state.heldHandle.reset();
     state.dragText.clear();
     if (state.open) state.open->endGesture();
@@ -240,10 +248,18 @@ void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2
 void Controls::move(const InputEvent& event, State& state, const PictureArea& area) {
     const glm::dvec2 moved = event.position - pointer_;
     pointer_ = event.position;
+    if (drag_ == Drag::PanelEdge) {
+        constexpr float kMostShare = 0.8f; // of the window: some of the picture stays
+        const float most = std::min(kMostPanelWidth, kMostShare * (area.corner.x + area.size.x) / area.scale);
+        state.panelWidth =
+            std::clamp(std::round(pointer_.x / area.scale), kLeastPanelWidth, std::max(most, kLeastPanelWidth));
+        return;
+    }
     if (!state.open || moved == glm::dvec2(0.0) || isEmpty(area)) return;
     CameraRig& rig = state.open->rig();
     switch (drag_) {
     case Drag::None:
+    case Drag::PanelEdge:
         break;
     case Drag::Rotate:
         rig.rotate(moved, area.size.y);

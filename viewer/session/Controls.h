@@ -35,6 +35,9 @@ std::optional<LightHandle> handleUnder(const State& state, const PictureArea& ar
 /// Whether a press at a point of the window takes the divider between two pictures side by side.
 bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& point);
 
+/// Whether a press at a point of the window takes the edge of the panels, which lies in the picture.
+bool isAtPanelEdge(const State& state, const PictureArea& area, const glm::vec2& point);
+
 /// Turns the user's input on the picture into movements of the camera and changes of the state.
 class Controls {
 public:
@@ -46,7 +49,7 @@ public:
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
 
 private:
-    enum class Drag { None, Rotate, Pan, Zoom, Divider, Light, Handle, Environment };
+    enum class Drag { None, Rotate, Pan, Zoom, Divider, PanelEdge, Light, Handle, Environment };
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
     void release(const InputEvent& event, State& state, const PictureArea& area);
     void click(const InputEvent& event, State& state, const PictureArea& area);

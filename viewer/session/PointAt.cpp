@@ -25,6 +25,7 @@ std::string selectMaterialAt(State& state, const glm::vec2& place, glm::ivec2 si
     const auto picked = pickedAt(state, place, sizePixels);
     state.selectedMaterial = picked ? picked->material : scenes::kNone;
     state.selectedLast = Selected::Material;
+    if (picked) state.reveals = Selected::Material; // also where it was selected before, and its panel folded since
     return picked ? state.open->scene().materials[std::size_t(picked->material)].name : "nothing";
 }
 

@@ -55,6 +55,8 @@ void visitPreferences(Known& preferences, Visitor&& visit) {
     visit("automaticScale", preferences.automaticScale);
     visit("fixedScale", preferences.fixedScale);
     visit("showsPanel", preferences.showsPanel);
+    visit("panelWidth", preferences.panelWidth);
+    visit("sections", preferences.sections);
     visit("showsMarkers", preferences.showsMarkers);
 }
 
@@ -150,6 +152,8 @@ Preferences readPreferences(const std::filesystem::path& file) {
     if (preferences.recent.size() > kMostRecent) preferences.recent.resize(kMostRecent);
     if (!(preferences.fixedScale >= kLeastScale && preferences.fixedScale <= 1.0f))
         preferences.fixedScale = Preferences().fixedScale;
+    if (!(preferences.panelWidth >= kLeastPanelWidth && preferences.panelWidth <= kMostPanelWidth))
+        preferences.panelWidth = kUsualPanelWidth;
     return preferences;
 }
 

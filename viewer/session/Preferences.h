@@ -11,6 +11,8 @@
 namespace tessera::viewer {
 
 inline constexpr float kLeastScale = 0.1f; ///< of a picture's side, where the user sets it
+/// Width of the panels, on a display of usual density.
+inline constexpr float kUsualPanelWidth = 300.0f, kLeastPanelWidth = 220.0f, kMostPanelWidth = 900.0f;
 
 /// What the viewer remembers from one run to the next. Names are those of the command line.
 struct Preferences {
@@ -20,6 +22,8 @@ struct Preferences {
     bool automaticScale = true;
     float fixedScale = 1.0f; ///< otherwise; kLeastScale to 1
     bool showsPanel = true;
+    float panelWidth = kUsualPanelWidth;  ///< kLeastPanelWidth to kMostPanelWidth
+    std::map<std::string, bool> sections; ///< of the panels, by title: opened or folded by the user
     bool showsMarkers = false;
     bool operator==(const Preferences&) const = default;
 };

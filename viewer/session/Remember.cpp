@@ -7,6 +7,8 @@ void recall(const Preferences& preferences, State& state) {
     state.automaticScale = preferences.automaticScale;
     state.fixedScale = preferences.fixedScale;
     state.showsPanel = preferences.showsPanel;
+    state.panelWidth = preferences.panelWidth;
+    state.sections = preferences.sections;
     state.showsMarkers = preferences.showsMarkers;
 }
 
@@ -31,6 +33,8 @@ void remember(Preferences& preferences, const State& state, const Look& begun, g
     preferences.automaticScale = state.automaticScale;
     preferences.fixedScale = state.fixedScale;
     preferences.showsPanel = state.showsPanel;
+    preferences.panelWidth = state.panelWidth;
+    preferences.sections = state.sections;
     preferences.showsMarkers = state.showsMarkers;
 }
 

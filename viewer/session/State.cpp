@@ -10,8 +10,13 @@ void State::shareSettings() {
 }
 
 void State::noteSelection() {
-    if (selectedMaterial != notedMaterial_) selectedLast = Selected::Material;
-    if (selectedLight != notedLight_) selectedLast = Selected::Light;
+    const auto note = [this](int selected, int noted, Selected kind) {
+        if (selected == noted) return;
+        selectedLast = kind;
+        if (selected != scenes::kNone) reveals = kind;
+    };
+    note(selectedMaterial, notedMaterial_, Selected::Material);
+    note(selectedLight, notedLight_, Selected::Light);
     notedLight_ = selectedLight;
     notedMaterial_ = selectedMaterial;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "viewer/session/FileDialog.h"
 #include "viewer/session/Look.h"
 #include "viewer/session/OpenScene.h"
+#include "viewer/session/Preferences.h"
 #include "viewer/session/Question.h"
 #include "viewer/session/Timings.h"
 
@@ -35,9 +37,9 @@ struct Notice {
 
 /// What panels and keys ask for that is more than a change of the state; done between two frames.
 struct Requests {
-    std::optional<std::string> open;        ///< a scene
-    std::optional<std::string> chosen;      ///< a file that was dropped or chosen: a scene or an environment
-    std::optional<std::string> saveAs;      ///< the scene or the picture, as the name's end says
+    std::optional<std::string> open;   ///< a scene
+    std::optional<std::string> chosen; ///< a file that was dropped or chosen: a scene or an environment
+    std::optional<std::string> saveAs; ///< the scene or the picture, as the name's end says
     bool askWhatToOpen = false;
     bool askWhereToSave = false;
     std::optional<std::string> variant;     ///< that the open scene's models are to show; empty: none
@@ -76,6 +78,9 @@ struct State {
     bool automaticScale = true; ///< smaller pictures while something moves
     float fixedScale = 1.0f;    ///< otherwise
     bool showsPanel = true;
+    float panelWidth = kUsualPanelWidth;  ///< as Preferences::panelWidth
+    std::map<std::string, bool> sections; ///< as Preferences::sections
+    std::optional<Selected> reveals;      ///< whose panel is to come into view
     bool showsHelp = false;
     int selectedLight = scenes::kNone;
     int selectedMaterial = scenes::kNone;
@@ -88,6 +93,7 @@ struct State {
     bool showsMarkers = false;             ///< where lights are
     bool isDragging = false;               ///< something in the picture, or the camera
     bool isDividerHeld = false;            ///< it is dragged
+    bool isPanelEdgeHeld = false;          ///< the same of the panels' edge
     std::optional<int> heldHandle;         ///< of the selected light, which is dragged: LightHandle::number
     bool inspects = false;                 ///< the picture's pixels, one after the other
     std::optional<glm::vec2> pointedPlace; ///< of the picture, a share of its size; none: the pointer is elsewhere
@@ -117,7 +123,7 @@ struct State {
     const Look& active() const { return looks[std::size_t(activeSide)]; }
     /// What both sides share: where, when and how bright.
     void shareSettings();
-    /// Heeds what was selected since it was called last, wherever.
+    /// Heeds what was selected since it was called last, wherever: its panel is to come into view.
     void noteSelection();
 
 private:

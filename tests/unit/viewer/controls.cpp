@@ -305,5 +305,53 @@ TEST(Controls, handlesAreTakenAsFarBesideThemAsTheDisplayIsDense) {
     EXPECT_FALSE(handleUnder(state, none, kRightSide)) << "there is no picture";
 }
 
+TEST(Controls, theEdgeOfThePanelsIsDraggedWithinBounds) {
+    State state;
+    constexpr PictureArea kBeside{{300.0f, 0.0f}, {700.0f, 500.0f}};
+    Controls controls;
+    const auto tell = [&](InputEvent::Kind kind, float x, bool isDown) {
+        InputEvent event;
+        event.kind = kind;
+        event.down = isDown;
+        event.position = {x, 200.0f};
+        controls.handle(std::span(&event, 1), state, kBeside, {});
+    };
+    using Kind = InputEvent::Kind;
+    tell(Kind::Button, 310.0f, true); // in the picture
+    tell(Kind::Move, 400.0f, true);
+    tell(Kind::Button, 400.0f, false);
+    EXPECT_EQ(state.panelWidth, kUsualPanelWidth);
+    tell(Kind::Button, 301.0f, true);
+    EXPECT_TRUE(state.isPanelEdgeHeld);
+    tell(Kind::Move, 420.3f, true);
+    EXPECT_EQ(state.panelWidth, 420.0f);
+    tell(Kind::Move, 3.0f, true);
+    EXPECT_EQ(state.panelWidth, kLeastPanelWidth);
+    tell(Kind::Move, 2000.0f, true);
+    EXPECT_EQ(state.panelWidth, 800.0f) << "a fifth of the window is left to the picture";
+    tell(Kind::Button, 2000.0f, false);
+    EXPECT_FALSE(state.isPanelEdgeHeld);
+    EXPECT_FALSE(state.isDragging);
+    tell(Kind::Move, 500.0f, false);
+    EXPECT_EQ(state.panelWidth, 800.0f);
+}
+
+TEST(Controls, whileTheDialogOfFilesAsksKeysAndThePictureWait) {
+    State state = withLightInTheMiddle(0, 1);
+    state.files.emplace(FileDialog::Purpose::Open, "/");
+    EXPECT_EQ(selectedByPress(state), scenes::kNone);
+    InputEvent key;
+    key.kind = InputEvent::Kind::Key;
+    key.down = true;
+    key.code = 'M';
+    Controls controls;
+    controls.handle(std::span(&key, 1), state, kArea, {});
+    EXPECT_TRUE(state.showsMarkers) << "M would hide them";
+    EXPECT_TRUE(state.files);
+    key.code = 256; // GLFW's Escape
+    controls.handle(std::span(&key, 1), state, kArea, {.keyboard = true});
+    EXPECT_FALSE(state.files);
+}
+
 } // namespace
 } // namespace tessera::viewer

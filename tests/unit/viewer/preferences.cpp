@@ -22,6 +22,8 @@ Preferences everything() {
     preferences.automaticScale = false;
     preferences.fixedScale = 0.25f;
     preferences.showsPanel = false;
+    preferences.panelWidth = 412.0f;
+    preferences.sections = {{"Lights", true}, {"View", false}};
     preferences.showsMarkers = true;
     return preferences;
 }
@@ -55,6 +57,15 @@ TEST(Preferences, aScaleThatCannotBeSetIsNotTakenFromAFile) {
     for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"}) {
         std::ofstream(file) << R"({"fixedScale": )" << scale << "}";
         EXPECT_EQ(readPreferences(file), Preferences()) << scale;
+    }
+}
+
+TEST(Preferences, panelsThatCannotBeDraggedSoAreAsWideAsUsual) {
+    const tessera::test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    for (const char* width : {"0", "219", "-1", "901", "1e300"}) {
+        std::ofstream(file) << R"({"panelWidth": )" << width << "}";
+        EXPECT_EQ(readPreferences(file), Preferences()) << width;
     }
 }
 

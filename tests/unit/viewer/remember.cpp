@@ -121,6 +121,8 @@ TEST(Remember, theWindowBeginsAsItWasLeft) {
     left.fixedScale = 0.5f;
     left.showsPanel = false;
     left.showsMarkers = true;
+    left.panelWidth = 400.0f;
+    left.sections["Lights"] = true;
     Preferences preferences;
     remember(preferences, left, {}, kWindow);
     State next;
@@ -130,6 +132,8 @@ TEST(Remember, theWindowBeginsAsItWasLeft) {
     EXPECT_EQ(next.fixedScale, 0.5f);
     EXPECT_FALSE(next.showsPanel);
     EXPECT_TRUE(next.showsMarkers);
+    EXPECT_EQ(next.panelWidth, 400.0f);
+    EXPECT_EQ(next.sections, left.sections);
 }
 
 } // namespace
