@@ -253,6 +253,16 @@ void leaveCameras(Rig& rig) {
         if (infoOf(rest.property).owner == AnimatedOwner::Camera) rest.element = kNone;
 }
 
+/// The links with every light given another number, or kNone where it has left.
+template <typename NumberAfter>
+LightLinks renumbered(LightLinks links, const NumberAfter& numberAfter) {
+    for (Carried& carried : links.carried) carried.element = numberAfter(carried.element);
+    std::erase_if(links.carried, [](const Carried& carried) { return carried.element == kNone; });
+    for (int& light : links.numbers)
+        if (light != kNone) light = numberAfter(light);
+    return links;
+}
+
 } // namespace
 
 double lengthSeconds(const Clip& clip) {
@@ -452,17 +462,18 @@ LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before
 }
 
 LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put) {
-    LightLinks links = lightLinks(rig);
-    const auto replace = [&](int& light) {
-        if (light >= int(first + taken))
-            light += int(put) - int(taken);
-        else if (light >= int(first))
-            light = kNone;
-    };
-    for (Carried& carried : links.carried) replace(carried.element);
-    std::erase_if(links.carried, [](const Carried& carried) { return carried.element == kNone; });
-    for (int& light : links.numbers) replace(light);
-    return links;
+    return renumbered(lightLinks(rig), [&](int light) {
+        if (light >= int(first + taken)) return light + int(put) - int(taken);
+        return light >= int(first) ? kNone : light;
+    });
+}
+
+LightLinks linksAfterDeleting(const Rig& rig, std::span<const std::size_t> deleted) {
+    return renumbered(lightLinks(rig), [&](int light) {
+        const auto place = std::ranges::lower_bound(deleted, std::size_t(light));
+        if (place != deleted.end() && *place == std::size_t(light)) return kNone;
+        return light - int(place - deleted.begin());
+    });
 }
 
 void restLights(Scene& scene) {

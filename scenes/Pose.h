@@ -76,6 +76,9 @@ LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before
 /// The same when `put` lights have come in the place of `taken` ones from `first` on, which all are without links.
 LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put);
 
+/// The same when lights were deleted; indices from the least on.
+LightLinks linksAfterDeleting(const Rig& rig, std::span<const std::size_t> deleted);
+
 /// Puts all numbers of lights that clips may change to rest.
 void restLights(Scene& scene);
 

@@ -139,9 +139,13 @@ void DrivenViewer::moveTo(glm::ivec2 pixel) const {
     desktop_.xdotool({"mousemove", number(pixel.x), number(pixel.y)});
 }
 
-void DrivenViewer::click(glm::ivec2 pixel) const {
-    desktop_.xdotool({"mousemove", number(pixel.x), number(pixel.y), "sleep", "0.1", "mousedown", "1", "sleep", "0.1",
-                      "mouseup", "1", "sleep", "0.1"});
+void DrivenViewer::click(glm::ivec2 pixel, const std::string& held) const {
+    std::vector<std::string> words{"mousemove", number(pixel.x), number(pixel.y), "sleep", "0.1"};
+    const auto add = [&words](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+    if (!held.empty()) add({"keydown", held});
+    add({"mousedown", "1", "sleep", "0.1", "mouseup", "1", "sleep", "0.1"});
+    if (!held.empty()) add({"keyup", held});
+    desktop_.xdotool(words);
 }
 
 void DrivenViewer::doubleClick(glm::ivec2 pixel) const {

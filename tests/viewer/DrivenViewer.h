@@ -50,7 +50,7 @@ public:
     void type(const std::string& text) const; ///< letter by letter
     void hold(const std::string& key, double seconds) const;
     void moveTo(glm::ivec2 pixel) const;
-    void click(glm::ivec2 pixel) const;
+    void click(glm::ivec2 pixel, const std::string& held = "") const;
     void doubleClick(glm::ivec2 pixel) const;
     /// By way of ten points, with keys held; X11's button 1 is the left one, 3 the right one.
     void drag(glm::ivec2 from, glm::ivec2 to, const std::string& held = "", int button = 1) const;

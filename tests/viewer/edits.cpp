@@ -92,6 +92,35 @@ TEST_F(ViewerEdits, anEditIsUndoneAndRedoneByKeys) {
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 
+TEST_F(ViewerEdits, severalLightsAreSelectedInTheListAndDeletedAtOnce) {
+    folder_.write("row.json", R"({"tessera": 1, "base": {"file": "builtin:room"}, "lights": [
+        {"name": "a", "type": "point", "position": [-1, 1.5, 0], "intensity": 8, "range": 3},
+        {"name": "b", "type": "point", "position": [0, 1.5, 0], "intensity": 8},
+        {"name": "c", "type": "point", "position": [0.5, 1.5, 0], "intensity": 8},
+        {"name": "d", "type": "point", "position": [1, 1.5, 0], "intensity": 8}]})");
+    DrivenViewer viewer = open({"row.json"});
+    const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
+    toggle(viewer, Section::Lights);
+    const auto nameOf = [&](int light) {
+        return glm::ivec2(120, barOf(viewer, Section::Lights) + kFirstSwitchPixels + light * kSwitchPixels);
+    };
+    viewer.click(nameOf(0));
+    viewer.moveTo(kMiddle);
+    viewer.pause(0.5);
+    EXPECT_GT(differingShare(pictureIn(viewer, lit.sizePixels), lit), 0.001) << "its range is not drawn";
+    viewer.click(nameOf(1), "shift");
+    viewer.click(nameOf(3), "ctrl");
+    const Shot dark = after(viewer, [&] { viewer.key("Delete"); });
+    EXPECT_GT(differingShare(dark, lit, 4), 0.2);
+    const nlohmann::json lights = readJson(saveScene(viewer)).at("lights");
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(lights.at(0).at("name"), "c");
+    after(viewer, [&] { viewer.key("ctrl+z"); }); // all in one step
+    EXPECT_EQ(readJson(saveScene(viewer)).at("lights").size(), 4u);
+    viewer.key("ctrl+q");
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
 TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
     Shot dark;
     {

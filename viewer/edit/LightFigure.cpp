@@ -80,6 +80,8 @@ public:
             break;
         }
         if (info.hasDirection) addDirection(reachMetres);
+        if (info.hasPosition() && light_.falloff != scenes::Falloff::Attenuation && std::isfinite(light_.rangeMetres))
+            addRange();
     }
 
 private:
@@ -168,6 +170,33 @@ private:
         figure_.outlinesWS.push_back(ellipseWS(endWS, alongWS, acrossWS));
         figure_.outlinesWS.push_back({endWS + alongWS, figure_.middleWS, endWS - alongWS});
         figure_.outlinesWS.push_back({endWS + acrossWS, figure_.middleWS, endWS - acrossWS});
+    }
+
+    /// A spot's cone, of all others the outline of a sphere, or its level circle for an eye that is inside.
+    void addRange() {
+        const double rangeMetres = light_.rangeMetres, coneRadians = light_.outerConeRadians;
+        const glm::dvec3& middleWS = figure_.middleWS;
+        if (light_.type == scenes::LightType::Spot && coneRadians < 0.5 * std::numbers::pi) {
+            const glm::dvec3 alongWS = rangeMetres * std::sin(coneRadians) * scenes::usualAlong(light_.directionWS);
+            const glm::dvec3 acrossWS = glm::cross(light_.directionWS, alongWS);
+            const glm::dvec3 endWS = middleWS + rangeMetres * std::cos(coneRadians) * light_.directionWS;
+            figure_.rangeWS.push_back(ellipseWS(endWS, alongWS, acrossWS));
+            figure_.rangeWS.push_back({endWS + alongWS, middleWS, endWS - alongWS});
+            figure_.rangeWS.push_back({endWS + acrossWS, middleWS, endWS - acrossWS});
+            return;
+        }
+        glm::dvec3 rightWS(1.0, 0.0, 0.0), upWS(0.0, 0.0, 1.0), centreWS = middleWS;
+        double radiusMetres = rangeMetres;
+        if (const std::optional<Rim> rim = rimOf(rangeMetres, eyeMetres(view_.eyeWS() - middleWS))) {
+            const glm::dvec3 towardsWS = view_.towardsViewerWS(middleWS);
+            if (const auto acrossWS = scenes::acrossFrom(towardsWS, view_.rightWS())) {
+                rightWS = *acrossWS;
+                upWS = glm::cross(towardsWS, rightWS);
+                centreWS += rim->towards * towardsWS;
+                radiusMetres = rim->aside;
+            }
+        }
+        figure_.rangeWS.push_back(ellipseWS(centreWS, radiusMetres * rightWS, radiusMetres * upWS));
     }
 
     void addRectangle() {

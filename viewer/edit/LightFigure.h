@@ -26,6 +26,7 @@ struct LightHandle {
 struct LightFigure {
     glm::dvec3 middleWS{0.0};                        ///< of the handles
     std::vector<std::vector<glm::dvec3>> outlinesWS; ///< lines through these points
+    std::vector<std::vector<glm::dvec3>> rangeWS;    ///< the same: how far a light with a range shines
     std::vector<LightHandle> handles;                ///< those that can be taken now
     std::optional<glm::dvec2> sun;                   ///< place of a directional light, which has none in the scene
 };

@@ -11,7 +11,8 @@ namespace tessera::viewer {
 namespace {
 
 constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 255, 255, 255);
-constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160); ///< so that lines are seen on white too
+constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160);    ///< so that lines are seen on white too
+constexpr ImU32 kRangeInk = IM_COL32(140, 195, 255, 110); ///< of how far lights shine, and of others that are selected
 constexpr float kHandleRadius = 4.5f, kLineWidth = 1.5f, kUnderWidth = 3.5f;
 
 /// Before, Dear ImGui shows slanting arrows as the plain one, which says nothing.
@@ -44,6 +45,9 @@ public:
     PictureInk(const PictureInk&) = delete;
     PictureInk& operator=(const PictureInk&) = delete;
 
+    void faintLine(const glm::dvec2& from, const glm::dvec2& to) {
+        list_.AddLine(at(from), at(to), kRangeInk, kLineWidth * area_.scale);
+    }
     void line(const glm::dvec2& from, const glm::dvec2& to) {
         list_.AddLine(at(from), at(to), kUnderInk, kUnderWidth * area_.scale);
         list_.AddLine(at(from), at(to), kFigureInk, kLineWidth * area_.scale);
@@ -100,9 +104,18 @@ void drawHandles(const State& state, const PictureArea& area) {
     if (!figure) return;
     const PictureView view = viewOf(state, area);
     PictureInk ink(area);
-    for (const std::vector<glm::dvec3>& outlineWS : figure->outlinesWS)
-        for (std::size_t i = 1; i < outlineWS.size(); ++i)
-            if (const auto line = view.lineBetween(outlineWS[i - 1], outlineWS[i])) ink.line(line->first, line->second);
+    const auto draw = [&](const std::vector<std::vector<glm::dvec3>>& outlinesWS, auto drawLine) {
+        for (const std::vector<glm::dvec3>& outlineWS : outlinesWS)
+            for (std::size_t i = 1; i < outlineWS.size(); ++i)
+                if (const auto line = view.lineBetween(outlineWS[i - 1], outlineWS[i]))
+                    (ink.*drawLine)(line->first, line->second);
+    };
+    for (const LightFigure& other : otherFigures(state, area)) {
+        draw(other.rangeWS, &PictureInk::faintLine);
+        draw(other.outlinesWS, &PictureInk::faintLine);
+    }
+    draw(figure->rangeWS, &PictureInk::faintLine);
+    draw(figure->outlinesWS, &PictureInk::line);
     if (figure->sun) ink.sun(*figure->sun);
     const std::optional<LightHandle> pointed = pointedHandle(state, area, *figure);
     for (const LightHandle& handle : figure->handles) ink.handle(handle, pointed && pointed->number == handle.number);

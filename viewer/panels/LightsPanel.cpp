@@ -21,7 +21,14 @@ constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
 constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: sides and lengths that are slid to
 constexpr double kMostRadiusShare = 0.1;   ///< the same of radii
 
-void tableRow(State& state, int index) {
+/// Shift and Ctrl with a click on a name.
+Choosing choosingNow() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyShift) return Choosing::Range;
+    return io.KeyCtrl ? Choosing::Toggle : Choosing::Alone;
+}
+
+void tableRow(State& state, int index, bool isScrolledTo) {
     const Lights& lights = state.open->scene().lights;
     const scenes::Light& light = lights[std::size_t(index)];
     ImGui::PushID(index);
@@ -43,8 +50,9 @@ void tableRow(State& state, int index) {
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
     const std::string name = lightLabel(lights, std::size_t(index));
-    const bool isSelected = index == state.selectedLight;
-    if (ImGui::Selectable(name.c_str(), isSelected)) state.selectedLight = isSelected ? scenes::kNone : index;
+    if (ImGui::Selectable(name.c_str(), state.isLightSelected(index))) selectLight(state, index, choosingNow());
+    tip("Ctrl and a click selects several, Shift and a click all between");
+    if (isScrolledTo && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
     ImGui::TableNextColumn();
     std::optional<int>& solo = state.active().settings.soloLight;
     bool isSolo = solo == index;
@@ -62,10 +70,15 @@ void lightList(State& state) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableHeadersRow();
+    // A light that was selected elsewhere comes into view.
+    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), scenes::kNone);
+    const int count = int(state.open->scene().lights.size()), selected = state.selectedLight;
+    const bool isMoved = std::exchange(shown, selected) != selected && selected >= 0 && selected < count;
     ImGuiListClipper clipper; // tens of thousands of rows, of which few are in view
-    clipper.Begin(int(state.open->scene().lights.size()));
+    clipper.Begin(count);
+    if (isMoved) clipper.ForceDisplayRangeByIndices(selected, selected + 1);
     while (clipper.Step())
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) tableRow(state, i);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) tableRow(state, i, isMoved && i == selected);
     ImGui::EndTable();
 }
 
@@ -235,9 +248,13 @@ void listButtons(State& state) {
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);
     if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLight(state);
+    tip("A copy of the selected light, in the same place");
     ImGui::SameLine();
-    if (ImGui::Button("Delete", {width, 0.0f})) deleteSelectedLight(state);
+    const std::size_t count = state.allSelectedLights().size();
+    const std::string label = count > 1 ? fmt::format("Delete {}###delete", count) : "Delete###delete";
+    if (ImGui::Button(label.c_str(), {width, 0.0f})) deleteSelectedLights(state);
     ImGui::EndDisabled();
+    tip("The selected lights (Del); Ctrl+A selects all");
 }
 
 /// Replaces the lights by many.
@@ -283,7 +300,10 @@ void lightsPanel(State& state) {
     const Lights& lights = open.scene().lights;
     const double timeSeconds = state.active().settings.timeSeconds;
     listButtons(state); // first: they stay in view however long the list is
-    lightList(state);
+    if (lights.empty())
+        paragraph("There are no lights. Add one, or scatter many below.");
+    else
+        lightList(state);
     if (state.selectedLight >= int(lights.size())) state.selectedLight = scenes::kNone;
     if (state.selectedLight != scenes::kNone) {
         const scenes::Box3& bounds = open.boundsWS();

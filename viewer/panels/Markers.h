@@ -4,7 +4,7 @@
 
 namespace tessera::viewer {
 
-/// Shows over the picture where lights are: all of them where the state says so, and the selected one.
+/// Shows over the picture where lights are: lightMarkers().
 void drawMarkers(const State& state, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

@@ -182,7 +182,10 @@ void materialsPanel(State& state) {
     const auto now = std::size_t(any ? state.selectedMaterial : int(materials.size()));
     if (const auto chosen = choose("Material", any ? nameOf(now) : "click a surface", materials.size(), choiceAt, now))
         state.selectedMaterial = int(*chosen);
-    if (state.selectedMaterial == scenes::kNone) return;
+    tip("A click on a surface in the picture chooses its material");
+    if (state.selectedMaterial == scenes::kNone)
+        return paragraph(materials.empty() ? "This scene has no materials."
+                                           : "Click a surface in the picture to edit its material.");
     const auto index = std::size_t(state.selectedMaterial);
     Material edited = materials[index];
     if (materialRows(edited)) state.open->changeMaterial(index, std::move(edited), widgetGesture());

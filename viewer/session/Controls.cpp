@@ -41,17 +41,9 @@ scenes::Light lightShown(const State& state, int index) {
 /// The light whose marker is under the pointer: the selected one before others.
 int markedLight(const State& state, const PictureArea& area, const glm::vec2& point) {
     if (!state.open || isEmpty(area)) return scenes::kNone;
-    const PictureView view = viewOf(state, area);
-    const auto isUnder = [&](int index) {
-        const scenes::Light light = lightShown(state, index);
-        if (!scenes::infoOf(light.type).hasPosition()) return false;
-        const auto place = view.placeOf(light.positionWS);
-        return place && glm::distance(area.corner + glm::vec2(*place), point) <= kMarkerReach * area.scale;
-    };
-    if (hasSelectedLight(state) && isUnder(state.selectedLight)) return state.selectedLight;
-    const int marked = state.showsMarkers ? int(std::min(state.open->scene().lights.size(), kMostMarkers)) : 0;
-    for (int i = 0; i < marked; ++i)
-        if (isUnder(i)) return i;
+    for (const LightMarker& marker : lightMarkers(state, area))
+        if (glm::distance(area.corner + glm::vec2(marker.place), point) <= kMarkerReach * area.scale)
+            return marker.light;
     return scenes::kNone;
 }
 
@@ -102,6 +94,44 @@ PictureView viewOf(const State& state, const PictureArea& area) {
 std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area) {
     if (!hasSelectedLight(state) || isEmpty(area)) return std::nullopt;
     return lightFigure(lightShown(state, state.selectedLight), viewOf(state, area), area.scale);
+}
+
+std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& area) {
+    constexpr double kSunInset = 16.0, kFirstSun = 48.0, kSunStep = 32.0; // from the right side, and downwards
+    const Lights& lights = state.open->scene().lights;
+    const PictureView view = viewOf(state, area);
+    std::vector<LightMarker> markers;
+    const auto mark = [&](int index) {
+        const scenes::Light light = lightShown(state, index);
+        if (!scenes::infoOf(light.type).hasPosition()) return;
+        if (const auto place = view.placeOf(light.positionWS)) markers.push_back({index, *place});
+    };
+    if (hasSelectedLight(state)) mark(state.selectedLight);
+    std::size_t count = 0;
+    for (const int index : state.allSelectedLights())
+        if (index != state.selectedLight && index < int(lights.size()) && ++count <= kMostMarkers) mark(index);
+    if (!state.showsMarkers) return markers;
+    double sunY = kFirstSun * area.scale;
+    for (int index = 0; index < int(std::min(lights.size(), kMostMarkers)); ++index) {
+        const bool isSun = !scenes::infoOf(lights[std::size_t(index)].type).hasPosition();
+        if (!isSun && !state.isLightSelected(index)) mark(index);
+        if (!isSun || sunY + kSunInset * area.scale > double(area.size.y)) continue;
+        markers.push_back({index, {double(area.size.x) - kSunInset * area.scale, sunY}, true});
+        sunY += kSunStep * area.scale;
+    }
+    return markers;
+}
+
+std::vector<LightFigure> otherFigures(const State& state, const PictureArea& area) {
+    std::vector<LightFigure> figures;
+    if (!hasSelectedLight(state) || isEmpty(area)) return figures;
+    const PictureView view = viewOf(state, area);
+    for (const int index : state.allSelectedLights()) {
+        if (index == state.selectedLight || index >= int(state.open->scene().lights.size())) continue;
+        if (figures.size() == kMostFigures) break;
+        figures.push_back(lightFigure(lightShown(state, index), view, area.scale));
+    }
+    return figures;
 }
 
 std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "viewer/edit/LightDrag.h"
 #include "viewer/session/State.h"
@@ -11,6 +12,8 @@ namespace tessera::viewer {
 /// Lights that have a marker where all are marked, the scene's first: more would hide the picture, and take a frame to
 /// draw. The selected one always has one.
 inline constexpr std::size_t kMostMarkers = 4096;
+/// Lights that are selected beside the one that has handles, and show their outlines.
+inline constexpr std::size_t kMostFigures = 64;
 
 /// Where the picture is in the window, screen coordinates from the upper left.
 struct PictureArea {
@@ -31,6 +34,20 @@ std::optional<LightFigure> selectedFigure(const State& state, const PictureArea&
 
 /// Its handle that a press at a point of the window takes; its marker is taken before one that is no nearer.
 std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point);
+
+/// Where a light is marked.
+struct LightMarker {
+    int light = scenes::kNone;
+    glm::dvec2 place{0.0}; ///< in the picture
+    bool isSun = false;    ///< of a directional light, which has no place in the scene: at the picture's right side
+};
+
+/// The markers of an open scene in a picture that is not empty: of the selected lights, then, where the state says so,
+/// of all others up to kMostMarkers. Suns only where all are marked: one below the other, as many as there is room for.
+std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& area);
+
+/// The figures of the other lights that are selected, up to kMostFigures.
+std::vector<LightFigure> otherFigures(const State& state, const PictureArea& area);
 
 /// Whether a press at a point of the window takes the divider between two pictures side by side.
 bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& point);

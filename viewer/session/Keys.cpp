@@ -96,7 +96,8 @@ constexpr KeyBinding kBindings[] = {
          std::optional<int>& solo = s.active().settings.soloLight;
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
-    {GLFW_KEY_DELETE, kNone, "Del", "delete the selected light", deleteSelectedLight},
+    {GLFW_KEY_DELETE, kNone, "Del", "delete the selected lights", deleteSelectedLights},
+    {GLFW_KEY_A, kControl, "Ctrl+A", "select all lights", selectAllLights},
     {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo},
     {GLFW_KEY_Z, kControl | kShift, "Ctrl+Shift+Z", "redo; also Ctrl+Y", redo},
     {GLFW_KEY_Y, kControl, "", "", redo},

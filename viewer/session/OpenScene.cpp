@@ -214,6 +214,17 @@ void OpenScene::replaceLights(std::string what, std::size_t first, std::size_t c
     apply(std::move(what), std::move(edit));
 }
 
+void OpenScene::deleteLights(std::string what, std::span<const std::size_t> indices) {
+    // One step, of the lights from the first that goes to the last, in whose place those come that stay.
+    const std::size_t first = indices.front(), end = indices.back() + 1;
+    Lights kept;
+    for (std::size_t i = first; i < end; ++i)
+        if (!std::ranges::binary_search(indices, i)) kept.push_back(scene_.lights[i]);
+    LightsEdit edit{first, end - first, std::move(kept)};
+    edit.links = scenes::linksAfterDeleting(scene_.rig, indices);
+    apply(std::move(what), std::move(edit));
+}
+
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
     const std::string name = std::filesystem::path(chosen.name).filename().string();
     Surrounding next{std::move(chosen.environment), std::move(chosen.filtered), scene_.warnings,

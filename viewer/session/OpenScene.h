@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ public:
     void changeHookParameter(std::size_t parameter, float value, Gesture gesture = Gesture::Once);
     /// Puts lights in the place of `count` from `first` on. `what` tells the user: "delete light 'lamp 3'".
     void replaceLights(std::string what, std::size_t first, std::size_t count, Lights others);
+    /// Deletes lights, indices from the least on; at least one. `what` is as above.
+    void deleteLights(std::string what, std::span<const std::size_t> indices);
     /// Takes another environment in the place of the scene's own.
     void takeEnvironment(ChosenEnvironment chosen);
     /// The drag that edits with Gesture::GoesOn is over.

@@ -1,5 +1,6 @@
 #include "viewer/session/SceneEdits.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,10 @@ bool hasSelected(const State& state) {
 void followLights(State& state, std::size_t first, std::size_t taken, std::size_t put) {
     if (state.selectedLight != scenes::kNone)
         state.selectedLight = indexAfter(state.selectedLight, first, taken, put).value_or(scenes::kNone);
+    std::set<int> selected;
+    for (const int light : state.selectedLights)
+        if (const auto after = indexAfter(light, first, taken, put)) selected.insert(*after);
+    state.selectedLights = std::move(selected);
     for (Look& look : state.looks) {
         std::optional<int>& solo = look.settings.soloLight;
         if (solo) solo = indexAfter(*solo, first, taken, put);
@@ -69,10 +74,61 @@ void duplicateSelectedLight(State& state) {
     append(state, "duplicate", copyOfLight(state.open->scene().lights, std::size_t(state.selectedLight)));
 }
 
-void deleteSelectedLight(State& state) {
+void deleteSelectedLights(State& state) {
     if (!hasSelected(state)) return;
-    const auto index = std::size_t(state.selectedLight);
-    replace(state, fmt::format("delete light '{}'", lightLabel(state.open->scene().lights, index)), index, 1, {});
+    std::vector<std::size_t> deleted;
+    const Lights& lights = state.open->scene().lights;
+    for (const int light : state.allSelectedLights())
+        if (std::size_t(light) < lights.size()) deleted.push_back(std::size_t(light));
+    state.open->deleteLights(deleted.size() == 1 ? fmt::format("delete light '{}'", lightLabel(lights, deleted[0]))
+                                                 : fmt::format("delete {} lights", deleted.size()),
+                             deleted);
+    const auto before = [&](std::size_t light) { return std::ranges::lower_bound(deleted, light) - deleted.begin(); };
+    for (Look& look : state.looks) {
+        std::optional<int>& solo = look.settings.soloLight;
+        if (!solo) continue;
+        if (std::ranges::binary_search(deleted, std::size_t(*solo)))
+            solo.reset();
+        else
+            *solo -= int(before(std::size_t(*solo)));
+    }
+    const int left = int(lights.size());
+    const int next = int(deleted.back() + 1 - deleted.size());
+    state.selectedLights.clear();
+    state.selectedLight = left == 0 || state.isDragging ? scenes::kNone : std::min(next, left - 1);
+}
+
+void selectLight(State& state, int index, Choosing choosing) {
+    std::set<int> selected = state.allSelectedLights();
+    switch (choosing) {
+    case Choosing::Alone:
+        state.selectedLight = selected == std::set<int>{index} ? scenes::kNone : index;
+        selected = {index};
+        break;
+    case Choosing::Toggle:
+        if (selected.erase(index) == 0) {
+            selected.insert(index);
+            state.selectedLight = index;
+        } else if (state.selectedLight == index) {
+            state.selectedLight = selected.empty() ? scenes::kNone : *selected.rbegin();
+        }
+        break;
+    case Choosing::Range: {
+        const int from = state.selectedLight == scenes::kNone ? index : state.selectedLight;
+        for (int light = std::min(from, index); light <= std::max(from, index); ++light) selected.insert(light);
+        state.selectedLight = index;
+        break;
+    }
+    }
+    state.selectedLights = state.selectedLight == scenes::kNone ? std::set<int>() : selected;
+}
+
+void selectAllLights(State& state) {
+    if (!state.open || state.open->scene().lights.empty()) return;
+    const int last = int(state.open->scene().lights.size()) - 1;
+    if (!hasSelected(state)) state.selectedLight = last;
+    state.selectedLights.clear();
+    for (int light = 0; light <= last; ++light) state.selectedLights.insert(state.selectedLights.end(), light);
 }
 
 void replaceByScattered(State& state) {

@@ -10,8 +10,18 @@ namespace tessera::viewer {
 void addLight(State& state);
 void duplicateSelectedLight(State& state);
 
-/// Deletes the selected light, if there is one; none is selected then.
-void deleteSelectedLight(State& state);
+/// Deletes the lights that are selected, if any are, in one step. The light that follows is selected then, else the
+/// last one; none while something is dragged.
+void deleteSelectedLights(State& state);
+
+/// How a choice goes with those that were selected before.
+enum class Choosing : std::uint8_t {
+    Alone,  ///< in their place; a light that was selected alone is let go of
+    Toggle, ///< besides them, or no longer
+    Range   ///< with all from the selected one on
+};
+void selectLight(State& state, int index, Choosing choosing);
+void selectAllLights(State& state);
 
 /// Puts the lights that State::scatter describes in the place of the scene's. The next time the scattered ones lie
 /// elsewhere. Traces rays at the scene's surfaces, which may take seconds. Throws std::runtime_error when memory runs

@@ -9,6 +9,16 @@ void State::shareSettings() {
             if (setting.isShared && &look != &active()) setting.value.copy(look, active());
 }
 
+std::set<int> State::allSelectedLights() const {
+    if (selectedLight == scenes::kNone) return {};
+    return selectedLights.contains(selectedLight) ? selectedLights : std::set<int>{selectedLight};
+}
+
+bool State::isLightSelected(int index) const {
+    if (selectedLight == scenes::kNone) return false;
+    return index == selectedLight || (selectedLights.contains(selectedLight) && selectedLights.contains(index));
+}
+
 void State::noteSelection() {
     const auto note = [this](int selected, int noted, Selected kind) {
         if (selected == noted) return;
@@ -17,6 +27,7 @@ void State::noteSelection() {
     };
     note(selectedMaterial, notedMaterial_, Selected::Material);
     note(selectedLight, notedLight_, Selected::Light);
+    if (!selectedLights.contains(selectedLight)) selectedLights.clear();
     notedLight_ = selectedLight;
     notedMaterial_ = selectedMaterial;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,8 @@ struct State {
     std::map<std::string, bool> sections; ///< as Preferences::sections
     std::optional<Selected> reveals;      ///< whose panel is to come into view
     bool showsHelp = false;
-    int selectedLight = scenes::kNone;
+    int selectedLight = scenes::kNone; ///< that panels and handles are about
+    std::set<int> selectedLights;      ///< several, where that one is among them
     int selectedMaterial = scenes::kNone;
     Selected selectedLast = Selected::Light;
     Scatter scatter; ///< settings of the next scattering
@@ -118,6 +120,9 @@ struct State {
     }
     /// The picture and its keys wait.
     bool isAsking() const { return question || files; }
+    /// The selected light, and those that are selected with it.
+    std::set<int> allSelectedLights() const;
+    bool isLightSelected(int index) const;
     int sides() const { return compare == Compare::Off ? 1 : 2; }
     Look& active() { return looks[std::size_t(activeSide)]; }
     const Look& active() const { return looks[std::size_t(activeSide)]; }

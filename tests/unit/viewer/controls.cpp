@@ -217,7 +217,7 @@ TEST(Controls, aHandleEndsWithItsLight) {
     State state = withRectangleSelected();
     Controls controls;
     press(controls, state, kRightSide, true);
-    deleteSelectedLight(state);
+    deleteSelectedLights(state);
     const std::uint64_t edits = state.open->edits();
     moveTo(controls, state, kRightSide + glm::vec2(50.0f, 0.0f));
     EXPECT_FALSE(state.heldHandle);
@@ -270,7 +270,7 @@ TEST(Controls, aQuestionIsAnsweredByItsKeysAndByNothingElse) {
 TEST(Controls, keysWithControlGoByTheLetterOnThemAndOthersByTheirPlace) {
     State state = withLightInTheMiddle(0, 1);
     state.selectedLight = 0;
-    deleteSelectedLight(state);
+    deleteSelectedLights(state);
     Controls controls;
     const auto pressed = [&](int place, int letter, int modifiers) {
         InputEvent event;
@@ -351,6 +351,51 @@ TEST(Controls, whileTheDialogOfFilesAsksKeysAndThePictureWait) {
     key.code = 256; // GLFW's Escape
     controls.handle(std::span(&key, 1), state, kArea, {.keyboard = true});
     EXPECT_FALSE(state.files);
+}
+
+TEST(Controls, directionalLightsHaveSunsAtThePicturesSideWhereAllAreMarked) {
+    State state = withLightInTheMiddle(0, 30);
+    Lights lights = state.open->scene().lights;
+    for (std::size_t i = 1; i < lights.size(); ++i) lights[i].type = scenes::LightType::Directional;
+    state.open->replaceLights("replace", 0, lights.size(), lights);
+    const auto suns = [&] {
+        int count = 0;
+        for (const LightMarker& marker : lightMarkers(state, kArea)) {
+            if (!marker.isSun) continue;
+            ++count;
+            EXPECT_EQ(marker.light, count) << "in the list's order";
+            EXPECT_LT(marker.place.y, double(kArea.size.y));
+        }
+        return count;
+    };
+    EXPECT_GT(suns(), 5);
+    EXPECT_LT(suns(), 29) << "there is no room for so many";
+    const glm::vec2 second(lightMarkers(state, kArea).at(2).place); // after the light in the middle
+    InputEvent press;
+    press.kind = InputEvent::Kind::Button;
+    press.down = true;
+    press.position = second;
+    Controls controls;
+    controls.handle(std::span(&press, 1), state, kArea, {});
+    EXPECT_EQ(state.selectedLight, 2);
+    state.showsMarkers = false;
+    EXPECT_EQ(suns(), 0);
+}
+
+TEST(Controls, allSelectedLightsAreMarkedAndHaveOutlines) {
+    State state = withLightInTheMiddle(0, 3);
+    Lights lights = state.open->scene().lights;
+    for (scenes::Light& light : lights) light.positionWS = lights[0].positionWS;
+    state.open->replaceLights("replace", 0, lights.size(), lights);
+    state.showsMarkers = false;
+    state.selectedLight = 1;
+    state.selectedLights = {1, 2};
+    std::vector<int> marked;
+    for (const LightMarker& marker : lightMarkers(state, kArea)) marked.push_back(marker.light);
+    EXPECT_EQ(marked, (std::vector<int>{1, 2}));
+    EXPECT_EQ(otherFigures(state, kArea).size(), 1u);
+    state.selectedLights.clear();
+    EXPECT_TRUE(otherFigures(state, kArea).empty());
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -108,6 +109,33 @@ TEST(LightFigure, linesOfSightTouchTheOutlineOfASphereAndTheSidesOfATube) {
         }
         EXPECT_EQ(sides, 2);
     }
+}
+
+TEST(LightFigure, theRangeOfALightWithOneIsASphereOrASpotsCone) {
+    constexpr double kRangeMetres = 2.0;
+    for (const PictureView& view : twoViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            SCOPED_TRACE(type.name);
+            scenes::Light light = askewLight(type.type);
+            light.rangeMetres = scenes::kInfinity;
+            EXPECT_TRUE(lightFigure(light, view, 1.0).rangeWS.empty()) << "it has no end";
+            light.rangeMetres = float(kRangeMetres);
+            const LightFigure figure = lightFigure(light, view, 1.0);
+            EXPECT_EQ(figure.rangeWS.empty(), !type.hasPosition());
+            for (const std::vector<glm::dvec3>& outlineWS : figure.rangeWS)
+                for (const glm::dvec3& pointWS : outlineWS) { // the light is at the origin
+                    const double metres = glm::length(pointWS);
+                    EXPECT_TRUE(metres == 0.0 || std::abs(metres - kRangeMetres) < 1e-9) << metres;
+                    if (type.type == scenes::LightType::Spot && metres > 0.0) {
+                        EXPECT_NEAR(glm::dot(pointWS / metres, light.directionWS), std::cos(light.outerConeRadians),
+                                    1e-6);
+                    }
+                }
+        }
+    // An eye that is inside sees a circle on the level of the light.
+    scenes::Light around = askewLight(scenes::LightType::Point);
+    around.rangeMetres = 100.0f;
+    for (const glm::dvec3& pointWS : lightFigure(around, twoViews()[0], 1.0).rangeWS.at(0)) EXPECT_EQ(pointWS.y, 0.0);
 }
 
 TEST(LightFigure, handlesOfASmallLightLieAroundItsMarker) {

@@ -18,31 +18,76 @@ State threeLights() {
     return state;
 }
 
-TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndNoneIsSelectedThen) {
+TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndTheNextIsSelectedThen) {
     State state = threeLights();
     state.selectedLight = 1;
     state.looks[0].settings.soloLight = 2;
-    deleteSelectedLight(state);
+    deleteSelectedLights(state);
     const std::vector<scenes::Light>& lights = state.open->scene().lights;
     ASSERT_EQ(lights.size(), 2u);
     EXPECT_EQ(lights[0].name, "a");
     EXPECT_EQ(lights[1].name, "c");
     EXPECT_EQ(state.looks[0].settings.soloLight, 1);
+    EXPECT_EQ(state.selectedLight, 1) << "c";
+    deleteSelectedLights(state);
+    EXPECT_EQ(state.selectedLight, 0) << "the last";
+    deleteSelectedLights(state);
     EXPECT_EQ(state.selectedLight, scenes::kNone);
+    EXPECT_TRUE(state.open->scene().lights.empty());
+    EXPECT_FALSE(state.looks[0].settings.soloLight);
     EXPECT_TRUE(state.open->isEdited());
+}
+
+TEST(SceneEdits, severalLightsAreDeletedAndComeBackInOneStep) {
+    State state = threeLights();
+    const std::vector<scenes::Light> own = state.open->scene().lights;
+    selectLight(state, 0, Choosing::Alone);
+    selectLight(state, 2, Choosing::Toggle);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{0, 2}));
+    state.looks[0].settings.soloLight = 1;
+    deleteSelectedLights(state);
+    ASSERT_EQ(state.open->scene().lights.size(), 1u);
+    EXPECT_EQ(state.open->scene().lights[0].name, "b");
+    EXPECT_EQ(state.looks[0].settings.soloLight, 0);
+    EXPECT_EQ(state.selectedLight, 0);
+    EXPECT_EQ(*state.open->history().undoText(), "delete 2 lights");
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_FALSE(state.open->isEdited());
+}
+
+TEST(SceneEdits, aChoiceGoesAloneBesidesOrAsARange) {
+    State state = threeLights();
+    selectLight(state, 2, Choosing::Alone);
+    selectLight(state, 0, Choosing::Range);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{0, 1, 2}));
+    EXPECT_EQ(state.selectedLight, 0);
+    selectLight(state, 0, Choosing::Toggle);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{1, 2}));
+    EXPECT_EQ(state.selectedLight, 2);
+    selectLight(state, 1, Choosing::Alone);
+    EXPECT_EQ(state.allSelectedLights(), std::set<int>{1}) << "the others are let go of first";
+    selectLight(state, 1, Choosing::Alone);
+    EXPECT_EQ(state.allSelectedLights(), std::set<int>());
+    selectAllLights(state);
+    EXPECT_EQ(state.allSelectedLights().size(), 3u);
+    state.selectedLight = 1; // as a marker does
+    EXPECT_EQ(state.allSelectedLights().size(), 3u) << "it was one of them";
+    addLight(state);
+    EXPECT_EQ(state.allSelectedLights(), std::set<int>{3});
 }
 
 TEST(SceneEdits, withoutASelectedLightNothingIsDeletedOrCountedAsAnEdit) {
     State state = threeLights();
     for (const int selected : {scenes::kNone, 3}) {
         state.selectedLight = selected;
-        deleteSelectedLight(state);
+        deleteSelectedLights(state);
     }
     EXPECT_EQ(state.open->scene().lights.size(), 3u);
     EXPECT_FALSE(state.open->isEdited());
     State none;
     none.selectedLight = 0;
-    deleteSelectedLight(none);
+    deleteSelectedLights(none);
     replaceByScattered(none);
 }
 
@@ -87,7 +132,7 @@ TEST(SceneEdits, aDeletedLightComesBackInItsPlaceSelectedAndSoloGoesWithItsLight
     const std::vector<scenes::Light> own = state.open->scene().lights;
     state.selectedLight = 1;
     state.looks[0].settings.soloLight = 2;
-    deleteSelectedLight(state);
+    deleteSelectedLights(state);
     EXPECT_EQ(*state.open->history().undoText(), "delete light 'b'");
     undo(state);
     EXPECT_TRUE(state.open->scene().lights == own);
@@ -162,7 +207,7 @@ TEST(SceneEdits, undoingAJumpPutsTheCameraBackAndKeepsWhatCanBeRedone) {
     OpenScene& open = *state.open;
     const scenes::Camera first = open.scene().cameras.at(0);
     state.selectedLight = 0;
-    deleteSelectedLight(state);
+    deleteSelectedLights(state);
     undo(state);
     open.jumpHome();
     EXPECT_EQ(open.history().undoable(), 0u) << "it is there already";
