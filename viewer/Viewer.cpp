@@ -16,6 +16,7 @@
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
 #include "viewer/panels/Frame.h"
+#include "viewer/panels/ShownText.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
 #include "viewer/session/EnvironmentJob.h"
@@ -382,6 +383,7 @@ private:
         const std::vector<InputEvent> events = window_.input().takeFrame();
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
+        learnLetters();
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
         state_.loadingEnvironment = environments_.choice();
@@ -417,6 +419,16 @@ private:
             return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
+    }
+
+    /// Names of files and in scenes may be of any language.
+    void learnLetters() {
+        const TextVisitor learn = [this](std::string_view text) { gui_.learn(text); };
+        visitShownText(state_, learn);
+        const std::pair<const OpenScene*, std::string> now(state_.open.get(),
+                                                           state_.open ? state_.open->source() : std::string());
+        if (state_.open && learned_ != now) visitSceneText(*state_.open, learn);
+        learned_ = now;
     }
 
     /// Screen coordinates, the units of the user interface, for one of a display of usual density.
@@ -557,7 +569,8 @@ private:
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
     std::string title_;
-    std::string recovering_; ///< the file of edits that is being opened
+    std::pair<const OpenScene*, std::string> learned_; ///< the scene whose letters are known, and its file
+    std::string recovering_;                           ///< the file of edits that is being opened
     double nextKeepAt_ = 0.0;
     bool isDiscarding_ = false;                 ///< the window closes without another question
     std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for

@@ -9,12 +9,13 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include "viewer/window/Fonts.h"
 #include "viewer/window/Theme.h"
 
 namespace tessera::viewer {
 namespace {
 
-/// Of ImGui's built-in font, which is drawn for this size.
+/// Height of a line of text. Dear ImGui's own font is drawn for this one.
 constexpr float kFontPixels = 13.0f;
 
 void apply(const InputEvent& event, ImGuiIO& io) {
@@ -66,17 +67,13 @@ Gui::~Gui() {
 
 void Gui::applyScale(float scale) {
     scale_ = scale;
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
-    ImFontConfig font;
-    font.SizePixels = std::floor(kFontPixels * scale);
-    io.Fonts->AddFontDefault(&font);
+    applyFonts(letters_, std::floor(kFontPixels * scale), ranges_);
     ImGui_ImplOpenGL3_DestroyFontsTexture(); // made anew when the next frame begins
     applyTheme(scale);
 }
 
 void Gui::beginFrame(std::span<const InputEvent> events) {
-    if (window_.contentScale() != scale_) {
+    if (letters_.takeNew() || window_.contentScale() != scale_) {
         ImGui_ImplOpenGL3_DestroyDeviceObjects();
         applyScale(window_.contentScale());
     }

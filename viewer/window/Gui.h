@@ -1,7 +1,10 @@
 #pragma once
 #include <array>
 #include <span>
+#include <string_view>
+#include <vector>
 
+#include "viewer/window/Letters.h"
 #include "viewer/window/Window.h"
 
 namespace tessera::viewer {
@@ -15,6 +18,8 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
+    /// Has the letters of a text from the next frame on.
+    void learn(std::string_view text) { letters_.note(text); }
     /// Begins a frame in which these events happened.
     void beginFrame(std::span<const InputEvent> events);
     /// Ends the frame; nothing is drawn yet.
@@ -30,7 +35,9 @@ private:
     void applyScale(float scale);
     Window& window_;
     float scale_ = 0.0f;
-    glm::vec2 position_{-1.0f}; ///< of the pointer after the latest frame's events
+    Letters letters_;
+    std::vector<std::uint16_t> ranges_; ///< of applyFonts()
+    glm::vec2 position_{-1.0f};         ///< of the pointer after the latest frame's events
     std::array<bool, 5> buttonsDown_{};
 };
 
