@@ -1,6 +1,8 @@
 #include "viewer/panels/Legend.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include <imgui.h>
@@ -9,36 +11,41 @@
 #include "shaders/shared/heat.h"
 #include "validation/pictures/ShownPicture.h"
 #include "viewer/edit/LightList.h"
+#include "viewer/session/DrawnLook.h"
 
 namespace tessera::viewer {
 namespace {
 
 constexpr ImU32 kBehind = IM_COL32(20, 21, 24, 215), kInk = IM_COL32(220, 222, 228, 255);
 
-bool showsCounts(const Look& look) {
-    return frame::displayMapping(look.settings.view, look.settings.layout) == frame::DisplayMapping::Count;
-}
-
 ImU32 colorAt(float position) {
     const glm::vec3 code = 255.0f * shared::heatColor(position) + 0.5f;
     return IM_COL32(int(code.r), int(code.g), int(code.b), 255);
 }
 
-void drawBar(const PictureArea& area, float log2Most, float scale) {
+const char* titleOf(frame::DebugView view) {
+    return view == frame::DebugView::Overdraw ? "Surfaces a pixel shades" : "Lights a pixel visits";
+}
+
+/// A titled bar of heat colours, up to the largest count where that is known, else to the end of the colours' scale.
+void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float> most, float scale) {
     constexpr int kSteps = 48;
+    const auto log2Colours = float(frame::countScaleLog2(view));
+    const float log2Most = most ? std::log2(1.0f + std::max(*most, 1.0f)) : log2Colours;
+    const char* const title = titleOf(view);
     const float pad = 8.0f * scale, line = ImGui::GetFontSize(), barWidth = 14.0f * scale;
-    const float height = std::min(14.0f * line, area.size.y - 4.0f * pad - line);
-    const float labelWidth = ImGui::CalcTextSize("000").x;
-    if (height < 8.0f * line || area.size.x < 6.0f * labelWidth) return; // no room to read it
+    const float height = std::min(14.0f * line, area.size.y - 5.0f * pad - 2.0f * line);
+    const float titleWidth = ImGui::CalcTextSize(title).x;
+    if (height < 8.0f * line || area.size.x < titleWidth + 5.0f * pad) return; // no room to read it
     const ImVec2 end(area.corner.x + area.size.x - 2.0f * pad, area.corner.y + area.size.y - 2.0f * pad);
-    const float barX = end.x - barWidth, top = end.y - height;
+    const float barX = end.x - barWidth, top = end.y - height, titleY = top - pad - 1.5f * line;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({barX - labelWidth - 2.0f * pad, top - pad - 0.5f * line}, {end.x + pad, end.y + pad}, kBehind,
-                       pad);
+    list.AddRectFilled({end.x - titleWidth - pad, titleY - 0.5f * pad}, {end.x + pad, end.y + pad}, kBehind, pad);
+    list.AddText({end.x - titleWidth, titleY}, kInk, title);
     const auto yAt = [&](float position) { return end.y - position * height; };
     for (int step = 0; step < kSteps; ++step) {
         const float from = float(step) / kSteps, to = float(step + 1) / kSteps;
-        list.AddRectFilled({barX, yAt(to)}, {end.x, yAt(from)}, colorAt(0.5f * (from + to)));
+        list.AddRectFilled({barX, yAt(to)}, {end.x, yAt(from)}, colorAt(0.5f * (from + to) * log2Most / log2Colours));
     }
     const auto label = [&](float count) {
         const std::string text = std::to_string(int(count));
@@ -47,8 +54,12 @@ void drawBar(const PictureArea& area, float log2Most, float scale) {
         list.AddText({x, y - 0.5f * line}, kInk, text.c_str());
         list.AddLine({barX - 0.5f * pad, y}, {barX, y}, kInk);
     };
+    // Clear of one another, and of the largest where that has a label.
+    const float apart = line / height;
+    const float endOfSteps = most ? 1.0f - apart : 1.0f;
     label(0.0f);
-    for (float count = 1.0f; shared::heatPositionOfCount(count, log2Most) < 1.0f; count *= 2.0f) label(count);
+    for (float count = 1.0f; shared::heatPositionOfCount(count, log2Most) < endOfSteps; count *= 2.0f) label(count);
+    if (most && *most >= 1.0f) label(*most);
 }
 
 /// Colours with their meanings, below one another.
@@ -99,7 +110,11 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
         const std::optional<Look>& look = facts.shown[std::size_t(side)];
         if (!look) continue;
         const PictureArea part = partOf(state, area, side);
-        if (showsCounts(*look)) drawBar(part, float(frame::countScaleLog2(look->settings.view)), scale);
+        if (showsCounts(*look)) {
+            const std::optional<Facts::MostCount>& most = facts.mostCounts[std::size_t(side)];
+            const bool isKnown = most && most->view == look->settings.view;
+            drawBar(part, look->settings.view, isKnown ? std::optional(most->most) : std::nullopt, scale);
+        }
         const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(side)];
         if (!shadows) continue;
         const std::vector<validation::Swatch> swatches = validation::shadowSwatches(look->settings.view, *shadows);

@@ -23,6 +23,10 @@ bool showsTermOfOne(frame::DebugView view) {
            view == frame::DebugView::Fresnel;
 }
 
+bool showsCounts(const Look& look) {
+    return frame::displayMapping(look.settings.view, look.settings.layout) == frame::DisplayMapping::Count;
+}
+
 Look drawnLook(const State& state, int side) {
     Look look = state.looks[std::size_t(side)];
     if (!state.open || look.settings.soloLight || !showsTermOfOne(look.settings.view)) return look;

@@ -11,6 +11,9 @@ namespace tessera::viewer {
 /// The view shows a term of the lighting of one light: D, G or F.
 bool showsTermOfOne(frame::DebugView view);
 
+/// The picture shows how many there are of something, in heat colours.
+bool showsCounts(const Look& look);
+
 /// The look of a side as it is drawn: views of D, G and F show the selected light, else the brightest at what the
 /// scene's camera looks at, unless one shines alone.
 Look drawnLook(const State& state, int side);

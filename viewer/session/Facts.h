@@ -28,6 +28,13 @@ struct Facts {
     std::optional<validation::LightOracleFigures> lights; ///< measured on request,
     std::string lightsOf;                                 ///< of this technique, culling and size,
     std::optional<Look> lightsLook;                       ///< with this look
+    /// The largest count of the picture of a view that shows counts, by side; an older picture's while another is
+    /// drawn.
+    struct MostCount {
+        frame::DebugView view;
+        float most;
+    };
+    std::array<std::optional<MostCount>, 2> mostCounts;
     std::optional<Inspection> inspection;
     std::optional<validation::ErrorFigures> figures; ///< of the left picture against the right
     bool figuresAreOld = false;                      ///< newer ones are on their way

@@ -1,11 +1,14 @@
 #include "viewer/show/Measurements.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
 #include "engine/Rendering.h"
+#include "viewer/session/DrawnLook.h"
 
 namespace tessera::viewer {
 namespace {
@@ -27,6 +30,7 @@ bool Measurements::update(Facts& facts, const State& state, const Screen& screen
     }
     if (state.compare == Compare::Off) measured_.reset();
     if (isWhole && state.wantsPlan) changed |= updatePlan(facts, state, screen, wanted);
+    if (isWhole && screen.shows(wanted)) changed |= updateCounts(facts, screen, wanted);
     if (isWhole && state.compare != Compare::Off && screen.shows(wanted))
         changed |= updateFigures(facts, screen, wanted);
     facts.figuresAreOld = figureJob_.isBusy() || measured_ != wanted;
@@ -45,6 +49,24 @@ bool Measurements::updatePlan(Facts& facts, const State& state, const Screen& sc
         facts.plan.reset();
     }
     return true;
+}
+
+bool Measurements::updateCounts(Facts& facts, const Screen& screen, const Screen::Wanted& wanted) {
+    if (counted_ == wanted) return false;
+    counted_ = wanted;
+    facts.mostCounts = {};
+    bool isCounted = false;
+    for (int side = 0; side < wanted.sides; ++side) {
+        const Look& look = wanted.looks[std::size_t(side)];
+        const DrawnPicture& shown = screen.picture(side);
+        if (!showsCounts(look) || !shown.isThere() || shown.radiance() == nullptr) continue;
+        const Picture picture = radianceOf(shown);
+        float most = 0.0f;
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i) most = std::max(most, picture.pixel(i)[0]);
+        facts.mostCounts[std::size_t(side)] = {look.settings.view, most};
+        isCounted = true;
+    }
+    return isCounted;
 }
 
 bool Measurements::updateFigures(Facts& facts, const Screen& screen, const Screen::Wanted& wanted) {
@@ -73,7 +95,9 @@ void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
 
 void Measurements::clear(Facts& facts) {
     planned_.reset();
+    counted_.reset();
     measured_.reset();
+    facts.mostCounts = {};
     facts.plan.reset();
     facts.lights.reset();
     facts.figures.reset();

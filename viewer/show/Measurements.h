@@ -31,9 +31,11 @@ private:
         bool operator==(const Planned&) const = default;
     };
     bool updatePlan(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted);
+    bool updateCounts(Facts& facts, const Screen& screen, const Screen::Wanted& wanted);
     bool updateFigures(Facts& facts, const Screen& screen, const Screen::Wanted& wanted);
 
     std::optional<Planned> planned_;
+    std::optional<Screen::Wanted> counted_;  ///< whose largest counts are shown
     std::optional<Screen::Wanted> measured_; ///< the pair whose figures are shown, or being made
     FigureJob figureJob_;
 };

@@ -44,7 +44,8 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     for (Look& look : wanted_.looks) look.settings.sizePixels = sizePixels;
     wanted_.sides = state_.sides();
     if (wanted_.sides == 1) wanted_.looks[1] = wanted_.looks[0];
-    wanted_.keepsRadiance = state_.compare != Compare::Off || state_.inspects;
+    wanted_.keepsRadiance =
+        state_.compare != Compare::Off || state_.inspects || std::ranges::any_of(wanted_.looks, showsCounts);
     wanted_.sceneRevision = state_.open->revision();
     wanted_.sceneEdits = state_.open->edits();
     const double have = screen_.scaleOf(wanted_);

@@ -21,7 +21,7 @@ public:
     struct Wanted {
         std::array<Look, 2> looks; ///< of the size they are to be shown at
         int sides = 1;
-        bool keepsRadiance = false; ///< to compare or to inspect
+        bool keepsRadiance = false; ///< to compare, to inspect or to count
         std::uint64_t sceneRevision = 0;
         std::uint64_t sceneEdits = 0; ///< of lights and materials
         bool operator==(const Wanted&) const = default;

@@ -542,6 +542,29 @@ TEST_F(Panels, theScaleOfCountsStandsOnTheSideThatShowsThem) {
     EXPECT_LT(span()->second, endX);
 }
 
+TEST_F(Panels, theScaleOfCountsEndsAtTheLargestThatThePictureHas) {
+    State state;
+    Facts facts;
+    facts.shown[0] = lookAt(frame::DebugView::Lights);
+    /// Colours of the bar, which is the only thing of any colour.
+    const auto brightest = [&] {
+        int most = 0;
+        frame([&] {
+            drawLegend(state, facts, area(state), 1.0f);
+            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
+                const int red = int(vertex.col & 0xffu), blue = int(vertex.col >> 16 & 0xffu);
+                if (red - blue > 40) most = std::max(most, red);
+            }
+        });
+        return most;
+    };
+    EXPECT_GT(brightest(), 240) << "the whole scale, to pale yellow";
+    facts.mostCounts[0] = {frame::DebugView::Lights, 5.0f};
+    EXPECT_LT(brightest(), 200) << "of 512 lights, 5 are dark";
+    facts.mostCounts[0]->view = frame::DebugView::Overdraw;
+    EXPECT_GT(brightest(), 240) << "it is that of another view";
+}
+
 TEST_F(Panels, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
     State state;
     state.showsPanel = false;
