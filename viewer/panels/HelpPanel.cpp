@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include <imgui.h>
 
@@ -8,39 +9,70 @@
 namespace tessera::viewer {
 namespace {
 
-void helpRow(const char* name, const char* meaning) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(name);
-    ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(meaning);
-    ImGui::PopTextWrapPos();
+struct HelpRow {
+    const char* name;
+    const char* meaning;
+};
+struct HelpGroup {
+    const char* heading;
+    std::vector<HelpRow> rows;
+};
+
+std::vector<HelpGroup> helpGroups() {
+    std::vector<HelpGroup> groups{{"Mouse and held keys", {}}};
+    for (const GestureHelp& gesture : gestureHelp()) groups.back().rows.push_back({gesture.name, gesture.meaning});
+    for (const KeyBinding& binding : keyBindings()) {
+        if (binding.group != nullptr) groups.push_back({binding.group, {}});
+        if (*binding.name != '\0') groups.back().rows.push_back({binding.name, binding.meaning});
+    }
+    return groups;
 }
 
-void helpHeading(const char* words) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", words);
+void helpTable(const HelpGroup& group) {
+    ImGui::TextDisabled("%s", group.heading);
+    if (!ImGui::BeginTable(group.heading, 2)) return;
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 11.0f * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+    for (const HelpRow& row : group.rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextUnformatted(row.name);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(row.meaning);
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::EndTable();
+    ImGui::Spacing();
 }
 
 } // namespace
 
 void helpOverlay(State& state, float scale) {
+    constexpr float kColumnWidth = 480.0f;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    const float width = std::min(620.0f * scale, display.x);
+    const bool hasTwoColumns = display.x >= 2.0f * kColumnWidth * scale;
+    const float width = std::min((hasTwoColumns ? 2.0f : 1.0f) * kColumnWidth * scale, display.x);
     ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, display.y});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
-    if (ImGui::Begin("Help", &state.showsHelp, flags) && ImGui::BeginTable("keys", 2)) {
-        ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
-        ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
-        helpHeading("Mouse and held keys");
-        for (const GestureHelp& gesture : gestureHelp()) helpRow(gesture.name, gesture.meaning);
-        helpHeading("Keys");
-        for (const KeyBinding& binding : keyBindings())
-            if (*binding.name != '\0') helpRow(binding.name, binding.meaning);
+    if (ImGui::Begin("Help", &state.showsHelp, flags) &&
+        ImGui::BeginTable("groups", hasTwoColumns ? 2 : 1, ImGuiTableFlags_SizingStretchSame)) {
+        const std::vector<HelpGroup> groups = helpGroups();
+        std::size_t rows = 0, all = 0;
+        for (const HelpGroup& group : groups) all += group.rows.size();
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        bool isSecond = false;
+        for (const HelpGroup& group : groups) {
+            if (hasTwoColumns && !isSecond && 2 * rows >= all) {
+                ImGui::TableNextColumn();
+                isSecond = true;
+            }
+            helpTable(group);
+            rows += group.rows.size();
+        }
         ImGui::EndTable();
     }
     ImGui::End();

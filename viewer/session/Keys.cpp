@@ -47,7 +47,7 @@ constexpr int kShift = GLFW_MOD_SHIFT;
 constexpr int kControl = GLFW_MOD_CONTROL;
 
 constexpr KeyBinding kBindings[] = {
-    {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }},
+    {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }, "Window"},
     {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
     {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, or the latest message",
      [](State& s) {
@@ -58,7 +58,9 @@ constexpr KeyBinding kBindings[] = {
          s.showsHelp = false;
      }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
-    {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 7 is the lit picture", [](State& s) { showNumbered(s, 1); }},
+    {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
+    {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 7 is the lit picture", [](State& s) { showNumbered(s, 1); },
+     "Picture"},
     {GLFW_KEY_2, kNone, "", "", [](State& s) { showNumbered(s, 2); }},
     {GLFW_KEY_3, kNone, "", "", [](State& s) { showNumbered(s, 3); }},
     {GLFW_KEY_4, kNone, "", "", [](State& s) { showNumbered(s, 4); }},
@@ -74,7 +76,14 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_LEFT_BRACKET, kNone, "[ and ]", "exposure down and up by half a step",
      [](State& s) { changeExposure(s, -kExposureStepEV); }},
     {GLFW_KEY_RIGHT_BRACKET, kNone, "", "", [](State& s) { changeExposure(s, kExposureStepEV); }},
-    {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode},
+    {GLFW_KEY_I, kNone, "I", "inspect pixels: what the one under the pointer holds, enlarged",
+     [](State& s) {
+         s.inspects = !s.inspects;
+         s.pinnedPlace.reset();
+     }},
+    {GLFW_KEY_SPACE, kNone, "Space", "what moves by itself goes on, or stops", togglePlaying},
+    {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
+    {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode, "Camera"},
     {GLFW_KEY_F, kNone, "F", "what is selected in view: the light, or all that has the material; else all of the scene",
      frameSelection},
     {GLFW_KEY_F, kShift, "Shift+F", "all of the scene in view",
@@ -85,12 +94,7 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) {
          if (s.open) s.open->jumpHome();
      }},
-    {GLFW_KEY_I, kNone, "I", "inspect pixels: what the one under the pointer holds, enlarged",
-     [](State& s) {
-         s.inspects = !s.inspects;
-         s.pinnedPlace.reset();
-     }},
-    {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }},
+    {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }, "Lights"},
     {GLFW_KEY_L, kNone, "L", "only the selected light shines, or all again",
      [](State& s) {
          std::optional<int>& solo = s.active().settings.soloLight;
@@ -98,13 +102,11 @@ constexpr KeyBinding kBindings[] = {
      }},
     {GLFW_KEY_DELETE, kNone, "Del", "delete the selected lights", deleteSelectedLights},
     {GLFW_KEY_A, kControl, "Ctrl+A", "select all lights", selectAllLights},
-    {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo},
+    {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo, "Edits"},
     {GLFW_KEY_Z, kControl | kShift, "Ctrl+Shift+Z", "redo; also Ctrl+Y", redo},
     {GLFW_KEY_Y, kControl, "", "", redo},
-    {GLFW_KEY_SPACE, kNone, "Space", "what moves by itself goes on, or stops", togglePlaying},
-    {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_F12, kNone, "F12", "save the picture as PNG; with Shift as EXR",
-     [](State& s) { s.requests.savePng = true; }},
+     [](State& s) { s.requests.savePng = true; }, "Files"},
     {GLFW_KEY_F12, kShift, "", "", [](State& s) { s.requests.saveExr = true; }},
     {GLFW_KEY_O, kControl, "Ctrl+O", "open a scene or an environment",
      [](State& s) { s.requests.askWhatToOpen = true; }},
@@ -113,7 +115,6 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) { s.requests.askWhereToSave = true; }},
     {GLFW_KEY_C, kControl, "Ctrl+C", "copy the command that renders this picture",
      [](State& s) { s.requests.copyCommand = true; }},
-    {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
 };
 
 constexpr GestureHelp kGestures[] = {
@@ -127,7 +128,9 @@ constexpr GestureHelp kGestures[] = {
     {"Drag a light's marker", "moves the light across the picture"},
     {"Drag a light's handle", "square: a side, radius or length, with Shift one side alone; round: its direction"},
     {"Drag the divider", "split view"},
-    {"Drop a file", "opens a scene: .gltf, .glb, .obj, .json; or takes an environment: .hdr, .exr"},
+    {"Drag the panels' edge", "makes them wider or narrower"},
+    {"Ctrl or Shift + click", "on a light's name: selects several, or all between"},
+    {"Drop a file", "anywhere: opens a scene (.gltf, .glb, .obj, .json), or takes an environment (.hdr, .exr)"},
 };
 
 } // namespace

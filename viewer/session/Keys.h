@@ -12,6 +12,7 @@ struct KeyBinding {
     const char* name; ///< as on the keyboard: "Ctrl+S"
     const char* meaning;
     void (*act)(State&);
+    const char* group = nullptr; ///< of the help, which begins with this key
 };
 std::span<const KeyBinding> keyBindings();
 

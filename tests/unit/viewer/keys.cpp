@@ -23,6 +23,18 @@ TEST(Keys, everyNamedKeyHasADescription) {
     }
 }
 
+TEST(Keys, theHelpHasAGroupForEveryKey) {
+    ASSERT_FALSE(keyBindings().empty());
+    EXPECT_NE(keyBindings().front().group, nullptr);
+    std::set<std::string> groups;
+    for (const KeyBinding& binding : keyBindings())
+        if (binding.group != nullptr) {
+            EXPECT_TRUE(groups.insert(binding.group).second) << binding.group << " begins twice";
+            EXPECT_NE(*binding.name, '\0') << binding.group << " would begin with a key that has no row";
+        }
+    EXPECT_GE(groups.size(), 5u);
+}
+
 TEST(Keys, digitsShowTheViewOfTheirNumber) {
     for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
         if (info.key == 0) continue;
