@@ -60,11 +60,13 @@ void ViewerTest::addLight(const DrivenViewer& viewer) {
 void ViewerTest::chooseScene(const DrivenViewer& viewer, std::string_view builtin) {
     const auto index = std::find(std::begin(kBuiltin), std::end(kBuiltin), builtin) - std::begin(kBuiltin);
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + int(index) * kEntryPixels);
+    viewer.moveTo(kMiddle); // where no box explains what it points at
 }
 
 void ViewerTest::chooseRecentScene(const DrivenViewer& viewer, int index) {
     const int entry = int(std::size(kBuiltin)) + index;
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + entry * kEntryPixels + kLinePixels);
+    viewer.moveTo(kMiddle);
 }
 
 std::string ViewerTest::shell(const std::string& script) const {

@@ -55,6 +55,7 @@ void animationPanel(State& state) {
     clipRow(state);
     if (canMove(state)) {
         if (ImGui::Button(state.isPlaying ? "Pause (Space)" : "Play (Space)")) togglePlaying(state);
+        tip("Lets time go on, or stops it");
         if (state.open->clipSeconds() > 0.0) {
             ImGui::SameLine();
             ImGui::Checkbox("repeat", &state.repeatsClip);

@@ -24,8 +24,10 @@ void cameraPanel(State& state) {
     if (ImGui::RadioButton("fly", rig.mode() == CameraRig::Mode::Fly)) rig.setMode(CameraRig::Mode::Fly);
     tip("W A S D and Q E, left drag looks around, Shift is fast");
     if (ImGui::Button("All in view (Shift+F)")) open.jumpToAll(state.pictureAspect);
+    tip("Moves the camera until it sees all of the scene");
     ImGui::SameLine();
     if (ImGui::Button("Home")) open.jumpHome();
+    tip("Back to the scene's camera");
     const CameraPose pose = rig.pose();
     fact("Eye", fmt::format("{:.3f} {:.3f} {:.3f} m", pose.eyeWS.x, pose.eyeWS.y, pose.eyeWS.z));
     fact("Pivot at", fmt::format("{:.3f} m", pose.focusMetres));

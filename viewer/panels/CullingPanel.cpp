@@ -12,6 +12,7 @@ void cullingPanel(State& state, const Facts& facts) {
     const bool isShown = look.settings.view == frame::DebugView::Lights;
     if (ImGui::Button(isShown ? "Show the picture" : "Show the lights a pixel visits"))
         look.settings.view = isShown ? frame::DebugView::Final : frame::DebugView::Lights;
+    tip("Heat colours: how many lights the technique tries at each pixel");
     if (ImGui::Button("Measure tightness")) state.requests.measureLights = true;
     tip("Counts, with every light tried at every pixel, at a quarter of the size");
     if (!facts.lights) return;

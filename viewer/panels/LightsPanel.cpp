@@ -188,6 +188,7 @@ bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
     tip("In the middle of the last edge");
     ImGui::SameLine();
     if (ImGui::Button("Remove the last")) changed |= removeCorner(light);
+    tip("Three corners are the least");
     return changed;
 }
 

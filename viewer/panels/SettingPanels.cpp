@@ -33,7 +33,8 @@ bool show(const Setting& setting, const engine::ChoiceKind& kind, Look& look) {
     const std::string now = setting.text(look);
     const auto chosen = std::size_t(std::ranges::find(entries, now, &Entry::name) - entries.begin());
     const bool showsLabel = kind.ofNumbers && chosen < entries.size();
-    const auto picked = choose(setting.panelLabel().c_str(), showsLabel ? entries[chosen].label : now, choices, chosen);
+    const auto picked =
+        choose(setting.panelLabel().c_str(), showsLabel ? entries[chosen].label : now, choices, chosen, setting.help);
     if (picked) setting.read(look, entries[*picked].name);
     return picked.has_value();
 }
@@ -44,7 +45,7 @@ bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
     std::from_chars(text.data(), text.data() + text.size(), value);
     const bool hasSlider = kind.sliderLeast < kind.sliderMost;
     const bool isBounded = hasSlider || (std::isfinite(kind.least) && std::isfinite(kind.most));
-    row(setting.panelLabel().c_str());
+    row(setting.panelLabel().c_str(), setting.help);
     const auto slideOrDrag = [&](auto& edited, auto least, auto most, const auto& slide, const auto& drag) {
         return edit(edited, least, most, [&](auto& number) { return isBounded ? slide(number) : drag(number); });
     };
@@ -67,16 +68,14 @@ bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
             [&](float& n) { return ImGui::DragFloat(id.c_str(), &n, 0.01f, 0.0f, 0.0f, kind.format); });
         if (isEdited) value = std::clamp(double(edited), kind.least, kind.most);
     }
-    tip(setting.help);
     if (isEdited) setting.read(look, fmt::format("{}", value));
     return isEdited;
 }
 
 bool show(const Setting& setting, const engine::SwitchKind&, Look& look) {
     bool isOn = setting.text(look) == "on";
-    row(setting.panelLabel().c_str());
+    row(setting.panelLabel().c_str(), setting.help);
     const bool isEdited = ImGui::Checkbox(("##" + setting.panelLabel()).c_str(), &isOn);
-    tip(setting.help);
     if (isEdited) setting.read(look, isOn ? "on" : "off");
     return isEdited;
 }
@@ -109,7 +108,7 @@ void scaleRows(State& state) {
     ImGui::Checkbox("automatic", &state.automaticScale);
     tip("Fewer pixels while something moves, all of them at rest");
     if (state.automaticScale) return;
-    slider("Scale", state.fixedScale, kLeastScale, 1.0f);
+    slider("Picture scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
 /// The maps to choose from, and what was dropped onto the window.

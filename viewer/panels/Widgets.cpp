@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include "viewer/panels/Meanings.h"
+
 namespace tessera::viewer {
 namespace {
 
@@ -15,18 +17,39 @@ void text(std::string_view words) {
     ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
+/// An item under the pointer.
+struct Hovered {
+    ImVec2 corner{};
+    int frame = 0; ///< in which the pointer was still there
+    bool isClicked = false;
+};
+
 /// Whether the hovered latest item was clicked since the pointer came to it: its box would hide what that brings.
-bool isUsed() {
-    static struct {
-        ImVec2 corner{};
-        int frame = 0; ///< in which the pointer was still there
-        bool isClicked = false;
-    } latest;
+/// `latest` is what was hovered when this was asked last.
+bool isUsed(Hovered& latest) {
     const ImVec2 corner = ImGui::GetItemRectMin();
     const int frame = ImGui::GetFrameCount();
     const bool isSame = corner.x == latest.corner.x && corner.y == latest.corner.y && frame <= latest.frame + 1;
     latest = {corner, frame, (isSame && latest.isClicked) || ImGui::IsMouseClicked(ImGuiMouseButton_Left)};
     return latest.isClicked;
+}
+
+void tooltip(std::string_view words) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTipWidthEm);
+    text(words);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+/// What the row is about, while the pointer is at its label, which was just shown, or behind it.
+void rowTip(std::string_view meaning) {
+    static Hovered latest;
+    if (meaning.empty() || !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
+    const ImVec2 corner = ImGui::GetItemRectMin();
+    const float endX = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (!ImGui::IsMouseHoveringRect(corner, {endX, corner.y + ImGui::GetFrameHeight()}) || isUsed(latest)) return;
+    if (!ImGui::IsAnyItemActive()) tooltip(meaning);
 }
 
 /// Of a widget whose label stands beside it.
@@ -37,8 +60,13 @@ std::string idOf(const char* label) {
 } // namespace
 
 void row(const char* label) {
+    row(label, meaningOf(label));
+}
+
+void row(const char* label, std::string_view meaning) {
     ImGui::AlignTextToFramePadding();
     text(label);
+    rowTip(meaning);
     secondColumn();
 }
 
@@ -52,15 +80,16 @@ float labelWidth() {
 }
 
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
-                                  std::size_t chosen) {
+                                  std::size_t chosen, std::string_view meaning) {
     return choose(
-        label, shown, choices.size(), [choices](std::size_t i) { return choices[i]; }, chosen);
+        label, shown, choices.size(), [choices](std::size_t i) { return choices[i]; }, chosen, meaning);
 }
 
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
-                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen) {
+                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen,
+                                  std::string_view meaning) {
     std::optional<std::size_t> result;
-    row(label);
+    row(label, meaning.empty() ? meaningOf(label) : meaning);
     if (!ImGui::BeginCombo(idOf(label).c_str(), std::string(shown).c_str(), ImGuiComboFlags_HeightLargest))
         return result;
     closeOnEscape();
@@ -133,12 +162,9 @@ void errorParagraph(std::string_view words) {
 }
 
 void tip(std::string_view words) {
-    if (words.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || isUsed()) return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTipWidthEm);
-    text(words);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    static Hovered latest;
+    if (words.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || isUsed(latest)) return;
+    tooltip(words);
 }
 
 void fact(const char* label, const std::string& value) {

@@ -19,18 +19,21 @@ struct Choice {
     bool isPossible = true;   ///< others are shown, but cannot be chosen
 };
 
-/// A row of a panel: the label on the left; the next widget takes the rest of the width.
+/// A row of a panel: the label on the left; the next widget takes the rest of the width. While the pointer is there, a
+/// box beside it says what the row is about (meaningOf()).
 void row(const char* label);
+void row(const char* label, std::string_view meaning);
 /// Goes on in the row where its widget stands; what is left of that is labelWidth() wide.
 void secondColumn();
 float labelWidth();
 
-/// A list that drops down, in a row of its own. Returns the new choice.
+/// A list that drops down, in a row of its own. Returns the new choice. Without a meaning it is that of the label.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,
-                                  std::size_t chosen);
+                                  std::size_t chosen, std::string_view meaning = {});
 /// The same of any number of entries, of which only visible ones are requested; each is used up before the next.
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::size_t count,
-                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen);
+                                  const std::function<Choice(std::size_t)>& choiceAt, std::size_t chosen,
+                                  std::string_view meaning = {});
 
 /// Shows a widget of a value and clamps the new value (bounded()). Returns whether it changed.
 template <typename Value, typename Number, typename Widget>

@@ -1,0 +1,143 @@
+#include "viewer/panels/Meanings.h"
+
+#include <algorithm>
+
+namespace tessera::viewer {
+namespace {
+
+struct Meaning {
+    std::string_view label;
+    std::string_view meaning;
+};
+
+constexpr Meaning kMeanings[] = {
+    // Scene
+    {"Scene", "The scene that is shown: a built-in one, or a file that was opened lately"},
+    {"Variant", "Which materials the models show"},
+    {"Triangles", "Of all objects, each as often as it is placed"},
+    {"Lights", "Lights of the scene, those that are off included"},
+    {"Materials", "Materials of the scene, those that nothing has included"},
+    // Lights
+    {"Type", "What the light shines from"},
+    {"Colour", "Of the surface, or of the light"},
+    {"Intensity", "How bright the light is, in the unit that stands behind the number"},
+    {"A, B, C", "How the light falls off with the distance d"},
+    {"Range", "How far the light shines; without an end it reaches everything"},
+    {"Inner cone", "Within this angle from its direction a spot has all of its brightness"},
+    {"Outer cone", "Beyond this angle from its direction a spot does not shine"},
+    {"Width", "Of the surface that shines"},
+    {"Height", "Of the surface that shines"},
+    {"Length", "Of the tube that shines"},
+    {"Radius", "Of the light: a larger one makes softer shadows"},
+    {"Angular radius", "Of the light as it is seen: a larger one makes softer shadows"},
+    {"Shines", "Whether its back shines too"},
+    {"Texture", "A picture of factors of its radiance"},
+    {"Surface", "Whether pictures show what shines"},
+    {"Position", "In the scene, metres; or drag its marker in the picture"},
+    {"Direction", "In which it shines; or drag its round handle in the picture"},
+    {"Width along", "Where its width runs"},
+    {"Corners along", "Where the first numbers of its corners run"},
+    {"Shadow", "Whether shadows fall"},
+    {"Moves", "Whether the light circles by itself"},
+    {"Flickers", "Whether its brightness wavers by itself"},
+    {"Flicker amount", "How much the brightness wavers"},
+    {"Flicker speed", "How fast the brightness wavers"},
+    {"Scatter", "How many lights take the place of the scene's, over its surfaces"},
+    {"Markers", "Whether the picture shows where lights are"},
+    // Materials
+    {"Material", "The material that is edited"},
+    {"Model", "The formula by which the surface answers light"},
+    {"Exponent", "How narrow highlights are"},
+    {"k_s", "Colour of the highlight"},
+    {"Alpha", "Width of the highlight: the square of roughness"},
+    {"Alpha x", "Width of the highlight along the tangent"},
+    {"Alpha y", "Width of the highlight across the tangent"},
+    {"Index n", "Refractive index: the higher, the more the surface reflects"},
+    {"Masking", "How much of the rough surface hides itself"},
+    {"Metallic", "0 for plastic, wood or stone, 1 for bare metal"},
+    {"Roughness", "0 for a mirror, 1 for chalk"},
+    {"Specular", "Strength of the reflection of what is no metal"},
+    {"F0 tint", "Colour of the reflection of what is no metal"},
+    {"Anisotropy", "How much highlights are stretched, as on brushed metal"},
+    {"Turned by", "The way in which highlights are stretched"},
+    {"Clearcoat", "Strength of a clear layer over the surface, as on a car"},
+    {"Coat rough", "Roughness of that layer"},
+    {"Sheen", "Colour of fibres that glow at the rim, as on velvet"},
+    {"Sheen rough", "Roughness of those fibres"},
+    {"Iridescence", "Strength of a thin film whose colour changes with the angle, as on a bubble"},
+    {"Film index", "Refractive index of that film"},
+    {"Film nm", "Its colours follow from it"},
+    {"Least nm", "Its colours follow from it"},
+    {"Transmission", "How much light passes through, as through glass"},
+    {"Thickness", "How far light goes through the body"},
+    {"Absorbs in", "Through so much of the body the light gets the colour below"},
+    {"Down to", "Colour of light that went as far as that"},
+    {"Dispersion", "How much glass parts colours"},
+    {"Subsurface", "How light goes on below the surface, as in skin or marble"},
+    {"Wrap", "How far light reaches around the body"},
+    {"Wrap tint", "Colour of the light that reaches around"},
+    {"Body radius", "Of the body that light goes round"},
+    {"Absorbs / mm", "What a millimetre of the material takes of each colour"},
+    {"Scale", "Metres that a metre of the model stands for"},
+    {"Profile", "How far light of each colour spreads below the surface"},
+    {"Albedo before", "How much of the colour takes part before light spreads"},
+    {"Emission", "Light of its own that the surface sends to the eye"},
+    {"Alpha mode", "Whether the surface is solid, cut out by its opacity, or lets through what is behind it"},
+    {"Opacity", "How much the surface hides of what is behind it"},
+    {"Cutoff", "Opacity below which the surface is cut out"},
+    {"Normal map", "How deep the texture's bumps are"},
+    {"Two sides", "Whether the surface is seen from behind too"},
+    // View, environment and camera
+    {"Resolution", "Pixels of the picture for one of the window"},
+    {"Picture scale", "Share of the window's pixels along each side"},
+    {"Map", "What surrounds the scene and lights it"},
+    {"Camera", "Cameras of the scene; Home goes back to it"},
+    {"Moves by", "What the mouse does with the camera (C)"},
+    {"Eye", "Where the camera is"},
+    {"Pivot at", "Distance of what the camera turns about"},
+    // Animation
+    {"Clip", "The animation of the model that plays"},
+    {"Time", "Of the scene; with a clip it ends with that"},
+    {"Speed", "Of time in the scene"},
+    // Compare
+    {"Compare", "One picture, two beside each other, or their difference (X)"},
+    {"Panels change", "The side that panels and keys are about (Z)"},
+    {"Divider", "Where the left picture ends; or drag it"},
+    {"Amplified", "How many times the difference is as bright as it is"},
+    {"Bit-equal", "Pixels whose numbers are the same to the last bit"},
+    {"relMse", "Mean of squared relative errors"},
+    {"rel p50", "Relative error that half of the pixels stay below"},
+    {"rel p99", "Relative errors that 99 %, and 99.9 %, of the pixels stay below"},
+    {"max rel", "The largest relative error, and where it is"},
+    {"max abs", "The largest difference of radiance"},
+    {"rmse", "Root of the mean of squared differences"},
+    {"bias", "Mean difference: whether one picture is brighter"},
+    {"FLIP", "Difference that an eye sees between the two, 0 to 1"},
+    {"PSNR", "Peak signal-to-noise ratio of the pictures as displays show them"},
+    {"Bad pixels", "Pixels that hold no numbers, or endless or negative ones"},
+    // Timings, light culling, shadows
+    {"Frame", "Time of the latest frame, and its picture's scale"},
+    {"Targets", "Memory of render targets"},
+    {"Measured", "What the figures below are of"},
+    {"All lights", "How many lights a pixel visits on average"},
+    {"at most", "How many lights the worst pixel visits, and 99 % of them stay below"},
+    {"Endless", "Lights without a range"},
+    {"Visited", "Lights with a range that a pixel tries on average"},
+    {"Needed", "Lights with a range that reach a pixel on average"},
+    {"and lit", "Lights with a range that light a pixel on average"},
+    {"Tightness", "How well lists of lights fit"},
+    {"Lists", "Memory of the lists of lights"},
+    {"Missed", "Errors of the lists"},
+    {"Memory", "Of what is kept for shadows"},
+    {"Maps", "Shadow maps of the latest frame"},
+    {"Atlas", "The texture that holds all shadow maps"},
+};
+
+} // namespace
+
+std::string_view meaningOf(std::string_view label) {
+    const auto found = std::ranges::find(kMeanings, label, &Meaning::label);
+    return found != std::end(kMeanings) ? found->meaning : std::string_view();
+}
+
+} // namespace tessera::viewer
