@@ -37,6 +37,9 @@ protected:
     static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(glm::ivec2(1280, 800)); }
     static void TearDownTestSuite() { desktop_.reset(); }
 
+    /// The pointer begins where nothing explains what it points at: over the picture, before a viewer is there.
+    void SetUp() override { desktop_->xdotool({"mousemove", std::to_string(kMiddle.x), std::to_string(kMiddle.y)}); }
+
     /// Width of the panels at the left; the picture begins there.
     static constexpr int kPanelPixels = 300;
     static constexpr glm::ivec2 kPictureCorner{kPanelPixels, 0};

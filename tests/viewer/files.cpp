@@ -108,7 +108,7 @@ TEST_F(ViewerFiles, openingAsksAboutEditsThatAreNotSaved) {
     viewer.key("s");
     const std::string saved = savedFile(viewer.waitFor("saved ", mark));
     opened(viewer, mark, "other.json");
-    EXPECT_GT(differingShare(rendered(saved, shown.sizePixels), shown, 4), 0.1) << "the edit is not in " << saved;
+    EXPECT_GT(differingShare(rendered(saved, shown.sizePixels), shown, 4), 0.02) << "the edit is not in " << saved;
 }
 
 TEST_F(ViewerFiles, aSceneAndAPictureAreSavedUnderNamesOfTheUsersChoice) {

@@ -10,6 +10,7 @@ namespace {
 class ViewerShaders : public ViewerTest {
 protected:
     void SetUp() override {
+        ViewerTest::SetUp();
         std::filesystem::copy(std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders", shaders(),
                               std::filesystem::copy_options::recursive);
     }

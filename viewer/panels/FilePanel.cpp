@@ -123,8 +123,8 @@ bool pathField(FileDialog& dialog) {
                         !ImGui::IsMouseDown(ImGuiMouseButton_Left);
     if (isFree) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
-                                      ImGuiInputTextFlags_CallbackHistory;
+    const ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
+                                      ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackHistory;
     const char* const hint = dialog.purpose() == Purpose::Open ? "name, path or ~/path; Tab completes, arrows choose"
                                                                : "name or path; Tab completes, arrows choose";
     const bool isEntered =

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include "tests/support/TempFolder.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
@@ -232,6 +233,42 @@ TEST_F(Panels, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
     EXPECT_FALSE(state.requests.answer);
     state.question.reset();
     EXPECT_FALSE(isOpen());
+}
+
+TEST_F(Panels, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
+    const tessera::test::TempFolder folder;
+    const std::string file = folder.write("one.glb", "").string();
+    State state;
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr int kEnter = 7; // any number
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    const auto isOpen = [&] {
+        show([&] {
+            fileDialog(state, 1.0f);
+            questionDialog(state, 1.0f);
+        });
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    EXPECT_FALSE(isOpen());
+    state.files.emplace(FileDialog::Purpose::Open, folder.path());
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(io.WantTextInput) << "nobody has to click the field first";
+    io.AddInputCharacter('o');
+    EXPECT_TRUE(isOpen());
+    EXPECT_EQ(state.files->text(), "o");
+    state.question = Question{};
+    EXPECT_TRUE(isOpen());
+    EXPECT_FALSE(io.WantTextInput) << "keys are answers";
+    state.question.reset();
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(isOpen());
+    io.KeysDown[kEnter] = true;
+    isOpen();
+    io.KeysDown[kEnter] = false;
+    EXPECT_FALSE(isOpen());
+    EXPECT_FALSE(state.files);
+    EXPECT_EQ(state.requests.chosen, file);
 }
 
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
