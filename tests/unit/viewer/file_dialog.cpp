@@ -15,7 +15,7 @@ namespace tessera::viewer {
 namespace {
 
 using Purpose = FileDialog::Purpose;
-using Names = std::vector<std::string>;
+using FileNames = std::vector<std::string>;
 
 /// A folder with something of all kinds.
 class Files : public testing::Test {
@@ -31,29 +31,29 @@ protected:
     tessera::test::TempFolder folder_;
 };
 
-Names namesOf(const FileDialog& dialog) {
-    Names names;
+FileNames fileNamesOf(const FileDialog& dialog) {
+    FileNames names;
     for (const FileEntry& entry : dialog.entries()) names.push_back(entry.name + (entry.isFolder ? "/" : ""));
     return names;
 }
 
 TEST_F(Files, theListHasFoldersAndThenWhatCanBeOpened) {
-    EXPECT_EQ(namesOf(open()), (Names{"../", "maps/", "models/", "A.JSON", "b.glb", "sky.hdr"}));
-    EXPECT_EQ(namesOf(save("")), (Names{"../", "maps/", "models/", "A.JSON", "picture.png"}));
-    EXPECT_EQ(namesOf({Purpose::Open, "/"}).front().find(".."), std::string::npos) << "nothing is above the root";
+    EXPECT_EQ(fileNamesOf(open()), (FileNames{"../", "maps/", "models/", "A.JSON", "b.glb", "sky.hdr"}));
+    EXPECT_EQ(fileNamesOf(save("")), (FileNames{"../", "maps/", "models/", "A.JSON", "picture.png"}));
+    EXPECT_EQ(fileNamesOf({Purpose::Open, "/"}).front().find(".."), std::string::npos) << "nothing is above the root";
 }
 
 TEST_F(Files, typedTextNarrowsTheListInAnyCaseAndEnterTakesItsFirst) {
     FileDialog dialog = open();
     dialog.type("m");
-    EXPECT_EQ(namesOf(dialog), (Names{"maps/", "models/"}));
+    EXPECT_EQ(fileNamesOf(dialog), (FileNames{"maps/", "models/"}));
     dialog.type("a");
-    EXPECT_EQ(namesOf(dialog), (Names{"A.JSON"}));
+    EXPECT_EQ(fileNamesOf(dialog), (FileNames{"A.JSON"}));
     EXPECT_EQ(dialog.accept(), at("A.JSON"));
     dialog.type(".h");
-    EXPECT_EQ(namesOf(dialog), (Names{".hidden.glb"}));
+    EXPECT_EQ(fileNamesOf(dialog), (FileNames{".hidden.glb"}));
     dialog.type("models/o");
-    EXPECT_EQ(namesOf(dialog), (Names{"one.gltf", "other.gltf"}));
+    EXPECT_EQ(fileNamesOf(dialog), (FileNames{"one.gltf", "other.gltf"}));
     EXPECT_EQ(dialog.accept(), at("models/one.gltf"));
 }
 
@@ -128,7 +128,7 @@ TEST_F(Files, whatCannotBeOpenedOrReadTellsWhy) {
     EXPECT_EQ(dialog.fault(), at("notes.txt") + " is no file that can be opened");
     dialog.goTo(folder_.path() / "nowhere");
     EXPECT_EQ(dialog.fault(), at("nowhere") + " cannot be read: No such file or directory");
-    EXPECT_EQ(namesOf(dialog), Names{"../"}) << "one gets back";
+    EXPECT_EQ(fileNamesOf(dialog), FileNames{"../"}) << "one gets back";
     if (::geteuid() == 0) return; // whom no folder keeps out
     std::filesystem::permissions(folder_.path() / "maps", std::filesystem::perms::none);
     dialog.goTo(folder_.path() / "maps");
@@ -180,7 +180,7 @@ TEST_F(Files, aNameGoesAlongIntoFoldersThatAreChosen) {
 }
 
 TEST(RecentFolders, areThoseOfFilesEachOnce) {
-    EXPECT_EQ(foldersOf(Names{"/a/b.glb", "/c/d.json", "/a/e.obj"}), (Names{"/a", "/c"}));
+    EXPECT_EQ(foldersOf(FileNames{"/a/b.glb", "/c/d.json", "/a/e.obj"}), (FileNames{"/a", "/c"}));
 }
 
 TEST(FileTypes, areFoundInAnyCaseAndSayOnceWhatTheyAre) {
