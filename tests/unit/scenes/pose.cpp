@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -432,6 +433,26 @@ TEST(Clips, aSceneWithoutAnyHasNoPoses) {
     EXPECT_NO_THROW(playClip(scene, "none"));
     poseScene(scene, 3.0);
     EXPECT_EQ(fingerprint(scene), before);
+}
+
+TEST(Pose, theLinksOfLightsThatStayOutlastThoseThatAreDeleted) {
+    Rig rig;
+    for (const int light : {0, 1, 3, 4}) rig.lights.push_back({light, 10 + light});
+    rig.numbers.resize(3);
+    rig.numbers[0].element = 4;
+    rig.numbers[1].element = 1;
+    rig.numbers[2].element = kNone; // it went before
+    const std::vector<std::size_t> deleted{1, 2};
+    const LightLinks links = linksAfterDeleting(rig, deleted);
+    ASSERT_EQ(links.carried.size(), 3u);
+    for (const auto& [carried, light, node] : {std::tuple(links.carried[0], 0, 10), std::tuple(links.carried[1], 1, 13),
+                                               std::tuple(links.carried[2], 2, 14)}) {
+        EXPECT_EQ(carried.element, light);
+        EXPECT_EQ(carried.node, node);
+    }
+    EXPECT_EQ(links.numbers, (std::vector<int>{2, kNone, kNone}));
+    // Neighbours that go are as many that are replaced by none.
+    EXPECT_EQ(linksAfterReplacing(rig, 1, 2, 0).numbers, links.numbers);
 }
 
 } // namespace
