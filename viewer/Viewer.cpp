@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -97,7 +98,9 @@ public:
 private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
-    bool awaitsRest() const { return !drawing_.isWhole() || drawing_.lacksLight() || inspector_.awaitsRest(); }
+    bool awaitsRest() const {
+        return !drawing_.isWhole() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest();
+    }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();
@@ -344,18 +347,31 @@ private:
     void watchShaders() {
         if (!screen_.renderer() || now() < nextShaderLook_) return;
         nextShaderLook_ = now() + kShaderPeriodSeconds;
-        if (screen_.renderer()->programs().sourcesChanged()) reloadShaders();
+        if (screen_.renderer()->programs().sourcesChanged()) reloadShaders(false);
     }
 
-    void reloadShaders() {
+    void reloadShaders(bool isAsked) {
         if (!screen_.renderer()) return;
-        state_.shaderFaults = screen_.renderer()->programs().reload();
-        // Programs that share a file share its faults.
-        std::sort(state_.shaderFaults.begin(), state_.shaderFaults.end());
-        state_.shaderFaults.erase(std::unique(state_.shaderFaults.begin(), state_.shaderFaults.end()),
-                                  state_.shaderFaults.end());
-        for (const std::string& fault : state_.shaderFaults) log_.line("shader error " + fault);
-        if (state_.shaderFaults.empty()) log_.line("shaders reloaded");
+        const shader::Reloading done = screen_.renderer()->programs().reload();
+        std::map<std::string, std::vector<std::string>> programs; // by the fault that they share
+        for (const shader::ShaderFault& fault : done.faults) {
+            std::vector<std::string>& having = programs[fault.text];
+            if (!fault.program.empty()) having.push_back(fault.program);
+        }
+        state_.shaderFaults.clear();
+        for (auto& [text, having] : programs) {
+            log_.line("shader error " + text);
+            state_.shaderFaults.push_back({text, std::move(having)});
+        }
+        if (programs.empty()) {
+            log_.line("shaders reloaded");
+            if (done.programs > 0)
+                state_.notice = {fmt::format("Shaders reloaded: {} program{} compiled", done.programs,
+                                             done.programs == 1 ? "" : "s"),
+                                 false};
+            else if (isAsked)
+                state_.notice = {"Shaders reloaded: nothing has changed in them", false};
+        }
         screen_.forget();
         pulse_.settle();
     }
@@ -473,7 +489,7 @@ private:
         });
         attempt([&] { serveSceneRequests(requests); });
         attempt([&] {
-            if (requests.reloadShaders) reloadShaders();
+            if (requests.reloadShaders) reloadShaders(true);
         });
         if (requests.quit) window_.close();
     }

@@ -46,9 +46,7 @@ std::string linkLog(std::uint32_t program) {
     return text.empty() ? "the driver gave no reason" : text;
 }
 
-std::string errorText(const std::string& program, const std::vector<ShaderError::StageLog>& stages,
-                      const std::string& link) {
-    // The place of the fault first: the program's name tells all its defines.
+std::string logText(const std::vector<ShaderError::StageLog>& stages, const std::string& link) {
     std::string text;
     const auto add = [&text](std::string_view what, std::string_view log) {
         text += fmt::format("{}\n{}\n", what, log);
@@ -57,7 +55,13 @@ std::string errorText(const std::string& program, const std::vector<ShaderError:
     for (const ShaderError::StageLog& stage : stages)
         add(fmt::format("a {} shader cannot be compiled:", stageName(stage.stage)), stage.text);
     if (!link.empty()) add("a shader program cannot be linked:", link);
-    return text + fmt::format("It is program '{}'.", program);
+    return text;
+}
+
+/// The place of the fault first: the program's name tells all its defines.
+std::string errorText(const std::string& program, const std::vector<ShaderError::StageLog>& stages,
+                      const std::string& link) {
+    return logText(stages, link) + fmt::format("It is program '{}'.", program);
 }
 
 } // namespace
@@ -80,6 +84,10 @@ std::string_view stageName(Stage stage) {
 ShaderError::ShaderError(std::string program, std::vector<StageLog> stageLogs, std::string linkLog)
     : std::runtime_error(errorText(program, stageLogs, linkLog)), program_(std::move(program)),
       stageLogs_(std::move(stageLogs)), linkLog_(std::move(linkLog)) {}
+
+std::string ShaderError::log() const {
+    return logText(stageLogs_, linkLog_);
+}
 
 PendingProgram::PendingProgram(std::string label, std::span<const StageSource> stages) : label_(std::move(label)) {
     throwIfFailed(fmt::format("before compiling '{}'", label_));

@@ -31,6 +31,7 @@ public:
     const std::string& program() const { return program_; }
     const std::vector<StageLog>& stageLogs() const { return stageLogs_; } ///< of the stages that failed
     const std::string& linkLog() const { return linkLog_; }               ///< empty when a stage failed
+    std::string log() const; ///< every log, without the program, whose name tells all its defines
 
 private:
     std::string program_;

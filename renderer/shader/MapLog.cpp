@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <regex>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "renderer/shader/Preprocess.h"
 #include "renderer/shader/ShaderPath.h"
@@ -54,6 +57,20 @@ std::string mapLog(std::string_view log, std::span<const std::string> files) {
         log.remove_prefix(end + 1);
     }
     return mapped;
+}
+
+std::string errorsFirst(std::string_view mappedLog) {
+    std::vector<std::string_view> lines;
+    while (!mappedLog.empty()) {
+        const std::size_t end = std::min(mappedLog.find('\n'), mappedLog.size());
+        lines.push_back(mappedLog.substr(0, end));
+        mappedLog.remove_prefix(std::min(end + 1, mappedLog.size()));
+    }
+    // With a number behind in NVIDIA's: "warning C7050: x".
+    std::stable_partition(lines.begin(), lines.end(), [](std::string_view line) {
+        return line.find(": warning") == std::string_view::npos || line.find(": error") != std::string_view::npos;
+    });
+    return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 } // namespace tessera::shader

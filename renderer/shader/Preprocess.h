@@ -45,4 +45,8 @@ ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const 
 /// are.
 std::string mapLog(std::string_view log, std::span<const std::string> files);
 
+/// The lines of a mapped log, warnings behind all others: compilers warn before they find the error. Either keep their
+/// order.
+std::string errorsFirst(std::string_view mappedLog);
+
 } // namespace tessera::shader

@@ -50,7 +50,7 @@ struct Build {
             std::vector<gpu::ShaderError::StageLog> logs = error.stageLogs();
             for (gpu::ShaderError::StageLog& log : logs)
                 for (const ExpandedStage& stage : stages)
-                    if (stage.stage == log.stage) log.text = mapLog(log.text, stage.source.files);
+                    if (stage.stage == log.stage) log.text = errorsFirst(mapLog(log.text, stage.source.files));
             throw gpu::ShaderError(error.program(), std::move(logs), error.linkLog());
         }
     }
@@ -95,8 +95,8 @@ void ProgramLibrary::warm(std::span<const ProgramDesc> descs) {
     if (firstFault) std::rethrow_exception(firstFault);
 }
 
-std::vector<std::string> ProgramLibrary::reload() {
-    std::vector<std::string> faults;
+Reloading ProgramLibrary::reload() {
+    Reloading result;
     std::vector<std::pair<Entry*, Build>> builds;
     for (auto& [key, entry] : entries_) {
         try {
@@ -104,18 +104,19 @@ std::vector<std::string> ProgramLibrary::reload() {
             if (!sameText(stages, entry->stages))
                 builds.emplace_back(entry.get(), Build(entry->desc, std::move(stages)));
         } catch (const InputError& error) {
-            faults.emplace_back(error.what());
+            result.faults.push_back({error.what(), ""});
         }
     }
     for (auto& [entry, build] : builds) {
         try {
             entry->program = build.finish();
             entry->stages = std::move(build.stages);
+            ++result.programs;
         } catch (const gpu::ShaderError& error) {
-            faults.emplace_back(error.what());
+            result.faults.push_back({error.log(), error.program()});
         }
     }
-    return faults;
+    return result;
 }
 
 bool ProgramLibrary::sourcesChanged() {

@@ -13,6 +13,17 @@
 
 namespace tessera::shader {
 
+/// What is wrong with the new source of a program.
+struct ShaderFault {
+    std::string text;    ///< with file and line
+    std::string program; ///< its name and defines; empty where a source cannot even be read
+};
+/// What reading the sources again came to.
+struct Reloading {
+    std::size_t programs = 0; ///< that have another form now
+    std::vector<ShaderFault> faults;
+};
+
 /// Every program of the process, compiled once per distinct variant, on the context that is current at its first use.
 class ProgramLibrary : public graph::ProgramSource {
 public:
@@ -25,8 +36,8 @@ public:
     /// as get(), after every good one has been kept.
     void warm(std::span<const ProgramDesc> descs);
     /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
-    /// form. Returns one text a fault, with file and line.
-    std::vector<std::string> reload();
+    /// form.
+    Reloading reload();
     /// True once after a file of the source folder changed, or a hook of a program;
     /// embedded sources never do. Also once after the first hook has come.
     bool sourcesChanged();

@@ -202,12 +202,12 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     const auto time = std::filesystem::last_write_time(scene.hook->file) + std::chrono::hours(1);
     std::filesystem::last_write_time(scene.hook->file, time);
     EXPECT_TRUE(renderer.programs().sourcesChanged());
-    const std::vector<std::string> faults = renderer.programs().reload();
+    const std::vector<shader::ShaderFault> faults = renderer.programs().reload().faults;
     ASSERT_FALSE(faults.empty());
-    EXPECT_THAT(faults.front(), HasSubstr(scene.hook->file + ":2: error"));
+    EXPECT_THAT(faults.front().text, HasSubstr(scene.hook->file + ":2: error"));
     EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
     folder.write(name, std::string(kHeader).append("{ surface.color = vec3(0.0); }\n"));
-    EXPECT_TRUE(renderer.programs().reload().empty());
+    EXPECT_TRUE(renderer.programs().reload().faults.empty());
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
 }
 

@@ -36,6 +36,8 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
     const std::string fault = viewer.waitFor("shader error ", mark);
     EXPECT_NE(fault.find(std::string(kFile) + ":"), std::string::npos) << fault;
     viewer.pause(1.0);
+    for (const std::string& line : viewer.lines())
+        EXPECT_EQ(line.find("It is program"), std::string::npos) << "its defines bury the error: " << line;
     // The message covers the lower part, the picture above it is the last good one.
     const glm::ivec2 upper(size.x, size.y / 2);
     const Shot broken = pictureIn(viewer, size);
@@ -46,6 +48,12 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
     write(source);
     viewer.waitFor("shaders reloaded", mark);
     viewer.waitForWhole(mark);
+    const Shot mended = pictureIn(viewer, size);
+    EXPECT_TRUE(mended.part({0, 0}, upper) == good.part({0, 0}, upper));
+    EXPECT_GT(differingShare(mended, good), 0.01) << "nobody says that they are good again";
+    EXPECT_LT(differingShare(mended, good), 0.12) << "a line is enough";
+    viewer.key("Escape");
+    viewer.pause(0.5);
     EXPECT_TRUE(pictureIn(viewer, size) == good);
 
     mark = viewer.mark();

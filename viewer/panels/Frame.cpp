@@ -120,14 +120,13 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     else if (facts.spreading)
         parts.push_back(spreadText(*facts.spreading));
     if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly) parts.emplace_back("flying (C: orbit)");
-    // Beside the divider the sides' names stand in the picture; two of them leave no room here.
-    const auto& [left, right] = facts.shown;
+    // The sides of a comparison are named in the picture; two names leave no room here.
+    const std::optional<Look>& left = facts.shown[0];
     if (state.compare == Compare::Off && left)
         parts.push_back(lookName(*left, state.open ? &state.open->scene().lights : nullptr));
-    else if (state.compare == Compare::Difference && left && right)
-        parts.push_back(fmt::format("{}", fmt::join(sideNames(*left, *right), " against ")));
     if (facts.scale > 0.0) {
         parts.push_back(fmt::format("{:.0f} ms", facts.ms));
+        if (facts.picturesPerSecond) parts.push_back(fmt::format("{:.0f} frames/s", *facts.picturesPerSecond));
         parts.push_back(fmt::format("scale {:.3g}", facts.scale));
         parts.push_back(fmt::format("{}x{}", facts.sizePixels.x, facts.sizePixels.y));
     }
@@ -179,6 +178,19 @@ void statusLine(State& state, const Facts& facts, const PictureArea& area, float
     ImGui::PopStyleVar(2);
 }
 
+/// The fault, and folded, since a program has up to some sixty defines, which programs have it.
+void faultRows(const ShownFault& fault) {
+    errorParagraph(fault.text);
+    if (fault.programs.empty()) return;
+    const std::size_t count = fault.programs.size();
+    ImGui::PushID(fault.text.c_str());
+    if (ImGui::TreeNode("programs", "in %zu program%s", count, count == 1 ? "" : "s")) {
+        for (const std::string& program : fault.programs) paragraph(program);
+        ImGui::TreePop();
+    }
+    ImGui::PopID();
+}
+
 /// What went wrong, or was done, at the picture's lower edge.
 void notices(State& state, const PictureArea& area, float scale) {
     if (state.notice.text.empty() && state.shaderFaults.empty()) return;
@@ -191,7 +203,7 @@ void notices(State& state, const PictureArea& area, float scale) {
     ImGui::SetNextWindowBgAlpha(0.92f);
     if (ImGui::Begin("Notice", nullptr,
                      (kFixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize)) {
-        for (const std::string& fault : state.shaderFaults) errorParagraph(fault);
+        for (const ShownFault& fault : state.shaderFaults) faultRows(fault);
         if (state.notice.isError) {
             errorParagraph(state.notice.text);
         } else if (!state.notice.text.empty()) {

@@ -1,6 +1,8 @@
 #include "viewer/panels/Overlays.h"
 
+#include <algorithm>
 #include <array>
+#include <cfloat>
 #include <string>
 
 #include <fmt/format.h>
@@ -15,22 +17,64 @@ constexpr ImU32 kPlain = IM_COL32(220, 222, 228, 255);
 constexpr ImU32 kActive = IM_COL32(140, 195, 255, 255); ///< the side that panels and keys change
 enum class Corner { UpperLeft, UpperRight };
 
-/// Words in a corner of a part of the picture, beyond which they do not reach.
-void drawName(const std::string& name, const PictureArea& part, Corner corner, ImU32 color, float scale) {
+constexpr float kTitleSize = 1.8f; ///< of a view's name, in heights of other words
+constexpr ImU32 kBehindName = IM_COL32(20, 21, 24, 200);
+
+/// Words in a corner of a part of the picture, beyond which they do not reach. `top` is how much of the part's height
+/// is taken; it grows by what these take.
+void drawName(const std::string& name, const PictureArea& part, Corner corner, ImU32 color, float scale, float& top) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const glm::vec2 end = part.corner + part.size;
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
     const float pad = 5.0f * scale;
     const float x = corner == Corner::UpperLeft ? part.corner.x + 2.0f * pad : end.x - size.x - 2.0f * pad;
-    const float y = part.corner.y + 2.0f * pad;
+    const float y = part.corner.y + top + 2.0f * pad;
     list.PushClipRect({part.corner.x, part.corner.y}, {end.x, end.y});
-    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
     list.AddText({x, y}, color, name.c_str());
     list.PopClipRect();
+    top += size.y + 2.5f * pad;
+}
+
+/// Of a view other than the lit picture: its name, large, and its meaning. Not where they would cover much of the part.
+void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const PictureArea& part, Corner corner,
+               float scale, float& top) {
+    if (look.settings.view == frame::DebugView::Final) return;
+    constexpr float kLeastEms = 16.0f, kMostShare = 0.25f;
+    ImFont* const font = ImGui::GetFont();
+    const float em = ImGui::GetFontSize(), pad = 5.0f * scale, width = part.size.x - 6.0f * pad;
+    const std::string name = viewName(look, lights), meaning = viewMeaning(look.settings.view);
+    const ImVec2 nameSize = font->CalcTextSizeA(kTitleSize * em, FLT_MAX, width, name.c_str());
+    const ImVec2 meaningSize = font->CalcTextSizeA(em, FLT_MAX, width, meaning.c_str());
+    const ImVec2 size(std::max(nameSize.x, meaningSize.x), nameSize.y + meaningSize.y);
+    if (width < kLeastEms * em || top + size.y > kMostShare * part.size.y) return;
+    const float x =
+        corner == Corner::UpperLeft ? part.corner.x + 2.0f * pad : part.corner.x + part.size.x - size.x - 2.0f * pad;
+    const float y = part.corner.y + top + 2.0f * pad;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
+    list.AddText(font, kTitleSize * em, {x, y}, kPlain, name.c_str(), nullptr, width);
+    list.AddText(font, em, {x, y + nameSize.y}, kPlain, meaning.c_str(), nullptr, width);
+    top += size.y + 2.5f * pad;
 }
 
 bool areEqual(const Facts& facts) {
     return facts.figures && !facts.figuresAreOld && facts.figures->bitEqual == 1.0;
+}
+
+void drawDifferenceNames(const Facts& facts, const std::vector<scenes::Light>* lights, const PictureArea& area,
+                         float scale) {
+    const auto& [left, right] = facts.shown;
+    float top = 0.0f;
+    if (left && right) {
+        const std::array<std::string, 2> names = sideNames(*left, *right, lights);
+        drawName(fmt::format("{} against {}", names[0], names[1]), area, Corner::UpperLeft, kPlain, scale, top);
+    }
+    if (areEqual(facts))
+        drawName(fmt::format("No difference: all {} covered pixels are equal in every bit", facts.figures->covered),
+                 area, Corner::UpperLeft, kPlain, scale, top);
+    if (left && right && left->settings.view == right->settings.view)
+        drawTitle(*left, lights, area, Corner::UpperLeft, scale, top);
 }
 
 } // namespace
@@ -48,19 +92,20 @@ void drawDivider(const State& state, const PictureArea& area, float scale) {
 }
 
 void drawNames(const State& state, const Facts& facts, const PictureArea& area, float scale) {
-    if (state.compare == Compare::Difference && areEqual(facts))
-        drawName(fmt::format("No difference: all {} covered pixels are equal in every bit", facts.figures->covered),
-                 area, Corner::UpperLeft, kPlain, scale);
-    if (state.compare != Compare::Split) return;
     const auto& [left, right] = facts.shown;
-    if (!left) return;
     const std::vector<scenes::Light>* const lights = state.open ? &state.open->scene().lights : nullptr;
+    if (state.compare == Compare::Difference) return drawDifferenceNames(facts, lights, area, scale);
+    if (!left) return;
     const std::array<std::string, 2> names =
         right ? sideNames(*left, *right, lights) : std::array{lookName(*left, lights), std::string()};
-    for (int side = 0; side < (right ? 2 : 1); ++side)
-        drawName(names[std::size_t(side)], partOf(state, area, side),
-                 side == 0 ? Corner::UpperLeft : Corner::UpperRight, side == state.activeSide ? kActive : kPlain,
-                 scale);
+    for (int side = 0; side < (right ? state.sides() : 1); ++side) {
+        const PictureArea part = partOf(state, area, side);
+        const Corner corner = side == 0 ? Corner::UpperLeft : Corner::UpperRight;
+        float top = 0.0f;
+        if (state.compare == Compare::Split)
+            drawName(names[std::size_t(side)], part, corner, side == state.activeSide ? kActive : kPlain, scale, top);
+        drawTitle(*facts.shown[std::size_t(side)], lights, part, corner, scale, top);
+    }
 }
 
 } // namespace tessera::viewer

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -22,31 +21,22 @@ std::string milliseconds(const std::optional<double>& ms) {
     return ms ? fmt::format("{:.1f}", *ms) : "-";
 }
 
-void passTable(const Timings& timings, int side, const FrameTimes& frame) {
+void passTable(const Timings& timings, int side, const TypicalTimes& typical) {
     if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("CPU ms", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableHeadersRow();
-    std::set<std::string> seen;
-    for (const gpu::PassTiming& pass : frame.passes) {
-        if (!seen.insert(pass.name).second) continue;
-        std::optional<double> gpuMs;
-        double cpuMs = 0.0;
-        for (const gpu::PassTiming& run : frame.passes) {
-            if (run.name != pass.name) continue;
-            if (run.gpuMs) gpuMs = gpuMs.value_or(0.0) + *run.gpuMs;
-            cpuMs += run.cpuMs;
-        }
+    for (const gpu::PassTiming& pass : typical.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(pass.name.c_str());
         tip(pass.name);
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(milliseconds(gpuMs).c_str());
+        ImGui::TextUnformatted(milliseconds(pass.gpuMs).c_str());
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(milliseconds(cpuMs).c_str());
+        ImGui::TextUnformatted(milliseconds(pass.cpuMs).c_str());
         ImGui::TableNextColumn();
         plot(("##" + pass.name).c_str(), timings.passMs(side, pass.name), ImGui::GetFontSize());
     }
@@ -59,9 +49,13 @@ void timingsPanel(State& state, const Facts& facts) {
     const int side = state.activeSide;
     const FrameTimes* frame = state.timings.latest(side);
     if (frame == nullptr) return;
-    fact("Frame", fmt::format("{:.1f} ms at scale {:.3g}", frame->ms, frame->scale));
+    const std::optional<TypicalTimes> typical = state.timings.typical(side);
+    fact("Frame", fmt::format("{:.1f} ms at scale {:.3g}", typical->ms, frame->scale));
+    tip("The median of pictures like the latest: of its size, technique, view and settings");
+    fact("Median of", fmt::format("{} picture{}, the latest {:.1f} ms", typical->frames,
+                                  typical->frames == 1 ? "" : "s", frame->ms));
     plot("##frames", state.timings.frameMs(side), 3.0f * ImGui::GetFontSize());
-    passTable(state.timings, side, *frame);
+    passTable(state.timings, side, *typical);
     fact("Targets", graph::readableBytes(facts.targetBytes));
     tip("Textures and buffers that frames share");
     ImGui::TextDisabled("%s", facts.renderer.c_str());

@@ -6,7 +6,6 @@
 #include "viewer/edit/LightList.h"
 
 namespace tessera::viewer {
-namespace {
 
 std::string viewName(const Look& look, const std::vector<scenes::Light>* lights) {
     std::string name(frame::debugViewInfo(look.settings.view).name);
@@ -16,7 +15,21 @@ std::string viewName(const Look& look, const std::vector<scenes::Light>* lights)
     return isNamed ? name + " of " + lightLabel(*lights, std::size_t(*solo)) : name;
 }
 
-} // namespace
+std::string viewMeaning(frame::DebugView view) {
+    // The viewer chooses the light itself, and the picture's title names it.
+    constexpr const char* kOther = "; the panel Lights selects another";
+    switch (view) {
+    case frame::DebugView::Distribution:
+        return fmt::format("D: how many microfacets mirror the light towards the eye{}", kOther);
+    case frame::DebugView::Geometry:
+        return fmt::format("G: the share of microfacets that light and eye both reach, past their neighbours{}",
+                           kOther);
+    case frame::DebugView::Fresnel:
+        return fmt::format("F: the share of the light that microfacets reflect, by colour{}", kOther);
+    default:
+        return std::string(frame::debugViewInfo(view).meaning);
+    }
+}
 
 bool showsTermOfOne(frame::DebugView view) {
     return view == frame::DebugView::Distribution || view == frame::DebugView::Geometry ||

@@ -18,6 +18,12 @@ bool showsCounts(const Look& look);
 /// scene's camera looks at, unless one shines alone.
 Look drawnLook(const State& state, int side);
 
+/// The view of a look, large in the picture: "geometry of lamp 3".
+std::string viewName(const Look& look, const std::vector<scenes::Light>* lights = nullptr);
+
+/// What its colours mean, in a line.
+std::string viewMeaning(frame::DebugView view);
+
 /// "forward / final"; "forward / geometry of lamp 3", where the lights are given.
 std::string lookName(const Look& look, const std::vector<scenes::Light>* lights = nullptr);
 

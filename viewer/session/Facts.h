@@ -22,8 +22,9 @@ struct Facts {
     double ms = 0.0;                                 ///< of the latest frame, all sides
     double scale = 0.0;                              ///< its sides' share of the window's pixels
     glm::ivec2 sizePixels{0};
-    std::string renderer;        ///< as the driver calls itself
-    std::size_t targetBytes = 0; ///< of the frames' render targets
+    std::optional<double> picturesPerSecond; ///< while something moves
+    std::string renderer;                    ///< as the driver calls itself
+    std::size_t targetBytes = 0;             ///< of the frames' render targets
     std::optional<graph::Plan> plan;
     std::optional<validation::LightOracleFigures> lights; ///< measured on request,
     std::string lightsOf;                                 ///< of this technique, culling and size,

@@ -36,6 +36,12 @@ struct Notice {
     bool isError = false;
 };
 
+/// A fault of shaders, and the programs that have it: files are shared.
+struct ShownFault {
+    std::string text;
+    std::vector<std::string> programs; ///< names with their defines
+};
+
 /// What panels and keys ask for that is more than a change of the state; done between two frames.
 struct Requests {
     std::optional<std::string> open;   ///< a scene
@@ -110,7 +116,7 @@ struct State {
     std::optional<FileDialog> files;  ///< asks for a file, and waits for a question
 
     Notice notice;
-    std::vector<std::string> shaderFaults;
+    std::vector<ShownFault> shaderFaults;
     Requests requests;
 
     /// The place of the picture that is inspected.

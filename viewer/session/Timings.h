@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,16 @@ struct FrameTimes {
     double scale = 1.0;
     int side = 0; ///< of the window, that it drew
     std::vector<gpu::PassTiming> passes;
+    std::uint64_t kind = 0; ///< equal where a pixel costs about the same
+    bool isUnlike = false;  ///< compiled shaders, or computed what later ones find
+    bool isPassing = false; ///< while something moved
+};
+
+/// What frames usually cost: medians.
+struct TypicalTimes {
+    std::size_t frames = 0;
+    double ms = 0.0;
+    std::vector<gpu::PassTiming> passes; ///< those of the latest, by name; runs of a name are one
 };
 
 /// The latest frames, the oldest first.
@@ -29,6 +40,12 @@ public:
     /// What a pass took in the frames of a side that had it: on the GPU where that is known, else on the CPU.
     std::vector<float> passMs(int side, const std::string& pass) const;
     const FrameTimes* latest(int side) const;
+    /// The medians of the frames like the latest of a side: of its kind and scale. Frames that are unlike all others
+    /// count only where there are none but them. None where the side has no frame.
+    std::optional<TypicalTimes> typical(int side) const;
+    /// Pictures in a second while something moves: over the latest second before the latest of them, as far as they
+    /// follow one another. None where there are fewer than three.
+    std::optional<double> picturesPerSecond() const;
 
 private:
     std::deque<FrameTimes> frames_;

@@ -49,7 +49,12 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     wanted_.sceneRevision = state_.open->revision();
     wanted_.sceneEdits = state_.open->edits();
     const double have = screen_.scaleOf(wanted_);
-    const bool isAtRest = !isMoving(state_) && Window::nowSeconds() >= pulse_.restAt && have > 0.0;
+    const bool rests = !isMoving(state_) && Window::nowSeconds() >= pulse_.restAt;
+    const bool isAtRest = rests && have > 0.0;
+    if (rests && facts_.picturesPerSecond) {
+        facts_.picturesPerSecond.reset();
+        pulse_.another();
+    }
     if (have >= restScale() && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
         return spreadSlice(Screen::Reach::All);
     if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
@@ -98,6 +103,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
     const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
     const double startedAt = Window::nowSeconds();
+    const bool isNewKind = screen_.isNewKind(wanted_);
     try {
         Screen::Drawn drawn = screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
         if (drawn.gaveUp) {
@@ -106,6 +112,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
             return false;
         }
         givenUp_ = 0;
+        if (isNewKind) ++kinds_;
         facts_.ms = drawn.ms;
         facts_.scale = drawn.scale;
         facts_.sizePixels = drawn.sizePixels;
@@ -114,7 +121,8 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
         ++pictures_;
         for (int side = 0; side < wanted_.sides; ++side)
             state_.timings.add({pictures_, 1000.0 * startedAt, drawn.sideMs[std::size_t(side)], drawn.scale, side,
-                                drawn.passes[std::size_t(side)]});
+                                drawn.passes[std::size_t(side)], kinds_, drawn.isUnlike, !isAtRest});
+        facts_.picturesPerSecond = state_.timings.picturesPerSecond();
         pulse_.another(); // the figures of this frame are shown by the next
         if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
         note(missingTextures_, std::move(drawn.missingTextures));

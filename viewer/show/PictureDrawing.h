@@ -29,6 +29,8 @@ public:
     bool isWhole() const;
     /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
     bool lacksLight() const;
+    /// Whether the window still tells how fast pictures follow one another, which is wrong at rest.
+    bool tellsRate() const { return facts_.picturesPerSecond.has_value(); }
 
 private:
     double restScale() const;
@@ -55,7 +57,8 @@ private:
     Screen::Wanted wanted_;
     bool isDescribed_ = true;
     std::uint64_t pictures_ = 0;
-    int announcements_ = 0; ///< frames for which the next picture has been announced
+    std::uint64_t kinds_ = 0; ///< of pictures, one after the other
+    int announcements_ = 0;   ///< frames for which the next picture has been announced
     int givenUp_ = 0;
     std::string drawingFault_;                   ///< why the latest picture that failed did
     std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so

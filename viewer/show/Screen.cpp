@@ -199,7 +199,8 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     }
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;
-    if (isNew || compiled || (isAnew && !isCoarse)) return result;
+    result.isUnlike = isNew || compiled || (isAnew && !isCoarse);
+    if (result.isUnlike) return result;
     resolution_.drew(scale, result.ms);
     if (scale < 1.0 || result.ms < kSlowMs) latestMs_ = result.ms;
     return result;

@@ -31,6 +31,7 @@ public:
     /// What a call of draw() did.
     struct Drawn {
         bool gaveUp = false;
+        bool isUnlike = false; ///< it compiled shaders, or spread light anew: pictures like it take less
         double scale = 1.0;
         glm::ivec2 sizePixels{0};
         double ms = 0.0;                                    ///< of all sides, the waiting for the GPU included

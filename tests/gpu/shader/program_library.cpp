@@ -11,9 +11,12 @@
 namespace tessera::shader {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 class ProgramLibraryTest : public test::GlTest {
 protected:
@@ -61,6 +64,25 @@ TEST_F(ProgramLibraryTest, faultsAreReportedWithFileAndLine) {
     EXPECT_EQ(library.size(), 0u);
 }
 
+TEST_F(ProgramLibraryTest, warningsStandBehindTheErrorWithTheirOwnFileAndLine) {
+    folder.write("lib/answer.glsl", "#pragma once\n\nfloat answerOf() {\n    float unset;\n    return unset;\n}\n");
+    folder.write("answer.comp", "#include \"lib/answer.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n"
+                                "  wrong = answerOf();\n}\n");
+    ProgramLibrary library{SourceTree(folder.path())};
+    try {
+        library.get(desc("2"));
+        FAIL() << "expected a ShaderError";
+    } catch (const gpu::ShaderError& error) {
+        const std::string text = error.what();
+        const std::size_t fault = text.find("shaders/answer.comp:4: error");
+        ASSERT_NE(fault, std::string::npos) << text;
+        const std::size_t warning = text.find(": warning"); // drivers are free to give none
+        if (warning == std::string::npos) return;
+        EXPECT_GT(warning, fault) << text;
+        EXPECT_NE(text.find("shaders/lib/answer.glsl:5: warning"), std::string::npos) << text;
+    }
+}
+
 TEST_F(ProgramLibraryTest, linesAfterAnIncludeAreReportedRight) {
     folder.write("answer.comp",
                  "#include \"lib/answer.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {\n  wrong = 1;\n}\n");
@@ -88,21 +110,29 @@ TEST_F(ProgramLibraryTest, reloadingReplacesTheProgramBehindItsReference) {
     ProgramLibrary library{SourceTree(folder.path())};
     const gpu::Program& program = library.get(desc("2"));
     writeAnswer("return 50.0;");
-    EXPECT_THAT(library.reload(), IsEmpty());
+    const Reloading done = library.reload();
+    EXPECT_THAT(done.faults, IsEmpty());
+    EXPECT_EQ(done.programs, 1u);
     EXPECT_EQ(answer(program), 52.0f);
+    EXPECT_EQ(library.reload().programs, 0u) << "nothing has changed since";
 }
 
 TEST_F(ProgramLibraryTest, aBrokenEditKeepsTheLastGoodProgram) {
     ProgramLibrary library{SourceTree(folder.path())};
     const gpu::Program& program = library.get(desc("2"));
     writeAnswer("return 50.0");
-    EXPECT_THAT(library.reload(), ElementsAre(HasSubstr("shaders/lib/answer.glsl:5: error")));
+    EXPECT_THAT(library.reload().faults,
+                ElementsAre(AllOf(Field(&ShaderFault::text,
+                                        AllOf(HasSubstr("shaders/lib/answer.glsl:5: error"), Not(HasSubstr("BIAS")))),
+                                  Field(&ShaderFault::program, "answer [BIAS=2]"))));
     EXPECT_EQ(answer(program), 42.0f);
     std::filesystem::remove(folder.path() / "lib/answer.glsl");
-    EXPECT_THAT(library.reload(), ElementsAre(HasSubstr("shaders/answer.comp:1: cannot include")));
+    EXPECT_THAT(library.reload().faults,
+                ElementsAre(AllOf(Field(&ShaderFault::text, HasSubstr("shaders/answer.comp:1: cannot include")),
+                                  Field(&ShaderFault::program, ""))));
     EXPECT_EQ(answer(program), 42.0f);
     writeAnswer("return 60.0;");
-    EXPECT_THAT(library.reload(), IsEmpty());
+    EXPECT_THAT(library.reload().faults, IsEmpty());
     EXPECT_EQ(answer(program), 62.0f);
 }
 

@@ -36,5 +36,15 @@ TEST(MapLog, linesWithoutAKnownPlaceStay) {
     EXPECT_EQ(mapLog(log, kFiles), log);
 }
 
+TEST(MapLog, warningsStandBehindAllElse) {
+    EXPECT_EQ(
+        errorsFirst("a.glsl:9: warning: `x' used uninitialized\na.glsl:2: error: no type\nb.glsl:3: warning C7: y\n"
+                    "a.glsl:4: error: a line with : warning in it\ntwo errors\n"),
+        "a.glsl:2: error: no type\na.glsl:4: error: a line with : warning in it\ntwo errors\n"
+        "a.glsl:9: warning: `x' used uninitialized\nb.glsl:3: warning C7: y");
+    EXPECT_EQ(errorsFirst("the driver gave no reason"), "the driver gave no reason");
+    EXPECT_EQ(errorsFirst(""), "");
+}
+
 } // namespace
 } // namespace tessera::shader

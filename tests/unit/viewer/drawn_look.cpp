@@ -1,6 +1,7 @@
 #include "viewer/session/DrawnLook.h"
 
 #include <memory>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -70,6 +71,16 @@ TEST(DrawnLook, aTermIsNamedWithItsLight) {
     EXPECT_EQ(lookName(drawnLook(state, 0)), "forward / geometry");
     state.looks[0].settings.soloLight = 9; // deleted since
     EXPECT_EQ(lookName(drawnLook(state, 0), &lights), "forward / geometry");
+}
+
+TEST(DrawnLook, everyViewHasALineOfMeaning) {
+    std::set<std::string> meanings;
+    for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
+        const std::string meaning = viewMeaning(info.view);
+        EXPECT_TRUE(meanings.insert(meaning).second) << info.name << " means the same as another: " << meaning;
+        // Those of one light are of the selected one, or the brightest, not of the one that the command line chooses.
+        if (showsTermOfOne(info.view)) EXPECT_NE(meaning.find("the panel Lights selects another"), std::string::npos);
+    }
 }
 
 TEST(DrawnLook, twoSidesAreNamedByWhatDiffers) {

@@ -643,6 +643,35 @@ TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
     EXPECT_NE(firstWindowText(state, {}).find("Technique"), std::string::npos);
 }
 
+TEST_F(Panels, aViewIsNamedInItsPictureAndTheLitPictureIsLeftFree) {
+    State state;
+    Facts facts;
+    const auto names = [&] { return overlaySpan([&] { drawNames(state, facts, area(state), 1.0f); }); };
+    facts.shown[0] = lookAt(frame::DebugView::Final);
+    EXPECT_FALSE(names());
+    facts.shown[0] = lookAt(frame::DebugView::Geometry);
+    ASSERT_TRUE(names());
+    EXPECT_GE(names()->first, area(state).corner.x);
+    EXPECT_LE(names()->second, area(state).corner.x + area(state).size.x);
+    // Beside the divider each side has its own, and neither reaches across.
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const float dividerX = area(state).corner.x + 0.6f * area(state).size.x;
+    facts.shown[1] = lookAt(frame::DebugView::Lights);
+    std::vector<float> middles;
+    frame([&] {
+        drawNames(state, facts, area(state), 1.0f);
+        for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) middles.push_back(vertex.pos.x);
+    });
+    EXPECT_TRUE(std::any_of(middles.begin(), middles.end(), [&](float x) { return x < dividerX; }));
+    EXPECT_TRUE(std::any_of(middles.begin(), middles.end(), [&](float x) { return x > dividerX; }));
+    // Of a difference the two pictures.
+    state.compare = Compare::Difference;
+    EXPECT_TRUE(names());
+    facts.shown[1].reset();
+    EXPECT_FALSE(names()) << "there is nothing to differ from";
+}
+
 TEST_F(Panels, aDifferenceOfNothingIsSaidOnItsBlackPicture) {
     State state;
     state.compare = Compare::Difference;
