@@ -14,9 +14,11 @@
 #include "base/AtomicFile.h"
 #include "base/EndRequest.h"
 #include "renderer/frame/EnvironmentCache.h"
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
 #include "viewer/panels/Frame.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/Saver.h"
@@ -38,8 +40,9 @@ namespace {
 constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is looked at
 constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
 constexpr double kNoticeSeconds = 6.0;
-constexpr double kHurrySeconds = 0.05; ///< between pictures while input waits
-constexpr double kKeepSeconds = 3.0;   ///< at rest, after which edits are kept in a file
+constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
+constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
+constexpr double kKeepSeconds = 3.0;        ///< at rest, after which edits are kept in a file
 /// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
 constexpr double kKeepShare = 20.0;
 constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
@@ -61,7 +64,8 @@ class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
-          drawing_(state_, facts_, screen_, window_, log_, pulse_, [this](const std::string& text) { fail(text); }),
+          drawing_(state_, facts_, screen_, window_, log_, pulse_,
+                   {[this](const std::string& text) { fail(text); }, [this] { tellProgress(); }}),
           saver_(state_, screen_, log_), recovery_(recoveryFolder(options)), measurements_([] { Window::wake(); }),
           environments_([] { Window::wake(); }), scenes_(options, state_, log_, [] { Window::wake(); }) {
         facts_.renderer = window_.context().capabilities().renderer;
@@ -99,7 +103,7 @@ private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
     bool awaitsRest() const {
-        return !drawing_.isWhole() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest();
+        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest();
     }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
@@ -110,6 +114,7 @@ private:
     bool isDue() const {
         if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || pulse_.settleFrames > 0)
             return true;
+        if (isVisible() && isBackgroundBusy() && now() >= backgroundToldAt_) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
@@ -122,10 +127,45 @@ private:
         if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
+        if (isVisible() && isBackgroundBusy()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
         if (hasEdits()) atMost(kEndPeriodSeconds);
         if (state_.open && recovery_.isBehind(*state_.open)) atMost(std::max(keepAt() - now(), 0.0));
         return seconds;
+    }
+
+    // ---- What takes long ----
+    /// Something is loaded on another thread, of which the window tells how far it is.
+    bool isBackgroundBusy() const { return !state_.loading.empty() || !environments_.choice().empty(); }
+    void noteBackground() {
+        facts_.background.reset();
+        backgroundToldAt_ = now() + kBackgroundSeconds;
+        const auto nameOf = [](const std::string& source) { return std::filesystem::path(source).filename().string(); };
+        if (!state_.loading.empty()) {
+            const std::optional<double> share = scenes_.filteredShare();
+            const char* const what = share ? "Filtering the environment of" : "Loading";
+            facts_.background = {fmt::format("{} {}", what, nameOf(state_.loading)), share, false};
+        } else if (const std::string choice = environments_.choice(); !choice.empty()) {
+            const std::optional<double> share = environments_.filteredShare();
+            facts_.background = {fmt::format("{} {}", share ? "Filtering" : "Loading", nameOf(choice)), share, true};
+        }
+    }
+    bool isCancellable() const {
+        const std::optional<Progress>& told = facts_.progress ? facts_.progress : facts_.background;
+        return told && told->canCancel;
+    }
+    void cancel() {
+        if (facts_.progress) return drawing_.cancel();
+        log_.line("cancelled environment " + environments_.choice());
+        environments_.discard();
+        pulse_.settle();
+    }
+    /// In the middle of a picture that takes long.
+    void tellProgress() {
+        const gpu::BetweenBands between;
+        paint();
+        gui_.drawOver([this](ImDrawList& list) { drawProgress(*facts_.progress, area_, uiScale(), list); });
+        present();
     }
 
     // ---- Edits that are not saved ----
@@ -216,6 +256,7 @@ private:
         std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
         if (!scene) return;
         measurements_.clear(facts_);
+        drawing_.resume();
         facts_.shadows = {};
         state_.timings.clear();
         environments_.discard(); // it was chosen for the scene before
@@ -373,6 +414,7 @@ private:
                 state_.notice = {"Shaders reloaded: nothing has changed in them", false};
         }
         screen_.forget();
+        drawing_.resume();
         pulse_.settle();
     }
 
@@ -400,6 +442,8 @@ private:
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
         learnLetters();
+        state_.isCancellable = isCancellable(); // by what the window says
+        noteBackground();
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
         state_.loadingEnvironment = environments_.choice();
@@ -423,7 +467,7 @@ private:
         });
         attempt([this] {
             if (!inspector_.update(facts_, state_, screen_, drawing_.pictures(),
-                                   drawing_.isWhole() && now() >= pulse_.restAt))
+                                   drawing_.isSettled() && now() >= pulse_.restAt))
                 return;
             pulse_.another();
             if (facts_.inspection && facts_.inspection->isSurfaceKnown)
@@ -491,6 +535,8 @@ private:
         attempt([&] {
             if (requests.reloadShaders) reloadShaders(true);
         });
+        if (requests.cancel && isCancellable()) cancel();
+        if (requests.resume) drawing_.resume();
         if (requests.quit) window_.close();
     }
 
@@ -552,11 +598,18 @@ private:
     bool isNoticeOver() const { return !state_.notice.text.empty() && !state_.notice.isError && now() >= saidUntil_; }
 
     void show() {
-        const glm::ivec2 pixels = window_.sizePixels();
         attempt([this] {
             if (state_.compare == Compare::Difference)
                 screen_.prepareDifference(state_.amplification * std::exp2(state_.active().settings.exposureEV));
         });
+        paint();
+        present();
+        shownAt_ = now();
+    }
+
+    /// The pictures, and the interface as it was laid out last.
+    void paint() {
+        const glm::ivec2 pixels = window_.sizePixels();
         screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
         if (const std::optional<glm::vec2> place = state_.inspectedPlace()) {
             for (const Loupe& loupe : state_.loupes)
@@ -564,10 +617,12 @@ private:
             gpu::bindWindowFramebuffer(pixels.x, pixels.y); // without the scissor
         }
         gui_.draw();
+    }
+
+    void present() {
         gpu::throwIfFailed("while the window was drawn");
         window_.context().debugLog().takeWarnings(); // advice on performance, ignored here
         window_.context().swapBuffers();
-        shownAt_ = now();
     }
 
     const ViewerOptions& options_;
@@ -584,6 +639,7 @@ private:
     double shownAt_ = 0.0;
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
+    double backgroundToldAt_ = 0.0; ///< when it is told next how far that is
     std::string title_;
     std::pair<const OpenScene*, std::string> learned_; ///< the scene whose letters are known, and its file
     std::string recovering_;                           ///< the file of edits that is being opened

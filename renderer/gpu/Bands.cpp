@@ -25,6 +25,7 @@ struct State {
     std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
     BandPace pace;
     BandedArea area;
+    BandProgress progress;
 };
 thread_local State state;
 
@@ -36,24 +37,69 @@ int nextRows(int rows, double elapsedMs) {
     return std::max(steps, 1) * kRowStep;
 }
 
+/// Waits for the issued draws and asks whether to go on; under BandedDrawing.
+void askToGoOn() {
+    glFinish();
+    if (!state.givesUp()) return;
+    state.givesUp = nullptr;
+    throw graph::Interrupted();
+}
+
 } // namespace
 
 BandedDrawing::BandedDrawing(std::function<bool()> givesUp, BandPace pace) {
     assert(!state.givesUp && "banded drawings do not nest");
     state.givesUp = std::move(givesUp);
     state.pace = pace;
+    state.progress = {};
 }
 
 BandedDrawing::~BandedDrawing() {
     state.givesUp = nullptr;
 }
 
-void askToGoOn() {
+void endBandedPass() {
     if (!state.givesUp) return;
-    glFinish();
-    if (!state.givesUp()) return;
-    state.givesUp = nullptr;
-    throw graph::Interrupted();
+    ++state.progress.passes;
+    state.progress.share = 0.0;
+    askToGoOn();
+}
+
+BandProgress bandProgress() {
+    return state.progress;
+}
+
+struct BetweenBands::Bound {
+    BandedArea area;
+    GLint drawn = 0, read = 0;
+    GLint viewport[4] = {}, scissor[4] = {};
+    GLboolean isScissored = GL_FALSE, isSrgb = GL_FALSE, color[4] = {}, depth = GL_FALSE;
+};
+
+BetweenBands::BetweenBands() : bound_(std::make_unique<Bound>()) {
+    bound_->area = state.area;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound_->drawn);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound_->read);
+    glGetIntegerv(GL_VIEWPORT, bound_->viewport);
+    glGetIntegerv(GL_SCISSOR_BOX, bound_->scissor);
+    bound_->isScissored = glIsEnabled(GL_SCISSOR_TEST);
+    bound_->isSrgb = glIsEnabled(GL_FRAMEBUFFER_SRGB);
+    glGetBooleanv(GL_COLOR_WRITEMASK, bound_->color);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &bound_->depth);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+BetweenBands::~BetweenBands() {
+    const auto enable = [](GLenum capability, GLboolean on) { on ? glEnable(capability) : glDisable(capability); };
+    state.area = bound_->area;
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(bound_->drawn));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(bound_->read));
+    glViewport(bound_->viewport[0], bound_->viewport[1], bound_->viewport[2], bound_->viewport[3]);
+    glScissor(bound_->scissor[0], bound_->scissor[1], bound_->scissor[2], bound_->scissor[3]);
+    enable(GL_SCISSOR_TEST, bound_->isScissored);
+    enable(GL_FRAMEBUFFER_SRGB, bound_->isSrgb);
+    glColorMask(bound_->color[0], bound_->color[1], bound_->color[2], bound_->color[3]);
+    glDepthMask(bound_->depth);
 }
 
 void setBandedArea(const BandedArea& area) {
@@ -69,7 +115,11 @@ void drawInBands(const std::function<void()>& draw, BandCost cost) {
     for (int row = 0; row < area.height;) {
         double slowestMs = 0.0; // of the band's pieces
         for (int column = 0; column < area.width;) {
-            if (row + column > 0) askToGoOn();
+            if (row + column > 0) {
+                const double here = double(std::min(rows, area.height - row)) * column;
+                state.progress.share = (double(row) * area.width + here) / (double(area.width) * area.height);
+                askToGoOn();
+            }
             const CpuTimer clock;
             glEnable(GL_SCISSOR_TEST);
             const int width = std::min(columns, area.width - column);

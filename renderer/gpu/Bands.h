@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <functional>
+#include <memory>
 
 /// Long draws in pieces, so that a frame can be given up in the middle of one: a software rasteriser may need a second
 /// for a full-screen triangle, and an interactive program owes an answer within a tenth of that.
@@ -33,8 +35,30 @@ enum class BandCost {
 /// or of the rectangle that setScissor() restricts draws to. The draw must write pixels only, and each on its own.
 void drawInBands(const std::function<void()>& draw, BandCost cost = BandCost::Nothing);
 
-/// Under BandedDrawing: waits for the issued draws and calls `givesUp`. Called after every pass.
-void askToGoOn();
+/// A pass has ended. Under BandedDrawing: waits for the issued draws and calls `givesUp`.
+void endBandedPass();
+
+/// How far the frame is that is drawn under BandedDrawing, for its `givesUp`.
+struct BandProgress {
+    std::size_t passes = 0; ///< that have ended
+    double share = 0.0;     ///< of the pixels of the draw in progress
+};
+BandProgress bandProgress();
+
+/// While one lives, `givesUp` may draw something else: then targets, viewport, scissor and write masks are those of the
+/// frame in progress again. Programs, vertex arrays, textures, blending and what is enabled are to be put back by
+/// whoever draws.
+class BetweenBands {
+public:
+    BetweenBands();
+    ~BetweenBands();
+    BetweenBands(const BetweenBands&) = delete;
+    BetweenBands& operator=(const BetweenBands&) = delete;
+
+private:
+    struct Bound;
+    std::unique_ptr<Bound> bound_;
+};
 
 /// Pixels that drawInBands() divides.
 struct BandedArea {

@@ -153,7 +153,7 @@ void GraphBackend::endPass(std::string_view name) {
     }
     group_.reset();
     throwIfFailed(fmt::format("in pass '{}'", name));
-    askToGoOn();
+    endBandedPass();
 }
 
 void GraphBackend::endFrame(graph::Barrier barrier) {

@@ -2,6 +2,8 @@
 
 #include "engine/Rendering.h"
 #include "renderer/gpu/Bands.h"
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/Texture.h"
 #include "renderer/graph/Execute.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
@@ -76,6 +78,38 @@ TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
     }
     // Nothing of the frames that were given up is left behind.
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
+}
+
+TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
+    const scenes::Scene scene = test::everythingScene();
+    engine::Renderer renderer(context(), scene);
+    const gpu::Texture texture("other", graph::TextureDesc{graph::Format::Rgba8Unorm, 16, 16, 1});
+    const gpu::Framebuffer other(gpu::Attachments{{&texture}});
+    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
+        SCOPED_TRACE(info.name);
+        const engine::RenderedFrame whole = renderer.render(info.technique, small());
+        std::size_t passes = 0, shares = 0;
+        double share = 0.0;
+        const gpu::BandedDrawing banded([&] {
+            const gpu::BandProgress progress = gpu::bandProgress();
+            EXPECT_GE(progress.passes, passes);
+            EXPECT_GE(progress.share, 0.0);
+            EXPECT_LT(progress.share, 1.0);
+            if (progress.passes == passes && progress.share > share) ++shares;
+            passes = progress.passes;
+            share = progress.share;
+            const gpu::BetweenBands between;
+            gpu::bindFramebuffer(other);
+            gpu::setScissor({3, 3, 5, 5});
+            gpu::clearColor(0, {1.0f, 0.0f, 0.0f, 1.0f});
+            return false;
+        });
+        const engine::RenderedFrame pieces = renderer.render(info.technique, small());
+        EXPECT_EQ(pieces.radiance, whole.radiance);
+        EXPECT_EQ(pieces.display, whole.display);
+        EXPECT_GE(passes, renderer.backend().passTimings().size());
+        EXPECT_GT(shares, 0u) << "no draw told how far it was";
+    }
 }
 
 TEST_F(Bands, withoutBandedDrawingTheCallbackIsNotCalled) {

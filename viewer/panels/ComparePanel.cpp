@@ -68,7 +68,8 @@ void figureRows(State& state, const validation::ErrorFigures& figures, glm::ivec
 void comparePanel(State& state, const Facts& facts) {
     compareRows(state);
     if (state.compare == Compare::Off) return;
-    ImGui::TextDisabled("Left against right%s", facts.figuresAreOld ? ", measuring ..." : "");
+    const char* const until = facts.isCancelled ? ", not measured" : facts.figuresAreOld ? ", measuring ..." : "";
+    ImGui::TextDisabled("Left against right%s", until);
     if (!facts.figures) return;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, facts.figuresAreOld ? 0.5f : 1.0f);
     figureRows(state, *facts.figures, facts.sizePixels);

@@ -11,6 +11,7 @@
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
@@ -101,24 +102,14 @@ void drawPanelEdge(const State& state, const PictureArea& area, float scale) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-/// Tiles are lit one by one, so that a single object has shares.
-std::string spreadText(const engine::SpreadProgress& progress) {
-    const std::size_t percent = progress.tiles > 0 ? 100 * progress.doneTiles / progress.tiles : 0;
-    return fmt::format("spreading light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,
-                       progress.objects == 1 ? "" : "s", percent);
-}
-
 /// What the status line says, the more important things first.
 std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     std::vector<std::string> parts;
     if (!state.loading.empty())
         parts.emplace_back("loading ...");
-    else if (facts.isPreparing)
-        parts.emplace_back("preparing shaders ...");
-    else if (facts.isSpreading)
-        parts.emplace_back("spreading light over surfaces ...");
     else if (facts.spreading)
         parts.push_back(spreadText(*facts.spreading));
+    if (facts.isCancelled) parts.emplace_back("cancelled (Enter: draw on)");
     if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly) parts.emplace_back("flying (C: orbit)");
     // The sides of a comparison are named in the picture; two names leave no room here.
     const std::optional<Look>& left = facts.shown[0];
@@ -243,6 +234,8 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawInspector(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
+        const std::optional<Progress>& progress = facts.progress ? facts.progress : facts.background;
+        if (progress) drawProgress(*progress, area, scale, *ImGui::GetBackgroundDrawList());
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

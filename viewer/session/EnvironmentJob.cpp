@@ -12,15 +12,15 @@
 namespace tessera::viewer {
 namespace {
 
-ChosenEnvironment loaded(const std::string& name) {
+ChosenEnvironment loaded(const std::string& name, std::atomic<double>& share) {
     ChosenEnvironment chosen;
     chosen.name = name;
     try {
         scenes::LoadLedger ledger;
         chosen.environment = scenes::environmentCalled(name, ledger, chosen.warnings);
         if (chosen.environment)
-            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(
-                frame::cachedEnvironment(chosen.environment->map, frame::cacheFolder()));
+            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
+                chosen.environment->map, frame::cacheFolder(), [&share](double done) { raiseShare(share, done); }));
     } catch (const std::bad_alloc&) {
         chosen.error = name + ": the memory is not enough for it; close other programs or choose a smaller picture";
     } catch (const std::exception& error) {
@@ -61,9 +61,10 @@ void EnvironmentJob::load(const std::stop_token& stop) {
             isBusy_ = !choice_.empty() && !stop.stop_requested();
             if (!isBusy_) return;
             name = choice_;
-            generation = generation_;
+            generation = loading_ = generation_;
+            share_ = kNoShare;
         }
-        ChosenEnvironment chosen = loaded(name);
+        ChosenEnvironment chosen = loaded(name, share_);
         {
             const std::lock_guard lock(mutex_);
             if (generation != generation_) continue;
@@ -77,6 +78,11 @@ void EnvironmentJob::load(const std::stop_token& stop) {
 std::string EnvironmentJob::choice() const {
     const std::lock_guard lock(mutex_);
     return choice_;
+}
+
+std::optional<double> EnvironmentJob::filteredShare() const {
+    const std::lock_guard lock(mutex_);
+    return loading_ == generation_ ? shareOf(share_) : std::nullopt;
 }
 
 bool EnvironmentJob::hasResult() const {

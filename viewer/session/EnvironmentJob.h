@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Scene.h"
+#include "viewer/session/FilteredShare.h"
 
 namespace tessera::viewer {
 
@@ -37,6 +39,8 @@ public:
     void discard();
     /// What was chosen and not taken yet; empty: nothing.
     std::string choice() const;
+    /// How much of it is filtered; none where it is still being read, or kept from an earlier time.
+    std::optional<double> filteredShare() const;
     bool hasResult() const;
     /// The result of the latest choice, once.
     std::optional<ChosenEnvironment> take();
@@ -47,8 +51,10 @@ private:
 
     std::function<void()> done_;
     mutable std::mutex mutex_;
+    std::atomic<double> share_ = kNoShare;
     bool isBusy_ = false;
     std::uint64_t generation_ = 0; ///< of the choice
+    std::uint64_t loading_ = 0;    ///< the one under way, of which `share_` tells
     std::string choice_;
     std::optional<ChosenEnvironment> result_;
     std::jthread thread_; ///< last: it ends before what it writes to

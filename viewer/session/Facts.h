@@ -12,12 +12,23 @@
 
 namespace tessera::viewer {
 
+/// What takes long, for the box over the picture.
+struct Progress {
+    std::string text;            ///< "Drawing at scale 0.5"
+    std::optional<double> share; ///< that is done; none: nobody knows
+    bool canCancel = false;      ///< by Esc
+    bool operator==(const Progress&) const = default;
+};
+
 /// What panels show of the frames that were drawn.
 struct Facts {
     std::array<std::optional<Look>, 2> shown; ///< looks of the pictures in the window, by side; none: no picture
     std::array<std::optional<engine::DrawnShadows>, 2> shadows; ///< of the same
     bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
     bool isSpreading = false; ///< the next frame computes anew how light spreads over surfaces
+    std::optional<Progress> progress;                ///< of the picture
+    std::optional<Progress> background;              ///< of what is loaded meanwhile
+    bool isCancelled = false;                        ///< the picture is left as far as it is drawn
     std::optional<engine::SpreadProgress> spreading; ///< of light that is spread slice by slice
     double ms = 0.0;                                 ///< of the latest frame, all sides
     double scale = 0.0;                              ///< its sides' share of the window's pixels

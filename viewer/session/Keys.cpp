@@ -49,14 +49,17 @@ constexpr int kControl = GLFW_MOD_CONTROL;
 constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }, "Window"},
     {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
-    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, or the latest message",
+    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, cancel what takes long, or close the latest message",
      [](State& s) {
-         if (!s.showsHelp) {
+         if (!s.showsHelp && s.isCancellable) {
+             s.requests.cancel = true;
+         } else if (!s.showsHelp) {
              s.notice = {};
              s.shaderFaults.clear();
          }
          s.showsHelp = false;
      }},
+    {GLFW_KEY_ENTER, kNone, "Enter", "draw on after Esc", [](State& s) { s.requests.resume = true; }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
     {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
     {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 7 is the lit picture", [](State& s) { showNumbered(s, 1); },

@@ -10,7 +10,7 @@
 namespace tessera::viewer {
 namespace {
 
-SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& options) {
+SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& options, std::atomic<double>& share) {
     SceneLoader::Result result;
     result.source = source;
     result.load = options;
@@ -21,7 +21,8 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
         result.origin = scenes::originOf(source, options, *result.scene);
         if (result.scene->environment)
             result.filtered = std::make_shared<frame::FilteredEnvironment>(
-                frame::cachedEnvironment(result.scene->environment->map, frame::cacheFolder()));
+                frame::cachedEnvironment(result.scene->environment->map, frame::cacheFolder(),
+                                         [&share](double done) { raiseShare(share, done); }));
     } catch (const std::bad_alloc&) {
         result.scene.reset();
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";
@@ -61,9 +62,10 @@ void SceneLoader::work() {
             if (!isWorking_) return;
             request = *std::exchange(waiting_, std::nullopt);
             stop_ = std::stop_source();
+            share_ = kNoShare;
             request.options.stop = stop_.get_token();
         }
-        Result result = load(request.source, request.options);
+        Result result = load(request.source, request.options, share_);
         {
             const std::lock_guard lock(mutex_);
             if (request.options.stop.stop_requested()) continue;
@@ -71,6 +73,11 @@ void SceneLoader::work() {
         }
         done_();
     }
+}
+
+std::optional<double> SceneLoader::filteredShare() const {
+    const std::lock_guard lock(mutex_);
+    return isWorking_ && !waiting_ ? shareOf(share_) : std::nullopt;
 }
 
 bool SceneLoader::hasResult() const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneOrigin.h"
+#include "viewer/session/FilteredShare.h"
 
 namespace tessera::viewer {
 
@@ -34,6 +36,8 @@ public:
     SceneLoader& operator=(const SceneLoader&) = delete;
 
     void start(const std::string& source, const scenes::LoadOptions& options);
+    /// How much of the environment of the scene under way is filtered; none where something else is done.
+    std::optional<double> filteredShare() const;
     /// The result of the latest start(), once.
     std::optional<Result> take();
     bool hasResult() const;
@@ -48,6 +52,7 @@ private:
     void work();
 
     std::function<void()> done_;
+    std::atomic<double> share_ = kNoShare;
     mutable std::mutex mutex_; ///< of all below but the thread
     std::optional<Request> waiting_;
     std::stop_source stop_; ///< of the load under way

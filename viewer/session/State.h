@@ -63,6 +63,8 @@ struct Requests {
     std::optional<glm::vec2> pick;      ///< a place in the picture, shares of its size from the upper left
     std::optional<glm::vec2> turnAbout; ///< the same: of the surface that orbits are to turn about
     std::optional<Answer> answer;       ///< to State::question
+    bool cancel = false;                ///< what takes long
+    bool resume = false;                ///< what was cancelled
     bool quit = false;
 };
 
@@ -108,6 +110,7 @@ struct State {
     std::optional<glm::vec2> pinnedPlace;  ///< that is inspected meanwhile
     std::vector<Loupe> loupes;             ///< of this frame
     std::string dragText;                  ///< what the drag in progress sets, for the user
+    bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
     bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame
     std::string command;                   ///< that renders the picture, on request
     Timings timings;

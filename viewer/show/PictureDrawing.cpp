@@ -7,22 +7,35 @@
 #include <fmt/format.h>
 
 #include "base/EndRequest.h"
+#include "renderer/gpu/Bands.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
+#include "viewer/show/DrawnShare.h"
 
 namespace tessera::viewer {
+namespace {
+
+/// Longer pictures are refined by steps.
+constexpr double kLongMs = 1000.0;
+/// The same of a first picture, which has compiled shaders, so that nobody knows what the whole one takes.
+constexpr double kLongFirstMs = 250.0;
+constexpr double kQuietSeconds = 0.5; ///< until it is told how far a picture is,
+constexpr double kTellSeconds = 0.25; ///< and between
+
+} // namespace
 
 PictureDrawing::PictureDrawing(State& state, Facts& facts, Screen& screen, Window& window, const EventLog& log,
-                               Pulse& pulse, std::function<void(const std::string&)> fails)
+                               Pulse& pulse, Calls calls)
     : state_(state), facts_(facts), screen_(screen), window_(window), log_(log), pulse_(pulse),
-      fails_(std::move(fails)) {}
+      calls_(std::move(calls)) {}
 
 bool PictureDrawing::isWhole() const {
     return !state_.open || screen_.scaleOf(wanted_) >= restScale();
 }
 
 bool PictureDrawing::lacksLight() const {
-    return state_.open && screen_.shows(wanted_) && screen_.lacksLight(wanted_, Screen::Reach::All);
+    return state_.open && cancelled_ != wanted_ && screen_.shows(wanted_) &&
+           screen_.lacksLight(wanted_, Screen::Reach::All);
 }
 
 double PictureDrawing::restScale() const {
@@ -33,7 +46,22 @@ double PictureDrawing::movingScale() const {
     return state_.automaticScale ? screen_.movingScale() : double(state_.fixedScale);
 }
 
+double PictureDrawing::nextScale() const {
+    const double whole = restScale(), latest = facts_.scale;
+    constexpr double kMostRefined = 0.25; // steps cost a third of the whole picture at most
+    if (!state_.automaticScale || latest > kMostRefined) return whole;
+    const bool isLong = wasUnlike_ ? facts_.ms > kLongFirstMs : screen_.predictedMs(whole) > kLongMs;
+    return isLong ? *std::find_if(kScales.rbegin(), kScales.rend(), [&](double scale) { return scale >= 2.0 * latest; })
+                  : whole;
+}
+
+void PictureDrawing::cancel() {
+    cancelled_ = wanted_;
+    log_.line(fmt::format("cancelled scale {:.4g}", screen_.scaleOf(wanted_)));
+}
+
 bool PictureDrawing::update(glm::ivec2 sizePixels) {
+    if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // until the window says so no more
     const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
     facts_.isPreparing = facts_.isSpreading = false;
     const bool wasSpreading = std::exchange(facts_.spreading, std::nullopt).has_value();
@@ -48,6 +76,9 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
         state_.compare != Compare::Off || state_.inspects || std::ranges::any_of(wanted_.looks, showsCounts);
     wanted_.sceneRevision = state_.open->revision();
     wanted_.sceneEdits = state_.open->edits();
+    if (cancelled_ && *cancelled_ != wanted_) cancelled_.reset();
+    if (facts_.isCancelled != cancelled_.has_value()) pulse_.another();
+    facts_.isCancelled = cancelled_.has_value();
     const double have = screen_.scaleOf(wanted_);
     const bool rests = !isMoving(state_) && Window::nowSeconds() >= pulse_.restAt;
     const bool isAtRest = rests && have > 0.0;
@@ -55,6 +86,7 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
         facts_.picturesPerSecond.reset();
         pulse_.another();
     }
+    if (cancelled_) return false;
     if (have >= restScale() && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
         return spreadSlice(Screen::Reach::All);
     if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
@@ -63,9 +95,12 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     if (isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen)) return spreadSlice(Screen::Reach::Seen);
     if (have == 0.0) pulse_.stirred(Window::nowSeconds());
     // A scale that is fixed is that of all pictures: none is better.
-    const Screen::Stay stay = isAtRest || !state_.automaticScale ? Screen::Stay::Stays : Screen::Stay::Passes;
+    const double scale = isAtRest ? nextScale() : movingScale();
+    const Screen::Stay stay = isAtRest && scale < restScale()      ? Screen::Stay::Refines
+                              : isAtRest || !state_.automaticScale ? Screen::Stay::Stays
+                                                                   : Screen::Stay::Passes;
     if (isToBeAnnounced(stay)) return false;
-    return drawAt(isAtRest ? restScale() : movingScale(), stay, isAtRest);
+    return drawAt(scale, stay, isAtRest);
 }
 
 bool PictureDrawing::spreadSlice(Screen::Reach reach) {
@@ -75,8 +110,12 @@ bool PictureDrawing::spreadSlice(Screen::Reach reach) {
             log_.line(progress.isOfAll ? "spread light everywhere" : "spread light in view");
         else
             facts_.spreading = progress;
+        if (facts_.spreading && reach == Screen::Reach::Seen) {
+            const double tiles = double(std::max<std::size_t>(progress.tiles, 1));
+            facts_.progress = {"Spreading light over surfaces", double(progress.doneTiles) / tiles, true};
+        }
     } catch (const std::exception& error) {
-        fails_(error.what());
+        calls_.fails(error.what());
     }
     return false;
 }
@@ -85,11 +124,49 @@ bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
     constexpr int kFrames = 2; // the interface of this frame is laid out already
     if (announcements_ >= kFrames) return false;
     facts_.isPreparing = screen_.isNewKind(wanted_);
-    facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
+    facts_.isSpreading = !facts_.isPreparing && stay != Screen::Stay::Passes && screen_.spreadsAnew(wanted_);
     if (!facts_.isPreparing && !facts_.isSpreading) return false;
+    facts_.progress = announced();
     ++announcements_;
     pulse_.another();
     return true;
+}
+
+Progress PictureDrawing::announced() const {
+    return {facts_.isSpreading ? "Spreading light over surfaces" : "Preparing shaders", {}, true};
+}
+
+std::string PictureDrawing::drawingText(double scale) const {
+    const std::string what = scale < 1.0 ? fmt::format("Drawing at scale {:.3g}", scale) : "Drawing the whole picture";
+    if (wanted_.sides == 1) return what;
+    return fmt::format("{}, {} side", what, screen_.drawingSide() == 0 ? "left" : "right");
+}
+
+std::optional<double> PictureDrawing::drawingShare() const {
+    const gpu::BandProgress progress = gpu::bandProgress();
+    double done = 0.0, all = 0.0;
+    for (int side = 0; side < wanted_.sides; ++side) {
+        const FrameTimes* const before = state_.timings.latest(side);
+        if (before == nullptr || before->kind != kinds_ || screen_.isNewKind(wanted_)) return std::nullopt;
+        all += before->ms;
+        if (side < screen_.drawingSide()) done += before->ms;
+        if (side != screen_.drawingSide()) continue;
+        const std::optional<double> share = drawnShare(before->passes, progress);
+        if (!share) return std::nullopt;
+        done += *share * before->ms;
+    }
+    if (!(all > 0.0)) return std::nullopt;
+    return done / all;
+}
+
+void PictureDrawing::tellProgress(double scale) {
+    if (!calls_.tells || Window::nowSeconds() < nextTold_) return;
+    const std::optional<double> share = drawingShare();
+    facts_.progress = {drawingText(scale), share, true};
+    log_.line(fmt::format("progress {}{}", facts_.progress->text,
+                          share ? fmt::format(" {:.0f} %", 100.0 * *share) : std::string()));
+    calls_.tells();
+    nextTold_ = Window::nowSeconds() + kTellSeconds;
 }
 
 bool PictureDrawing::isInterrupted(bool isAtRest) {
@@ -101,9 +178,15 @@ bool PictureDrawing::isInterrupted(bool isAtRest) {
 
 bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
-    const auto givesUp = [this, isAtRest] { return isInterrupted(isAtRest); };
+    const auto givesUp = [this, isAtRest, scale] {
+        if (isInterrupted(isAtRest)) return true;
+        tellProgress(scale);
+        return false;
+    };
     const double startedAt = Window::nowSeconds();
+    nextTold_ = startedAt + kQuietSeconds;
     const bool isNewKind = screen_.isNewKind(wanted_);
+    if (isNewKind) facts_.progress = announced(); // until it is given up, or told how far it is
     try {
         Screen::Drawn drawn = screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
         if (drawn.gaveUp) {
@@ -112,6 +195,8 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
             return false;
         }
         givenUp_ = 0;
+        facts_.progress.reset();
+        wasUnlike_ = drawn.isUnlike;
         if (isNewKind) ++kinds_;
         facts_.ms = drawn.ms;
         facts_.scale = drawn.scale;
@@ -134,7 +219,8 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
         return true;
     } catch (const std::exception& error) {
         drawingFault_ = error.what();
-        fails_(drawingFault_);
+        facts_.progress.reset();
+        calls_.fails(drawingFault_);
         return false;
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "viewer/session/EventLog.h"
@@ -13,9 +14,15 @@ namespace tessera::viewer {
 /// Decides when pictures of what the user chose are drawn, and at which scale; tells what it did.
 class PictureDrawing {
 public:
-    /// `fails` shows an error. All must outlive the object.
+    /// What it calls.
+    struct Calls {
+        std::function<void(const std::string&)> fails; ///< shows an error
+        /// Shows Facts::progress over the window as it was, while a picture is being drawn: between bands (Bands.h).
+        std::function<void()> tells;
+    };
+    /// All must outlive the object.
     PictureDrawing(State& state, Facts& facts, Screen& screen, Window& window, const EventLog& log, Pulse& pulse,
-                   std::function<void(const std::string&)> fails);
+                   Calls calls);
 
     /// Draws changed pictures of a size: at reduced resolution while something moves, at full resolution at rest.
     /// Returns whether it drew.
@@ -27,6 +34,11 @@ public:
     std::uint64_t pictures() const { return pictures_; } ///< that were drawn
     int givenUp() const { return givenUp_; }             ///< since the latest of them
     bool isWhole() const;
+    /// Nothing is left to draw: it is whole, or the user wants no more of it.
+    bool isSettled() const { return isWhole() || cancelled_ == wanted_; }
+    /// Leaves the picture as far as it is drawn, until it would be another, or resume().
+    void cancel();
+    void resume() { cancelled_.reset(); }
     /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
     bool lacksLight() const;
     /// Whether the window still tells how fast pictures follow one another, which is wrong at rest.
@@ -35,6 +47,13 @@ public:
 private:
     double restScale() const;
     double movingScale() const;
+    /// The scale of the next picture at rest: the whole one, or, where that takes long, one with twice the sides.
+    double nextScale() const;
+    /// Tells now and then how far the picture is that is drawn at a scale.
+    void tellProgress(double scale);
+    Progress announced() const;
+    std::string drawingText(double scale) const;
+    std::optional<double> drawingShare() const;
     /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
     bool spreadSlice(Screen::Reach reach);
     /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
@@ -53,13 +72,16 @@ private:
     Window& window_;
     const EventLog& log_;
     Pulse& pulse_;
-    std::function<void(const std::string&)> fails_;
+    Calls calls_;
     Screen::Wanted wanted_;
     bool isDescribed_ = true;
     std::uint64_t pictures_ = 0;
     std::uint64_t kinds_ = 0; ///< of pictures, one after the other
     int announcements_ = 0;   ///< frames for which the next picture has been announced
     int givenUp_ = 0;
+    bool wasUnlike_ = false;                     ///< the latest picture took more than later ones like it will
+    double nextTold_ = 0.0;                      ///< when progress is told next
+    std::optional<Screen::Wanted> cancelled_;    ///< is drawn no further
     std::string drawingFault_;                   ///< why the latest picture that failed did
     std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so
 };

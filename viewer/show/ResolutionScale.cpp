@@ -50,10 +50,14 @@ ResolutionScale::Cost ResolutionScale::cost() const {
     return {0.0, xy / xx};
 }
 
-double ResolutionScale::predictedMs(std::size_t step) const {
+double ResolutionScale::predictedMsOf(std::size_t step) const {
     if (samples_[step]) return samples_[step]->ms;
     const Cost known = cost();
     return known.frameMs + known.wholeMs * pixelsOf(step);
+}
+
+double ResolutionScale::predictedMs(double scale) const {
+    return predictedMsOf(stepOf(scale));
 }
 
 void ResolutionScale::drew(double scale, double ms) {
@@ -76,7 +80,7 @@ void ResolutionScale::drew(double scale, double ms) {
     const double enoughMs = isKnown ? kWorthwhile * samples_[last]->leastMs : 0.0;
     std::size_t step = 0;
     const auto isTooSlow = [&](std::size_t tried) {
-        return predictedMs(tried) > std::max(tried < now ? kRoom * targetMs_ : targetMs_, enoughMs);
+        return predictedMsOf(tried) > std::max(tried < now ? kRoom * targetMs_ : targetMs_, enoughMs);
     };
     while (step < last && isTooSlow(step)) ++step;
     scale_ = kScales[step];

@@ -20,6 +20,8 @@ public:
     double next() const { return scale_; }
     /// A picture took so long. What was spent on compiling shaders is to be left out by the caller.
     void drew(double scale, double ms);
+    /// What a picture at one of kScales would take.
+    double predictedMs(double scale) const;
     /// Another technique, scene or the like: nothing is known of its cost but `guess`, a scale to begin with.
     void restart(double guess);
 
@@ -30,7 +32,7 @@ private:
         double wholeMs = 0.0;
     };
     Cost cost() const;
-    double predictedMs(std::size_t step) const;
+    double predictedMsOf(std::size_t step) const;
 
     double targetMs_;
     double scale_ = kScales.front();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
@@ -150,7 +151,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
-    drawn_.reset();
+    const std::optional<Wanted> before = std::exchange(drawn_, std::nullopt);
     failed_.reset();
     if (isAnew)
         forgetSpreadLight();
@@ -163,6 +164,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
         std::optional<gpu::BandedDrawing> banded;
         if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         for (int side = 0; side < wanted.sides; ++side) {
+            drawingSide_ = side;
             const gpu::CpuTimer clock;
             Look look = wanted.looks[std::size_t(side)];
             look.settings.wholePixels = look.settings.sizePixels;
@@ -179,16 +181,19 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
-            pictures_[std::size_t(side)].take(*renderer_, look, wanted.keepsRadiance);
+            DrawnPicture& taken = side + 1 < wanted.sides ? waiting_ : pictures_[std::size_t(side)];
+            taken.take(*renderer_, look, wanted.keepsRadiance);
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {
+        drawn_ = before; // the pictures are as they were
         result.gaveUp = true;
         return result;
     } catch (...) {
         failed_ = wanted;
         throw;
     }
+    if (wanted.sides == 2) std::swap(waiting_, pictures_[0]);
     drawn_ = wanted;
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kinds_ = wanted.looks;
@@ -202,7 +207,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     result.isUnlike = isNew || compiled || (isAnew && !isCoarse);
     if (result.isUnlike) return result;
     resolution_.drew(scale, result.ms);
-    if (scale < 1.0 || result.ms < kSlowMs) latestMs_ = result.ms;
+    if ((scale < 1.0 && stay != Stay::Refines) || result.ms < kSlowMs) latestMs_ = result.ms;
     return result;
 }
 

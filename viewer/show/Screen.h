@@ -26,8 +26,8 @@ public:
         std::uint64_t sceneEdits = 0; ///< of lights and materials
         bool operator==(const Wanted&) const = default;
     };
-    /// Whether a better picture follows once all is at rest.
-    enum class Stay : std::uint8_t { Passes, Stays };
+    /// Whether a better picture follows: once all is at rest; at once, of which this is a step; or none.
+    enum class Stay : std::uint8_t { Passes, Refines, Stays };
     /// What a call of draw() did.
     struct Drawn {
         bool gaveUp = false;
@@ -61,6 +61,10 @@ public:
     bool shows(const Wanted& wanted) const { return drawn_ == wanted; }
     /// A picture that is worth drawing at once while things move.
     double movingScale() const { return resolution_.next(); }
+    /// What the pictures would take at one of kScales, as far as those before tell.
+    double predictedMs(double scale) const { return resolution_.predictedMs(scale); }
+    /// Of the pictures that draw() draws, which one; for its `givesUp`.
+    int drawingSide() const { return drawingSide_; }
     /// Whether what is wanted is of another kind than what was drawn last, so that shaders may have to be compiled
     /// first.
     bool isNewKind(const Wanted& wanted) const;
@@ -78,8 +82,8 @@ public:
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
     /// Draws the wanted pictures at a scale; those that pass at a smaller one, with small atlases, where light must be
     /// spread anew, and on a software rasteriser without spreading the light of what has come into view. `givesUp` may
-    /// be null; where it ends the frame, or the frame fails, the pictures not yet drawn stay as they were. Throws as
-    /// Renderer::draw does.
+    /// be null, and may show the pictures as they were before; where it ends the frame, or the frame fails, they stay
+    /// so. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp);
     /// Redraws the current pictures after a change of shaders.
     void forget() {
@@ -115,6 +119,8 @@ private:
     std::unique_ptr<engine::Renderer> renderer_;
     std::uint64_t geometryRevision_ = 0, materialRevision_ = 0, environmentRevision_ = 0;
     std::array<DrawnPicture, 2> pictures_;
+    DrawnPicture waiting_; ///< the left one, until the right one is drawn too
+    int drawingSide_ = 0;
     Difference difference_;
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;

@@ -105,6 +105,21 @@ void Gui::draw() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+void Gui::drawOver(const std::function<void(ImDrawList&)>& fill) {
+    ImDrawList list(ImGui::GetDrawListSharedData());
+    list._ResetForNewFrame();
+    list.PushTextureID(ImGui::GetIO().Fonts->TexID);
+    list.PushClipRectFullScreen();
+    fill(list);
+    ImDrawList* lists[] = {&list};
+    ImDrawData data = *ImGui::GetDrawData(); // of this window's place and size
+    data.CmdLists = lists;
+    data.CmdListsCount = 1;
+    data.TotalIdxCount = list.IdxBuffer.Size;
+    data.TotalVtxCount = list.VtxBuffer.Size;
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
+}
+
 bool Gui::wantsMouse() const {
     return ImGui::GetIO().WantCaptureMouse;
 }

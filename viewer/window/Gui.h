@@ -1,11 +1,14 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "viewer/window/Letters.h"
 #include "viewer/window/Window.h"
+
+struct ImDrawList;
 
 namespace tessera::viewer {
 
@@ -26,6 +29,8 @@ public:
     void endFrame();
     /// Draws it into the bound window framebuffer.
     void draw();
+    /// Draws what `fill` adds over it, before the next frame begins.
+    void drawOver(const std::function<void(ImDrawList&)>& fill);
 
     bool wantsMouse() const;    ///< the pointer is over a panel, or holds something of one
     bool wantsKeyboard() const; ///< text is typed into a field

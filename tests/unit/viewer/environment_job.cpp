@@ -2,11 +2,15 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
+#include "tests/support/TempFolder.h"
 #include "viewer/session/OpenScene.h"
 
 namespace tessera::viewer {
@@ -27,13 +31,17 @@ protected:
         return result.value_or(ChosenEnvironment());
     }
     EnvironmentJob& job() { return job_; }
+    std::optional<double> shareAtEnd() const { return shareAtEnd_; } ///< filtered when the latest result was there
 
 private:
     std::mutex mutex_;
     std::condition_variable changed_;
     int results_ = 0, taken_ = 0;
+    std::optional<double> shareAtEnd_;
     EnvironmentJob job_{[this] {
+        const std::optional<double> share = job_.filteredShare();
         const std::lock_guard lock(mutex_);
+        shareAtEnd_ = share;
         ++results_;
         changed_.notify_all();
     }};
@@ -51,6 +59,23 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     const ChosenEnvironment unknown = chosen("stduio");
     EXPECT_FALSE(unknown.environment);
     EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
+}
+
+TEST_F(EnvironmentJobTest, itTellsHowMuchIsFilteredOfTheChoiceAlone) {
+    const char* const kept = std::getenv("XDG_CACHE_HOME");
+    const std::string before = kept != nullptr ? kept : "";
+    const tessera::test::TempFolder folder; // where nothing is kept yet
+    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    EXPECT_FALSE(job().filteredShare());
+    chosen("sky");
+    EXPECT_GT(shareAtEnd().value_or(0.0), 0.9);
+    EXPECT_FALSE(job().filteredShare()) << "it was taken";
+    chosen("none");
+    EXPECT_FALSE(shareAtEnd()) << "there is nothing to filter";
+    if (kept != nullptr)
+        setenv("XDG_CACHE_HOME", before.c_str(), 1);
+    else
+        unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {

@@ -35,6 +35,23 @@ TEST(Keys, theHelpHasAGroupForEveryKey) {
     EXPECT_GE(groups.size(), 5u);
 }
 
+TEST(Keys, escapeCancelsWhatTakesLongBeforeItClosesAMessage) {
+    constexpr int kEscape = 256, kEnter = 257; // GLFW's
+    State state;
+    state.notice = {"saved", false};
+    state.isCancellable = true;
+    ASSERT_TRUE(pressKey(state, kEscape, 0));
+    EXPECT_TRUE(state.requests.cancel);
+    EXPECT_EQ(state.notice.text, "saved");
+    state.requests = {};
+    state.isCancellable = false;
+    ASSERT_TRUE(pressKey(state, kEscape, 0));
+    EXPECT_FALSE(state.requests.cancel);
+    EXPECT_EQ(state.notice.text, "");
+    ASSERT_TRUE(pressKey(state, kEnter, 0));
+    EXPECT_TRUE(state.requests.resume);
+}
+
 TEST(Keys, digitsShowTheViewOfTheirNumber) {
     for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
         if (info.key == 0) continue;

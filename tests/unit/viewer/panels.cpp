@@ -17,6 +17,7 @@
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/SceneEdits.h"
@@ -633,6 +634,58 @@ TEST_F(Panels, theStatusLineSaysHowFarLightHasSpread) {
     facts.spreading = engine::SpreadProgress{.objects = 3, .doneObjects = 1, .tiles = 200, .doneTiles = 90};
     const std::string status = firstWindowText(state, facts);
     EXPECT_NE(status.find("spreading light: 1 of 3 objects, 45 %"), std::string::npos) << status;
+}
+
+TEST_F(Panels, theBoxOfProgressStandsInThePictureAndCoversItself) {
+    State state;
+    state.showsPanel = false;
+    const PictureArea place = area(state);
+    const auto boxOf = [&](const Progress& progress) {
+        return overlaySpan([&] { drawProgress(progress, place, 1.0f, *ImGui::GetBackgroundDrawList()); });
+    };
+    const auto unknown = boxOf({"Preparing shaders", {}, true});
+    ASSERT_TRUE(unknown);
+    EXPECT_GE(unknown->first, place.corner.x);
+    EXPECT_LE(unknown->second, place.corner.x + place.size.x);
+    EXPECT_EQ(boxOf({"Drawing the whole picture", 0.5, false}), unknown);
+    EXPECT_EQ(boxOf({"Drawing the whole picture", 7.0, true}), unknown) << "more than all";
+    PictureArea narrow = place;
+    narrow.size = {50.0f, 20.0f};
+    EXPECT_FALSE(overlaySpan([&] { drawProgress({"x", 0.5, true}, narrow, 1.0f, *ImGui::GetBackgroundDrawList()); }));
+}
+
+TEST_F(Panels, theStatusLineSaysThatThePictureWasCancelled) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    EXPECT_EQ(firstWindowText(state, facts).find("cancelled"), std::string::npos);
+    facts.isCancelled = true;
+    EXPECT_NE(firstWindowText(state, facts).find("cancelled (Enter: draw on)"), std::string::npos);
+}
+
+TEST_F(Panels, theStatusLineTellsFramesASecondWhileSomethingMoves) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    facts.scale = 1.0;
+    EXPECT_EQ(firstWindowText(state, facts).find("frames/s"), std::string::npos);
+    facts.picturesPerSecond = 24.4;
+    EXPECT_NE(firstWindowText(state, facts).find("24 frames/s"), std::string::npos);
+}
+
+TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
+    State state;
+    Facts facts;
+    for (const double ms : {10.0, 20.0, 90.0}) {
+        FrameTimes frame;
+        frame.ms = ms;
+        frame.passes = {{"gbuffer", ms / 2.0, 0.1}};
+        state.timings.add(frame);
+    }
+    const std::string text = textOf([&] { timingsPanel(state, facts); });
+    EXPECT_NE(text.find("20.0 ms at scale 1"), std::string::npos) << text;
+    EXPECT_NE(text.find("3 pictures, the latest 90.0 ms"), std::string::npos) << text;
+    EXPECT_NE(text.find("10.0"), std::string::npos) << "of the pass" << text;
 }
 
 TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {

@@ -72,6 +72,15 @@ TEST(ResolutionScale, aLargerPictureThatTakesLessPutsOutWhatIsKnownOfSmallerOnes
     EXPECT_LE(lastMs(scale, 155.0, 5.0, 1), kTargetMs);
 }
 
+TEST(ResolutionScale, itTellsWhatAWholePictureWouldTake) {
+    ResolutionScale scale(kTargetMs);
+    EXPECT_EQ(scale.predictedMs(1.0), 0.0) << "nothing is known";
+    scale.drew(0.25, 100.0);
+    EXPECT_NEAR(scale.predictedMs(1.0), 1600.0, 1.0) << "as if pixels were all that costs";
+    scale.drew(0.5, 220.0);
+    EXPECT_NEAR(scale.predictedMs(1.0), 700.0, 1.0);
+}
+
 TEST(ResolutionScale, aSceneThatNothingMakesQuickIsDrawnAtTheSmallestStep) {
     ResolutionScale scale(kTargetMs);
     lastMs(scale, 1e6, 1e2, 20);

@@ -1,0 +1,113 @@
+// A picture that takes long: how far it is, its steps, and how it is cancelled.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+class ViewerProgressSlow : public ViewerTest {
+protected:
+    /// Every light at every pixel: on two cores a whole picture takes seconds.
+    static inline const std::vector<std::string> kSlowScene{"hall", "--technique", "forward"};
+
+    /// Whether the box of progress stands over the picture's lower part: nothing else has its grey in so many pixels.
+    static bool hasBox(const DrivenViewer& viewer) {
+        constexpr glm::ivec3 kBox(20, 21, 24);
+        const Shot shot = viewer.capture();
+        const glm::ivec2 picture = shot.sizePixels - kPictureCorner;
+        const Shot part = shot.part(kPictureCorner + glm::ivec2(picture.x / 4, picture.y * 3 / 5),
+                                    {picture.x / 2, picture.y * 2 / 5});
+        int boxed = 0;
+        for (int y = 0; y < part.sizePixels.y; ++y)
+            for (int x = 0; x < part.sizePixels.x; ++x) boxed += part.at({x, y}) == kBox ? 1 : 0;
+        return boxed > part.sizePixels.x * part.sizePixels.y / 20;
+    }
+    /// Scales of the pictures drawn between two places of the log.
+    static std::vector<double> scales(const DrivenViewer& viewer, std::size_t from, std::size_t to) {
+        std::vector<double> drawn;
+        const std::vector<std::string> lines = viewer.lines();
+        for (std::size_t i = from; i < std::min(to, lines.size()); ++i) {
+            int number = 0;
+            double scale = 0.0;
+            if (std::sscanf(lines[i].c_str(), "drawn %d scale %lf", &number, &scale) == 2) drawn.push_back(scale);
+        }
+        return drawn;
+    }
+    /// Presses Esc while a picture is drawn, and waits until it is left.
+    static void cancel(const DrivenViewer& viewer) {
+        const std::size_t mark = viewer.mark();
+        const auto began = std::chrono::steady_clock::now();
+        viewer.key("Escape");
+        viewer.waitFor("cancelled scale ", mark);
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+        // A band takes up to 100 ms, the window as much, and xdotool has to start.
+        EXPECT_LE(took.count(), 400.0);
+        viewer.pause(0.5);
+    }
+};
+
+TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeavesIt) {
+    DrivenViewer viewer = open(kSlowScene);
+    const std::string told = viewer.waitFor("progress Drawing the whole picture ", 0, 120.0);
+    EXPECT_TRUE(told.ends_with(" %")) << told << ": the steps before tell what passes take";
+    viewer.pause(0.3);
+    EXPECT_TRUE(hasBox(viewer));
+    const std::vector<double> steps = scales(viewer, 0, viewer.mark());
+    EXPECT_GE(steps.size(), 2u);
+    EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end())) << fmt::format("{}", fmt::join(steps, " "));
+    ASSERT_FALSE(steps.empty());
+    EXPECT_GT(steps.back(), 0.25) << "there is no step between the first picture and the whole one";
+    EXPECT_LT(steps.back(), 1.0);
+
+    std::size_t mark = viewer.mark();
+    cancel(viewer);
+    EXPECT_FALSE(hasBox(viewer));
+    const Shot left = viewer.capture();
+    viewer.pause(2.0);
+    EXPECT_TRUE(scales(viewer, mark, viewer.mark()).empty()) << "it was drawn on";
+    EXPECT_TRUE(viewer.capture() == left) << "something moves in a window that rests";
+
+    // Any other picture is drawn, and by Enter the one that was left; shares grow until it is there.
+    mark = viewer.mark();
+    viewer.key("Return");
+    const glm::ivec2 size = viewer.waitForWhole(mark);
+    EXPECT_FALSE(hasBox(viewer)) << "the box outlives the picture";
+    int latest = -1;
+    for (const std::string& line : viewer.lines()) {
+        if (line.starts_with("cancelled ")) latest = -1;
+        int percent = 0;
+        if (std::sscanf(line.c_str(), "progress Drawing the whole picture %d", &percent) != 1) continue;
+        EXPECT_GE(percent, latest) << line;
+        latest = percent;
+    }
+    EXPECT_GT(latest, 50) << "the picture is there long before its share is";
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered("hall --technique forward", size));
+}
+
+TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {
+    DrivenViewer viewer = open(kSlowScene); // the right side begins with a quick technique
+    viewer.waitFor("drawn ", 0);
+    const std::size_t begin = viewer.mark();
+    viewer.key("x"); // split
+    viewer.key("x"); // difference
+    const std::string told = viewer.waitFor("progress Drawing the whole picture, ", begin, 120.0);
+    EXPECT_NE(told.find(", left side "), std::string::npos) << told;
+    viewer.pause(0.3);
+    EXPECT_TRUE(hasBox(viewer));
+    cancel(viewer);
+    EXPECT_FALSE(hasBox(viewer));
+    const std::size_t mark = viewer.mark();
+    viewer.key("Return");
+    viewer.waitForWhole(mark);
+    viewer.pause(1.0);
+    EXPECT_FALSE(hasBox(viewer));
+}
+
+} // namespace
+} // namespace tessera::test

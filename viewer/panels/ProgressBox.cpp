@@ -1,0 +1,44 @@
+#include "viewer/panels/ProgressBox.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace tessera::viewer {
+
+void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list) {
+    constexpr ImU32 kBox = IM_COL32(20, 21, 24, 255), kWords = IM_COL32(220, 222, 228, 255);
+    constexpr ImU32 kRail = IM_COL32(60, 62, 68, 255), kDone = IM_COL32(70, 140, 220, 255);
+    constexpr float kWidthEms = 26.0f, kAboveEdgeEms = 5.0f; // above a message of a line
+    const float em = ImGui::GetFontSize(), pad = 8.0f * scale, rail = 5.0f * scale;
+    const float width = std::min(kWidthEms * em, area.size.x - 2.0f * pad);
+    const ImVec2 size(width, 2.0f * em + rail + 4.0f * pad);
+    if (width < 8.0f * em || area.size.y < size.y + 2.0f * pad) return; // no room to read it
+    const float below = std::min(kAboveEdgeEms * em, area.size.y - size.y - pad);
+    const ImVec2 corner(area.corner.x + 0.5f * (area.size.x - size.x), area.corner.y + area.size.y - below - size.y);
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
+    list.AddRectFilled(corner, end, kBox, pad);
+    list.PushClipRect(corner, end, true);
+    const float left = corner.x + pad, right = end.x - pad;
+    const std::string words =
+        progress.share ? fmt::format("{}: {:.0f} %", progress.text, 100.0 * *progress.share) : progress.text + " ...";
+    list.AddText({left, corner.y + pad}, kWords, words.c_str());
+    const float railY = corner.y + 2.0f * pad + em;
+    if (progress.share) {
+        const float done = float(std::clamp(*progress.share, 0.0, 1.0));
+        list.AddRectFilled({left, railY}, {right, railY + rail}, kRail);
+        list.AddRectFilled({left, railY}, {left + done * (right - left), railY + rail}, kDone);
+    }
+    if (progress.canCancel) list.AddText({left, railY + rail + pad}, kWords, "Esc cancels");
+    list.PopClipRect();
+}
+
+/// Tiles are lit one by one, so that a single object has shares.
+std::string spreadText(const engine::SpreadProgress& progress) {
+    const std::size_t percent = progress.tiles > 0 ? 100 * progress.doneTiles / progress.tiles : 0;
+    return fmt::format("spreading light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,
+                       progress.objects == 1 ? "" : "s", percent);
+}
+
+} // namespace tessera::viewer

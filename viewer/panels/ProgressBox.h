@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "viewer/session/Controls.h"
+#include "viewer/session/Facts.h"
+
+struct ImDrawList;
+
+namespace tessera::viewer {
+
+/// A box over the picture's lower part that says what takes long, how far it is, and that Esc cancels it. It covers
+/// what it drew before.
+void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list);
+
+/// "spreading light: 1 of 3 objects, 45 %"
+std::string spreadText(const engine::SpreadProgress& progress);
+
+} // namespace tessera::viewer
