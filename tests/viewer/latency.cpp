@@ -13,7 +13,7 @@
 namespace tessera::test {
 namespace {
 
-/// Moves the pointer by one xdotool that waits for orders; to start one for each move takes 25 ms.
+/// Moves the pointer and presses keys by one xdotool that waits for orders; to start one for each takes 25 ms.
 class QuickPointer {
 public:
     QuickPointer(const Desktop& desktop, const std::filesystem::path& folder) {
@@ -23,23 +23,29 @@ public:
                                              ProcessOptions{folder, {{"DISPLAY", desktop.display()}}, 600.0});
         orders_.open(pipe); // waits until it is read
     }
-    void moveTo(glm::ivec2 pixel) { orders_ << fmt::format("mousemove {} {}\n", pixel.x, pixel.y) << std::flush; }
+    void moveTo(glm::ivec2 pixel) { order(fmt::format("mousemove {} {}", pixel.x, pixel.y)); }
+    void press(const std::string& key) { order("key " + key); }
 
 private:
+    void order(const std::string& line) { orders_ << line << std::endl; } // at once
     std::unique_ptr<Process> process_;
     std::ofstream orders_;
 };
 
 class ViewerLatencySlow : public ViewerTest {
 protected:
-    /// Moves the pointer and waits for the next picture; milliseconds. It includes up to 5 ms until the log is read.
-    static double answerMs(const DrivenViewer& viewer, QuickPointer& pointer, glm::ivec2 to) {
+    /// Orders input and waits for the next picture; milliseconds. It includes up to 5 ms until the log is read.
+    template <class Order>
+    static double answerMs(const DrivenViewer& viewer, const Order& order) {
         using Clock = std::chrono::steady_clock;
         const std::size_t mark = viewer.mark();
         const auto began = Clock::now();
-        pointer.moveTo(to);
+        order();
         viewer.waitFor("answered ", mark);
         return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+    }
+    static double answerMs(const DrivenViewer& viewer, QuickPointer& pointer, glm::ivec2 to) {
+        return answerMs(viewer, [&] { pointer.moveTo(to); });
     }
     static void report(const char* what, std::vector<double> ms) {
         std::sort(ms.begin(), ms.end());
@@ -69,6 +75,14 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAnsweredWithinATenthOfASecond) {
         viewer.waitForWhole(mark);
     }
     report("the first move after a rest", first);
+
+    std::vector<double> keys;
+    for (int i = 0; i < 12; ++i) {
+        const std::size_t mark = viewer.mark();
+        keys.push_back(answerMs(viewer, [&] { pointer.press(i % 2 == 0 ? "bracketright" : "bracketleft"); }));
+        viewer.waitForWhole(mark);
+    }
+    report("a key after a rest", keys);
 
     viewer.moveTo(kMiddle);
     press(true);

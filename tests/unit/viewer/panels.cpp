@@ -711,13 +711,13 @@ TEST_F(Panels, aViewIsNamedInItsPictureAndTheLitPictureIsLeftFree) {
     state.divider = 0.6f;
     const float dividerX = area(state).corner.x + 0.6f * area(state).size.x;
     facts.shown[1] = lookAt(frame::DebugView::Lights);
-    std::vector<float> middles;
+    std::vector<float> places;
     frame([&] {
         drawNames(state, facts, area(state), 1.0f);
-        for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) middles.push_back(vertex.pos.x);
+        for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) places.push_back(vertex.pos.x);
     });
-    EXPECT_TRUE(std::any_of(middles.begin(), middles.end(), [&](float x) { return x < dividerX; }));
-    EXPECT_TRUE(std::any_of(middles.begin(), middles.end(), [&](float x) { return x > dividerX; }));
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](float x) { return x < dividerX; }));
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](float x) { return x > dividerX; }));
     // Of a difference the two pictures.
     state.compare = Compare::Difference;
     EXPECT_TRUE(names());
