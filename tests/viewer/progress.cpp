@@ -109,5 +109,16 @@ TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {
     EXPECT_FALSE(hasBox(viewer));
 }
 
+TEST_F(ViewerProgressSlow, aLoadThatFiltersAnEnvironmentSaysSoUntilThePictureIsThere) {
+    // Nothing that was filtered is kept there.
+    const std::string cache = (folder_.path() / "cache").string();
+    DrivenViewer viewer = open({"spheres", "--environment", "sky"}, {{"XDG_CACHE_HOME", cache}});
+    bool wasThere = false;
+    for (int i = 0; i < 50 && !wasThere; ++i) wasThere = hasBox(viewer);
+    EXPECT_TRUE(wasThere);
+    viewer.waitForWhole(0);
+    EXPECT_FALSE(hasBox(viewer));
+}
+
 } // namespace
 } // namespace tessera::test
