@@ -114,6 +114,15 @@ std::vector<Setting> environmentSettings() {
          .entersLight = false,
          .isShared = true,
          .value = choice(in(&EnvironmentSettings::backdrop), frame::backdropTable(), &frame::BackdropInfo::backdrop)},
+        {.name = "refraction",
+         .flag = "--refraction",
+         .key = "refraction",
+         .type = "HOW",
+         .help = "What bodies of glass show: " + listed(frame::refractionTable()),
+         .group = "Environment",
+         .panel = SettingPanel::Environment,
+         .entersLight = false,
+         .value = choice(in(&FrameSettings::refraction), frame::refractionTable(), &frame::RefractionInfo::refraction)},
     };
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/EnumTable.h"
 #include "passes/BackdropPass.h"
+#include "passes/BehindGlassPass.h"
 #include "passes/DeferredLightingPass.h"
 #include "passes/DepthPrepass.h"
 #include "passes/DiffusionPasses.h"
@@ -297,7 +298,9 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     }
     if (!wiring.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-    const ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance};
+    ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}};
+    if (wiring.spec.showsBehindBodies)
+        inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance}).behind;
     return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};
 }
 

@@ -2,6 +2,7 @@
 
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
 
 namespace tessera::passes {
 
@@ -53,6 +54,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                 out.depth = pass.create("depth", spec.renderTarget(graph::Format::Depth32Float),
                                         graph::Access::DepthAttachment);
             }
+            if (inputs.behind) out.behind = inputs.behind->read(pass, spec);
             if (inputs.radiance) pass.expect(*inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.renderTarget(graph::Format::Rgba32Float));
@@ -64,6 +66,10 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             if (!prepassed) gpu::clearDepth(0.0f);
             gpu::useProgram(context.program());
             out.lighting.bind(context);
+            if (out.behind) {
+                out.behind->bind(context);
+                gpu::bindTexture(TEXTURE_UNIT_BEHIND_DEPTH, context.texture(out.depth));
+            }
             gpu::drawInBands([&] {
                 out.surfaces.draw(context, params.surfaces, pipelineState(params, prepassed, view),
                                   transmitting(params, view));

@@ -59,6 +59,7 @@ class Keywords(TypedDict, total=False):
     environment_rotation: float | str | None
     environment_intensity: float | str | None
     backdrop: str | None
+    refraction: str | None
     shadows: str | int | None
     shadow_filter: str | None
     shadow_samples: int | str | None

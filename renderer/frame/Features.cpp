@@ -11,6 +11,7 @@
 #include "scenes/InUse.h"
 #include "shaders/shared/environment.h"
 #include "shaders/shared/material.h"
+#include "shaders/shared/models.h"
 
 namespace tessera::frame {
 
@@ -363,6 +364,16 @@ bool FeatureSet::lightShapes() const {
 
 bool FeatureSet::lightShadowTexels() const {
     return (*this)[Feature::SoftShadows] || (*this)[Feature::ShadowMaps];
+}
+
+bool mayBlurBehind(const scenes::Material& material) {
+    // Half of the least alpha, so that rounding in shaders never finds more.
+    constexpr double kSharpest = 0.5 * ALPHA_MIN;
+    if (!scenes::hasBody(material)) return false;
+    const auto isTextured = [&](scenes::TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
+    if (isTextured(scenes::TextureSlot::MetallicRoughness) || isTextured(scenes::TextureSlot::Ior)) return true;
+    const auto roughness = double(material.perceptualRoughness);
+    return roughness * roughness * passingScale(material.ior) > kSharpest;
 }
 
 bool canMask(const scenes::Material& material) {

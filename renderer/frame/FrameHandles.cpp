@@ -193,6 +193,17 @@ void GBufferHandles::bind(const graph::PassContext& context) const {
     gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(depth));
 }
 
+BehindHandles BehindHandles::read(graph::PassBuilder& pass, const FrameSpec& spec) const {
+    pass.expect(picture, spec.texture(Format::Rgba32Float));
+    if (levels) pass.expect(*levels, spec.behindLevels());
+    return {pass.read(picture), readWhereThere(pass, levels, Access::Sampled)};
+}
+
+void BehindHandles::bind(const graph::PassContext& context) const {
+    gpu::bindTexture(TEXTURE_UNIT_BEHIND, context.texture(picture));
+    if (levels) gpu::bindTexture(TEXTURE_UNIT_BEHIND_LEVELS, context.texture(*levels));
+}
+
 LitDepths LitDepths::read(graph::PassBuilder& pass, const FrameSpec& spec, Access access) const {
     pass.expect(opaque, spec.texture(spec.samples > 1 ? Format::Rg32Float : Format::Depth32Float));
     if (transparent) pass.expect(*transparent, spec.texture(Format::Rg32Float));

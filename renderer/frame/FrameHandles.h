@@ -171,6 +171,16 @@ struct GBufferHandles {
     void bind(const graph::PassContext& context) const;
 };
 
+/// What bodies of glass see: the finished picture of opaque surfaces, of one sample a pixel, RGBA32F: rgb of what
+/// covers the pixel, times a, the share that it covers.
+struct BehindHandles {
+    graph::TextureHandle picture;
+    std::optional<graph::TextureHandle> levels; ///< where some bodies blur it: FrameSpec::behindLevels()
+
+    BehindHandles read(graph::PassBuilder& pass, const FrameSpec& spec) const;
+    void bind(const graph::PassContext& context) const;
+};
+
 /// What light lists are built from.
 struct LitDepths {
     /// Of opaque surfaces: the depth buffer, D32F; with several samples per pixel the range in which each is lit,

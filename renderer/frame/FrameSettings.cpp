@@ -48,6 +48,14 @@ static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&
               int(EnvironmentLight::SplitSum) == ENVIRONMENT_SPLIT_SUM &&
               int(EnvironmentLight::Sampled) == ENVIRONMENT_SAMPLED);
 
+constexpr RefractionInfo kRefractions[] = {
+    {Refraction::Environment, "environment", "the environment alone", false, false},
+    {Refraction::OneSide, "one_side", "what lies along rays that bend once", true, false},
+    {Refraction::TwoSides, "two_sides", "the same behind a far side along the near one, where they bend back", true,
+     true},
+};
+static_assert(isInOrder(kRefractions, &RefractionInfo::refraction, std::size(kRefractions)));
+
 constexpr BackdropInfo kBackdrops[] = {
     {Backdrop::Sharp, "sharp", "the map as it is"},
     {Backdrop::Blurred, "blurred", "as a rough mirror would show it"},
@@ -62,6 +70,14 @@ std::span<const EnvironmentLightInfo> environmentLightTable() {
 
 const EnvironmentLightInfo& infoOf(EnvironmentLight light) {
     return kEnvironmentLights[std::size_t(light)];
+}
+
+std::span<const RefractionInfo> refractionTable() {
+    return kRefractions;
+}
+
+const RefractionInfo& infoOf(Refraction refraction) {
+    return kRefractions[std::size_t(refraction)];
 }
 
 std::span<const BackdropInfo> backdropTable() {

@@ -94,6 +94,18 @@ struct EnvironmentLightInfo {
 std::span<const EnvironmentLightInfo> environmentLightTable();
 const EnvironmentLightInfo& infoOf(EnvironmentLight light);
 
+/// What bodies of glass show (docs/glass.md).
+enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides };
+struct RefractionInfo {
+    Refraction refraction;
+    std::string_view name;
+    std::string_view summary;
+    bool showsScene; ///< opaque surfaces along the rays that bodies bend; else the environment alone
+    bool hasFarSide; ///< rays leave a body at a far side, which lies along the near one
+};
+std::span<const RefractionInfo> refractionTable();
+const RefractionInfo& infoOf(Refraction refraction);
+
 /// What of an environment is seen behind the scene.
 enum class Backdrop : std::uint8_t { Sharp, Blurred, Off };
 struct BackdropInfo {
@@ -153,6 +165,7 @@ struct FrameSettings {
     scenes::SubsurfaceRequest subsurface;
     DiffusionSettings diffusion;
     EnvironmentSettings environment;
+    Refraction refraction = Refraction::OneSide;
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     float snapPixels = 0.0f; ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets

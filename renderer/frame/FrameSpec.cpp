@@ -13,6 +13,7 @@
 #include "renderer/frame/TextureRoom.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
+#include "shaders/shared/refraction.h"
 
 namespace tessera::frame {
 
@@ -79,6 +80,33 @@ std::string whyNoEnvironmentLight(const scenes::Scene& scene, const FrameSpec& s
     if (spec.settings.soloLight) return "one light is shown alone";
     if (!isLitByEnvironment(scene, spec.settings)) return "its intensity is 0";
     return spec.features.litModels() ? "the view shows no lit surfaces" : "every surface is unlit";
+}
+
+bool anyOpaque(const scenes::Scene& scene) {
+    return std::ranges::any_of(scenes::materialsInUse(scene),
+                               [](const scenes::Material* material) { return !scenes::isTransparent(*material); });
+}
+
+/// Decides what bodies of glass show, once the features of surfaces are known.
+void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
+    const FrameSettings& settings = spec.settings;
+    spec.showsBehindBodies =
+        infoOf(settings.refraction).showsScene && settings.view == DebugView::Final && anyOpaque(scene) &&
+        (!settings.prune || (spec.features[Feature::Transmission] && spec.features[Feature::Volume]));
+    spec.blursBehindBodies =
+        spec.showsBehindBodies &&
+        (!settings.prune || std::ranges::any_of(scenes::materialsInUse(scene), [](const scenes::Material* material) {
+            return mayBlurBehind(*material);
+        }));
+}
+
+/// Why bodies of glass show no surfaces, where they show none.
+std::string whyNothingBehindBodies(const scenes::Scene& scene, const FrameSpec& spec) {
+    if (!spec.features[Feature::Transmission] || !spec.features[Feature::Volume])
+        return "no material that transmits has a thickness";
+    if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
+    if (!anyOpaque(scene)) return "every surface is transparent";
+    return "the view is not the lit picture";
 }
 
 /// Why a feature is left out.
@@ -152,6 +180,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     spec.lightPictureBytes = lightPictureBytes(lights.pictures);
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
+    decideRefraction(scene, spec);
     if (sampledTextures(spec) > std::size_t(settings.texturesAStage))
         leaveOutTextures(spec, settings.prune ? surfaces : materialFeatures(scene, settings.subsurface));
     // A channel that is looked at is stored, and not as a number or beside one.
@@ -166,6 +195,8 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
+    // Each colour's ray, which goes behind something in every other step at most.
+    if (spec.showsBehindBodies) spec.iterations += 3 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
     return spec;
 }
 
@@ -187,6 +218,7 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;
+    spec.showsBehindBodies = spec.blursBehindBodies = false;
     const auto spreadOver = [&](int border) {
         return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                            texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
@@ -212,6 +244,9 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("SHADOW_TAP_TEXELS", std::to_string(shadowTapTexels(spec.settings)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
     }
+    defines.emplace_back("HAS_SCENE_BEHIND", spec.showsBehindBodies ? "1" : "0");
+    defines.emplace_back("HAS_BLURRED_SCENE_BEHIND", spec.blursBehindBodies ? "1" : "0");
+    defines.emplace_back("HAS_FAR_SIDES", infoOf(spec.settings.refraction).hasFarSide ? "1" : "0");
     defines.emplace_back("IN_ATLAS", spec.isInAtlas() ? "1" : "0");
     if (spec.isInAtlas()) {
         const int side = spec.settings.sizePixels.x;
@@ -239,6 +274,12 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.insert(defines.end(), ofHook.begin(), ofHook.end());
     }
     return defines;
+}
+
+graph::TextureDesc FrameSpec::behindLevels() const {
+    const glm::ivec2 size = settings.sizePixels;
+    return {graph::Format::Rgba32Float, shared::behindTexels(size.x, 1), shared::behindRow(size.y, BEHIND_COARSEST + 1),
+            1};
 }
 
 std::vector<GBufferTexture> FrameSpec::gbufferTextures() const {
@@ -379,6 +420,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                        {}});
     }
     if (spec.seenLights == 0) out.push_back({"surfaces of area lights", whyNoSeenLights(scene, spec.settings), 0, {}});
+    if (!spec.showsBehindBodies) out.push_back({"surfaces behind glass", whyNothingBehindBodies(scene, spec), 0, {}});
     addLights(out, lights.features, lights.off, "off, or not the solo light");
     addLights(out, lights.features, lights.dark, "no intensity, range, cone or surface");
     addLights(out, lights.features, lights.unseen, "their range ends outside the view");

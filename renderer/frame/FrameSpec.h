@@ -37,7 +37,9 @@ struct FrameSpec {
     std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
     bool showsLightPictures = false;                 ///< some of them have one
-    std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
+    bool showsBehindBodies = false;    ///< bodies of glass show opaque surfaces along the rays that they bend
+    bool blursBehindBodies = false;    ///< and some of them spread those rays
+    std::size_t lightPictureBytes = 0; ///< of all pictures of the scene's lights
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;
@@ -81,6 +83,8 @@ struct FrameSpec {
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
     }
+    /// The coarser levels of what bodies show, one above the other (shaders/shared/refraction.h).
+    graph::TextureDesc behindLevels() const;
     /// What geometry is drawn into: the same with the frame's samples.
     graph::TextureDesc renderTarget(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, samples};

@@ -164,9 +164,9 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
         packTexture(material.textures[slot], packed.uvRow0[slot], packed.uvRow1[slot]);
     }
     packed.clearcoatTurn = packClearcoatTurn(material);
-    packed.transmission = glm::vec4(scenes::isTransmissive(material) ? material.transmission : 0.0f,
-                                    material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f,
-                                    material.thicknessMetres > 0.0f ? 1.0f : 0.0f, 0.0f);
+    packed.transmission =
+        glm::vec4(scenes::isTransmissive(material) ? material.transmission : 0.0f,
+                  material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f, material.thicknessMetres, 0.0f);
     packed.attenuation = glm::vec4(leftByBody(material), halfSpread(material));
     constexpr double kMicrometresPerNanometre = 1e-3;
     packed.film = glm::vec4(scenes::isIridescent(material) ? material.iridescence : 0.0f, material.iridescenceIor,

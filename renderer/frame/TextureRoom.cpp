@@ -51,6 +51,9 @@ std::size_t sampledBeside(const FrameSpec& spec) {
     add(spec.usesLobeTable());             // TEXTURE_UNIT_LOBES
     add(spec.usesLobeShapes());            // TEXTURE_UNIT_LOBE_SHAPES
     add(features[Feature::LightPictures]); // TEXTURE_UNIT_LIGHT_PICTURES
+    add(spec.showsBehindBodies);           // TEXTURE_UNIT_BEHIND
+    add(spec.showsBehindBodies);           // TEXTURE_UNIT_BEHIND_DEPTH
+    add(spec.blursBehindBodies);           // TEXTURE_UNIT_BEHIND_LEVELS
     return sampled;
 }
 

@@ -28,6 +28,8 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.environmentIsSeen = scene.environment && settings.environment.backdrop != frame::Backdrop::Off;
     result.environmentIntensity = double(settings.environment.intensity);
     result.environmentRotationDegrees = double(settings.environment.rotationDegrees);
+    result.bodiesShowScene = infoOf(settings.refraction).showsScene;
+    result.bodiesHaveFarSide = infoOf(settings.refraction).hasFarSide;
     result.specular = settings.specular;
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =
@@ -200,6 +202,12 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
     if (std::ranges::any_of(scene.lights, isArea)) {
         tolerance.reason = "transformed cosines approximate lobes under area lights: their error is reported, and held "
                            "to nothing";
+        return tolerance;
+    }
+    const auto showsBehind = [](const scenes::Material* material) { return scenes::hasBody(*material); };
+    if (infoOf(settings.refraction).showsScene && std::ranges::any_of(scenes::materialsInUse(scene), showsBehind)) {
+        tolerance.reason = "bodies of glass show what the picture holds of the surfaces behind them: the error is "
+                           "reported, and held to nothing";
         return tolerance;
     }
     if (scenes::anySpreads(scene, settings.subsurface)) {

@@ -83,6 +83,7 @@ void setTransmission(const Hit& hit, const Textures& textures, SurfacePoint& poi
     point.hasBody = scenes::hasBody(material); // where its texture is 0 too, so that it bends light there
     const double thickness = double(material.thicknessMetres) * texelOf(TextureSlot::Thickness, hit, textures).g;
     const double distance = double(material.attenuationDistanceMetres);
+    point.bodyMetres = thickness;
     if (point.hasBody) point.dispersion = double(material.dispersion);
     if (thickness > 0.0 && distance > 0.0)
         for (int c = 0; c < 3; ++c) {

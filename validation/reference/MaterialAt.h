@@ -43,6 +43,7 @@ struct SurfacePoint {
     glm::dvec3 leftByBody{1.0};       ///< of what passes, by channel
     double dispersion = 0.0;          ///< 20 over the Abbe number, KHR_materials_dispersion
     double passingAlpha = 1.0;        ///< of GGX, by which a body spreads it
+    double bodyMetres = 0.0;          ///< how thick it is
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that it goes round
     bool spreads = false;             ///< light that enters leaves elsewhere (Diffusion.h)

@@ -198,7 +198,9 @@ private:
         mutable std::vector<std::vector<std::optional<Estimate>>> areaLights{}; ///< by light too, nothing hidden
         mutable std::vector<std::optional<glm::dvec3>> throughBodies{};         ///< as surroundings
         std::uint32_t seed = 0;                                                 ///< of Diffusion and Surroundings
-        HookPoints* hookPoints = nullptr;                                       ///< null where no hook changes surfaces
+        /// Of the environment, where it is seen along a ray that a body bent; 0: by the camera.
+        int throughBodyPaths = 0;
+        HookPoints* hookPoints = nullptr; ///< null where no hook changes surfaces
 
         bool hasUndecidedShadows() const {
             for (const auto& ofSurface : shadows)
@@ -354,15 +356,16 @@ private:
         if (seen.hookPoints != nullptr && !seen.hookPoints->areKnown()) return {glm::dvec3(0.0), point.opacity};
         if (!scenes::infoOf(point.model).isLit) return {point.emission + point.color, point.opacity};
         const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
-        const glm::dvec3 toViewer = rays_.toViewer(positionRWS);
+        const glm::dvec3 toViewer = seen.throughBodyPaths > 0 ? hit.toViewer : rays_.toViewer(positionRWS);
         Lit lit{emitted(point, toViewer), point.opacity};
-        if (point.transmission > 0.0) addPassing(seen, surface, point, toViewer, lit);
+        if (point.transmission > 0.0) addPassing(seen, surface, point, ray, hit.depthMetres, toViewer, lit);
         if (surroundings_.lights()) {
             if (seen.surroundings.size() <= surface) seen.surroundings.resize(surface + 1);
             // The rounding that a nudge stands for changes this light less than its samples do.
             if (!seen.surroundings[surface])
                 seen.surroundings[surface] =
-                    surroundings_.on(point, toViewer, settings_.specular, point.spreads, seen.seed);
+                    surroundings_.on(point, toViewer, settings_.specular, point.spreads, seen.seed,
+                                     seen.throughBodyPaths > 0 ? seen.throughBodyPaths : settings_.environmentPaths);
             lit.radiance += seen.surroundings[surface]->light;
         }
         for (std::size_t light = 0; light < lights_.size(); ++light) {
@@ -390,28 +393,77 @@ private:
         return lit;
     }
 
-    /// What shows through: the surroundings by a body, where there are any, else what lies straight behind.
-    void addPassing(const Seen& seen, std::size_t surface, const SurfacePoint& point, const glm::dvec3& toViewer,
-                    Lit& lit) const {
+    /// What shows through: by a body what it bends rays to, where that is asked for or an environment lights, else what
+    /// lies straight behind.
+    void addPassing(const Seen& seen, std::size_t surface, const SurfacePoint& point, const Ray& ray,
+                    double depthMetres, const glm::dvec3& toViewer, Lit& lit) const {
         const glm::dvec3 share = transmitted(point, toViewer);
-        if (!point.hasBody || !surroundings_.showsThroughBodies()) {
+        const bool showsScene = settings_.bodiesShowScene && !objects_.opaque().empty();
+        if (!point.hasBody || (!showsScene && !surroundings_.showsThroughBodies())) {
             lit.passed = share;
             return;
         }
         if (seen.throughBodies.size() <= surface) seen.throughBodies.resize(surface + 1);
         std::optional<glm::dvec3>& light = seen.throughBodies[surface];
-        if (!light) light = throughBody(point, toViewer, seen.seed);
+        if (!light) light = throughBody(point, ray, depthMetres, toViewer, showsScene, seen.seed);
         lit.radiance += share * *light;
     }
 
-    glm::dvec3 throughBody(const SurfacePoint& point, const glm::dvec3& toViewer, std::uint32_t seed) const {
+    glm::dvec3 throughBody(const SurfacePoint& point, const Ray& ray, double depthMetres, const glm::dvec3& toViewer,
+                           bool showsScene, std::uint32_t seed) const {
         const auto along = [&](double ior) {
-            const std::optional<glm::dvec3> direction = refracted(point, toViewer, ior);
-            return direction ? surroundings_.around(*direction, point.passingAlpha, seed) : glm::dvec3(0.0);
+            const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
+            if (!bent) return glm::dvec3(0.0);
+            glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
+            if (settings_.bodiesHaveFarSide) {
+                // By the angle inside. The product holds its cosine to 1e-3.
+                originRWS += point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3) * *bent;
+                direction = -toViewer;
+            }
+            if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
+            return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
         };
         const glm::dvec3 iors = iorsOf(point);
         if (iors.r == iors.b) return along(iors.g);
         return {along(iors.r).r, along(iors.g).g, along(iors.b).b};
+    }
+
+    /// A ray that goes on elsewhere, with the footprint that the pixel's own has by then.
+    static Ray bentRay(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction) {
+        return {originRWS,
+                direction,
+                ray.originDx + depthMetres * ray.directionDx,
+                ray.originDy + depthMetres * ray.directionDy,
+                ray.directionDx,
+                ray.directionDy};
+    }
+
+    /// Opaque surfaces and lights around a direction, and what is seen between them: the environment that lights the
+    /// scene, else the background.
+    glm::dvec3 sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction,
+                           double alpha, std::uint32_t seed) const {
+        const auto meetsAny = [&](const glm::dvec3& way) {
+            const Ray bent = bentRay(ray, depthMetres, originRWS, way);
+            return visibility_.nearestOpaqueAhead(bent) || seenLights_.ahead(bent, kEndless);
+        };
+        const bool hasEnvironment = surroundings_.showsThroughBodies();
+        const glm::dvec3 surfaces =
+            Surroundings::meanAround(direction, alpha, seed, settings_.bodyPaths, [&](const glm::dvec3& way) {
+                const Ray bent = bentRay(ray, depthMetres, originRWS, way);
+                const std::optional<Hit> hit = visibility_.nearestOpaqueAhead(bent);
+                if (const auto met = seenLights_.ahead(bent, hit ? hit->depthMetres : kEndless))
+                    return met->factor * lights_[met->light].color;
+                if (!hit) return hasEnvironment ? glm::dvec3(0.0) : glm::dvec3(scene_.background);
+                Seen seen{hit, {}, {}};
+                seen.seed = seed;
+                // A rough body shows many surfaces in a pixel.
+                seen.throughBodyPaths = alpha <= kSmallestAlpha
+                                            ? settings_.environmentPaths
+                                            : std::max(settings_.environmentPaths / settings_.bodyPaths, 16);
+                return litSurface(seen, 0, Nudge(), bent, Shadows::Exact).radiance;
+            });
+        if (!hasEnvironment) return surfaces;
+        return surfaces + surroundings_.around(direction, alpha, seed, meetsAny);
     }
 
     /// What all lights below the horizon give.
@@ -464,7 +516,8 @@ private:
         constexpr double kNudgedTolerance = 1e-3;
         const bool isNudged = !(nudge == Nudge());
         Settings settings = settings_;
-        if (isNudged) settings.areaTolerance = std::max(settings.areaTolerance, kNudgedTolerance);
+        if (isNudged || seen.throughBodyPaths > 0)
+            settings.areaTolerance = std::max(settings.areaTolerance, kNudgedTolerance);
         const auto integral = [&] {
             return reflectedOf(lights_[light], point, positionRWS, toViewer, settings_.specular, point.spreads,
                                settings);

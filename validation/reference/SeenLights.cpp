@@ -105,11 +105,19 @@ SeenLights::SeenLights(std::span<const ShiningLight> lights, const CameraRays& r
 }
 
 std::optional<SeenLights::Met> SeenLights::before(const Ray& ray, double depthMetres) const {
+    return between(ray, nearMetres_, std::min(farMetres_, depthMetres));
+}
+
+std::optional<SeenLights::Met> SeenLights::ahead(const Ray& ray, double depthMetres) const {
+    return between(ray, 0.0, depthMetres);
+}
+
+std::optional<SeenLights::Met> SeenLights::between(const Ray& ray, double nearMetres, double farMetres) const {
     std::optional<Met> nearest;
     for (const std::size_t i : shown_) {
         const std::optional<double> entry =
             entryOf(lights_[i].light, ray.originRWS - lights_[i].positionRWS, ray.direction);
-        if (!entry || *entry < nearMetres_ || *entry > std::min(farMetres_, depthMetres)) continue;
+        if (!entry || *entry < nearMetres || *entry > farMetres) continue;
         if (!nearest || *entry <= nearest->depthMetres) nearest = {i, *entry};
     }
     if (nearest)

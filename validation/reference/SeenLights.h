@@ -23,11 +23,15 @@ public:
     /// The nearest surface within the camera's depths and not behind `depthMetres`; of several in one place the last.
     /// Flat lights are met from sides that shine, solids from outside alone.
     std::optional<Met> before(const Ray& ray, double depthMetres) const;
+    /// The same along any other ray, from its origin on.
+    std::optional<Met> ahead(const Ray& ray, double depthMetres) const;
 
     /// A box around each of them, wherever the camera looks.
     static std::vector<scenes::Box3> boxesRWS(std::span<const ShiningLight> lights);
 
 private:
+    std::optional<Met> between(const Ray& ray, double nearMetres, double farMetres) const;
+
     std::span<const ShiningLight> lights_;
     std::vector<std::size_t> shown_; ///< those of them that have a surface to be seen
     double nearMetres_, farMetres_;

@@ -177,14 +177,14 @@ private:
 };
 
 Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
-                          std::uint32_t seed) const {
+                          std::uint32_t seed, int paths) const {
     const ByMap map(*this);
     const SurfacePoint rest = withoutMirrors(point);
     const std::vector<std::unique_ptr<Strategy>> ofSurface = strategiesOf(rest, toViewer, specular);
     std::vector<const Strategy*> strategies{&map};
     for (const auto& strategy : ofSurface) strategies.push_back(strategy.get());
     const glm::dvec3 bounces = compensates_ && specular ? bouncesOf(rest, toViewer) : glm::dvec3(0.0);
-    Estimate all = sampled(strategies, paths_, seed, [&](const glm::dvec3& direction) {
+    Estimate all = sampled(strategies, paths, seed, [&](const glm::dvec3& direction) {
         glm::dvec3 share = reflected(rest, direction, toViewer, specular);
         if (onlyLobes) share -= reflected(rest, direction, toViewer, false);
         share += bounces * std::max(glm::dot(point.normal, direction), 0.0);
@@ -196,23 +196,18 @@ Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer,
     return all.times(point.openness);
 }
 
-glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
-    if (alpha <= kSmallestAlpha) return radianceOf(direction);
-    if (!lights_) return glm::dvec3(0.0);
-    const ByMap map(*this);
-    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
-    const Strategy* const strategies[] = {&map, &lobe};
-    const auto weight = [&](const glm::dvec3& way) {
-        const double cosine = glm::dot(way, direction);
-        if (!(cosine > 0.0)) return 0.0;
-        return 0.25 * distributionGgx(alpha, glm::dot(glm::normalize(way + direction), direction)) * cosine;
-    };
-    const Estimate light = sampled(strategies, paths_, seed, [&](const glm::dvec3& way) {
-        const double share = weight(way);
-        return share > 0.0 ? share * radianceOf(way) : glm::dvec3(0.0);
-    });
-    // The lobe's share below a slope s of the half vector is s^2 / (s^2 + alpha^2); it ends where that leans by 45
-    // degrees, and sends light by twice its angle.
+namespace {
+
+/// A lobe of GGX along a direction, as of a mirror seen straight on, times the cosine; 1/sr, but for a factor.
+double weightAround(const glm::dvec3& direction, double alpha, const glm::dvec3& way) {
+    const double cosine = glm::dot(way, direction);
+    if (!(cosine > 0.0)) return 0.0;
+    return 0.25 * distributionGgx(alpha, glm::dot(glm::normalize(way + direction), direction)) * cosine;
+}
+
+/// Its integral. The lobe's share below a slope s of the half vector is s^2 / (s^2 + alpha^2); it ends where that leans
+/// by 45 degrees, and sends light by twice its angle.
+double wholeAround(double alpha) {
     constexpr int kSteps = 4096;
     const double last = 1.0 / (1.0 + alpha * alpha);
     double whole = 0.0;
@@ -220,7 +215,39 @@ glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::
         const double below = last * (i + 0.5) / kSteps, slope2 = alpha * alpha * below / (1.0 - below);
         whole += last / kSteps * (1.0 - slope2) / (1.0 + slope2);
     }
-    return light.light / whole;
+    return whole;
+}
+
+} // namespace
+
+glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
+    return around(direction, alpha, seed, [](const glm::dvec3&) { return false; });
+}
+
+glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed,
+                                const std::function<bool(const glm::dvec3& direction)>& isHidden) const {
+    if (alpha <= kSmallestAlpha) return isHidden(direction) ? glm::dvec3(0.0) : radianceOf(direction);
+    if (!lights_) return glm::dvec3(0.0);
+    const ByMap map(*this);
+    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
+    const Strategy* const strategies[] = {&map, &lobe};
+    const Estimate light = sampled(strategies, paths_, seed, [&](const glm::dvec3& way) {
+        const double share = weightAround(direction, alpha, way);
+        return share > 0.0 && !isHidden(way) ? share * radianceOf(way) : glm::dvec3(0.0);
+    });
+    return light.light / wholeAround(alpha);
+}
+
+glm::dvec3 Surroundings::meanAround(const glm::dvec3& direction, double alpha, std::uint32_t seed, int paths,
+                                    const std::function<glm::dvec3(const glm::dvec3& direction)>& light) {
+    if (alpha <= kSmallestAlpha) return light(direction);
+    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
+    const Strategy* const strategies[] = {&lobe};
+    const Estimate mean = sampled(strategies, paths, seed, [&](const glm::dvec3& way) {
+        const double share = weightAround(direction, alpha, way);
+        return share > 0.0 ? share * light(way) : glm::dvec3(0.0);
+    });
+    return mean.light / wholeAround(alpha);
 }
 
 void Surroundings::makeIrradiances() {

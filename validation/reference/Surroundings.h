@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "validation/reference/Sampling.h"
@@ -23,11 +24,22 @@ public:
 
     /// What a surface reflects of it; `onlyLobes` leaves out what enters the surface.
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
-                std::uint32_t seed) const;
+                std::uint32_t seed) const {
+        return on(point, toViewer, specular, onlyLobes, seed, paths_);
+    }
+    /// The same with so many directions of each kind.
+    Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
+                std::uint32_t seed, int paths) const;
 
     /// The mean around a unit direction by a lobe of GGX along it, as of a mirror seen straight on, times the cosine;
     /// of the least alpha what comes from the direction itself.
     glm::dvec3 around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const;
+    /// The same of what is not hidden.
+    glm::dvec3 around(const glm::dvec3& direction, double alpha, std::uint32_t seed,
+                      const std::function<bool(const glm::dvec3& direction)>& isHidden) const;
+    /// The same mean of any light, of `paths` directions of the lobe.
+    static glm::dvec3 meanAround(const glm::dvec3& direction, double alpha, std::uint32_t seed, int paths,
+                                 const std::function<glm::dvec3(const glm::dvec3& direction)>& light);
 
     /// On a surface that faces this way, interpolated between directions three degrees apart.
     glm::dvec3 irradiance(const glm::dvec3& normal) const;

@@ -110,6 +110,14 @@ std::optional<Hit> Visibility::nearestOpaque(const Ray& ray) const {
     return query.nearest;
 }
 
+std::optional<Hit> Visibility::nearestOpaqueAhead(const Ray& ray) const {
+    Query query = trees_->queryOf(ray, trees_->rays.farMetres());
+    query.nearMetres = 0.0;
+    query.farMetres = std::numeric_limits<double>::infinity();
+    trace(trees_->opaque.get(), trees_->objects, query);
+    return query.nearest;
+}
+
 std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetres) const {
     std::vector<Hit> hits;
     if (!trees_->transparent) return hits;

@@ -20,6 +20,9 @@ public:
     /// The nearest opaque or alpha-masked surface.
     std::optional<Hit> nearestOpaque(const Ray& ray) const;
 
+    /// The same along any other ray, from its origin on, however near or far from the camera.
+    std::optional<Hit> nearestOpaqueAhead(const Ray& ray) const;
+
     /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; masks have no holes.
     std::vector<Hit> opaqueBefore(const Ray& ray, double depthMetres) const;
 

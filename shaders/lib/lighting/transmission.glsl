@@ -2,6 +2,9 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
+#if HAS_VOLUME && HAS_SCENE_BEHIND
+#include "lib/lighting/scene_behind.glsl"
+#endif
 #if HAS_ENVIRONMENT && ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
 #include "lib/maths/random.glsl"
 #endif
@@ -22,7 +25,10 @@ vec3 passedShare(SeenSurface seen)
     return share;
 }
 
-#if HAS_ENVIRONMENT && HAS_VOLUME
+// Whether bodies show anything but what lies straight behind them.
+#define BODIES_BEND (HAS_VOLUME && (HAS_ENVIRONMENT || HAS_SCENE_BEHIND))
+
+#if BODIES_BEND
 // Along which the light came that leaves towards the viewer, bent once, by Snell's law; 0 where the surface lets none
 // out. An index of 0 is one without bound, which bends all light onto the normal. Source: KHR_materials_ior; GLSL 4.50,
 // refract(), which does not say how it rounds.
@@ -50,6 +56,7 @@ vec3 iorByChannel(float ior)
 }
 #endif
 
+#if HAS_ENVIRONMENT
 // The environment around a direction, as its filtered map averages it: by a GGX lobe seen from its own axis, weighted by
 // the cosine.
 vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
@@ -74,24 +81,63 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 }
 #endif
 
-#if HAS_ENVIRONMENT && HAS_VOLUME
-// The environment that a body shows; black in channels of which it lets nothing out.
-vec3 surroundingsThrough(Surface surface, vec3 toViewerLS, vec2 pixel)
+// Where a ray that was bent at the surface goes on, and along which direction.
+struct BentRay {
+    vec3 originLS;
+    vec3 directionLS; // unit
+};
+
+// It leaves through a far side that lies along the near one, where it bends back: the ray of the viewer, moved aside.
+// Else it goes on as it was bent.
+BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent)
 {
-    vec3 light = vec3(0.0);
+#if HAS_FAR_SIDES
+    // Beyond the critical angle of an index below 1 rays run along the surface, without end.
+    precise float cosine = max(abs(dot(bent, surface.normalLS)), 1e-3);
+    precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
+    return BentRay(farSide, -viewpoint.toViewerLS);
+#else
+    return BentRay(viewpoint.positionLS, bent);
+#endif
+}
+
+// What a body shows of light that it bends by an index of refraction and keeps by channel: surfaces that the picture holds,
+// and beyond them the environment, or the background where none lights the scene. Black where all is reflected.
+vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, float ior, vec2 pixel)
+{
+    vec3 bent = refractedDirection(surface.normalLS, viewpoint.toViewerLS, ior);
+    if (bent == vec3(0.0)) return vec3(0.0);
+    BentRay ray = rayThroughBody(surface, viewpoint, bent);
+#if HAS_SCENE_BEHIND
+    vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, surface.passingAlpha);
+    precise vec3 shown = kept * met.rgb;
+    if (met.a >= 1.0) return shown;
+    precise float rest = 1.0 - met.a;
+#endif
+#if HAS_ENVIRONMENT
+    precise vec3 around = kept * surroundingsAlong(ray.directionLS, surface.passingAlpha, pixel) * environment.light.x;
+#else
+    precise vec3 around = kept * view.background.rgb;
+#endif
+#if HAS_SCENE_BEHIND
+    precise vec3 both = shown + rest * around;
+    return both;
+#else
+    return around;
+#endif
+}
+
+// The same of a body whose colours may bend apart.
+vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, vec2 pixel)
+{
 #if HAS_DISPERSION
     if (material.attenuation.a > 0.0) {
-        vec3 iors = iorByChannel(surface.passingIor);
-        for (int c = 0; c < 3; ++c) {
-            vec3 bent = refractedDirection(surface.normalLS, toViewerLS, iors[c]);
-            if (bent != vec3(0.0)) light[c] = surroundingsAlong(bent, surface.passingAlpha, pixel)[c];
-        }
+        vec3 iors = iorByChannel(surface.passingIor), light = vec3(0.0);
+        for (int c = 0; c < 3; ++c) light[c] = lightThroughBody(surface, viewpoint, kept, iors[c], pixel)[c];
         return light;
     }
 #endif
-    vec3 direction = refractedDirection(surface.normalLS, toViewerLS, surface.passingIor);
-    if (direction != vec3(0.0)) light = surroundingsAlong(direction, surface.passingAlpha, pixel);
-    return light;
+    return lightThroughBody(surface, viewpoint, kept, surface.passingIor, pixel);
 }
 #endif
 
@@ -105,11 +151,9 @@ ThroughSurface lightThrough(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
     ThroughSurface through = ThroughSurface(vec3(0.0), passedShare(seen));
-#if HAS_ENVIRONMENT && HAS_VOLUME
+#if BODIES_BEND
     if (material.transmission.z > 0.0) {
-        vec3 light = surroundingsThrough(surface, viewpoint.toViewerLS, pixel);
-        precise vec3 radiance = through.kept * light * environment.light.x;
-        through.radiance = radiance;
+        through.radiance = lightThroughBody(surface, viewpoint, through.kept, pixel);
         through.kept = vec3(0.0);
     }
 #endif

@@ -17,9 +17,11 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     transmission *= sampleSlot(transmissionTexture, TEXTURE_SLOT_TRANSMISSION, fragment).r;
 #endif
     precise vec3 left = material.attenuation.rgb;
+    precise float bodyMetres = material.transmission.z;
 #if HAS_THICKNESS_TEXTURE
     // Beer's law. 1 leaves the bits as they are. Drivers find powers of 0 by its logarithm, which has no bound.
     float thickness = sampleSlot(thicknessTexture, TEXTURE_SLOT_THICKNESS, fragment).g;
+    bodyMetres *= thickness;
     if (!(thickness > 0.0))
         left = vec3(1.0);
     else if (thickness != 1.0)
@@ -33,6 +35,7 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     surface.passing = passing;
     surface.passingIor = ior;
     surface.passingAlpha = alpha;
+    surface.bodyMetres = bodyMetres;
 }
 #endif
 

@@ -60,6 +60,7 @@ struct Surface {
     vec3 passing;       // what is left of white light that passes, before what the surface and its layers reflect
     float passingIor;   // index of refraction below the surface
     float passingAlpha; // GGX alpha that light is spread by on its way through a body, >= ALPHA_MIN
+    float bodyMetres;   // how thick the body below the surface is; 0 where there is none
 #endif
 };
 
@@ -138,6 +139,7 @@ void setNeutralLobes(inout Surface surface)
     surface.passing = vec3(0.0);
     surface.passingIor = 1.0;
     surface.passingAlpha = ALPHA_MIN;
+    surface.bodyMetres = 0.0;
 #endif
 }
 

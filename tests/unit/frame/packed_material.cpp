@@ -83,7 +83,7 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     material.thicknessMetres = 3.0f;
     material.attenuationColor = {0.5f, 0.25f, 0.0f};
     const auto left = [&] { return packMaterial(material).attenuation; };
-    EXPECT_EQ(packMaterial(material).transmission, glm::vec4(0.5f, 0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(packMaterial(material).transmission, glm::vec4(0.5f, 0.0f, 3.0f, 0.0f));
     EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "without a distance";
     material.attenuationDistanceMetres = 1.5f; // twice
     EXPECT_EQ(left(), glm::vec4(0.25f, 0.0625f, 0.0f, 0.0f));

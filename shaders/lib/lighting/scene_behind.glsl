@@ -1,0 +1,243 @@
+// What a ray meets of the opaque surfaces that a picture holds: it is followed over the screen, against their depths, to
+// where it goes behind one (docs/glass.md). Source: McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": over
+// the screen a ray is straight, and its depth-buffer values grow evenly along it, as those of planes do.
+#pragma once
+#include "shared/refraction.h"
+#include "lib/surface/camera.glsl"
+
+layout(binding = TEXTURE_UNIT_BEHIND) uniform sampler2D behindPicture;
+#if HAS_BLURRED_SCENE_BEHIND
+layout(binding = TEXTURE_UNIT_BEHIND_LEVELS) uniform sampler2D behindLevels;
+#endif
+#if SAMPLES > 1
+layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2DMS behindDepth;
+#else
+layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2D behindDepth;
+#endif
+
+// How far a surface may lie before the ray at the place where the ray goes behind it: in pixels, and in steps of the
+// surface's own depth from that pixel to the next. Farther, and the ray passes behind its edge.
+const float kBehindPixels = 4.0;
+const float kBehindSlopes = 2.0;
+
+// Shares of a pixel that texels are interpolated by. A ray that nothing bends ends in the middle of its pixel up to
+// rounding, and then shows that texel alone.
+const float kBehindShares = 256.0;
+
+ivec2 pixelBehind(vec2 place)
+{
+    return clamp(ivec2(floor(place)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
+}
+
+// As stored, 0 where nothing is. Of several samples the first one stands for the pixel.
+float depthBehind(ivec2 pixel)
+{
+    pixel = clamp(pixel, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+    return texelFetch(behindDepth, pixel, 0).r;
+}
+
+// Metres ahead of the origin of lighting space.
+float aheadOf(float depth)
+{
+    vec4 lens = view.aheadFromDepth;
+    precise float ahead = (lens.x + lens.y * depth) / (lens.z + lens.w * depth);
+    return ahead;
+}
+
+// Whether a place on the screen, with its depth as z, lies behind what is drawn there.
+bool isBehind(vec3 place)
+{
+    float depth = depthBehind(pixelBehind(place.xy));
+    return depth > 0.0 && place.z < depth;
+}
+
+// A ray over the screen: places in pixels with their depth, evenly from begin to begin + way. None where it begins outside
+// the view.
+struct ScreenRay {
+    vec3 begin;
+    vec3 way;
+    bool isSeen;
+};
+
+// Of points (1 - u) from + u towards the share u up to which a plane of the view is not crossed, by the distances of both.
+float shareInside(float from, float towards, float share)
+{
+    precise float crossing = from / (from - towards);
+    return towards < 0.0 ? min(share, crossing) : share;
+}
+
+// `towards` is the point at infinity that the ray goes to. In homogeneous coordinates it is a point like others.
+ScreenRay screenRay(vec3 originLS, vec3 directionLS)
+{
+    precise vec4 from = view.clipFromLS * vec4(originLS, 1.0);
+    precise vec4 towards = view.clipFromLS * vec4(directionLS, 0.0);
+    ScreenRay ray = ScreenRay(vec3(0.0), vec3(0.0), false);
+    precise vec3 lowFrom = vec3(from.w + from.x, from.w + from.y, from.z);
+    precise vec3 highFrom = vec3(from.w - from.x, from.w - from.y, from.w - from.z);
+    if (!(from.w > 0.0) || min(min(lowFrom.x, lowFrom.y), lowFrom.z) < 0.0
+        || min(min(highFrom.x, highFrom.y), highFrom.z) < 0.0)
+        return ray;
+    precise vec3 lowTowards = vec3(towards.w + towards.x, towards.w + towards.y, towards.z);
+    precise vec3 highTowards = vec3(towards.w - towards.x, towards.w - towards.y, towards.w - towards.z);
+    float share = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        share = shareInside(lowFrom[axis], lowTowards[axis], share);
+        share = shareInside(highFrom[axis], highTowards[axis], share);
+    }
+    precise vec4 to = (1.0 - share) * from + share * towards;
+    if (!(to.w > 0.0)) return ray;
+    precise vec3 begin = from.xyz / from.w, end = to.xyz / to.w;
+    vec2 halfSize = 0.5 * vec2(view.sizePixels.xy);
+    begin.xy = (begin.xy + 1.0) * halfSize;
+    end.xy = (end.xy + 1.0) * halfSize;
+    ray.begin = begin;
+    ray.way = end - begin;
+    ray.isSeen = true;
+    return ray;
+}
+
+// Whether the surface of the pixel in which a ray is found behind it is met there, and not passed behind its edge.
+bool isMet(ScreenRay ray, vec3 before, vec3 after)
+{
+    ivec2 pixel = pixelBehind(after.xy);
+    if (pixelBehind(before.xy) == pixel) return true; // it goes through the depth of one pixel
+    float depth = depthBehind(pixel), ahead = aheadOf(depth);
+    precise float gap = aheadOf(max(after.z, 0.0)) - ahead;
+    bool isWide = abs(ray.way.x) >= abs(ray.way.y);
+    ivec2 next = isWide ? ivec2(ray.way.x < 0.0 ? -1 : 1, 0) : ivec2(0, ray.way.y < 0.0 ? -1 : 1);
+    float nextDepth = depthBehind(pixel + next);
+    precise float slope = nextDepth > 0.0 ? abs(aheadOf(nextDepth) - ahead) : 0.0;
+    vec2 spread = raySpread();
+    precise float pixelMetres = (spread.x + spread.y * ahead) * length(view.rayDxLS.xyz);
+    return gap <= kBehindPixels * pixelMetres + kBehindSlopes * slope;
+}
+
+// The smaller of a pixel's steps in depth to its neighbours along an axis: that on its own surface.
+float depthStep(ivec2 pixel, ivec2 axis, float depth)
+{
+    precise float forward = depthBehind(pixel + axis) - depth, back = depth - depthBehind(pixel - axis);
+    return abs(forward) < abs(back) ? forward : back;
+}
+
+// Where a ray meets the plane of the surface that the pixel of `after` shows; `after` itself where that lies elsewhere.
+vec3 placeMet(ScreenRay ray, vec3 after)
+{
+    ivec2 pixel = pixelBehind(after.xy);
+    float depth = depthBehind(pixel);
+    precise vec2 slope = vec2(depthStep(pixel, ivec2(1, 0), depth), depthStep(pixel, ivec2(0, 1), depth));
+    vec2 middle = vec2(pixel) + 0.5;
+    precise float above = after.z - (depth + dot(slope, after.xy - middle));
+    precise float rate = ray.way.z - dot(slope, ray.way.xy);
+    if (rate == 0.0) return after;
+    precise float back = above / rate;
+    precise vec3 met = after - back * ray.way;
+    vec2 aside = abs(met.xy - middle);
+    return max(aside.x, aside.y) <= 1.0 && met.z > 0.0 ? met : after;
+}
+
+// The picture around a place, interpolated between texels that do not lie before both the place and the body, whose near
+// side has a depth of `bodyDepth`.
+vec4 sharpBehind(vec3 place, float bodyDepth)
+{
+    precise vec2 corner = place.xy - 0.5;
+    precise vec2 snapped = floor(corner * kBehindShares + 0.5) / kBehindShares;
+    ivec2 low = ivec2(floor(snapped));
+    precise vec2 share = snapped - vec2(low);
+    // A surface that leans to the viewer is nearer at the next pixel.
+    precise float nearest = 1.001 * max(bodyDepth, place.z);
+    precise vec4 sum = vec4(0.0);
+    precise float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        ivec2 pixel = clamp(low + offset, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+        precise float weight = (offset.x == 1 ? share.x : 1.0 - share.x) * (offset.y == 1 ? share.y : 1.0 - share.y);
+        if (weight == 0.0 || depthBehind(pixel) > nearest) continue;
+        sum += weight * texelFetch(behindPicture, pixel, 0);
+        weights += weight;
+    }
+    if (!(weights > 0.0)) return texelFetch(behindPicture, pixelBehind(place.xy), 0);
+    precise vec4 mean = sum / weights;
+    return mean;
+}
+
+#if HAS_BLURRED_SCENE_BEHIND
+// A level of the picture around a place, interpolated.
+vec4 levelBehind(vec2 place, int level)
+{
+    ivec2 size = ivec2(view.sizePixels.xy);
+    ivec2 texels = ivec2(behindTexels(size.x, level), behindTexels(size.y, level));
+    precise vec2 corner = place / float(1 << level) - 0.5;
+    ivec2 low = ivec2(floor(corner));
+    precise vec2 share = corner - vec2(low);
+    ivec2 a = clamp(low, ivec2(0), texels - 1), b = clamp(low + 1, ivec2(0), texels - 1);
+    int row = level > 0 ? behindRow(size.y, level) : 0;
+    vec4 corners[4];
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = ivec2((i & 1) == 1 ? b.x : a.x, (i >> 1) == 1 ? b.y : a.y);
+        corners[i] = level > 0 ? texelFetch(behindLevels, texel + ivec2(0, row), 0) : texelFetch(behindPicture, texel, 0);
+    }
+    precise vec4 below = corners[0] + share.x * (corners[1] - corners[0]);
+    precise vec4 above = corners[2] + share.x * (corners[3] - corners[2]);
+    precise vec4 mean = below + share.y * (above - below);
+    return mean;
+}
+
+// The picture around a place, averaged over as many pixels as the lobe of a rough body covers there. Half of a GGX lobe
+// lies within a slope of alpha of its half vectors, which turns light by twice that angle: a disk of 2 alpha l in radius, l
+// away. The square of as large a variance as a disk that holds half of its light there, interpolated between texels, has a
+// side of 3 alpha l.
+vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
+{
+    vec3 metLS = viewpointFromDepth(place.xy, place.z).positionLS;
+    vec2 spread = raySpread();
+    precise float pixelMetres =
+        (spread.x + spread.y * dot(view.forwardLS.xyz, metLS)) * length(view.rayDxLS.xyz);
+    precise float widthPixels = 3.0 * alpha * length(metLS - originLS) / pixelMetres;
+    precise float level = clamp(log2(max(widthPixels, 1.0)), 0.0, float(BEHIND_COARSEST));
+    int fine = min(int(level), BEHIND_COARSEST - 1);
+    vec4 finer = levelBehind(place.xy, fine), coarser = levelBehind(place.xy, fine + 1);
+    precise vec4 mean = finer + (level - float(fine)) * (coarser - finer);
+    return mean;
+}
+#endif
+
+// The picture at a place where a ray meets it.
+vec4 pictureBehind(vec3 place, float bodyDepth, float alpha, vec3 originLS)
+{
+#if HAS_BLURRED_SCENE_BEHIND
+    if (alpha > ALPHA_MIN) return blurredBehind(place, alpha, originLS);
+#endif
+    return sharpBehind(place, bodyDepth);
+}
+
+// What a ray from a body meets: rgb of surfaces, times a, the share of it that they cover; 0 where it leaves the screen or
+// meets none. `bodyDepth` is that of the body's near side. Light spreads around the ray by a GGX lobe of `alpha`.
+vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
+{
+    ScreenRay ray = screenRay(originLS, directionLS);
+    if (!ray.isSeen) return vec4(0.0);
+    bool wasBehind = isBehind(ray.begin);
+    // A body that is thicker than the room before a surface ends there. What is nearer than its near side, it passes behind.
+    if (wasBehind && depthBehind(pixelBehind(ray.begin.xy)) <= bodyDepth)
+        return pictureBehind(ray.begin, bodyDepth, alpha, originLS);
+    precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
+    int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
+    for (int i = 1; i <= steps; ++i) {
+        precise float after = float(i) / float(steps);
+        bool goesBehind = isBehind(ray.begin + after * ray.way);
+        if (goesBehind && !wasBehind) {
+            precise float before = float(i - 1) / float(steps);
+            for (int k = 0; k < REFRACTION_HALVINGS; ++k) {
+                precise float middle = 0.5 * (before + after);
+                if (isBehind(ray.begin + middle * ray.way))
+                    after = middle;
+                else
+                    before = middle;
+            }
+            precise vec3 begin = ray.begin + before * ray.way, end = ray.begin + after * ray.way;
+            if (isMet(ray, begin, end)) return pictureBehind(placeMet(ray, end), bodyDepth, alpha, originLS);
+        }
+        wasBehind = goesBehind;
+    }
+    return vec4(0.0);
+}

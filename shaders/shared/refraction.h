@@ -1,0 +1,26 @@
+#pragma once
+// What bodies of glass show of the surfaces behind them: how a ray is followed over the screen, and where coarser
+// pictures of those surfaces lie.
+#include "interop.h"
+
+#define REFRACTION_STEPS 256   // of a ray over the screen, at most; fewer pixels take as many steps
+#define REFRACTION_HALVINGS 10 // of the step in which it goes behind a surface
+
+// Levels of the picture, of which each has half the rows and columns of the one before; 0 is the picture itself.
+#define BEHIND_COARSEST 6
+
+SHARED_BEGIN
+
+// Rows or columns of a level.
+SHARED_FUNCTION int behindTexels(int pixels, int level) {
+    return (pixels + (1 << level) - 1) >> level;
+}
+
+// First row of a level above 0: they lie one above the other in one texture.
+SHARED_FUNCTION int behindRow(int height, int level) {
+    int row = 0;
+    for (int finer = 1; finer < level; ++finer) row += behindTexels(height, finer);
+    return row;
+}
+
+SHARED_END
