@@ -106,7 +106,8 @@ std::string whyNothingBehindBodies(const scenes::Scene& scene, const FrameSpec& 
         return "no material that transmits has a thickness";
     if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
     if (!anyOpaque(scene)) return "every surface is transparent";
-    return "the view is not the lit picture";
+    if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
+    return "a shader of this driver samples too few textures";
 }
 
 /// Why a feature is left out.

@@ -37,9 +37,9 @@ struct FrameSpec {
     std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
     bool showsLightPictures = false;                 ///< some of them have one
-    bool showsBehindBodies = false;    ///< bodies of glass show opaque surfaces along the rays that they bend
-    bool blursBehindBodies = false;    ///< and some of them spread those rays
-    std::size_t lightPictureBytes = 0; ///< of all pictures of the scene's lights
+    std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
+    bool showsBehindBodies = false;                  ///< bodies of glass show opaque surfaces along rays that they bend
+    bool blursBehindBodies = false;                  ///< and some of them spread those rays
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;

@@ -72,7 +72,9 @@ std::size_t sampledTextures(const FrameSpec& spec) {
 }
 
 void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
-    for (const bool read : {false, true})
+    for (const bool read : {false, true}) {
+        if (read && sampledTextures(spec) > std::size_t(spec.settings.texturesAStage))
+            spec.showsBehindBodies = spec.blursBehindBodies = false;
         for (const scenes::TextureSlotInfo& info : std::views::reverse(scenes::kTextureSlots)) {
             // Without a normal map other features would have to go too.
             const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;
@@ -81,6 +83,7 @@ void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
             spec.features.has.reset(std::size_t(featureOf(info.slot)));
             if (read) spec.withoutTextures.push_back(info.slot);
         }
+    }
 }
 
 std::string missingTextures(const FrameSpec& spec) {

@@ -12,7 +12,8 @@ namespace tessera::frame {
 std::size_t sampledTextures(const FrameSpec& spec);
 
 /// Leaves slots out of the spec's features until its programs fit a stage, the last first: those that no material
-/// `used` stands for reads, then others, which become FrameSpec::withoutTextures.
+/// `used` stands for reads, then what bodies of glass show of surfaces, then other slots, which become
+/// FrameSpec::withoutTextures.
 void leaveOutTextures(FrameSpec& spec, const FeatureSet& used);
 
 /// Which textures of materials the frame lacks, and why; empty: none.

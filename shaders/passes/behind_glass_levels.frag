@@ -14,8 +14,11 @@ void main()
     ivec2 begin = ivec2(texel.x, texel.y - behindRow(size.y, level)) * (1 << level);
     ivec2 end = min(begin + (1 << level), size);
     precise vec4 sum = vec4(0.0);
-    for (int y = begin.y; y < end.y; ++y)
-        for (int x = begin.x; x < end.x; ++x) sum += texelFetch(behindPicture, ivec2(x, y), 0);
+    for (int y = begin.y; y < end.y; ++y) {
+        precise vec4 row = vec4(0.0);
+        for (int x = begin.x; x < end.x; ++x) row += texelFetch(behindPicture, ivec2(x, y), 0);
+        sum += row;
+    }
     // Beside a level there is nothing.
     ivec2 sides = max(end - begin, ivec2(0));
     precise vec4 mean = sum / float(max(sides.x * sides.y, 1));

@@ -453,6 +453,7 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
     frame::FrameSettings settings;
     settings.sizePixels = {96, 54};
     settings.filter = frame::TextureFilter::Exact;
+    settings.refraction = frame::Refraction::Environment; // what else bodies show hangs on the picture
     const auto truthOf = [&](const Scene& scene) {
         return validation::referencePicture(
                    scene, settings, [] {}, validation::Leeway::None)
@@ -541,6 +542,362 @@ TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
     EXPECT_THAT(valuesOf(scene, "HAS_DISPERSION"), Each("0")) << "a sheet bends no light";
     scene.materials[0].thicknessMetres = 0.1f;
     EXPECT_THAT(valuesOf(scene, "HAS_DISPERSION"), ::testing::Contains("1"));
+}
+
+// ---- What stands behind bodies -------------------------------------------------------------------------------------
+
+using frame::Refraction;
+
+constexpr int kBehindPixels = 48;                          ///< side of a picture, which spans 2 m
+constexpr double kBehindPixelMetres = 2.0 / kBehindPixels; ///< orthographic
+constexpr double kBehindWallMetres = 2.0;                  ///< behind z = 0
+constexpr double kGlassTiltRadians = 0.5;                  ///< of the glass, about y: its left edge comes nearer
+
+/// Of the metres to either side of x = 0 that two texels are apart, so that what lies between is a ramp of 0 to 1.
+scenes::Image rampImage() {
+    const glm::vec4 texels[] = {{0.0f, 0.25f, 1.0f, 1.0f}, {1.0f, 0.75f, 0.0f, 1.0f}};
+    scenes::Image image;
+    image.name = "ramp";
+    image.width = 2;
+    image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const auto* const bytes = reinterpret_cast<const std::byte*>(texels);
+    image.texels.assign(bytes, bytes + sizeof(texels));
+    return image;
+}
+
+scenes::Image checkerImage() {
+    return image8([](int x, int y) { return std::array<int, 4>{30 * x + 20, 30 * y + 20, (x + y) % 2 * 200, 255}; });
+}
+
+void placeQuad(scenes::Node& node, double z, double halfMetres, double tiltRadians = 0.0) {
+    const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
+    glm::dmat4& placed = node.parentFromNode;
+    placed = glm::dmat4(1.0);
+    placed[0] = glm::dvec4(cosine, 0.0, -sine, 0.0) * halfMetres;
+    placed[1] = glm::dvec4(0.0, 1.0, 0.0, 0.0) * halfMetres;
+    placed[2] = {sine, 0.0, cosine, 0.0};
+    placed[3] = {0.0, 0.0, z, 1.0};
+}
+
+/// A wall that shines by itself, and fills the picture.
+Scene wallScene(scenes::Image image, double halfMetres) {
+    Scene scene = quadScene(unlit());
+    scene.images = {std::move(image)};
+    scene.materials[0].texture(scenes::TextureSlot::BaseColor) = nearest();
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.background = {0.125f, 0.375f, 0.625f};
+    placeQuad(scene.nodes[0], -kBehindWallMetres, halfMetres);
+    return scene;
+}
+
+Scene checkedWall() {
+    return wallScene(checkerImage(), 1.5);
+}
+
+/// Its colours change evenly along x.
+Scene rampWall() {
+    Scene scene = wallScene(rampImage(), 4.0);
+    scenes::Sampler& sampler = scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler;
+    sampler.magnification = sampler.minification = scenes::Filter::Linear;
+    return scene;
+}
+
+/// The scene with a quad of glass before it, wider than the picture.
+Scene coveredByGlass(Scene scene, const Material& glass, double tiltRadians = 0.0, double halfMetres = 4.0) {
+    scene.materials.push_back(glass);
+    scenes::Node& node = scene.nodes.emplace_back(scene.nodes[0]);
+    node.instances[0].material = int(scene.materials.size()) - 1;
+    placeQuad(node, 0.0, halfMetres, tiltRadians);
+    return scene;
+}
+
+/// With a near and a far side along each other: the way that light is moved aside, by Snell's law.
+double asideMetres(double thicknessMetres, double ior, double radians) {
+    const double inside = std::asin(std::sin(radians) / ior);
+    return thicknessMetres * std::sin(radians) * (1.0 - std::cos(radians) / (ior * std::cos(inside)));
+}
+
+class GlassBehind : public Glass {
+protected:
+    static frame::FrameSettings seeing(Refraction refraction, int samples = 1) {
+        frame::FrameSettings settings = ofSide(kBehindPixels);
+        settings.refraction = refraction;
+        settings.samples = samples;
+        settings.filter = frame::TextureFilter::Exact;
+        return settings;
+    }
+    static glm::dvec3 at(const std::vector<float>& picture, int x, int y) {
+        const float* const pixel = &picture[std::size_t(4 * (y * kBehindPixels + x))];
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+    static double metresOf(int pixel) { return (pixel + 0.5) * kBehindPixelMetres - 1.0; }
+    /// Of a picture whose colours change evenly along x.
+    static glm::dvec3 evenlyAt(const std::vector<float>& picture, double metres, int y) {
+        const glm::dvec3 left = at(picture, 0, y), right = at(picture, kBehindPixels - 1, y);
+        const double share = (metres - metresOf(0)) / (metresOf(kBehindPixels - 1) - metresOf(0));
+        return left + share * (right - left);
+    }
+};
+
+/// An index of 1 bends nothing: not a bit differs, of parallel rays and of a lens, of one sample and of several.
+TEST_F(GlassBehind, thatBendsNothingShowsExactlyWhatStandsThere) {
+    for (const bool isPerspective : {false, true})
+        for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides})
+            for (const int samples : {1, 4}) {
+                SCOPED_TRACE(
+                    fmt::format("{}, perspective {}, {} samples", infoOf(refraction).name, isPerspective, samples));
+                Scene wall = checkedWall();
+                if (isPerspective) wall.cameras[0].projection = scenes::Projection::Perspective;
+                const frame::FrameSettings settings = seeing(refraction, samples);
+                const std::vector<float> plain = drawn(wall, settings, Technique::Forward);
+                const Scene covered = coveredByGlass(wall, bareGlass(1.0), kGlassTiltRadians);
+                const std::vector<float> shown = drawn(covered, settings, Technique::Forward);
+                if (samples == 1) {
+                    EXPECT_EQ(shown, plain);
+                    continue;
+                }
+                // A tilted body is lit at depths of the pixel's middle, its samples are drawn at their own.
+                for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], 1e-6f) << i;
+            }
+}
+
+/// Seen straight on, whatever its index: what it reflects is lost, and what its body absorbs.
+TEST_F(GlassBehind, seenStraightOnShowsWhatItsClosedFormLeaves) {
+    Material glass = clearGlass();
+    glass.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
+    glass.transmission = 0.75f;
+    glass.thicknessMetres = 0.5f;
+    glass.attenuationDistanceMetres = 0.25f;
+    glass.attenuationColor = {0.5f, 0.8f, 1.0f};
+    for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides})
+        for (const float ior : {1.5f, 2.0f}) {
+            glass.ior = ior;
+            const double contrast = (double(ior) - 1.0) / (double(ior) + 1.0);
+            const std::vector<float> plain = drawn(checkedWall(), seeing(refraction));
+            const std::vector<float> shown = drawn(coveredByGlass(checkedWall(), glass), seeing(refraction));
+            for (int y = 0; y < kBehindPixels; ++y)
+                for (int x = 0; x < kBehindPixels; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const double left = std::pow(double(glass.attenuationColor[c]), 2.0);
+                        const double wanted =
+                            0.75 * double(glass.baseColor[c]) * left * (1.0 - contrast * contrast) * at(plain, x, y)[c];
+                        ASSERT_NEAR(at(shown, x, y)[c], wanted, kGlassRounding * std::max(wanted, 1e-3))
+                            << ior << " at " << x << ", " << y;
+                    }
+        }
+}
+
+/// By a whole number of pixels, so that no texel is interpolated. What is moved in from beyond the picture's edge is
+/// not known: there the body shows the background.
+TEST_F(GlassBehind, withAFarSideMovesThePictureAsideByTheClosedForm) {
+    constexpr int kMoved = 3;
+    const double cosine = std::cos(kGlassTiltRadians);
+    for (const double ior : {1.3, 1.5, 2.4}) {
+        Material glass = clearGlass();
+        glass.ior = float(ior);
+        glass.thicknessMetres =
+            float(kMoved * kBehindPixelMetres / asideMetres(1.0, double(glass.ior), kGlassTiltRadians));
+        const double straight = std::pow((ior - 1.0) / (ior + 1.0), 2.0);
+        const double share = 1.0 - (straight + (1.0 - straight) * std::pow(1.0 - cosine, 5.0));
+        const frame::FrameSettings settings = seeing(Refraction::TwoSides);
+        const std::vector<float> plain = drawn(checkedWall(), settings);
+        const std::vector<float> shown = drawn(coveredByGlass(checkedWall(), glass, kGlassTiltRadians), settings);
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                const glm::dvec3 behind = x < kMoved ? glm::dvec3(0.125, 0.375, 0.625) : at(plain, x - kMoved, y);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], share * behind[c], 1e-5) << ior << " at " << x << ", " << y;
+            }
+    }
+}
+
+/// Rays that bend once meet a wall, upright or leaning, where a plane and a line meet.
+TEST_F(GlassBehind, bentOnceShowsWhereTheRayMeetsTheWall) {
+    constexpr double kIor = 1.5;
+    const double bend = std::tan(kGlassTiltRadians - std::asin(std::sin(kGlassTiltRadians) / kIor));
+    for (const double leanRadians : {0.0, -0.6, 0.6}) {
+        Scene wall = rampWall();
+        placeQuad(wall.nodes[0], -kBehindWallMetres, 4.0, leanRadians);
+        const frame::FrameSettings settings = seeing(Refraction::OneSide);
+        const std::vector<float> plain = drawn(wall, settings);
+        const std::vector<float> shown = drawn(coveredByGlass(wall, bareGlass(kIor), kGlassTiltRadians), settings);
+        const double slope = -std::tan(leanRadians); // of the wall's z by x
+        int met = 0;
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                // The ray begins on the glass, at z = -x tan(tilt), and goes to the left as it goes back.
+                const double begin = metresOf(x), above = -begin * std::tan(kGlassTiltRadians) + kBehindWallMetres;
+                const double place = (begin - above * bend) / (1.0 - slope * bend);
+                if (place < -1.0 + kBehindPixelMetres) continue;
+                ++met;
+                const glm::dvec3 wanted = evenlyAt(plain, place, y);
+                const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 0.05 * step[c] + 1e-5)
+                        << leanRadians << " at " << x << ", " << y;
+            }
+        EXPECT_GT(met, kBehindPixels * kBehindPixels / 3);
+    }
+}
+
+/// A bar before the glass is no obstacle to what goes on behind it.
+TEST_F(GlassBehind, raysPassBehindWhatStandsBeforeIt) {
+    constexpr double kIor = 1.5, kBarMetres = 0.05; // half its width
+    const double bend = std::tan(kGlassTiltRadians - std::asin(std::sin(kGlassTiltRadians) / kIor));
+    const Scene wall = rampWall();
+    Scene covered = coveredByGlass(wall, bareGlass(kIor), kGlassTiltRadians);
+    covered.materials.push_back(unlit());
+    scenes::Node& bar = covered.nodes.emplace_back(covered.nodes[0]);
+    bar.instances[0].material = 2;
+    placeQuad(bar, 1.5, 4.0);
+    bar.parentFromNode[0] *= kBarMetres / 4.0;
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+    int crossing = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x);
+            const double place = begin - (kBehindWallMetres - begin * std::tan(kGlassTiltRadians)) * bend;
+            const auto isClear = [&](double metres) {
+                return std::abs(metres) > kBarMetres + 1.5 * kBehindPixelMetres;
+            };
+            if (place < -1.0 + kBehindPixelMetres || !isClear(begin) || !isClear(place)) continue;
+            crossing += begin > 0.0 && place < 0.0 ? 1 : 0;
+            const glm::dvec3 wanted = evenlyAt(plain, place, y);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 2e-3) << "at " << x << ", " << y;
+        }
+    EXPECT_GT(crossing, kBehindPixels);
+}
+
+/// To the last bit: what is not met changes nothing. With a far side the ray of the viewer goes on.
+TEST_F(GlassBehind, raysThatMeetNothingShowTheEnvironment) {
+    for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled})
+        for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides}) {
+            frame::FrameSettings settings = ofSide(kBentPixels, light);
+            settings.refraction = refraction;
+            const Scene alone = bentPlane(bareGlass(1.5, 0.3));
+            Scene with = alone;
+            with.materials.push_back(unlit());
+            scenes::Node& beside = with.nodes.emplace_back(with.nodes[0]);
+            beside.instances[0].material = 1;
+            placeQuad(beside, 50.0, 1.0); // behind the camera
+            const std::vector<float> shown = drawn(with, settings);
+            EXPECT_EQ(shown, drawn(alone, settings)) << infoOf(light).name << ", " << infoOf(refraction).name;
+            if (refraction == Refraction::TwoSides) continue;
+            settings.refraction = Refraction::Environment;
+            EXPECT_EQ(shown, drawn(with, settings)) << infoOf(light).name;
+        }
+}
+
+/// A rough body before an even wall shows just that, before an edge a wider one, as the reference does.
+TEST_F(GlassBehind, thatIsRoughBlursWhatStandsThere) {
+    Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(even, settings);
+    const std::vector<float> shown = drawn(coveredByGlass(even, bareGlass(1.5, 0.3)), settings);
+    for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], 2e-5f * plain[i]) << i;
+
+    // Black to the left, white to the right.
+    const Scene edge = wallScene(image8([](int x, int) {
+                                     const int value = x < kSide / 2 ? 0 : 255;
+                                     return std::array<int, 4>{value, value, value, 255};
+                                 }),
+                                 4.0);
+    const Scene rough = coveredByGlass(edge, bareGlass(1.5, 0.3));
+    const validation::ReferencePicture truth = validation::referencePicture(
+        rough, settings, [] {}, validation::Leeway::None);
+    const auto errorOf = [&](const Scene& scene) {
+        const std::vector<float> own = drawn(scene, settings);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < own.size(); i += 4) sum += std::abs(double(own[i]) - double(truth.picture.rgba[i]));
+        return sum / double(truth.picture.pixelCount());
+    };
+    const double blurred = errorOf(rough), sharp = errorOf(coveredByGlass(edge, bareGlass(1.5)));
+    fmt::print("behind rough glass: mean error {:.3f}, {:.3f} if it were smooth\n", blurred, sharp);
+    EXPECT_LT(blurred, 0.5 * sharp);
+}
+
+/// Along rays bent once and moved aside, with levels and without, of one sample and of several.
+TEST_F(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
+    for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides}) {
+        SCOPED_TRACE(infoOf(refraction).name);
+        Scene scene = fewWithGlass();
+        scene.materials[1].thicknessMetres = 0.4f;
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        settings.refraction = refraction;
+        {
+            engine::Renderer renderer(context(), scene);
+            expectParity(renderer, settings, techniquesInTurn(std::size_t(refraction)));
+            settings.samples = 4;
+            expectParity(renderer, settings, {Technique::ForwardPrepass, Technique::ClusteredForward});
+            settings.samples = 1;
+        }
+        scene.materials[1].perceptualRoughness = 0.0f; // so that there are no levels
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+        settings.prune = false;
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+    }
+}
+
+TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
+    const auto planOf = [](const Scene& scene, Refraction refraction = Refraction::OneSide) {
+        frame::FrameSettings settings;
+        settings.refraction = refraction;
+        return planText(engine::planFrame(scene, Technique::Deferred, settings));
+    };
+    const auto hasDefine = [](const Scene& scene, const std::string& wanted) {
+        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
+            for (const auto& [name, value] : program.defines)
+                if (name == wanted && value != "0") return true;
+        return false;
+    };
+    using ::testing::HasSubstr, ::testing::Not;
+    const Scene covered = coveredByGlass(checkedWall(), bareGlass(1.5));
+    EXPECT_THAT(planOf(covered), HasSubstr("behind_glass"));
+    EXPECT_THAT(planOf(covered), Not(HasSubstr("behind_glass_levels"))) << "smooth";
+    EXPECT_TRUE(hasDefine(covered, "HAS_SCENE_BEHIND"));
+    EXPECT_FALSE(hasDefine(covered, "HAS_BLURRED_SCENE_BEHIND"));
+    EXPECT_THAT(planOf(coveredByGlass(checkedWall(), bareGlass(1.5, 0.3))), HasSubstr("behind_glass_levels"));
+    EXPECT_THAT(planOf(covered, Refraction::Environment), Not(HasSubstr("behind_glass")));
+
+    Scene onlyGlass = quadScene(bareGlass(1.5));
+    for (const Scene& scene : {checkedWall(), coveredByGlass(checkedWall(), clearGlass()), onlyGlass}) {
+        EXPECT_THAT(planOf(scene), Not(HasSubstr("behind_glass")));
+        EXPECT_THAT(planOf(scene), HasSubstr("surfaces behind glass")) << "told as left out";
+        EXPECT_FALSE(hasDefine(scene, "HAS_SCENE_BEHIND"));
+    }
+}
+
+/// Where its bodies stand on a table before a lamp's foot and a pane's holder.
+TEST_F(GlassSlow, theSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
+    const Scene scene = scenes::loadScene("glass");
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    settings.environment.light = EnvironmentLight::Sampled;
+    const Picture truth = validation::referencePicture(
+                              scene, settings, [] {}, validation::Leeway::None)
+                              .picture;
+    const auto errorOf = [&](Refraction refraction) {
+        settings.refraction = refraction;
+        const std::vector<float> shown = renderer.render(Technique::Deferred, settings).radiance;
+        double sum = 0.0;
+        for (std::size_t pixel = 0; pixel < truth.pixelCount(); ++pixel)
+            for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i) {
+                const double own = double(shown[i]), other = double(truth.rgba[i]);
+                sum += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
+            }
+        return sum / (3.0 * double(truth.pixelCount()));
+    };
+    const double alone = errorOf(Refraction::Environment), with = errorOf(Refraction::OneSide);
+    fmt::print("glass: relMSE {:.2e} with the environment alone, {:.2e} with what stands behind, {:.1f} times less\n",
+               alone, with, alone / with);
+    EXPECT_LT(with, 0.5 * alone);
 }
 
 } // namespace

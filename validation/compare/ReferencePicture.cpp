@@ -204,8 +204,11 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
                            "to nothing";
         return tolerance;
     }
-    const auto showsBehind = [](const scenes::Material* material) { return scenes::hasBody(*material); };
-    if (infoOf(settings.refraction).showsScene && std::ranges::any_of(scenes::materialsInUse(scene), showsBehind)) {
+    const auto isAny = [used = scenes::materialsInUse(scene)](bool (*isOne)(const scenes::Material&)) {
+        return std::ranges::any_of(used, [&](const scenes::Material* material) { return isOne(*material); });
+    };
+    const auto isOpaque = [](const scenes::Material& material) { return !scenes::isTransparent(material); };
+    if (infoOf(settings.refraction).showsScene && isAny(scenes::hasBody) && isAny(isOpaque)) {
         tolerance.reason = "bodies of glass show what the picture holds of the surfaces behind them: the error is "
                            "reported, and held to nothing";
         return tolerance;

@@ -53,7 +53,7 @@ struct Settings {
     int environmentPaths = 1024;                                         ///< of each kind, from every surface
     bool bodiesShowScene = false;   ///< bodies of what transmits show opaque surfaces too, where they bend rays to
     bool bodiesHaveFarSide = false; ///< rays leave them there, along the near side, and bend back
-    int bodyPaths = 64;             ///< of the lobe of a rough one, to surfaces
+    int bodyPaths = 32;             ///< of the lobe of a rough one, to surfaces
     int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
     double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
     int shadowRings = 16;        ///< on the disk of a light with a size, four times as many rays each

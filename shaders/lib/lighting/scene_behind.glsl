@@ -51,8 +51,8 @@ bool isBehind(vec3 place)
     return depth > 0.0 && place.z < depth;
 }
 
-// A ray over the screen: places in pixels with their depth, evenly from begin to begin + way. None where it begins outside
-// the view.
+// A ray over the screen: places in pixels with their depth, evenly from begin to begin + way. None where it begins beside the
+// view. One that begins beyond its far end stays there.
 struct ScreenRay {
     vec3 begin;
     vec3 way;
@@ -63,7 +63,7 @@ struct ScreenRay {
 float shareInside(float from, float towards, float share)
 {
     precise float crossing = from / (from - towards);
-    return towards < 0.0 ? min(share, crossing) : share;
+    return share > 0.0 && towards < 0.0 ? min(share, crossing) : share;
 }
 
 // `towards` is the point at infinity that the ray goes to. In homogeneous coordinates it is a point like others.
@@ -74,12 +74,11 @@ ScreenRay screenRay(vec3 originLS, vec3 directionLS)
     ScreenRay ray = ScreenRay(vec3(0.0), vec3(0.0), false);
     precise vec3 lowFrom = vec3(from.w + from.x, from.w + from.y, from.z);
     precise vec3 highFrom = vec3(from.w - from.x, from.w - from.y, from.w - from.z);
-    if (!(from.w > 0.0) || min(min(lowFrom.x, lowFrom.y), lowFrom.z) < 0.0
-        || min(min(highFrom.x, highFrom.y), highFrom.z) < 0.0)
+    if (!(from.w > 0.0) || min(lowFrom.x, lowFrom.y) < 0.0 || min(min(highFrom.x, highFrom.y), highFrom.z) < 0.0)
         return ray;
     precise vec3 lowTowards = vec3(towards.w + towards.x, towards.w + towards.y, towards.z);
     precise vec3 highTowards = vec3(towards.w - towards.x, towards.w - towards.y, towards.w - towards.z);
-    float share = 1.0;
+    float share = lowFrom.z < 0.0 ? 0.0 : 1.0;
     for (int axis = 0; axis < 3; ++axis) {
         share = shareInside(lowFrom[axis], lowTowards[axis], share);
         share = shareInside(highFrom[axis], highTowards[axis], share);
@@ -105,8 +104,10 @@ bool isMet(ScreenRay ray, vec3 before, vec3 after)
     precise float gap = aheadOf(max(after.z, 0.0)) - ahead;
     bool isWide = abs(ray.way.x) >= abs(ray.way.y);
     ivec2 next = isWide ? ivec2(ray.way.x < 0.0 ? -1 : 1, 0) : ivec2(0, ray.way.y < 0.0 ? -1 : 1);
-    float nextDepth = depthBehind(pixel + next);
-    precise float slope = nextDepth > 0.0 ? abs(aheadOf(nextDepth) - ahead) : 0.0;
+    // A surface that goes on leans the same way on both sides; a thing that is a pixel wide does not.
+    float nextDepth = depthBehind(pixel + next), lastDepth = depthBehind(pixel - next);
+    bool goesOn = nextDepth > 0.0 && (nextDepth > depth) == (depth > lastDepth);
+    precise float slope = goesOn ? abs(aheadOf(nextDepth) - ahead) : 0.0;
     vec2 spread = raySpread();
     precise float pixelMetres = (spread.x + spread.y * ahead) * length(view.rayDxLS.xyz);
     return gap <= kBehindPixels * pixelMetres + kBehindSlopes * slope;

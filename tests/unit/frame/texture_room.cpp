@@ -54,6 +54,18 @@ TEST(TextureRoom, thenTheLeastImportantOnesAreLeftOutAndNamed) {
     EXPECT_FALSE(least.features[TextureSlot::Clearcoat]);
 }
 
+TEST(TextureRoom, whatBodiesOfGlassShowIsLeftOutBeforeATextureThatAMaterialReads) {
+    for (const int room : {TEXTURE_UNITS_A_STAGE, TEXTURE_UNITS_A_STAGE - 4}) {
+        FrameSpec spec = specOn(room);
+        spec.showsBehindBodies = spec.blursBehindBodies = true;
+        EXPECT_EQ(sampledTextures(spec), std::size_t(TEXTURE_SLOT_COUNT + 3 + 2 + 2 + 1 + 3));
+        if (sampledTextures(spec) > std::size_t(room)) leaveOutTextures(spec, allFeatures());
+        EXPECT_EQ(spec.showsBehindBodies, room == TEXTURE_UNITS_A_STAGE);
+        EXPECT_EQ(spec.blursBehindBodies, room == TEXTURE_UNITS_A_STAGE);
+        EXPECT_EQ(spec.features, allFeatures());
+    }
+}
+
 TEST(TextureRoom, onlyTexturesOfLayersThatAMaterialHasTakeRoom) {
     FrameSpec spec;
     const std::size_t before = sampledTextures(spec);

@@ -58,6 +58,12 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
     several.sizePixels = {64, 36};
     several.samples = 4;
     all.push_back(several);
+    for (const frame::RefractionInfo& info : frame::refractionTable()) {
+        frame::FrameSettings bent;
+        bent.sizePixels = {64, 36};
+        bent.refraction = info.refraction;
+        all.push_back(bent);
+    }
     several.prune = false;
     all.push_back(several);
     return all;
