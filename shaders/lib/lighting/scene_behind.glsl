@@ -202,15 +202,6 @@ vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 }
 #endif
 
-// The picture at a place where a ray meets it.
-vec4 pictureBehind(vec3 place, float bodyDepth, float alpha, vec3 originLS)
-{
-#if HAS_BLURRED_SCENE_BEHIND
-    if (alpha > ALPHA_MIN) return blurredBehind(place, alpha, originLS);
-#endif
-    return sharpBehind(place, bodyDepth);
-}
-
 // What a ray from a body meets: rgb of surfaces, times a, the share of it that they cover; 0 where it leaves the screen or
 // meets none. `bodyDepth` is that of the body's near side. Light spreads around the ray by a GGX lobe of `alpha`.
 vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
@@ -219,11 +210,11 @@ vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
     if (!ray.isSeen) return vec4(0.0);
     bool wasBehind = isBehind(ray.begin);
     // A body that is thicker than the room before a surface ends there. What is nearer than its near side, it passes behind.
-    if (wasBehind && depthBehind(pixelBehind(ray.begin.xy)) <= bodyDepth)
-        return pictureBehind(ray.begin, bodyDepth, alpha, originLS);
+    bool meets = wasBehind && depthBehind(pixelBehind(ray.begin.xy)) <= bodyDepth;
+    vec3 place = ray.begin;
     precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
     int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
-    for (int i = 1; i <= steps; ++i) {
+    for (int i = 1; i <= steps && !meets; ++i) {
         precise float after = float(i) / float(steps);
         bool goesBehind = isBehind(ray.begin + after * ray.way);
         if (goesBehind && !wasBehind) {
@@ -235,10 +226,15 @@ vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
                 else
                     before = middle;
             }
-            precise vec3 begin = ray.begin + before * ray.way, end = ray.begin + after * ray.way;
-            if (isMet(ray, begin, end)) return pictureBehind(placeMet(ray, end), bodyDepth, alpha, originLS);
+            precise vec3 lastBefore = ray.begin + before * ray.way, firstBehind = ray.begin + after * ray.way;
+            meets = isMet(ray, lastBefore, firstBehind);
+            if (meets) place = placeMet(ray, firstBehind);
         }
         wasBehind = goesBehind;
     }
-    return vec4(0.0);
+    if (!meets) return vec4(0.0);
+#if HAS_BLURRED_SCENE_BEHIND
+    if (alpha > ALPHA_MIN) return blurredBehind(place, alpha, originLS);
+#endif
+    return sharpBehind(place, bodyDepth);
 }

@@ -127,17 +127,23 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, float ior
 #endif
 }
 
-// The same of a body whose colours may bend apart.
+// The same of a body whose colours may bend apart. One loop, so that a program holds the way of a ray once.
 vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, vec2 pixel)
 {
 #if HAS_DISPERSION
-    if (material.attenuation.a > 0.0) {
-        vec3 iors = iorByChannel(surface.passingIor), light = vec3(0.0);
-        for (int c = 0; c < 3; ++c) light[c] = lightThroughBody(surface, viewpoint, kept, iors[c], pixel)[c];
-        return light;
+    bool bendsApart = material.attenuation.a > 0.0;
+    vec3 iors = bendsApart ? iorByChannel(surface.passingIor) : vec3(surface.passingIor), light = vec3(0.0);
+    for (int c = 0; c < (bendsApart ? 3 : 1); ++c) {
+        vec3 own = lightThroughBody(surface, viewpoint, kept, iors[c], pixel);
+        if (bendsApart)
+            light[c] = own[c];
+        else
+            light = own;
     }
-#endif
+    return light;
+#else
     return lightThroughBody(surface, viewpoint, kept, surface.passingIor, pixel);
+#endif
 }
 #endif
 
