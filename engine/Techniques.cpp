@@ -14,6 +14,7 @@
 #include "passes/DepthPrepass.h"
 #include "passes/DiffusionPasses.h"
 #include "passes/DisplayPass.h"
+#include "passes/FarSidesPass.h"
 #include "passes/ForwardPass.h"
 #include "passes/GBufferPass.h"
 #include "passes/GpuLightListsPass.h"
@@ -298,9 +299,11 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     }
     if (!wiring.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
-    ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}};
+    ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}, {}};
     if (wiring.spec.showsBehindBodies)
         inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance}).behind;
+    if (wiring.spec.drawsFarSides)
+        inputs.farSides = FarSidesPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).farSides;
     return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};
 }
 

@@ -55,6 +55,10 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                                         graph::Access::DepthAttachment);
             }
             if (inputs.behind) out.behind = inputs.behind->read(pass, spec);
+            if (inputs.farSides) {
+                pass.expect(*inputs.farSides, spec.texture(graph::Format::Rgba32Float));
+                out.farSides = pass.read(*inputs.farSides);
+            }
             if (inputs.radiance) pass.expect(*inputs.radiance, spec.renderTarget(graph::Format::Rgba32Float));
             out.radiance = inputs.radiance ? pass.write(*inputs.radiance)
                                            : pass.create("radiance", spec.renderTarget(graph::Format::Rgba32Float));
@@ -70,6 +74,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
                 out.behind->bind(context);
                 gpu::bindTexture(TEXTURE_UNIT_BEHIND_DEPTH, context.texture(out.depth));
             }
+            if (out.farSides) gpu::bindTexture(TEXTURE_UNIT_FAR_SIDES, context.texture(*out.farSides));
             gpu::drawInBands([&] {
                 out.surfaces.draw(context, params.surfaces, pipelineState(params, prepassed, view),
                                   transmitting(params, view));

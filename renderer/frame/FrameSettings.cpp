@@ -48,11 +48,14 @@ static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&
               int(EnvironmentLight::SplitSum) == ENVIRONMENT_SPLIT_SUM &&
               int(EnvironmentLight::Sampled) == ENVIRONMENT_SAMPLED);
 
+using FarSide = RefractionInfo::FarSide;
 constexpr RefractionInfo kRefractions[] = {
-    {Refraction::Environment, "environment", "the environment alone", false, false},
-    {Refraction::OneSide, "one_side", "what lies along rays that bend once", true, false},
+    {Refraction::Environment, "environment", "the environment alone", false, FarSide::None},
+    {Refraction::OneSide, "one_side", "what lies along rays that bend once", true, FarSide::None},
     {Refraction::TwoSides, "two_sides", "the same behind a far side along the near one, where they bend back", true,
-     true},
+     FarSide::Parallel},
+    {Refraction::BackFaces, "back_faces", "the same behind the back faces of their meshes, where they bend again", true,
+     FarSide::BackFaces},
 };
 static_assert(isInOrder(kRefractions, &RefractionInfo::refraction, std::size(kRefractions)));
 

@@ -95,13 +95,13 @@ std::span<const EnvironmentLightInfo> environmentLightTable();
 const EnvironmentLightInfo& infoOf(EnvironmentLight light);
 
 /// What bodies of glass show (docs/glass.md).
-enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides };
+enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides, BackFaces };
 struct RefractionInfo {
     Refraction refraction;
     std::string_view name;
     std::string_view summary;
     bool showsScene; ///< opaque surfaces along the rays that bodies bend; else the environment alone
-    bool hasFarSide; ///< rays leave a body at a far side, which lies along the near one
+    enum class FarSide : std::uint8_t { None, Parallel, BackFaces } farSide; ///< where rays leave a body
 };
 std::span<const RefractionInfo> refractionTable();
 const RefractionInfo& infoOf(Refraction refraction);

@@ -90,9 +90,11 @@ bool anyOpaque(const scenes::Scene& scene) {
 /// Decides what bodies of glass show, once the features of surfaces are known.
 void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const FrameSettings& settings = spec.settings;
-    spec.showsBehindBodies =
-        infoOf(settings.refraction).showsScene && settings.view == DebugView::Final && anyOpaque(scene) &&
-        (!settings.prune || (spec.features[Feature::Transmission] && spec.features[Feature::Volume]));
+    const bool mayBend = settings.view == DebugView::Final &&
+                         (!settings.prune || (spec.features[Feature::Transmission] && spec.features[Feature::Volume]));
+    const RefractionInfo& refraction = infoOf(settings.refraction);
+    spec.showsBehindBodies = mayBend && refraction.showsScene && anyOpaque(scene);
+    spec.drawsFarSides = mayBend && refraction.farSide == RefractionInfo::FarSide::BackFaces;
     spec.blursBehindBodies =
         spec.showsBehindBodies &&
         (!settings.prune || std::ranges::any_of(scenes::materialsInUse(scene), [](const scenes::Material* material) {
@@ -196,8 +198,9 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
-    // Each colour's ray, which goes behind something in every other step at most.
-    if (spec.showsBehindBodies) spec.iterations += 3 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
+    // Each colour's ray inside and behind a body, which goes behind something in every other step at most.
+    if (spec.showsBehindBodies || spec.drawsFarSides)
+        spec.iterations += 6 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
     return spec;
 }
 
@@ -219,7 +222,7 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;
-    spec.showsBehindBodies = spec.blursBehindBodies = false;
+    spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = false;
     const auto spreadOver = [&](int border) {
         return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                            texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
@@ -247,7 +250,9 @@ Defines frameDefines(const FrameSpec& spec) {
     }
     defines.emplace_back("HAS_SCENE_BEHIND", spec.showsBehindBodies ? "1" : "0");
     defines.emplace_back("HAS_BLURRED_SCENE_BEHIND", spec.blursBehindBodies ? "1" : "0");
-    defines.emplace_back("HAS_FAR_SIDES", infoOf(spec.settings.refraction).hasFarSide ? "1" : "0");
+    const bool areParallel = infoOf(spec.settings.refraction).farSide == RefractionInfo::FarSide::Parallel;
+    defines.emplace_back("HAS_PARALLEL_SIDES", areParallel ? "1" : "0");
+    defines.emplace_back("HAS_BACK_FACES", spec.drawsFarSides ? "1" : "0");
     defines.emplace_back("IN_ATLAS", spec.isInAtlas() ? "1" : "0");
     if (spec.isInAtlas()) {
         const int side = spec.settings.sizePixels.x;

@@ -40,6 +40,7 @@ struct FrameSpec {
     std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
     bool showsBehindBodies = false;                  ///< bodies of glass show opaque surfaces along rays that they bend
     bool blursBehindBodies = false;                  ///< and some of them spread those rays
+    bool drawsFarSides = false;                      ///< of bodies, where rays leave them
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;

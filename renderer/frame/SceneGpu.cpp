@@ -75,7 +75,9 @@ const std::array<gpu::VertexAttribute, 7>& drawAttributes() {
 }
 
 gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirrored) {
-    state.cullFace = doubleSided || state.bothSides ? gpu::CullFace::None : gpu::CullFace::Back;
+    state.cullFace = state.farSides                   ? gpu::CullFace::Front
+                     : doubleSided || state.bothSides ? gpu::CullFace::None
+                                                      : gpu::CullFace::Back;
     state.frontFaceClockwise = mirrored;
     return state;
 }
@@ -315,6 +317,7 @@ void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, con
     int boundMaterial = -1;
     for (const Batch& batch : batches) {
         const scenes::Material& material = scene_.materials[std::size_t(batch.material)];
+        if (state.farSides && !scenes::hasBody(material)) continue;
         gpu::PipelineState own = stateOf(state, material.doubleSided, batch.mirrored);
         if (transmitting && scenes::isTransmissive(material)) own.blend = *transmitting;
         gpu::setState(own);

@@ -28,6 +28,7 @@ struct PipelineState {
     bool depthClamp =
         false; ///< nothing is clipped at the near and far plane (shadow casters behind the light's near plane)
     bool bothSides = false;     ///< SceneGpu draws single-sided surfaces too without culling
+    bool farSides = false;      ///< SceneGpu draws back faces alone, of what transmits and has a body
     float slopeBias = 0.0f;     ///< times the larger change of depth to the next pixel is added to a triangle's depth
     float mostSlopeBias = 0.0f; ///< what is added at most, of its sign, where the driver can; 0: any
     bool operator==(const PipelineState&) const = default;

@@ -63,10 +63,11 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_LOBE_SHAPES 25
 #define TEXTURE_UNIT_LIGHT_PICTURES 26
 
-// What bodies of glass see: the picture of opaque surfaces, its coarser levels, and their depths.
+// What bodies of glass see: the picture of opaque surfaces, its coarser levels, and their depths; their own far sides.
 #define TEXTURE_UNIT_BEHIND 27
 #define TEXTURE_UNIT_BEHIND_LEVELS 28
 #define TEXTURE_UNIT_BEHIND_DEPTH 29
+#define TEXTURE_UNIT_FAR_SIDES 30
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/Features.cpp).
@@ -96,7 +97,7 @@ SHARED_BEGIN
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");
 static_assert(TEXTURE_UNIT_GBUFFER + 8 <= TEXTURE_UNIT_DEPTH && TEXTURE_UNIT_LIGHT_TILES < TEXTURE_UNIT_LIGHTS,
               "a pass that lights stored surfaces samples them and lights");
-static_assert(TEXTURE_UNIT_BEHIND_DEPTH < TEXTURE_UNITS_A_STAGE, "more than drivers let a stage sample");
+static_assert(TEXTURE_UNIT_FAR_SIDES < TEXTURE_UNITS_A_STAGE, "more than drivers let a stage sample");
 static_assert(TEXTURE_UNITS_A_STAGE < TEXTURE_UNITS_IN_ALL, "more than OpenGL 4.5 guarantees all stages");
 #endif
 

@@ -713,6 +713,65 @@ TEST_F(GlassBehind, withAFarSideMovesThePictureAsideByTheClosedForm) {
     }
 }
 
+/// The scene with a body whose mesh is closed before it.
+Scene coveredByBody(Scene scene, const Material& glass, scenes::Mesh mesh, double tiltRadians = 0.0) {
+    Scene covered = coveredByGlass(std::move(scene), glass, tiltRadians, 1.0);
+    covered.nodes.back().instances[0].mesh = int(covered.meshes.size());
+    covered.meshes.push_back(std::move(mesh));
+    return covered;
+}
+
+/// The same of a slab that has a back: where it ends is drawn, and not what the thickness says.
+TEST_F(GlassBehind, throughTheBackOfASlabIsMovedAsideByTheClosedForm) {
+    constexpr int kMoved = 3;
+    for (const double ior : {1.0, 1.3, 1.5}) {
+        const bool bends = ior > 1.0;
+        const double thickness = bends ? kMoved * kBehindPixelMetres / asideMetres(1.0, ior, kGlassTiltRadians) : 0.5;
+        scenes::Mesh slab;
+        scenes::builtin::appendBox(slab, {-4.0, -4.0, -thickness}, {4.0, 4.0, 0.0});
+        const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+        const std::vector<float> plain = drawn(checkedWall(), settings);
+        const std::vector<float> shown =
+            drawn(coveredByBody(checkedWall(), bareGlass(ior), slab, kGlassTiltRadians), settings);
+        if (!bends) {
+            EXPECT_EQ(shown, plain);
+            continue;
+        }
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                const glm::dvec3 behind = x < kMoved ? glm::dvec3(0.125, 0.375, 0.625) : at(plain, x - kMoved, y);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], behind[c], 1e-5) << ior << " at " << x << ", " << y;
+            }
+    }
+}
+
+/// A ball turns left and right round, as the reference finds through the mesh itself.
+TEST_F(GlassBehind, throughTheBackOfABallIsTurnedRound) {
+    scenes::Mesh ball;
+    scenes::builtin::appendSphere(ball, {}, 0.7, 96, 48);
+    const Scene scene = coveredByBody(rampWall(), bareGlass(1.5), ball);
+    const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+    const validation::ReferencePicture truth = validation::referencePicture(
+        scene, settings, [] {}, validation::Leeway::None);
+    const std::vector<float> plain = drawn(rampWall(), settings), shown = drawn(scene, settings);
+    double worst = 0.0;
+    int turned = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            // Where rays meet the wall within the picture.
+            const double across = metresOf(x), up = metresOf(y);
+            if (std::hypot(across, up) > 0.5) continue;
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(at(shown, x, y)[c] - at(truth.picture.rgba, x, y)[c]));
+            const bool isLeft = at(plain, x, y).r < 0.5, showsLeft = at(shown, x, y).r < 0.5;
+            turned += isLeft != showsLeft ? 1 : -1;
+        }
+    fmt::print("ball: worst error {:.4f} of a ramp from 0 to 1 over 4 m\n", worst);
+    EXPECT_LT(worst, 0.02);
+    EXPECT_GT(turned, 300);
+}
+
 /// Rays that bend once meet a wall, upright or leaning, where a plane and a line meet.
 TEST_F(GlassBehind, bentOnceShowsWhereTheRayMeetsTheWall) {
     constexpr double kIor = 1.5;
@@ -821,10 +880,12 @@ TEST_F(GlassBehind, thatIsRoughBlursWhatStandsThere) {
 
 /// Along rays bent once and moved aside, with levels and without, of one sample and of several.
 TEST_F(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
-    for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides}) {
+    for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides, Refraction::BackFaces}) {
         SCOPED_TRACE(infoOf(refraction).name);
         Scene scene = fewWithGlass();
         scene.materials[1].thicknessMetres = 0.4f;
+        scenes::builtin::appendSphere(scene.meshes.emplace_back(), {}, 1.0, 48, 24);
+        scene.nodes[1].instances[0].mesh = 1;
         frame::FrameSettings settings;
         settings.sizePixels = {96, 54};
         settings.refraction = refraction;
@@ -863,6 +924,9 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     EXPECT_FALSE(hasDefine(covered, "HAS_BLURRED_SCENE_BEHIND"));
     EXPECT_THAT(planOf(coveredByGlass(checkedWall(), bareGlass(1.5, 0.3))), HasSubstr("behind_glass_levels"));
     EXPECT_THAT(planOf(covered, Refraction::Environment), Not(HasSubstr("behind_glass")));
+    EXPECT_THAT(planOf(covered), Not(HasSubstr("far_sides")));
+    EXPECT_THAT(planOf(covered, Refraction::BackFaces), HasSubstr("far_sides"));
+    EXPECT_THAT(planOf(checkedWall(), Refraction::BackFaces), Not(HasSubstr("far_sides")));
 
     Scene onlyGlass = quadScene(bareGlass(1.5));
     for (const Scene& scene : {checkedWall(), coveredByGlass(checkedWall(), clearGlass()), onlyGlass}) {

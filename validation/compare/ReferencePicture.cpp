@@ -29,7 +29,11 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.environmentIntensity = double(settings.environment.intensity);
     result.environmentRotationDegrees = double(settings.environment.rotationDegrees);
     result.bodiesShowScene = infoOf(settings.refraction).showsScene;
-    result.bodiesHaveFarSide = infoOf(settings.refraction).hasFarSide;
+    using FarSide = frame::RefractionInfo::FarSide;
+    const FarSide farSide = infoOf(settings.refraction).farSide;
+    result.farSide = farSide == FarSide::Parallel    ? reference::FarSide::Parallel
+                     : farSide == FarSide::BackFaces ? reference::FarSide::BackFaces
+                                                     : reference::FarSide::None;
     result.specular = settings.specular;
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =

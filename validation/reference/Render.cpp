@@ -12,6 +12,7 @@
 #include "validation/reference/Diffusion.h"
 #include "validation/reference/HookAt.h"
 #include "validation/reference/LightAt.h"
+#include "validation/reference/NormalAt.h"
 #include "validation/reference/Occlusion.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/SeenLights.h"
@@ -358,7 +359,7 @@ private:
         const glm::dvec3 positionRWS = ray.at(hit.depthMetres);
         const glm::dvec3 toViewer = seen.throughBodyPaths > 0 ? hit.toViewer : rays_.toViewer(positionRWS);
         Lit lit{emitted(point, toViewer), point.opacity};
-        if (point.transmission > 0.0) addPassing(seen, surface, point, ray, hit.depthMetres, toViewer, lit);
+        if (point.transmission > 0.0) addPassing(seen, surface, point, ray, hit, toViewer, lit);
         if (surroundings_.lights()) {
             if (seen.surroundings.size() <= surface) seen.surroundings.resize(surface + 1);
             // The rounding that a nudge stands for changes this light less than its samples do.
@@ -395,8 +396,8 @@ private:
 
     /// What shows through: by a body what it bends rays to, where that is asked for or an environment lights, else what
     /// lies straight behind.
-    void addPassing(const Seen& seen, std::size_t surface, const SurfacePoint& point, const Ray& ray,
-                    double depthMetres, const glm::dvec3& toViewer, Lit& lit) const {
+    void addPassing(const Seen& seen, std::size_t surface, const SurfacePoint& point, const Ray& ray, const Hit& hit,
+                    const glm::dvec3& toViewer, Lit& lit) const {
         const glm::dvec3 share = transmitted(point, toViewer);
         const bool showsScene = settings_.bodiesShowScene && !objects_.opaque().empty();
         if (!point.hasBody || (!showsScene && !surroundings_.showsThroughBodies())) {
@@ -405,20 +406,29 @@ private:
         }
         if (seen.throughBodies.size() <= surface) seen.throughBodies.resize(surface + 1);
         std::optional<glm::dvec3>& light = seen.throughBodies[surface];
-        if (!light) light = throughBody(point, ray, depthMetres, toViewer, showsScene, seen.seed);
+        if (!light) light = throughBody(point, ray, hit, toViewer, showsScene, seen.seed);
         lit.radiance += share * *light;
     }
 
-    glm::dvec3 throughBody(const SurfacePoint& point, const Ray& ray, double depthMetres, const glm::dvec3& toViewer,
+    glm::dvec3 throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
                            bool showsScene, std::uint32_t seed) const {
+        const double depthMetres = entry.depthMetres;
         const auto along = [&](double ior) {
             const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
             if (!bent) return glm::dvec3(0.0);
             glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
-            if (settings_.bodiesHaveFarSide) {
+            if (settings_.farSide == FarSide::Parallel) {
                 // By the angle inside. The product holds its cosine to 1e-3.
                 originRWS += point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3) * *bent;
                 direction = -toViewer;
+            }
+            if (settings_.farSide == FarSide::BackFaces) {
+                const Ray inside = bentRay(ray, depthMetres, originRWS, *bent);
+                if (std::optional<Hit> leaving = visibility_.farSideAhead(inside, *entry.object)) {
+                    leaving->toViewer = glm::dvec3(0.0); // who sees its back
+                    originRWS = inside.at(leaving->depthMetres);
+                    direction = leavingDirection(*bent, normalAt(*leaving, textures_), ior);
+                }
             }
             if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
             return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
@@ -426,6 +436,17 @@ private:
         const glm::dvec3 iors = iorsOf(point);
         if (iors.r == iors.b) return along(iors.g);
         return {along(iors.r).r, along(iors.g).g, along(iors.b).b};
+    }
+
+    /// By angles to the normal; what is reflected there leaves unbent. An index of 0 is one without bound.
+    static glm::dvec3 leavingDirection(const glm::dvec3& bent, const glm::dvec3& normal, double ior) {
+        const glm::dvec3 outward = glm::dot(normal, bent) < 0.0 ? -normal : normal;
+        const double angle = std::acos(std::clamp(glm::dot(outward, bent), -1.0, 1.0)), sine = std::sin(angle);
+        const glm::dvec3 across = bent - std::cos(angle) * outward;
+        if (glm::length(across) < 1e-12) return bent;
+        if (ior == 0.0 || ior * sine > 1.0) return bent - 2.0 * std::cos(angle) * outward;
+        const double leaving = std::asin(ior * sine);
+        return std::cos(leaving) * outward + std::sin(leaving) * glm::normalize(across);
     }
 
     /// A ray that goes on elsewhere, with the footprint that the pixel's own has by then.

@@ -37,6 +37,10 @@ struct Noise {
 /// of a shader, and the reference runs none. In single precision, as a hook's numbers are, and without bounds.
 using RunHook = std::function<std::vector<scenes::HookedSurface>(std::span<const scenes::HookPoint> points)>;
 
+/// Where rays leave bodies of what transmits: nowhere, so that they bend once; at a plane along the near side, as thick
+/// as the body below it; or at the back faces of its mesh.
+enum class FarSide { None, Parallel, BackFaces };
+
 /// What is rendered of a scene.
 struct Settings {
     glm::ivec2 sizePixels{1280, 720};
@@ -51,9 +55,9 @@ struct Settings {
     bool environmentIsSeen = true;       ///< where nothing is drawn
     double environmentIntensity = 1.0, environmentRotationDegrees = 0.0; ///< besides the scene's own
     int environmentPaths = 1024;                                         ///< of each kind, from every surface
-    bool bodiesShowScene = false;   ///< bodies of what transmits show opaque surfaces too, where they bend rays to
-    bool bodiesHaveFarSide = false; ///< rays leave them there, along the near side, and bend back
-    int bodyPaths = 32;             ///< of the lobe of a rough one, to surfaces
+    bool bodiesShowScene = false;    ///< bodies of what transmits show opaque surfaces too, where they bend rays to
+    FarSide farSide = FarSide::None; ///< of those bodies, where rays leave them
+    int bodyPaths = 32;              ///< of the lobe of a rough one, to surfaces
     int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
     double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
     int shadowRings = 16;        ///< on the disk of a light with a size, four times as many rays each

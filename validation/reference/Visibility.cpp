@@ -27,12 +27,15 @@ struct Query : RTCIntersectContext {
     std::optional<Hit> nearest;
     std::vector<Hit>* all = nullptr; ///< where every hit is wanted, not the nearest
     bool masksHaveHoles = true;
+    const Object* backsOf = nullptr; ///< back faces of this one alone count
 };
 
 std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Query& query) {
     std::optional<Hit> hit = hitOf(object, triangle, *query.ray);
     if (!hit || hit->depthMetres < query.nearMetres || hit->depthMetres > query.farMetres) return {};
-    if (!hit->frontFacing && !object.material->doubleSided) return {};
+    if (query.backsOf != nullptr ? hit->frontFacing || &object != query.backsOf
+                                 : !hit->frontFacing && !object.material->doubleSided)
+        return {};
     if (query.masksHaveHoles && object.material->alphaMode == scenes::AlphaMode::Mask &&
         opacityAt(*hit, *query.textures) < double(object.material->alphaCutoff))
         return {};
@@ -115,6 +118,16 @@ std::optional<Hit> Visibility::nearestOpaqueAhead(const Ray& ray) const {
     query.nearMetres = 0.0;
     query.farMetres = std::numeric_limits<double>::infinity();
     trace(trees_->opaque.get(), trees_->objects, query);
+    return query.nearest;
+}
+
+std::optional<Hit> Visibility::farSideAhead(const Ray& ray, const Object& object) const {
+    if (!trees_->transparent) return {};
+    Query query = trees_->queryOf(ray, trees_->rays.farMetres());
+    query.nearMetres = 0.0;
+    query.farMetres = std::numeric_limits<double>::infinity();
+    query.backsOf = &object;
+    trace(trees_->transparent.get(), trees_->objects, query);
     return query.nearest;
 }
 

@@ -23,6 +23,9 @@ public:
     /// The same along any other ray, from its origin on, however near or far from the camera.
     std::optional<Hit> nearestOpaqueAhead(const Ray& ray) const;
 
+    /// Where a ray inside a body leaves the object: the nearest of its triangles ahead that show the ray their back.
+    std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const;
+
     /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; masks have no holes.
     std::vector<Hit> opaqueBefore(const Ray& ray, double depthMetres) const;
 

@@ -5,6 +5,7 @@
 #include "shared/refraction.h"
 #include "lib/surface/camera.glsl"
 
+#if HAS_SCENE_BEHIND
 layout(binding = TEXTURE_UNIT_BEHIND) uniform sampler2D behindPicture;
 #if HAS_BLURRED_SCENE_BEHIND
 layout(binding = TEXTURE_UNIT_BEHIND_LEVELS) uniform sampler2D behindLevels;
@@ -14,6 +15,14 @@ layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2DMS behindDepth;
 #else
 layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2D behindDepth;
 #endif
+#endif
+#if HAS_BACK_FACES
+layout(binding = TEXTURE_UNIT_FAR_SIDES) uniform sampler2D farSides; // xyz normal, w depth
+#endif
+
+// What rays are followed against.
+const int kOpaqueLayer = 0;
+const int kFarLayer = 1; // the back faces of bodies
 
 // How far a surface may lie before the ray at the place where the ray goes behind it: in pixels, and in steps of the
 // surface's own depth from that pixel to the next. Farther, and the ray passes behind its edge.
@@ -30,10 +39,17 @@ ivec2 pixelBehind(vec2 place)
 }
 
 // As stored, 0 where nothing is. Of several samples the first one stands for the pixel.
-float depthBehind(ivec2 pixel)
+float depthBehind(int layer, ivec2 pixel)
 {
     pixel = clamp(pixel, ivec2(0), ivec2(view.sizePixels.xy) - 1);
+#if HAS_BACK_FACES
+    if (layer == kFarLayer) return texelFetch(farSides, pixel, 0).w;
+#endif
+#if HAS_SCENE_BEHIND
     return texelFetch(behindDepth, pixel, 0).r;
+#else
+    return 0.0;
+#endif
 }
 
 // Metres ahead of the origin of lighting space.
@@ -45,9 +61,9 @@ float aheadOf(float depth)
 }
 
 // Whether a place on the screen, with its depth as z, lies behind what is drawn there.
-bool isBehind(vec3 place)
+bool isBehind(int layer, vec3 place)
 {
-    float depth = depthBehind(pixelBehind(place.xy));
+    float depth = depthBehind(layer, pixelBehind(place.xy));
     return depth > 0.0 && place.z < depth;
 }
 
@@ -96,16 +112,16 @@ ScreenRay screenRay(vec3 originLS, vec3 directionLS)
 }
 
 // Whether the surface of the pixel in which a ray is found behind it is met there, and not passed behind its edge.
-bool isMet(ScreenRay ray, vec3 before, vec3 after)
+bool isMet(int layer, ScreenRay ray, vec3 before, vec3 after)
 {
     ivec2 pixel = pixelBehind(after.xy);
     if (pixelBehind(before.xy) == pixel) return true; // it goes through the depth of one pixel
-    float depth = depthBehind(pixel), ahead = aheadOf(depth);
+    float depth = depthBehind(layer, pixel), ahead = aheadOf(depth);
     precise float gap = aheadOf(max(after.z, 0.0)) - ahead;
     bool isWide = abs(ray.way.x) >= abs(ray.way.y);
     ivec2 next = isWide ? ivec2(ray.way.x < 0.0 ? -1 : 1, 0) : ivec2(0, ray.way.y < 0.0 ? -1 : 1);
     // A surface that goes on leans the same way on both sides; a thing that is a pixel wide does not.
-    float nextDepth = depthBehind(pixel + next), lastDepth = depthBehind(pixel - next);
+    float nextDepth = depthBehind(layer, pixel + next), lastDepth = depthBehind(layer, pixel - next);
     bool goesOn = nextDepth > 0.0 && (nextDepth > depth) == (depth > lastDepth);
     precise float slope = goesOn ? abs(aheadOf(nextDepth) - ahead) : 0.0;
     vec2 spread = raySpread();
@@ -114,18 +130,18 @@ bool isMet(ScreenRay ray, vec3 before, vec3 after)
 }
 
 // The smaller of a pixel's steps in depth to its neighbours along an axis: that on its own surface.
-float depthStep(ivec2 pixel, ivec2 axis, float depth)
+float depthStep(int layer, ivec2 pixel, ivec2 axis, float depth)
 {
-    precise float forward = depthBehind(pixel + axis) - depth, back = depth - depthBehind(pixel - axis);
+    precise float forward = depthBehind(layer, pixel + axis) - depth, back = depth - depthBehind(layer, pixel - axis);
     return abs(forward) < abs(back) ? forward : back;
 }
 
 // Where a ray meets the plane of the surface that the pixel of `after` shows; `after` itself where that lies elsewhere.
-vec3 placeMet(ScreenRay ray, vec3 after)
+vec3 placeMet(int layer, ScreenRay ray, vec3 after)
 {
     ivec2 pixel = pixelBehind(after.xy);
-    float depth = depthBehind(pixel);
-    precise vec2 slope = vec2(depthStep(pixel, ivec2(1, 0), depth), depthStep(pixel, ivec2(0, 1), depth));
+    float depth = depthBehind(layer, pixel);
+    precise vec2 slope = vec2(depthStep(layer, pixel, ivec2(1, 0), depth), depthStep(layer, pixel, ivec2(0, 1), depth));
     vec2 middle = vec2(pixel) + 0.5;
     precise float above = after.z - (depth + dot(slope, after.xy - middle));
     precise float rate = ray.way.z - dot(slope, ray.way.xy);
@@ -136,6 +152,48 @@ vec3 placeMet(ScreenRay ray, vec3 after)
     return max(aside.x, aside.y) <= 1.0 && met.z > 0.0 ? met : after;
 }
 
+// Where a ray over the screen meets a surface of a layer, and the pixel that shows it.
+struct ScreenHit {
+    vec3 place;
+    ivec2 pixel;
+    bool isMet;
+};
+
+// `bodyDepth` is that of the near side of the body that the ray comes from.
+ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
+{
+    ScreenHit hit = ScreenHit(ray.begin, pixelBehind(ray.begin.xy), false);
+    if (!ray.isSeen) return hit;
+    bool wasBehind = isBehind(layer, ray.begin);
+    // A body that is thicker than the room before a surface ends there. What is nearer than its near side, it passes behind.
+    hit.isMet = layer == kOpaqueLayer && wasBehind && depthBehind(layer, hit.pixel) <= bodyDepth;
+    precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
+    int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
+    for (int i = 1; i <= steps && !hit.isMet; ++i) {
+        precise float after = float(i) / float(steps);
+        bool goesBehind = isBehind(layer, ray.begin + after * ray.way);
+        if (goesBehind && !wasBehind) {
+            precise float before = float(i - 1) / float(steps);
+            for (int k = 0; k < REFRACTION_HALVINGS; ++k) {
+                precise float middle = 0.5 * (before + after);
+                if (isBehind(layer, ray.begin + middle * ray.way))
+                    after = middle;
+                else
+                    before = middle;
+            }
+            precise vec3 lastBefore = ray.begin + before * ray.way, firstBehind = ray.begin + after * ray.way;
+            hit.isMet = isMet(layer, ray, lastBefore, firstBehind);
+            if (hit.isMet) {
+                hit.place = placeMet(layer, ray, firstBehind);
+                hit.pixel = pixelBehind(firstBehind.xy);
+            }
+        }
+        wasBehind = goesBehind;
+    }
+    return hit;
+}
+
+#if HAS_SCENE_BEHIND
 // The picture around a place, interpolated between texels that do not lie before both the place and the body, whose near
 // side has a depth of `bodyDepth`.
 vec4 sharpBehind(vec3 place, float bodyDepth)
@@ -152,7 +210,7 @@ vec4 sharpBehind(vec3 place, float bodyDepth)
         ivec2 offset = ivec2(i & 1, i >> 1);
         ivec2 pixel = clamp(low + offset, ivec2(0), ivec2(view.sizePixels.xy) - 1);
         precise float weight = (offset.x == 1 ? share.x : 1.0 - share.x) * (offset.y == 1 ? share.y : 1.0 - share.y);
-        if (weight == 0.0 || depthBehind(pixel) > nearest) continue;
+        if (weight == 0.0 || depthBehind(kOpaqueLayer, pixel) > nearest) continue;
         sum += weight * texelFetch(behindPicture, pixel, 0);
         weights += weight;
     }
@@ -206,35 +264,11 @@ vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 // meets none. `bodyDepth` is that of the body's near side. Light spreads around the ray by a GGX lobe of `alpha`.
 vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
 {
-    ScreenRay ray = screenRay(originLS, directionLS);
-    if (!ray.isSeen) return vec4(0.0);
-    bool wasBehind = isBehind(ray.begin);
-    // A body that is thicker than the room before a surface ends there. What is nearer than its near side, it passes behind.
-    bool meets = wasBehind && depthBehind(pixelBehind(ray.begin.xy)) <= bodyDepth;
-    vec3 place = ray.begin;
-    precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
-    int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
-    for (int i = 1; i <= steps && !meets; ++i) {
-        precise float after = float(i) / float(steps);
-        bool goesBehind = isBehind(ray.begin + after * ray.way);
-        if (goesBehind && !wasBehind) {
-            precise float before = float(i - 1) / float(steps);
-            for (int k = 0; k < REFRACTION_HALVINGS; ++k) {
-                precise float middle = 0.5 * (before + after);
-                if (isBehind(ray.begin + middle * ray.way))
-                    after = middle;
-                else
-                    before = middle;
-            }
-            precise vec3 lastBefore = ray.begin + before * ray.way, firstBehind = ray.begin + after * ray.way;
-            meets = isMet(ray, lastBefore, firstBehind);
-            if (meets) place = placeMet(ray, firstBehind);
-        }
-        wasBehind = goesBehind;
-    }
-    if (!meets) return vec4(0.0);
+    ScreenHit hit = screenHit(kOpaqueLayer, screenRay(originLS, directionLS), bodyDepth);
+    if (!hit.isMet) return vec4(0.0);
 #if HAS_BLURRED_SCENE_BEHIND
-    if (alpha > ALPHA_MIN) return blurredBehind(place, alpha, originLS);
+    if (alpha > ALPHA_MIN) return blurredBehind(hit.place, alpha, originLS);
 #endif
-    return sharpBehind(place, bodyDepth);
+    return sharpBehind(hit.place, bodyDepth);
 }
+#endif

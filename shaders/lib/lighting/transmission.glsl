@@ -2,7 +2,7 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
-#if HAS_VOLUME && HAS_SCENE_BEHIND
+#if HAS_VOLUME && (HAS_SCENE_BEHIND || HAS_BACK_FACES)
 #include "lib/lighting/scene_behind.glsl"
 #endif
 #if HAS_ENVIRONMENT && ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
@@ -87,16 +87,56 @@ struct BentRay {
     vec3 directionLS; // unit
 };
 
-// It leaves through a far side that lies along the near one, where it bends back: the ray of the viewer, moved aside.
-// Else it goes on as it was bent.
-BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent)
+#if HAS_BACK_FACES
+// The normal of a far side where a ray meets it, interpolated between pixels that show any.
+vec3 farSideNormal(ScreenHit hit)
 {
-#if HAS_FAR_SIDES
+    precise vec2 corner = hit.place.xy - 0.5;
+    ivec2 low = ivec2(floor(corner));
+    precise vec2 share = corner - vec2(low);
+    precise vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        vec4 side = texelFetch(farSides, clamp(low + offset, ivec2(0), ivec2(view.sizePixels.xy) - 1), 0);
+        precise float weight = (offset.x == 1 ? share.x : 1.0 - share.x) * (offset.y == 1 ? share.y : 1.0 - share.y);
+        if (side.w > 0.0) sum += weight * side.xyz;
+    }
+    return safeNormalize(sum, texelFetch(farSides, hit.pixel, 0).xyz);
+}
+
+// Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
+// then leaves unbent.
+vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
+{
+    precise float cosine = dot(outward, bent);
+    precise vec3 across = bent - cosine * outward;
+    precise float sine2 = ior * ior * dot(across, across);
+    precise vec3 reflected = bent - 2.0 * cosine * outward;
+    precise vec3 refracted = ior * across + sqrt(max(1.0 - sine2, 0.0)) * outward;
+    // An index of 0 is one without bound.
+    bool isReflected = !(sine2 <= 1.0) || (ior <= 0.0 && across != vec3(0.0));
+    return safeNormalize(isReflected ? reflected : refracted, bent);
+}
+#endif
+
+// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside;
+// or through the far side that is drawn where it meets any; else as it was bent.
+BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float ior)
+{
+#if HAS_PARALLEL_SIDES
     // Beyond the critical angle of an index below 1 rays run along the surface, without end.
     precise float cosine = max(abs(dot(bent, surface.normalLS)), 1e-3);
     precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
     return BentRay(farSide, -viewpoint.toViewerLS);
 #else
+#if HAS_BACK_FACES
+    ScreenHit hit = screenHit(kFarLayer, screenRay(viewpoint.positionLS, bent), viewpoint.depth);
+    if (hit.isMet) {
+        vec3 normal = farSideNormal(hit);
+        vec3 outward = dot(normal, bent) < 0.0 ? -normal : normal;
+        return BentRay(viewpointFromDepth(hit.place.xy, hit.place.z).positionLS, leavingDirection(bent, outward, ior));
+    }
+#endif
     return BentRay(viewpoint.positionLS, bent);
 #endif
 }
@@ -107,7 +147,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, float ior
 {
     vec3 bent = refractedDirection(surface.normalLS, viewpoint.toViewerLS, ior);
     if (bent == vec3(0.0)) return vec3(0.0);
-    BentRay ray = rayThroughBody(surface, viewpoint, bent);
+    BentRay ray = rayThroughBody(surface, viewpoint, bent, ior);
 #if HAS_SCENE_BEHIND
     vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, surface.passingAlpha);
     precise vec3 shown = kept * met.rgb;
