@@ -164,7 +164,8 @@ void Reference::expectAreaLitScenesAsNearAsShapes() {
         settings.shadows = {scenes::ShadowRequest::Kind::None};
         settings.environment.light = frame::EnvironmentLight::Sampled;
         settings.environment.samples = 256;
-        // What else glass shows depends on the picture (GlassSlow.theSceneGlassIsNearerToTheReferenceWithWhatStandsBehind).
+        // What else glass shows depends on the picture
+        // (GlassSlow.theSceneGlassIsNearerToTheReferenceWithWhatStandsBehind).
         settings.refraction = frame::Refraction::Environment;
         const validation::ComparePair pair = compared(scenes::loadScene(bars.scene, options), settings, false).front();
         const validation::ErrorFigures& figures = pair.figures;
