@@ -158,9 +158,9 @@ TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
         return differingShare(shot, Shot{shot.sizePixels, std::vector<std::uint8_t>(shot.rgb.size(), 0)});
     };
     EXPECT_EQ(litShare(belowTitle(difference)), 0.0) << "techniques are equal to the last bit, so nothing may be lit";
-    constexpr int kLinePixels = 30;
-    EXPECT_GT(litShare(difference.part({0, 0}, {size.x / 2, kLinePixels})), 0.05) << "nobody says what differs";
-    EXPECT_GT(litShare(difference.part({0, kLinePixels}, {size.x / 2, kLinePixels})), 0.05)
+    constexpr int kTextLinePixels = 30;
+    EXPECT_GT(litShare(difference.part({0, 0}, {size.x / 2, kTextLinePixels})), 0.05) << "nobody says what differs";
+    EXPECT_GT(litShare(difference.part({0, kTextLinePixels}, {size.x / 2, kTextLinePixels})), 0.05)
         << "nobody says why it is black";
     mark = viewer.mark();
     viewer.key("3"); // another view on one side

@@ -135,7 +135,8 @@ TEST(LightFigure, theRangeOfALightWithOneIsASphereOrASpotsCone) {
     // An eye that is inside sees a circle on the level of the light.
     scenes::Light around = askewLight(scenes::LightType::Point);
     around.rangeMetres = 100.0f;
-    for (const glm::dvec3& pointWS : lightFigure(around, twoViews()[0], 1.0).rangeWS.at(0)) EXPECT_EQ(pointWS.y, 0.0);
+    const LightFigure figure = lightFigure(around, twoViews()[0], 1.0);
+    for (const glm::dvec3& pointWS : figure.rangeWS.at(0)) EXPECT_EQ(pointWS.y, 0.0);
 }
 
 TEST(LightFigure, handlesOfASmallLightLieAroundItsMarker) {
