@@ -776,6 +776,35 @@ TEST_F(GlassBehind, throughTheBackOfABallIsTurnedRound) {
     EXPECT_GT(turned, 300);
 }
 
+/// A wedge that stands on the wall reflects all light in its back, where its own depth and the wall's are the same up
+/// to rounding: nothing of the wall shows, only the background that the reflected rays go to.
+TEST_F(GlassBehind, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
+    constexpr double kIor = 2.4, kTiltRadians = 1.05, kHalfMetres = 0.4, kEdgeMetres = 0.1;
+    scenes::Mesh wedge;
+    scenes::builtin::appendBox(wedge, {-kHalfMetres, -0.8, -kBehindWallMetres}, {kHalfMetres, 0.8, 0.0});
+    const auto aboveWall = [&](double x) { return kEdgeMetres + (kHalfMetres - x) * std::tan(kTiltRadians); };
+    for (std::size_t i = 0; i < wedge.positionsOS.size(); ++i) {
+        glm::vec3 &positionOS = wedge.positionsOS[i], &normalOS = wedge.normalsOS[i];
+        if (positionOS.z < 0.0f) continue;
+        positionOS.z = float(aboveWall(double(positionOS.x)) - kBehindWallMetres);
+        if (normalOS.z > 0.5f) normalOS = {float(std::sin(kTiltRadians)), 0.0f, float(std::cos(kTiltRadians))};
+    }
+    const std::vector<float> shown =
+        drawn(coveredByBody(rampWall(), bareGlass(kIor), wedge), seeing(Refraction::BackFaces));
+    const double inside = kTiltRadians - std::asin(std::sin(kTiltRadians) / kIor);
+    ASSERT_GT(std::sin(inside), 1.0 / kIor);
+    int reflected = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x), end = begin - aboveWall(begin) * std::tan(inside);
+            if (begin > kHalfMetres - kBehindPixelMetres || end < -kHalfMetres + kBehindPixelMetres) continue;
+            if (std::abs(metresOf(y)) > 0.7) continue;
+            ++reflected;
+            EXPECT_EQ(at(shown, x, y), glm::dvec3(0.125, 0.375, 0.625)) << "at " << x << ", " << y;
+        }
+    EXPECT_GT(reflected, kBehindPixels);
+}
+
 /// Rays that bend once meet a wall, upright or leaning, where a plane and a line meet.
 TEST_F(GlassBehind, bentOnceShowsWhereTheRayMeetsTheWall) {
     constexpr double kIor = 1.5;

@@ -165,10 +165,12 @@ ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
     ScreenHit hit = ScreenHit(ray.begin, pixelBehind(ray.begin.xy), false);
     if (!ray.isSeen) return hit;
     bool wasBehind = isBehind(layer, ray.begin);
-    // A body that is thicker than the room before a surface ends there. What is nearer than its near side, it passes behind.
-    hit.isMet = layer == kOpaqueLayer && wasBehind && depthBehind(layer, hit.pixel) <= bodyDepth;
     precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
     int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
+    // A body that is thicker than the room before a surface ends there, but a ray that leads out at once, reflected where the
+    // body stands on that surface, leaves it. What is nearer than the body's near side, a ray passes behind.
+    hit.isMet = layer == kOpaqueLayer && wasBehind && depthBehind(layer, hit.pixel) <= bodyDepth
+                && isBehind(layer, ray.begin + ray.way / float(steps));
     for (int i = 1; i <= steps && !hit.isMet; ++i) {
         precise float after = float(i) / float(steps);
         bool goesBehind = isBehind(layer, ray.begin + after * ray.way);
