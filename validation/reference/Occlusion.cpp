@@ -1,17 +1,14 @@
 #include "validation/reference/Occlusion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+#include <utility>
 
-#include "scenes/AreaLight.h"
 #include "scenes/Shadows.h"
+#include "validation/reference/Casters.h"
+#include "validation/reference/LightFace.h"
 #include "validation/reference/MaterialAt.h"
-#include "validation/reference/SeenArea.h"
-#include "validation/reference/Slots.h"
-#include "validation/reference/Trees.h"
 
 namespace tessera::reference {
 
@@ -30,24 +27,6 @@ double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
     const double cosine = glm::dot(surface.normal, toLight) / glm::length(toLight);
     return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
 }
-
-/// From a point to where the light is, or past all casters. Relative to the casters' centre.
-struct Segment {
-    glm::dvec3 from{0.0}, along{0.0};
-};
-
-/// The conditions for a candidate to count.
-struct ShadowQuery : RTCIntersectContext {
-    Segment segment;
-    glm::dvec3 centreRWS{0.0};
-    const Object* ownObject = nullptr; ///< of the surface that the segment begins on, with its triangle
-    std::uint32_t ownTriangle = 0;
-    const Textures* textures = nullptr;
-    const scenes::Material* passed = nullptr; ///< what has it hides nothing, and its crossings are kept
-    std::vector<double> crossings;            ///< shares of the segment; minus those where it goes in
-    bool isHidden = false;
-    bool isUndecided = false; ///< a mask may have another texel there
-};
 
 /// The triangle that a point of a surface lies on. It hides what lies on the other side of it than the viewer.
 struct OwnTriangle {
@@ -75,41 +54,6 @@ struct OwnTriangle {
     }
 };
 
-/// Where the segment crosses a triangle, between its ends; by the signed volumes of the tetrahedra over the triangle's
-/// edges.
-std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
-    const auto& [from, along] = query.segment;
-    glm::dvec3 corners[3];
-    for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - from;
-    const double volumes[3] = {glm::dot(along, glm::cross(corners[2], corners[1])),
-                               glm::dot(along, glm::cross(corners[0], corners[2])),
-                               glm::dot(along, glm::cross(corners[1], corners[0]))};
-    const bool isInside = (volumes[0] >= 0.0 && volumes[1] >= 0.0 && volumes[2] >= 0.0) ||
-                          (volumes[0] <= 0.0 && volumes[1] <= 0.0 && volumes[2] <= 0.0);
-    const double sum = volumes[0] + volumes[1] + volumes[2];
-    if (!isInside || sum == 0.0) return {};
-    Hit hit;
-    hit.object = &object;
-    hit.triangle = triangle;
-    for (int i = 0; i < 3; ++i) hit.weights[i] = volumes[i] / sum;
-    const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
-    const double share = glm::dot(place, along) / glm::dot(along, along);
-    if (!(share > 0.0 && share < 1.0)) return {};
-    return hit;
-}
-
-/// The share of the segment up to a crossing; minus that where it goes in, past the side from which the corners run
-/// counter-clockwise.
-double signedShare(const Object& object, std::uint32_t triangle, const Hit& hit, const ShadowQuery& query) {
-    glm::dvec3 corners[3];
-    for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - query.segment.from;
-    const glm::dvec3& along = query.segment.along;
-    const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
-    const double share = glm::dot(place, along) / glm::dot(along, along);
-    const glm::dvec3 front = object.handedness * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    return glm::dot(front, along) < 0.0 ? -share : share;
-}
-
 /// The share of a segment that lies inside. Triangles that meet in an edge are crossed once.
 double shareInside(std::vector<double> crossings) {
     std::ranges::sort(crossings, {}, [](double crossing) { return std::abs(crossing); });
@@ -118,226 +62,54 @@ double shareInside(std::vector<double> crossings) {
     return std::max(std::accumulate(crossings.begin(), crossings.end(), 0.0), 0.0);
 }
 
-void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
-    auto& query = *static_cast<ShadowQuery*>(arguments->context);
-    const auto& object = *static_cast<const Object*>(arguments->geometryUserPtr);
-    const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    arguments->valid[0] = 0; // it goes on until the answer is known
-    if (query.isHidden || (&object == query.ownObject && triangle == query.ownTriangle)) return;
-    const std::optional<Hit> hit = crossingOf(object, triangle, query);
-    if (!hit) return;
-    if (object.material->alphaMode == scenes::AlphaMode::Mask) {
-        if (reference::isUndecided(*hit, *query.textures)) query.isUndecided = true;
-        const double cutoff = double(object.material->alphaCutoff);
-        const double opacity = opacityAt(*hit, *query.textures);
-        // Three weights, two blends and a product, each rounded to 2^-24 of at most 1.
-        if (std::abs(opacity - cutoff) < 16.0 * 0x1p-24 * std::max(1.0, cutoff)) query.isUndecided = true;
-        if (opacity < cutoff) return;
-    }
-    if (object.material == query.passed) {
-        query.crossings.push_back(signedShare(object, triangle, *hit, query));
-        return;
-    }
-    query.isHidden = true;
-    arguments->valid[0] = -1;
+Occlusion::Answer decided(double share) {
+    return {share, share, share};
+}
+
+/// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not count,
+/// and `pointMetres` what rounding leaves open of the point.
+Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool isPlaced, const ShiningLight& light,
+                         const Hit* surface, const OwnTriangle* own, double pointMetres, bool leeway) {
+    const bool isBehind = own && own->hides(segment.along);
+    if (isBehind && !leeway) return decided(0.0);
+    const Casters::Met exact = casters.meet(segment, surface);
+    const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
+    if (!leeway) return decided(share);
+    const Occlusion::Answer undecided{share, 0.0, 1.0, true};
+    if (exact.isUndecided) return undecided;
+    // The ends move across the way, which decides edges, and along it, which decides contacts.
+    const auto& [from, along] = segment;
+    const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
+    // Where casters hide the light, the own triangle does not matter.
+    const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
+    if (isBehind && !isOwnUndecided) return decided(0.0);
+    if (isOwnUndecided && !exact.isHidden) return undecided;
+    const glm::dvec3 ahead = glm::normalize(along);
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+    const glm::dvec3 up = glm::cross(aside, ahead);
+    const auto differs = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
+        const Casters::Met other = casters.meet({from + pointStep, along + lightStep - pointStep}, surface);
+        return other.isHidden != exact.isHidden || other.isUndecided;
+    };
+    for (const glm::dvec3& way : {aside, -aside, up, -up})
+        if (differs(pointMetres * way, lightMetres * way)) return undecided;
+    if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
+        return undecided;
+    return decided(share);
+}
+
+/// Of a segment that begins on the surface, by channel.
+glm::dvec3 passageAlong(const Casters& casters, const Segment& segment, const Hit& hit, const SurfacePoint& surface) {
+    Casters::Met met = casters.meet(segment, &hit, hit.object->material);
+    if (met.isHidden) return glm::dvec3(0.0);
+    const double metres = shareInside(std::move(met.crossings)) * glm::length(segment.along);
+    return glm::exp(-metres * surface.absorptionPerMetre);
 }
 
 } // namespace
 
-/// What shadows see of a light with a size (scenes/Shadows.h), from its position.
-class ShadowFace {
-public:
-    /// `ahead` is the unit way to the light, `radius` that of a disk that faces the point.
-    ShadowFace(const scenes::Light& light, const glm::dvec3& ahead, double radius)
-        : type_(light.type), radius_(radius), reach_(radius), area_(std::numbers::pi * radius * radius) {
-        x_ = glm::normalize(
-            glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-        y_ = glm::cross(x_, ahead);
-        const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
-        if (!info.isArea || light.type == scenes::LightType::Sphere) return;
-        reach_ = scenes::surfaceReachMetres(light);
-        axis_ = light.directionWS;
-        if (light.type == scenes::LightType::Tube) {
-            radius_ = double(light.radiusMetres);
-            halfLength_ = 0.5 * double(light.lengthMetres);
-            return;
-        }
-        isFlat_ = true;
-        x_ = info.isTurned() ? light.alongWS
-                             : glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0)
-                                                                                        : glm::dvec3(0.0, 1.0, 0.0)));
-        y_ = glm::cross(axis_, x_);
-        sidesMetres_ = {light.widthMetres, light.heightMetres};
-        if (!info.hasCorners()) return;
-        triangles_ = trianglesWithin(light.corners);
-        // The sum of these, not scenes::signedArea(), by which the product finds what is judged here.
-        area_ = 0.0;
-        for (const Triangle& triangle : triangles_) {
-            const double area = areaOf(triangle);
-            area_ += area;
-            middle_ += area / 3.0 * inPlane(triangle[0] + triangle[1] + triangle[2]);
-        }
-        middle_ /= area_;
-    }
-
-    /// In a ring, or of what is not round a column, of so many of equal area, by the share of the way round or up and a
-    /// third number from 0 to 1: of the way along a tube, or across a column.
-    glm::dvec3 at(int ring, int rings, double turn, double third) const {
-        const double column = (ring + third) / rings;
-        if (!triangles_.empty()) return inPlane(inTriangles(column * area_, turn));
-        if (type_ == scenes::LightType::Rectangle) return inPlane((glm::dvec2(column, turn) - 0.5) * sidesMetres_);
-        const double angle = 2.0 * std::numbers::pi * turn, share = std::sqrt((ring + 0.5) / rings);
-        return inPlane(radius_ * share * glm::dvec2(std::cos(angle), std::sin(angle))) +
-               (2.0 * third - 1.0) * halfLength_ * axis_;
-    }
-
-    /// Of its area, from the light's position.
-    const glm::dvec3& middle() const { return middle_; }
-    double reachMetres() const { return reach_; }
-    /// The most of its area, as a share, that a strip of its plane of so many metres can hold that another plane with
-    /// this normal cuts out of space.
-    double shareOfCut(double metres, const glm::dvec3& normal) const {
-        if (halfLength_ > 0.0) return std::min(2.0 * metres / (std::numbers::pi * radius_), 1.0);
-        const double sine = isFlat_ ? glm::length(glm::cross(axis_, normal)) : 1.0;
-        return std::min(2.0 * reach_ * metres / (area_ * std::max(sine, 1e-12)), 1.0);
-    }
-
-private:
-    using Triangle = std::array<glm::dvec2, 3>;
-
-    static double areaOf(const Triangle& triangle) {
-        return 0.5 * std::abs(glm::determinant(glm::dmat2(triangle[1] - triangle[0], triangle[2] - triangle[0])));
-    }
-
-    glm::dvec3 inPlane(const glm::dvec2& place) const { return place.x * x_ + place.y * y_; }
-
-    /// Where so many square metres of the triangles end.
-    glm::dvec2 inTriangles(double squareMetres, double turn) const {
-        for (const Triangle& triangle : triangles_) {
-            const auto& [a, b, c] = triangle;
-            const double area = areaOf(triangle);
-            if (squareMetres < area) return a + std::sqrt(squareMetres / area) * (glm::mix(b, c, turn) - a);
-            squareMetres -= area;
-        }
-        return triangles_.back()[1];
-    }
-
-    scenes::LightType type_;
-    glm::dvec3 x_{0.0}, y_{0.0}, axis_{0.0}, middle_{0.0};
-    glm::dvec2 sidesMetres_{0.0};
-    double radius_, halfLength_ = 0.0;
-    double reach_, area_; ///< the largest that it shows
-    bool isFlat_ = false;
-    std::vector<Triangle> triangles_; ///< of a polygon
-};
-
-struct Occlusion::Casters {
-    Textures textures;           ///< a shadow has no size in pixels, so level 0 counts
-    Anchor anchor;               ///< Embree's origin: the digits are where the pixels look
-    double radiusMetres = 0.0;   ///< around it, all casters
-    double originMetres = 0.0;   ///< from it to the product's origin of casters, their corners' median on each axis
-    double roundingMetres = 0.0; ///< by how much rounding may move what is drawn, beyond that of its distance from both
-    Device device;
-    Tree tree; ///< null without casters
-
-    /// `own` is null where the segment begins above the surface.
-    ShadowQuery ask(const Segment& segment, const Hit* own, const scenes::Material* passed = nullptr) const {
-        ShadowQuery query{};
-        rtcInitIntersectContext(&query);
-        query.segment = segment;
-        query.centreRWS = anchor.centreRWS;
-        query.ownObject = own ? own->object : nullptr;
-        query.ownTriangle = own ? own->triangle : 0;
-        query.textures = &textures;
-        query.passed = passed;
-        RTCRay ray = rayFrom(glm::vec3(segment.from), glm::vec3(segment.along)).ray;
-        ray.tfar = 1.00001f; // the judge knows the end in double
-        rtcOccluded1(tree.get(), &query, &ray);
-        return query;
-    }
-
-    /// A program holds the point and the light to single precision relative to an origin of its own, and the casters to
-    /// another: twice eight roundings of both. It may call a triangle's plane the point's own within as much again.
-    double leewayMetres(const glm::dvec3& placeRWS) const {
-        const double common = kPositionRounding * (originMetres + anchor.otherOriginMetres) + roundingMetres;
-        const double reach = glm::length(placeRWS - anchor.centreRWS) + anchor.otherOriginMetres;
-        return 4.0 * (common + 2.0 * kPositionRounding * reach);
-    }
-
-    /// The same of the other end of a way to a light: its place, or (not placed) what the way there is turned by. A
-    /// direction is rounded as a position is.
-    double leewayMetres(bool isPlaced, const ShiningLight& light, double pointMetres, double wayMetres) const {
-        return isPlaced ? leewayMetres(light.positionRWS) : pointMetres + kPositionRounding * wayMetres;
-    }
-
-    static Answer decided(double share) { return {share, share, share}; }
-    /// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not
-    /// count, and `pointMetres` what rounding leaves open of the point.
-    Answer decide(const Segment& segment, bool isPlaced, const ShiningLight& light, const Hit* surface,
-                  const OwnTriangle* own, double pointMetres, bool leeway) const {
-        const bool isBehind = own && own->hides(segment.along);
-        if (isBehind && !leeway) return decided(0.0);
-        const ShadowQuery exact = ask(segment, surface);
-        const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
-        if (!leeway) return decided(share);
-        const Answer undecided{share, 0.0, 1.0, true};
-        if (exact.isUndecided) return undecided;
-        // The ends move across the way, which decides edges, and along it, which decides contacts.
-        const auto& [from, along] = segment;
-        const double lightMetres = leewayMetres(isPlaced, light, pointMetres, glm::length(along));
-        // Where casters hide the light, the own triangle does not matter.
-        const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
-        if (isBehind && !isOwnUndecided) return decided(0.0);
-        if (isOwnUndecided && !exact.isHidden) return undecided;
-        const glm::dvec3 ahead = glm::normalize(along);
-        const glm::dvec3 aside = glm::normalize(
-            glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-        const glm::dvec3 up = glm::cross(aside, ahead);
-        const auto differs = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
-            const ShadowQuery other = ask({from + pointStep, along + lightStep - pointStep}, surface);
-            return other.isHidden != exact.isHidden || other.isUndecided;
-        };
-        for (const glm::dvec3& way : {aside, -aside, up, -up})
-            if (differs(pointMetres * way, lightMetres * way)) return undecided;
-        if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
-            return undecided;
-        return decided(share);
-    }
-
-    /// Of a segment that begins on the surface, by channel.
-    glm::dvec3 passage(const Segment& segment, const Hit& hit, const SurfacePoint& surface) const {
-        ShadowQuery query = ask(segment, &hit, hit.object->material);
-        if (query.isHidden) return glm::dvec3(0.0);
-        const double metres = shareInside(std::move(query.crossings)) * glm::length(segment.along);
-        return glm::exp(-metres * surface.absorptionPerMetre);
-    }
-};
-
-Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects)
-    : casters_(new Casters{Textures(scene, Filtering::Exact), objects.anchor(), 0.0, 0.0, 0.0, makeDevice(), {}}) {
-    std::vector<const Object*> casting;
-    std::vector<double> places[3]; // of casters' corners from the anchor
-    for (const Object& object : objects.opaque()) {
-        if (!object.castsShadow) continue;
-        casting.push_back(&object);
-        for (std::uint32_t triangle = 0; triangle < object.mesh->indices.size() / 3; ++triangle)
-            for (int corner = 0; corner < 3; ++corner) {
-                const glm::dvec3 place = object.cornerRWS(triangle, corner) - casters_->anchor.centreRWS;
-                casters_->radiusMetres = std::max(casters_->radiusMetres, glm::length(place));
-                for (int axis = 0; axis < 3; ++axis) places[axis].push_back(place[axis]);
-            }
-    }
-    if (casting.empty()) return;
-    glm::dvec3 origin;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto middle = places[axis].begin() + std::ptrdiff_t(places[axis].size() / 2);
-        std::nth_element(places[axis].begin(), middle, places[axis].end());
-        origin[axis] = *middle;
-    }
-    casters_->originMetres = glm::length(origin);
-    casters_->roundingMetres = objects.roundingBeyondMetres(casters_->anchor.centreRWS + origin);
-    casters_->tree = makeTree(casters_->device.get(), casting, casters_->anchor.centreRWS, judgeCrossing);
-}
+Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects) : casters_(new Casters(scene, objects)) {}
 
 Occlusion::~Occlusion() = default;
 
@@ -345,7 +117,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
                                 const glm::dvec3& pointRWS, const glm::dvec3& toViewer,
                                 const Settings& settings) const {
     const Casters& casters = *casters_;
-    if (!light.castsShadow || !casters.tree) return {};
+    if (!light.castsShadow || casters.empty()) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
     const auto wayFrom = [&](const glm::dvec3& placeRWS) {
         return isPlaced ? light.positionRWS - placeRWS : -light.light.directionWS;
@@ -353,14 +125,14 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     if (wayFrom(pointRWS) == glm::dvec3(0.0)) return {};
     const double lift = liftMetres(surface, wayFrom(pointRWS));
     const glm::dvec3 fromRWS = pointRWS + lift * surface.normal;
-    const glm::dvec3 from = fromRWS - casters.anchor.centreRWS;
+    const glm::dvec3 from = fromRWS - casters.centreRWS();
     const glm::dvec3 toLight = wayFrom(fromRWS);
     const double distance = glm::length(toLight);
     if (distance == 0.0) return {};
     const double radius =
         isPlaced ? scenes::shadowRadiusMetres(light.light) : std::tan(double(light.light.angularRadiusRadians));
     // Past all casters, where the light has no place.
-    const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0;
+    const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0;
     const OwnTriangle ownTriangle(hit, toViewer);
     const bool wraps = surface.wrap != glm::dvec3(0.0);
     const OwnTriangle* const own = wraps ? nullptr : &ownTriangle;
@@ -368,12 +140,12 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     const double pointMetres =
         casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0);
     const Segment toCentre{from, toLight * reach};
-    if (radius == 0.0) return casters.decide(toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
+    if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // of every other ray
     // The outline of an area is cut at the surface already, so only what lies before the own triangle counts.
     const bool isCut = own && scenes::infoOf(light.light.type).isArea;
-    const ShadowFace face(light.light, toLight / distance, radius);
+    const LightFace face(light.light, toLight / distance, radius);
     double counted = 0.0; // the share of the face
     const auto trace = [&](int rings) {
         halves[0] = halves[1] = 0.0;
@@ -389,7 +161,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
                 if (isCut && own->hides(place)) continue;
                 ++rays;
                 halves[(ring + sector) % 2] +=
-                    casters.decide({from, place * reach}, isPlaced, light, start, own, pointMetres, false).share;
+                    decide(casters, {from, place * reach}, isPlaced, light, start, own, pointMetres, false).share;
             }
         }
         counted = double(rays) / double(rings * sectors);
@@ -416,7 +188,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     // lie far from its position, in which no ray ends.
     const Segment toMiddle{from, (toLight + face.middle()) * reach};
     if (settings.leeway && toMiddle.along != glm::dvec3(0.0) &&
-        casters.decide(toMiddle, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
+        decide(casters, toMiddle, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
@@ -436,14 +208,14 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
 Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
                                         const glm::dvec3& pointRWS, bool leeway) const {
     const Casters& casters = *casters_;
-    if (!light.castsShadow || !casters.tree) return {};
+    if (!light.castsShadow || casters.empty()) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
-    const glm::dvec3 from = pointRWS - casters.anchor.centreRWS;
+    const glm::dvec3 from = pointRWS - casters.centreRWS();
     const glm::dvec3 toLight = isPlaced ? light.positionRWS - pointRWS : -light.light.directionWS;
     if (toLight == glm::dvec3(0.0)) return {};
-    const glm::dvec3 along = toLight * (isPlaced ? 1.0 : 2.0 * (casters.radiusMetres + glm::length(from)) + 1.0);
+    const glm::dvec3 along = toLight * (isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0);
     Passage passage;
-    passage.share = passage.least = passage.most = casters.passage({from, along}, hit, surface);
+    passage.share = passage.least = passage.most = passageAlong(casters, {from, along}, hit, surface);
     if (!leeway) return passage;
     const double pointMetres = casters.leewayMetres(pointRWS);
     const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
@@ -452,7 +224,7 @@ Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hi
         glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
     const glm::dvec3 up = glm::cross(aside, ahead);
     const auto extend = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
-        const glm::dvec3 other = casters.passage({from + pointStep, along + lightStep - pointStep}, hit, surface);
+        const glm::dvec3 other = passageAlong(casters, {from + pointStep, along + lightStep - pointStep}, hit, surface);
         passage.least = glm::min(passage.least, other);
         passage.most = glm::max(passage.most, other);
     };

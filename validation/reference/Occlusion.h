@@ -9,11 +9,12 @@
 
 namespace tessera::reference {
 
-/// Whether casters (scenes/Shadows.h) hide lights from points. Embree finds the candidates in single precision; each is
-/// met again in double. May be used by several threads.
+class Casters;
+
+/// Whether casters (scenes/Shadows.h) hide lights from points. May be used by several threads.
 class Occlusion {
 public:
-    /// The objects must outlive it. Throws as makeTree().
+    /// The objects must outlive it. Throws as Casters.
     Occlusion(const scenes::Scene& scene, const Objects& objects);
     ~Occlusion();
 
@@ -41,8 +42,7 @@ public:
                       const glm::dvec3& pointRWS, bool leeway) const;
 
 private:
-    struct Casters;
-    std::unique_ptr<Casters> casters_;
+    std::unique_ptr<const Casters> casters_;
 };
 
 } // namespace tessera::reference
