@@ -6,41 +6,12 @@
 
 #include "scenes/Scene.h"
 #include "validation/reference/Diffusion.h"
+#include "validation/reference/Layers.h"
 #include "validation/reference/Settings.h"
 
 /// The reference renderer: the definition of a picture, in double precision on the CPU, by the formulas of the
 /// textbooks. It shares the plain scene with the product and nothing else.
 namespace tessera::reference {
-
-/// Which triangles a pixel shows.
-struct Ids {
-    std::uint32_t object = 0;      ///< 1 + the opaque surface's mesh instance in document order; 0 without one
-    std::uint32_t triangle = 0;    ///< of its mesh
-    std::uint32_t transparent = 0; ///< sum of transparentId() over the surfaces before it
-    bool operator==(const Ids&) const = default;
-};
-
-/// The same, and of which instances the transparent surfaces are.
-struct Layers {
-    struct Layer {
-        std::uint32_t object = 0; ///< as Ids::object
-        std::uint32_t id = 0;     ///< transparentId(), the surface's part of Ids::transparent
-    };
-    /// What else may be seen there.
-    struct Other {
-        Ids ids;
-        /// It lies where the opaque surface does, so that the order of drawing decides; else the hole of a mask, which
-        /// lies within what is left open of its texture.
-        bool isCoincident = false;
-    };
-    Ids ids;
-    std::vector<Layer> transparent; ///< in the order in which they are blended
-    std::vector<Other> others;
-};
-
-/// Below 2^16, so that sums of 256 of them are exact in single precision. Two sets of triangles have the same sum with
-/// probability 1/65,536.
-std::uint32_t transparentId(std::uint32_t objectNumber, std::uint32_t triangle);
 
 /// Radiance that a driver is free to show, channel by channel from `least` to `most`.
 struct Span {
@@ -82,8 +53,8 @@ public:
     Layers at(const glm::dvec2& placePixels) const;
 
 private:
-    struct Seen;
-    std::unique_ptr<Seen> seen_;
+    struct Look;
+    std::unique_ptr<const Look> look_;
 };
 
 } // namespace tessera::reference

@@ -81,4 +81,20 @@ bool isUndecided(const Hit& hit, const Textures& textures) {
     return false;
 }
 
+const std::vector<Nudge>& nudges() {
+    static const std::vector<Nudge> all = [] {
+        const glm::ivec2 corners[] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+        std::vector<Nudge> ends;
+        for (const int level : {-1, 0, 1}) {
+            for (const glm::ivec2& corner : corners) ends.push_back({corner, level, {}});
+        }
+        for (const int level : {-1, 0, 1}) {
+            for (const glm::ivec2& corner : corners) ends.push_back({{}, level, corner});
+        }
+        for (const int level : {-1, 1}) ends.push_back({{}, level, {}});
+        return ends;
+    }();
+    return all;
+}
+
 } // namespace tessera::reference

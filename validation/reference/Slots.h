@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "validation/reference/Hit.h"
 #include "validation/reference/Textures.h"
 
@@ -10,5 +12,8 @@ glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& tex
 /// Whether the hit's textures may be others within what is left open (see Leeway): by hardware always, by the exact
 /// definition where a `nearest` filter has two texels to choose from, or the coordinate two filters.
 bool isUndecided(const Hit& hit, const Textures& textures);
+
+/// The ends of every leeway: all surfaces of a pixel go the same way, as they share the ray.
+const std::vector<Nudge>& nudges();
 
 } // namespace tessera::reference

@@ -1,0 +1,247 @@
+#include "validation/reference/Shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/reference/AreaLights.h"
+#include "validation/reference/NormalAt.h"
+#include "validation/reference/Reflectance.h"
+
+namespace tessera::reference {
+
+namespace {
+
+/// Of Occlusion::Answer and Occlusion::Passage.
+auto shareOf(const auto& answer, Shading::Shadows shadows) {
+    return shadows == Shading::Shadows::Exact  ? answer.share
+           : shadows == Shading::Shadows::Most ? answer.least
+                                               : answer.most;
+}
+
+/// By angles to the normal; what is reflected there leaves unbent. An index of 0 is one without bound.
+glm::dvec3 leavingDirection(const glm::dvec3& bent, const glm::dvec3& normal, double ior) {
+    const glm::dvec3 outward = glm::dot(normal, bent) < 0.0 ? -normal : normal;
+    const double angle = std::acos(std::clamp(glm::dot(outward, bent), -1.0, 1.0)), sine = std::sin(angle);
+    const glm::dvec3 across = bent - std::cos(angle) * outward;
+    if (glm::length(across) < 1e-12) return bent;
+    if (ior == 0.0 || ior * sine > 1.0) return bent - 2.0 * std::cos(angle) * outward;
+    const double leaving = std::asin(ior * sine);
+    return std::cos(leaving) * outward + std::sin(leaving) * glm::normalize(across);
+}
+
+/// A ray that goes on elsewhere, with the footprint that the pixel's own has by then.
+Ray bentRay(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction) {
+    return {originRWS,
+            direction,
+            ray.originDx + depthMetres * ray.directionDx,
+            ray.originDy + depthMetres * ray.directionDy,
+            ray.directionDx,
+            ray.directionDy};
+}
+
+} // namespace
+
+bool Shown::hasUndecidedShadows() const {
+    const auto isOpen = [](const auto& answer) { return answer && answer->isUndecided; };
+    return std::ranges::any_of(memos, [&](const SurfaceMemo& memo) {
+        return std::ranges::any_of(memo.shadows, isOpen) || std::ranges::any_of(memo.passages, isOpen);
+    });
+}
+
+Shading::Shading(const scenes::Scene& scene, const Settings& settings, const Sight& sight)
+    : scene_(scene), settings_(settings), sight_(sight), lights_(sight.lights()), surroundings_(scene, settings),
+      occlusion_(scene, sight.objects()),
+      diffusion_(sight.objects(), sight.textures(), lights_, surroundings_, occlusion_, settings) {}
+
+Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) const {
+    const Seen& seen = shown.seen;
+    Lit all{surroundings_.isSeen() ? surroundings_.radianceOf(glm::normalize(shown.ray.direction))
+                                   : glm::dvec3(scene_.background)};
+    if (seen.light) all.radiance = seen.light->factor * lights_[seen.light->light].color;
+    if (seen.opaque) all = litSurface(shown, 0, nudge, shadows);
+    for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
+        const Lit own = litSurface(shown, 1 + i, nudge, shadows);
+        const glm::dvec3 before = 1.0 - own.opacity + own.opacity * own.passed;
+        all.radiance = own.opacity * own.radiance + before * all.radiance;
+        all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // at most
+        all.noise += own.noise.times(own.opacity);
+        all.areaLights = all.areaLights.times(before);
+        all.areaLights += own.areaLights.times(own.opacity);
+    }
+    return all;
+}
+
+SurfacePoint Shading::nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const {
+    hit.nudge = nudge;
+    const auto place = std::size_t(hit.object->material - scene_.materials.data());
+    if (hookPoints == nullptr || !scene_.hook->changes(place)) return surfaceAt(hit, sight_.textures());
+    return surfaceAt(hit, sight_.textures(), [&](SurfacePoint& point) { hookPoints->change(hit, point); });
+}
+
+/// One of the surfaces, numbered as in Shown::memos.
+Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge& nudge, Shadows shadows) const {
+    const Hit& hit = surface == 0 ? *shown.seen.opaque : shown.seen.transparent[surface - 1];
+    const SurfacePoint point = nudged(hit, nudge, shown.hookPoints);
+    if (shown.hookPoints != nullptr && !shown.hookPoints->areKnown()) return {glm::dvec3(0.0), point.opacity};
+    if (!scenes::infoOf(point.model).isLit) return {point.emission + point.color, point.opacity};
+    if (shown.memos.size() <= surface) shown.memos.resize(surface + 1);
+    SurfaceMemo& memo = shown.memos[surface];
+    const glm::dvec3 positionRWS = shown.ray.at(hit.depthMetres);
+    const bool isThroughBody = shown.throughBodyPaths > 0;
+    const glm::dvec3 toViewer = isThroughBody ? hit.toViewer : sight_.rays().toViewer(positionRWS);
+    Lit lit{emitted(point, toViewer), point.opacity};
+    if (point.transmission > 0.0) addPassing(shown, hit, point, toViewer, memo, lit);
+    if (surroundings_.lights()) {
+        // The rounding that a nudge stands for changes this light less than its samples do.
+        if (!memo.surroundings)
+            memo.surroundings = surroundings_.on(point, toViewer, settings_.specular, point.spreads, shown.seed,
+                                                 isThroughBody ? shown.throughBodyPaths : settings_.environmentPaths);
+        lit.radiance += memo.surroundings->light;
+    }
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+        const bool isArea = scenes::infoOf(lights_[light].light.type).isArea;
+        const Estimate found = isArea ? areaLightOn(light, nudge, isThroughBody, point, positionRWS, toViewer, memo)
+                                      : Estimate{lightOn(point, lights_[light], positionRWS, toViewer)};
+        const glm::dvec3& unhidden = found.light;
+        if (unhidden == glm::dvec3(0.0)) continue;
+        const Occlusion::Answer answer = shadowOf(light, hit, point, positionRWS, toViewer, memo);
+        const double share = shareOf(answer, shadows);
+        lit.radiance += share * unhidden;
+        lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
+        if (isArea) lit.areaLights += found.times(share);
+    }
+    if (point.spreads) {
+        if (!memo.spread) memo.spread = diffusion_.at(hit, positionRWS, shown.seed);
+        lit.radiance +=
+            memo.spread->light * leaving(point, toViewer, double(hit.object->material->subsurface.preScatterShare));
+    } else if (point.passes) {
+        lit.radiance += passedOnBy(hit, point, positionRWS, toViewer, shadows, memo);
+    }
+    return lit;
+}
+
+/// What shows through: by a body what it bends rays to, where that is asked for or an environment lights, else what
+/// lies straight behind.
+void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
+                         SurfaceMemo& memo, Lit& lit) const {
+    const glm::dvec3 share = transmitted(point, toViewer);
+    const bool showsScene = settings_.bodiesShowScene && !sight_.objects().opaque().empty();
+    if (!point.hasBody || (!showsScene && !surroundings_.showsThroughBodies())) {
+        lit.passed = share;
+        return;
+    }
+    if (!memo.throughBody) memo.throughBody = throughBody(point, shown.ray, hit, toViewer, showsScene, shown.seed);
+    lit.radiance += share * *memo.throughBody;
+}
+
+glm::dvec3 Shading::throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
+                                bool showsScene, std::uint32_t seed) const {
+    const double depthMetres = entry.depthMetres;
+    const auto along = [&](double ior) {
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
+        if (!bent) return glm::dvec3(0.0);
+        glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
+        if (settings_.farSide == FarSide::Parallel) {
+            // By the angle inside. The product holds its cosine to 1e-3.
+            originRWS += point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3) * *bent;
+            direction = -toViewer;
+        }
+        if (settings_.farSide == FarSide::BackFaces) {
+            const Ray inside = bentRay(ray, depthMetres, originRWS, *bent);
+            if (std::optional<Hit> leaving = sight_.farSideAhead(inside, *entry.object)) {
+                leaving->toViewer = glm::dvec3(0.0); // who sees its back
+                originRWS = inside.at(leaving->depthMetres);
+                direction = leavingDirection(*bent, normalAt(*leaving, sight_.textures()), ior);
+            }
+        }
+        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
+        return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
+    };
+    const glm::dvec3 iors = iorsOf(point);
+    if (iors.r == iors.b) return along(iors.g);
+    return {along(iors.r).r, along(iors.g).g, along(iors.b).b};
+}
+
+/// Opaque surfaces and lights around a direction, and what is seen between them: the environment that lights the
+/// scene, else the background.
+glm::dvec3 Shading::sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS,
+                                const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
+    const auto meetsAny = [&](const glm::dvec3& way) {
+        const Seen seen = sight_.ahead(bentRay(ray, depthMetres, originRWS, way));
+        return seen.opaque || seen.light;
+    };
+    const bool hasEnvironment = surroundings_.showsThroughBodies();
+    const glm::dvec3 surfaces =
+        Surroundings::meanAround(direction, alpha, seed, settings_.bodyPaths, [&](const glm::dvec3& way) {
+            const Ray bent = bentRay(ray, depthMetres, originRWS, way);
+            Shown shown{bent, sight_.ahead(bent), seed, nullptr, {}};
+            if (const auto& met = shown.seen.light) return met->factor * lights_[met->light].color;
+            if (!shown.seen.opaque) return hasEnvironment ? glm::dvec3(0.0) : glm::dvec3(scene_.background);
+            // A rough body shows many surfaces in a pixel.
+            shown.throughBodyPaths = alpha <= kSmallestAlpha
+                                         ? settings_.environmentPaths
+                                         : std::max(settings_.environmentPaths / settings_.bodyPaths, 16);
+            return litSurface(shown, 0, Nudge(), Shadows::Exact).radiance;
+        });
+    if (!hasEnvironment) return surfaces;
+    return surfaces + surroundings_.around(direction, alpha, seed, meetsAny);
+}
+
+/// What all lights below the horizon give.
+glm::dvec3 Shading::passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,
+                               const glm::dvec3& toViewer, Shadows shadows, SurfaceMemo& memo) const {
+    glm::dvec3 radiance(0.0);
+    for (std::size_t light = 0; light < lights_.size(); ++light) {
+        const Incident incident = incidentAt(lights_[light], positionRWS);
+        if (!lights_[light].castsShadow || incident.irradiance == glm::dvec3(0.0)) continue;
+        const glm::dvec3 whole = passedOn(point, incident.toLight, toViewer) * incident.irradiance;
+        if (whole == glm::dvec3(0.0)) continue;
+        auto& known = memo.passages;
+        known.resize(lights_.size());
+        if (!known[light])
+            known[light] = occlusion_.passageOf(lights_[light], hit, point, positionRWS, settings_.leeway);
+        radiance += whole * shareOf(*known[light], shadows);
+    }
+    return radiance;
+}
+
+Occlusion::Answer Shading::shadowOf(std::size_t light, const Hit& hit, const SurfacePoint& point,
+                                    const glm::dvec3& positionRWS, const glm::dvec3& toViewer,
+                                    SurfaceMemo& memo) const {
+    if (!lights_[light].castsShadow) return {};
+    auto& known = memo.shadows;
+    known.resize(lights_.size());
+    if (!known[light]) known[light] = occlusion_.of(lights_[light], hit, point, positionRWS, toViewer, settings_);
+    return *known[light];
+}
+
+/// What one light gives to a point that nothing hides from it: radiance towards the viewer. Of light that spreads
+/// only the highlight leaves where it is met.
+glm::dvec3 Shading::lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
+                            const glm::dvec3& toViewer) const {
+    const Incident incident = incidentAt(light, positionRWS);
+    if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
+    glm::dvec3 share = reflected(point, incident.toLight, toViewer, settings_.specular);
+    if (point.spreads) share -= reflected(point, incident.toLight, toViewer, false);
+    return share * incident.irradiance;
+}
+
+/// The same of an area light.
+Estimate Shading::areaLightOn(std::size_t light, const Nudge& nudge, bool isThroughBody, const SurfacePoint& point,
+                              const glm::dvec3& positionRWS, const glm::dvec3& toViewer, SurfaceMemo& memo) const {
+    // What other values of a texture change need not be known better.
+    constexpr double kNudgedTolerance = 1e-3;
+    const bool isNudged = !(nudge == Nudge());
+    Settings settings = settings_;
+    if (isNudged || isThroughBody) settings.areaTolerance = std::max(settings.areaTolerance, kNudgedTolerance);
+    const auto integral = [&] {
+        return reflectedOf(lights_[light], point, positionRWS, toViewer, settings_.specular, point.spreads, settings);
+    };
+    if (isNudged) return integral();
+    auto& known = memo.areaLights;
+    known.resize(lights_.size());
+    if (!known[light]) known[light] = integral();
+    return *known[light];
+}
+
+} // namespace tessera::reference

@@ -1,0 +1,80 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "validation/reference/Diffusion.h"
+#include "validation/reference/HookAt.h"
+#include "validation/reference/Sight.h"
+
+namespace tessera::reference {
+
+/// What was found of the light of a surface: nudges and shadows change less than it takes to find it again.
+struct SurfaceMemo {
+    std::vector<std::optional<Occlusion::Answer>> shadows; ///< by light
+    std::vector<std::optional<Occlusion::Passage>> passages;
+    std::vector<std::optional<Estimate>> areaLights; ///< nothing hidden
+    std::optional<Diffusion::Answer> spread;
+    std::optional<Estimate> surroundings;
+    std::optional<glm::dvec3> throughBody;
+};
+
+/// What a ray sees, with what was found of its light.
+struct Shown {
+    Ray ray;
+    Seen seen;
+    std::uint32_t seed = 0;           ///< of Diffusion and Surroundings
+    HookPoints* hookPoints = nullptr; ///< null where no hook changes surfaces
+    std::vector<SurfaceMemo> memos;   ///< by surface, the opaque one first; those that were lit
+    /// Of the environment, where it is seen along a ray that a body bent; 0: by the camera.
+    int throughBodyPaths = 0;
+
+    bool hasUndecidedShadows() const;
+};
+
+/// How what rays see is lit. May be used by several threads.
+class Shading {
+public:
+    /// All must outlive it. Throws as Occlusion and Diffusion.
+    Shading(const scenes::Scene& scene, const Settings& settings, const Sight& sight);
+
+    /// What is shown of shadows: the definition's, or where rounding decides all or none of them.
+    enum class Shadows { Exact, Most, Least };
+
+    struct Lit {
+        glm::dvec3 radiance{0.0};
+        double opacity = 1.0;
+        glm::dvec3 passed{0.0};   ///< what it shows, where it covers, of the radiance behind it, by channel
+        Noise noise = {};         ///< as Rendered::shadowNoise
+        Estimate areaLights = {}; ///< as Rendered::areaLights
+    };
+    Lit shade(Shown& shown, const Nudge& nudge = {}, Shadows shadows = Shadows::Exact) const;
+
+private:
+    Lit litSurface(Shown& shown, std::size_t surface, const Nudge& nudge, Shadows shadows) const;
+    SurfacePoint nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const;
+    void addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
+                    SurfaceMemo& memo, Lit& lit) const;
+    glm::dvec3 throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
+                           bool showsScene, std::uint32_t seed) const;
+    glm::dvec3 sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction,
+                           double alpha, std::uint32_t seed) const;
+    glm::dvec3 passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,
+                          const glm::dvec3& toViewer, Shadows shadows, SurfaceMemo& memo) const;
+    Occlusion::Answer shadowOf(std::size_t light, const Hit& hit, const SurfacePoint& point,
+                               const glm::dvec3& positionRWS, const glm::dvec3& toViewer, SurfaceMemo& memo) const;
+    glm::dvec3 lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
+                       const glm::dvec3& toViewer) const;
+    Estimate areaLightOn(std::size_t light, const Nudge& nudge, bool isThroughBody, const SurfacePoint& point,
+                         const glm::dvec3& positionRWS, const glm::dvec3& toViewer, SurfaceMemo& memo) const;
+
+    const scenes::Scene& scene_;
+    const Settings& settings_;
+    const Sight& sight_;
+    std::span<const ShiningLight> lights_;
+    Surroundings surroundings_;
+    Occlusion occlusion_;
+    Diffusion diffusion_;
+};
+
+} // namespace tessera::reference

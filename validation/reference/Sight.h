@@ -1,0 +1,65 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "validation/reference/Layers.h"
+#include "validation/reference/SeenLights.h"
+#include "validation/reference/Visibility.h"
+
+namespace tessera::reference {
+
+/// What a ray sees.
+struct Seen {
+    std::optional<Hit> opaque;            ///< nothing where a light hides it
+    std::optional<SeenLights::Met> light; ///< before everything opaque
+    std::vector<Hit> transparent;         ///< in the order in which they are blended
+};
+
+/// What the rays of a camera see of a scene: surfaces and lights, and what else rounding lets a program see. All
+/// functions may be called from several threads.
+class Sight {
+public:
+    /// The scene must outlive it. Throws as Visibility.
+    Sight(const scenes::Scene& scene, const Settings& settings);
+
+    const CameraRays& rays() const { return rays_; }
+    std::span<const ShiningLight> lights() const { return lights_; }
+    const Objects& objects() const { return objects_; }
+    const Textures& textures() const { return textures_; }
+
+    /// As if no light had a surface.
+    Seen surfacesOf(const Ray& ray) const;
+    /// The same surfaces, where lights do not hide them, and the light.
+    Seen withLight(const Ray& ray, const Seen& surfaces) const;
+    /// The opaque surface or light that any other ray meets from its origin on, however near or far from the camera.
+    Seen ahead(const Ray& ray) const;
+    /// Where a ray inside a body leaves the object.
+    std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const {
+        return visibility_.farSideAhead(ray, object);
+    }
+    /// Without lights.
+    Layers layersOf(const Ray& ray) const;
+
+    /// What else may be seen of lights at a pixel, where rounding decides: near an outline, or near another surface.
+    std::vector<Seen> otherLights(const glm::dvec2& placePixels, const Seen& surfaces, const Seen& own) const;
+    /// Others in the place of the opaque surface.
+    std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const;
+    /// Whether a surface's textures may be others.
+    bool isUndecided(const Seen& seen) const;
+
+private:
+    std::vector<Hit> candidates(const Ray& ray) const;
+    std::pair<double, double> opacitiesOf(Hit hit) const;
+    void addOthers(const Ray& ray, const std::optional<Hit>& nearest, Layers& found) const;
+
+    CameraRays rays_;
+    std::vector<ShiningLight> lights_;
+    SeenLights seenLights_;
+    Objects objects_;
+    Textures textures_;
+    Visibility visibility_;
+};
+
+} // namespace tessera::reference
