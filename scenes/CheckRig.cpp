@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
+#include "scenes/CheckElement.h"
 #include "scenes/Pose.h"
 
 namespace tessera::scenes {
@@ -50,16 +51,10 @@ public:
 
 private:
     void begin(std::string_view kind, std::size_t index, std::string_view name) {
-        kind_ = kind;
-        index_ = index;
-        name_ = name;
+        element_.emplace(scene_, kind, index, name);
     }
 
-    void require(bool holds, std::string_view problem) const {
-        if (holds) return;
-        const std::string quoted = name_.empty() ? std::string() : fmt::format(" '{}'", name_);
-        throw InputError(fmt::format("scene '{}': {} {}{}: {}", scene_.name, kind_, index_, quoted, problem));
-    }
+    void require(bool holds, std::string_view problem) const { element_->require(holds, problem); }
 
     void requireIndex(int index, std::size_t count, std::string_view kind) const {
         if (index >= 0 && std::size_t(index) < count) return;
@@ -190,9 +185,7 @@ private:
 
     const Scene& scene_;
     const Rig& rig_;
-    std::string_view kind_;
-    std::size_t index_ = 0;
-    std::string_view name_;
+    std::optional<CheckedElement> element_; ///< that is checked
 };
 
 } // namespace

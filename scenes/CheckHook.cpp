@@ -1,0 +1,64 @@
+#include "scenes/CheckHook.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "scenes/CheckElement.h"
+#include "scenes/Limits.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// All instances of a mesh share its vertices.
+void checkMovedMeshes(const Scene& scene, const auto& require) {
+    std::vector<std::optional<bool>> moves(scene.meshes.size());
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& instance : node.instances) {
+            if (instance.mesh == kNone || instance.material == kNone) continue;
+            std::optional<bool>& ofMesh = moves[std::size_t(instance.mesh)];
+            const bool changes = scene.hook->changes(std::size_t(instance.material));
+            require(ofMesh.value_or(changes) == changes,
+                    fmt::format("the mesh '{}' is drawn with a material that its hook changes and with one that it "
+                                "leaves alone, and its vertices cannot be in two places; give both to the hook",
+                                scene.meshes[std::size_t(instance.mesh)].name));
+            ofMesh = changes;
+        }
+}
+
+} // namespace
+
+void checkHook(const Scene& scene) {
+    if (!scene.hook) return;
+    const auto require = [&](bool holds, const std::string& problem) {
+        if (!holds) throw InputError(fmt::format("scene '{}': {}", scene.name, problem));
+    };
+    const Hook& hook = *scene.hook;
+    const auto isMaterial = [&](int i) { return i >= 0 && std::size_t(i) < scene.materials.size(); };
+    require(std::ranges::all_of(hook.materials, isMaterial), "its hook changes a material that is not there");
+    require(std::ranges::adjacent_find(hook.materials, std::greater_equal<>()) == hook.materials.end(),
+            "the materials that its hook changes must ascend");
+    require(hook.parameters.size() <= kMostHookParameters,
+            fmt::format("its hook has {} parameters, and at most {} can be given", hook.parameters.size(),
+                        kMostHookParameters));
+    require(between(hook.mayMoveMetres, 0.0, kFarthestMetres),
+            fmt::format("mayMoveMetres of its hook must lie between 0 and {:g}", kFarthestMetres));
+    if (hook.movesVertices) checkMovedMeshes(scene, require);
+    std::set<std::string_view> names;
+    for (const HookParameter& parameter : hook.parameters) {
+        require(isHookParameterName(parameter.name) && names.insert(parameter.name).second,
+                fmt::format("'{}' names no parameter of its hook; give letters and digits, each name once",
+                            parameter.name));
+        require(std::isfinite(parameter.least) && std::isfinite(parameter.most) &&
+                    between(double(parameter.value), double(parameter.least), double(parameter.most)),
+                fmt::format("the parameter '{}' of its hook is {:g}, and must lie between {:g} and {:g}",
+                            parameter.name, parameter.value, parameter.least, parameter.most));
+    }
+}
+
+} // namespace tessera::scenes
