@@ -10,6 +10,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
 #include "passes/DiffusionPasses.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
 

@@ -214,6 +214,8 @@ struct MaterialModelInfo {
     bool hasLayers =
         false; ///< emission, clearcoat, sheen, a film and transmission, which scene files and the viewer spell out
     bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
+
+    constexpr bool isMicrofacet() const { return microsurface == Microsurface::Dielectric; }
 };
 
 namespace detail {
@@ -276,8 +278,7 @@ constexpr const MaterialModelInfo& infoOf(MaterialModel model) {
 /// Whether a model has a masking-shadowing option. Models without the choice ignore it and take all.
 constexpr bool takesMasking(MaterialModel model, Masking masking) {
     const MaterialModelInfo& info = infoOf(model);
-    return masking != Masking::Directional || info.microsurface != Microsurface::Dielectric ||
-           info.anisotropy == Anisotropy::Alphas;
+    return masking != Masking::Directional || !info.isMicrofacet() || info.anisotropy == Anisotropy::Alphas;
 }
 
 /// The film's greatest thickness in nanometres, which its texture may give.

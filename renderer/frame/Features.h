@@ -4,12 +4,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "renderer/shader/Preprocess.h"
 #include "scenes/Scene.h"
 
-/// What a scene uses, derived once from the scene. The set decides shader defines, G-buffer channels and vertex
-/// streams; other features are left out, and the picture stays the same to the last bit.
+/// What a scene uses, derived once from the scene (MaterialFeatures.h). The set decides shader defines, G-buffer
+/// channels and vertex streams; other features are left out, and the picture stays the same to the last bit.
 namespace tessera::frame {
 
 enum class Feature : std::uint8_t {
@@ -78,7 +78,8 @@ struct FeatureInfo {
 };
 std::span<const FeatureInfo> featureTable();
 
-using shader::Defines;
+/// The name of a model, type or slot, as defines have it.
+std::string inCapitals(std::string_view name);
 
 struct FeatureSet {
     std::bitset<kFeatureCount> has;
@@ -116,34 +117,7 @@ private:
     bool any(bool (*isOne)(const scenes::LightTypeInfo&)) const;     ///< whether one of the set's light types is so
 };
 
-/// Whether its model has options of masking.
-bool canMask(const scenes::Material& material);
-
-/// Whether the material has a body that may spread the light on its way through, so that what is behind is blurred.
-bool mayBlurBehind(const scenes::Material& material);
-
-/// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
-/// of the camera.
-FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
-
-/// What of a material decides the light that enters it, as one that reflects alike to all sides: what
-/// takeEnteredValues() of shaders/passes/diffusion_light.frag leaves of its surface.
-scenes::Material enteredMaterial(const scenes::Material& material);
-
-/// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one
-/// that reflects it alike to all sides.
-FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh);
-
 /// Everything there is.
 FeatureSet allFeatures();
-
-/// What surfaces are built for: the first where what the scene does not need is left out, else the second.
-FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune, scenes::SubsurfaceRequest subsurface);
-
-/// The defines of shaders: HAS_* of every feature as 0 or 1, and of groups of features (litModels(), glossyModels() and
-/// so on); the number MODEL_<NAME> of each model, and MODEL_COUNT; SOLE_MODEL if the scene has one model only.
-/// LIT_MODELS lists the numbers of the scene's lit models, and macros classify a model: IS_UNLIT(model),
-/// IS_GLOSSY(model) and so on.
-Defines featureDefines(const FeatureSet& features);
 
 } // namespace tessera::frame

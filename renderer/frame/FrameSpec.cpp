@@ -7,6 +7,7 @@
 #include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRounds.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/RefineLayout.h"
 #include "renderer/frame/SeenLights.h"
 #include "renderer/frame/ShadowMaps.h"

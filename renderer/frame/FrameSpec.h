@@ -5,6 +5,7 @@
 
 #include "renderer/frame/Diffusion.h"
 #include "renderer/frame/EnvironmentMap.h"
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
 #include "renderer/frame/GBufferLayout.h"

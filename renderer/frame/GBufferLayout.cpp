@@ -166,7 +166,7 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
 constexpr std::size_t kKindCodes = [] {
     std::size_t codes = scenes::kMaterialModelCount;
     for (const scenes::MaterialModelInfo& model : scenes::materialModels())
-        if (model.microsurface == scenes::Microsurface::Dielectric) codes += std::size_t(scenes::Masking::Count) - 1;
+        if (model.isMicrofacet()) codes += std::size_t(scenes::Masking::Count) - 1;
     return codes;
 }();
 static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {

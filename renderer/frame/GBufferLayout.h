@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/culling/SurfacePictures.h"
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "renderer/graph/Format.h"
 

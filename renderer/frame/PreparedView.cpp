@@ -3,6 +3,7 @@
 #include <span>
 
 #include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/PackedMaterial.h"
 
 namespace tessera::frame {

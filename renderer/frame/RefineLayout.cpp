@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/frame/Features.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "scenes/InUse.h"
 
 namespace tessera::frame {

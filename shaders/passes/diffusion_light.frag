@@ -14,7 +14,7 @@ layout(location = 0) out vec4 entering;
 layout(location = 1) out vec4 unspread;
 
 // Makes a surface one that reflects what enters it to all sides alike, without layers. enteredMaterial() of
-// renderer/frame/Features.cpp says the same of its material, by which code that this leaves unused is left out.
+// renderer/frame/MaterialFeatures.cpp says the same of its material, by which code that this leaves unused is left out.
 void takeEnteredValues(inout Surface surface)
 {
     surface.model = MODEL_LAMBERT;

@@ -1,6 +1,6 @@
 #pragma once
 // What shaders and C++ share of the material models; their numbers come from the table scenes::materialModels() as
-// defines (renderer/frame/Features.h).
+// defines (renderer/frame/FeatureDefines.h).
 #include "interop.h"
 
 // How the microfacet models hide microfacets from each other; scenes::Masking has the same order.

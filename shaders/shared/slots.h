@@ -70,7 +70,7 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_FAR_SIDES 30
 
 // What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
-// (renderer/frame/Features.cpp).
+// (renderer/frame/FeatureDefines.cpp).
 #define TEXTURE_SLOT_COUNT 18
 
 // What reads stored surfaces and pictures.

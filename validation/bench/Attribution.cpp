@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/PrepareView.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/figures/ErrorFigures.h"

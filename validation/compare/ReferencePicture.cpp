@@ -9,6 +9,7 @@
 #include "engine/HookedSurfaces.h"
 #include "engine/PrepareView.h"
 #include "renderer/frame/EnvironmentMap.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "scenes/InUse.h"
 
 namespace tessera::validation {

@@ -9,6 +9,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/Rendering.h"
 #include "engine/Settings.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"

@@ -8,6 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/frame/MaterialFeatures.h"
 #include "renderer/gpu/Context.h"
 #include "scenes/AreaLight.h"
 #include "validation/culling/PixelPositions.h"

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/models.h"

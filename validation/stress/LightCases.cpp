@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/LightBuffer.h"
 #include "scenes/AreaLight.h"
 #include "validation/reference/LightAt.h"

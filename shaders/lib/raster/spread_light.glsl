@@ -44,7 +44,8 @@ vec4 spreadLightAt(vec2 texCoord, int cell, float border)
 }
 
 // Makes a surface one that holds the light which has spread as emission, and of metallic_roughness its own F0 as that of
-// a dielectric. addMaterial() of renderer/frame/Features.cpp says so of the scene, for G-buffers to store both.
+// a dielectric. addMaterial() of renderer/frame/MaterialFeatures.cpp says so of the scene, for G-buffers to store
+// both.
 void takeSpreadLight(Fragment fragment, inout Surface surface)
 {
     if (spreadingNumber == 0 || IS_UNLIT(surface.model)) return;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/GBufferLayout.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"

@@ -1,4 +1,5 @@
 #pragma once
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "shaders/shared/models.h"
 #include "tests/gpu/shaders/ShaderBench.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "scenes/Scene.h"
 #include "shaders/shared/light.h"

@@ -2,6 +2,7 @@
 // double.
 #include <gtest/gtest.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/LightBuffer.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 #include "tests/support/Random.h"

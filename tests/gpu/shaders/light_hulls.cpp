@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/light_volumes.h"

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include "renderer/frame/FeatureDefines.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "shaders/shared/material.h"
 #include "tests/unit/scenes/TinyScene.h"
 

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "renderer/frame/GBufferBounds.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {

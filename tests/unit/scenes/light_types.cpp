@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/write/ElementJson.h"

@@ -1,0 +1,28 @@
+#pragma once
+#include "renderer/frame/Features.h"
+
+/// Which features (Features.h) the materials of a scene have.
+namespace tessera::frame {
+
+/// Whether its model has options of masking.
+bool canMask(const scenes::Material& material);
+
+/// Whether the material has a body that may spread the light on its way through, so that what is behind is blurred.
+bool mayBlurBehind(const scenes::Material& material);
+
+/// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
+/// of the camera.
+FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});
+
+/// What of a material decides the light that enters it, as one that reflects alike to all sides: what
+/// takeEnteredValues() of shaders/passes/diffusion_light.frag leaves of its surface.
+scenes::Material enteredMaterial(const scenes::Material& material);
+
+/// What decides the light that enters a mesh with a material (Feature::SubsurfaceDiffusion), as the features of one
+/// that reflects it alike to all sides.
+FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh);
+
+/// What surfaces are built for: the first where what the scene does not need is left out, else the second.
+FeatureSet surfaceFeatures(const scenes::Scene& scene, bool prune, scenes::SubsurfaceRequest subsurface);
+
+} // namespace tessera::frame
