@@ -12,6 +12,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "validation/bench/ShadowKey.h"
 
 namespace tessera::app {

@@ -35,6 +35,9 @@ struct AnimationSampler {
     std::size_t valuesPerKey() const { return interpolation == Interpolation::CubicSpline ? 3 : 1; }
 };
 
+/// The value of a curve at a time, `width` numbers. A rotation is a unit quaternion.
+void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value);
+
 /// What a channel of a clip changes; animatedProperties() says what each of them is.
 enum class AnimatedProperty : std::uint8_t {
     Translation,
@@ -102,6 +105,12 @@ constexpr bool isOfMaterial(AnimatedOwner owner) {
 using AnimatedMember =
     std::variant<std::monostate, float Light::*, glm::vec3 Light::*, float Material::*, glm::vec3 Material::*,
                  glm::vec4 Material::*, float TextureTransform::*, glm::vec2 TextureTransform::*, double Camera::*>;
+
+/// The numbers of a member of its owner, the others 0.
+glm::dvec4 numberOf(const Light& light, const AnimatedMember& member);
+glm::dvec4 numberOf(const Material& material, const AnimatedMember& member);
+glm::dvec4 numberOf(const TextureTransform& transform, const AnimatedMember& member);
+glm::dvec4 numberOf(const Camera& camera, const AnimatedMember& member);
 
 struct AnimatedPropertyInfo {
     AnimatedProperty property;

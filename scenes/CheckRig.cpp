@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "scenes/CheckElement.h"
-#include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 
 namespace tessera::scenes {
 namespace {

@@ -17,6 +17,7 @@
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {

@@ -1,10 +1,9 @@
 #include "scenes/Pose.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -16,70 +15,6 @@
 
 namespace tessera::scenes {
 namespace {
-
-// ---- Curves --------------------------------------------------------------------------------------------------------
-
-void makeUnit(std::span<double> quaternion) {
-    double largest = 0.0;
-    for (const double number : quaternion) largest = std::max(largest, std::abs(number));
-    if (!(largest > 0.0)) {
-        std::ranges::fill(quaternion, 0.0);
-        quaternion.back() = 1.0; // a spline through zero has no direction there
-        return;
-    }
-    double square = 0.0;
-    for (double& number : quaternion) {
-        number /= largest;
-        square += number * number;
-    }
-    for (double& number : quaternion) number /= std::sqrt(square);
-}
-
-/// Value `which` of key `key` of a sampler.
-std::span<const float> stored(const AnimationSampler& sampler, std::size_t key, std::size_t which) {
-    const auto width = std::size_t(sampler.width);
-    return std::span(sampler.values).subspan((key * sampler.valuesPerKey() + which) * width, width);
-}
-
-/// The value at a key.
-void atKey(const AnimationSampler& sampler, bool isRotation, std::size_t key, std::span<double> value) {
-    std::ranges::copy(stored(sampler, key, sampler.interpolation == Interpolation::CubicSpline ? 1 : 0), value.begin());
-    if (isRotation) makeUnit(value);
-}
-
-/// Between unit quaternions the shortest way, at constant speed.
-void slerp(std::span<double> from, std::span<const double> to, double share) {
-    double dot = 0.0;
-    for (std::size_t i = 0; i < from.size(); ++i) dot += from[i] * to[i];
-    const double sign = dot < 0.0 ? -1.0 : 1.0;
-    // Of the angle the half by its tangent, which keeps its digits near 0 too.
-    double difference = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        difference += (sign * to[i] - from[i]) * (sign * to[i] - from[i]);
-        sum += (sign * to[i] + from[i]) * (sign * to[i] + from[i]);
-    }
-    const double angleRadians = 2.0 * std::atan2(std::sqrt(difference), std::sqrt(sum));
-    const double sine = std::sin(angleRadians);
-    double a = 1.0 - share, b = share;
-    if (sine > 1e-12) { // below, the arc is its chord
-        a = std::sin((1.0 - share) * angleRadians) / sine;
-        b = std::sin(share * angleRadians) / sine;
-    }
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] = a * from[i] + b * sign * to[i];
-    makeUnit(from);
-}
-
-/// Source: glTF 2.0 specification, appendix C.5.
-void spline(const AnimationSampler& sampler, std::size_t key, double share, double seconds, std::span<double> value) {
-    const std::array<double, 4> weights = splineWeights(share, seconds);
-    const std::span<const float> p0 = stored(sampler, key, 1), out = stored(sampler, key, 2);
-    const std::span<const float> in = stored(sampler, key + 1, 0), p1 = stored(sampler, key + 1, 1);
-    for (std::size_t i = 0; i < value.size(); ++i)
-        value[i] = weights[0] * double(p0[i]) + weights[1] * double(out[i]) + weights[2] * double(p1[i]) +
-                   weights[3] * double(in[i]);
-}
-
-// ---- Application ---------------------------------------------------------------------------------------------------
 
 /// Every node's transform into the space of the node that skinned meshes stand below, of those that are in one: there
 /// joints and meshes meet. Elsewhere into the world.
@@ -220,22 +155,6 @@ void partPlanes(Scene& scene, const Pose& pose) {
     }
 }
 
-glm::dvec4 numberOf(const auto& owner, const AnimatedMember& member) {
-    glm::dvec4 number(0.0);
-    std::visit(
-        [&](auto memberOfAny) {
-            if constexpr (requires { owner.*memberOfAny; }) {
-                const auto& value = owner.*memberOfAny;
-                if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
-                    number.x = value;
-                else
-                    for (glm::length_t i = 0; i < value.length(); ++i) number[i] = value[i];
-            }
-        },
-        member);
-    return number;
-}
-
 /// Calls `use` for each number at rest that a clip which plays changes, where what has it is still there.
 void forEachPlayed(const Rig& rig, const auto& use) {
     std::vector<bool> isPlayed(rig.numbers.size());
@@ -246,53 +165,7 @@ void forEachPlayed(const Rig& rig, const auto& use) {
         if (isPlayed[i] && rig.numbers[i].element != kNone) use(rig.numbers[i]);
 }
 
-/// Lets cameras stay as they are.
-void leaveCameras(Rig& rig) {
-    rig.cameras.clear();
-    for (RestNumber& rest : rig.numbers)
-        if (infoOf(rest.property).owner == AnimatedOwner::Camera) rest.element = kNone;
-}
-
-/// The links with every light given another number, or kNone where it has left.
-template <typename NumberAfter>
-LightLinks renumbered(LightLinks links, const NumberAfter& numberAfter) {
-    for (Carried& carried : links.carried) carried.element = numberAfter(carried.element);
-    std::erase_if(links.carried, [](const Carried& carried) { return carried.element == kNone; });
-    for (int& light : links.numbers)
-        if (light != kNone) light = numberAfter(light);
-    return links;
-}
-
 } // namespace
-
-double lengthSeconds(const Clip& clip) {
-    double seconds = 0.0;
-    for (const AnimationSampler& sampler : clip.samplers)
-        seconds = std::max(seconds, double(sampler.timesSeconds.back()));
-    return seconds;
-}
-
-void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value) {
-    assert(std::isfinite(timeSeconds) && value.size() == std::size_t(sampler.width));
-    const std::vector<float>& times = sampler.timesSeconds;
-    const auto next = std::ranges::upper_bound(times, timeSeconds, {}, [](float time) { return double(time); });
-    if (next == times.begin()) return atKey(sampler, isRotation, 0, value);
-    const auto key = std::size_t(next - times.begin()) - 1;
-    if (next == times.end() || sampler.interpolation == Interpolation::Step)
-        return atKey(sampler, isRotation, key, value);
-    const double seconds = double(times[key + 1]) - double(times[key]);
-    const double share = (timeSeconds - double(times[key])) / seconds;
-    if (sampler.interpolation == Interpolation::CubicSpline) {
-        spline(sampler, key, share, seconds, value);
-        if (isRotation) makeUnit(value);
-        return;
-    }
-    std::vector<double> to(value.size());
-    atKey(sampler, isRotation, key, value);
-    atKey(sampler, isRotation, key + 1, to);
-    if (isRotation) return slerp(value, to, share);
-    for (std::size_t i = 0; i < value.size(); ++i) value[i] = (1.0 - share) * value[i] + share * to[i];
-}
 
 Pose poseAt(const Rig& rig, double timeSeconds) {
     Pose pose;
@@ -435,47 +308,6 @@ std::string clipText(const Scene& scene) {
     return text;
 }
 
-LightLinks lightLinks(const Rig& rig) {
-    LightLinks links{rig.lights, {}};
-    for (const RestNumber& rest : rig.numbers)
-        links.numbers.push_back(infoOf(rest.property).owner == AnimatedOwner::Light ? rest.element : kNone);
-    return links;
-}
-
-void setLightLinks(Rig& rig, const LightLinks& links) {
-    assert(links.numbers.size() == rig.numbers.size());
-    rig.lights = links.carried;
-    for (std::size_t i = 0; i < rig.numbers.size(); ++i)
-        if (infoOf(rig.numbers[i].property).owner == AnimatedOwner::Light) rig.numbers[i].element = links.numbers[i];
-}
-
-LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after) {
-    LightLinks links = lightLinks(rig);
-    if (before.positionWS != after.positionWS || before.directionWS != after.directionWS)
-        std::erase_if(links.carried, [&](const Carried& carried) { return std::size_t(carried.element) == light; });
-    for (std::size_t i = 0; i < rig.numbers.size(); ++i) {
-        if (links.numbers[i] != int(light)) continue;
-        const AnimatedMember& member = infoOf(rig.numbers[i].property).member;
-        if (numberOf(before, member) != numberOf(after, member)) links.numbers[i] = kNone;
-    }
-    return links;
-}
-
-LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put) {
-    return renumbered(lightLinks(rig), [&](int light) {
-        if (light >= int(first + taken)) return light + int(put) - int(taken);
-        return light >= int(first) ? kNone : light;
-    });
-}
-
-LightLinks linksAfterDeleting(const Rig& rig, std::span<const std::size_t> deleted) {
-    return renumbered(lightLinks(rig), [&](int light) {
-        const auto place = std::ranges::lower_bound(deleted, std::size_t(light));
-        if (place != deleted.end() && *place == std::size_t(light)) return kNone;
-        return light - int(place - deleted.begin());
-    });
-}
-
 void restLights(Scene& scene) {
     for (const RestNumber& rest : scene.rig.numbers) {
         if (infoOf(rest.property).owner == AnimatedOwner::Light && rest.element != kNone)
@@ -496,39 +328,6 @@ bool movesCamera(const Scene& scene, int camera) {
             if (moves[std::size_t(node)]) return true;
         return false;
     });
-}
-
-void keepLights(Scene& scene, std::size_t count) {
-    if (count >= scene.lights.size()) return;
-    setLightLinks(scene.rig, linksAfterReplacing(scene.rig, count, scene.lights.size() - count, 0));
-    scene.lights.resize(count);
-}
-
-void leaveLightsAndCameras(Scene& scene) {
-    setLightLinks(scene.rig, linksAfterReplacing(scene.rig, 0, scene.lights.size(), 0));
-    leaveCameras(scene.rig);
-}
-
-void dropCameras(Scene& scene) {
-    scene.cameras.clear();
-    leaveCameras(scene.rig);
-}
-
-void ownCamera(Scene& scene, std::size_t camera, const Camera& before) {
-    Rig& rig = scene.rig;
-    const Camera& now = scene.cameras[camera];
-    if (now.worldFromCamera != before.worldFromCamera)
-        std::erase_if(rig.cameras, [&](const Carried& carried) { return std::size_t(carried.element) == camera; });
-    for (RestNumber& rest : rig.numbers) {
-        const AnimatedPropertyInfo& info = infoOf(rest.property);
-        const bool isOfIt = info.owner == AnimatedOwner::Camera && rest.element == int(camera);
-        if (isOfIt && numberOf(now, info.member) != numberOf(before, info.member)) rest.element = kNone;
-    }
-}
-
-std::size_t elementCount(const Scene& scene, AnimatedOwner owner) {
-    if (owner == AnimatedOwner::Light) return scene.lights.size();
-    return owner == AnimatedOwner::Camera ? scene.cameras.size() : scene.materials.size();
 }
 
 } // namespace tessera::scenes

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +18,6 @@ struct Pose {
     /// By Rig::numbers; none where no clip that plays changes the number.
     std::vector<std::optional<glm::dvec4>> numbers;
 };
-
-/// The value of a curve at a time, `width` numbers. A rotation is a unit quaternion.
-void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value);
 
 /// What the clips that play say of a finite time; what they do not change is as it is by itself.
 Pose poseAt(const Rig& rig, double timeSeconds);
@@ -55,37 +51,10 @@ void playClip(Scene& scene, const std::string& nameOrNumber);
 /// "clip 0 'Walk' of 3, 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
 std::string clipText(const Scene& scene);
 
-/// Takes away lights from number `count` on, and what the rig knows of them.
-void keepLights(Scene& scene, std::size_t count);
-/// Takes away all cameras, and what the rig knows of them.
-void dropCameras(Scene& scene);
-/// Lets clips leave alone what of a camera is not as it was `before`: its place, or a number.
-void ownCamera(Scene& scene, std::size_t camera, const Camera& before);
-/// How many of those there are in a scene that RestNumber::element counts in.
-std::size_t elementCount(const Scene& scene, AnimatedOwner owner);
-
-/// Which lights clips change and nodes carry.
-struct LightLinks {
-    std::vector<Carried> carried; ///< Rig::lights
-    std::vector<int> numbers;     ///< by Rig::numbers: the light, else kNone
-};
-LightLinks lightLinks(const Rig& rig);
-void setLightLinks(Rig& rig, const LightLinks& links);
-/// What is left of the links when a light is edited: who gives it another place, direction or number, owns that.
-LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after);
-/// The same when `put` lights have come in the place of `taken` ones from `first` on, which all are without links.
-LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put);
-
-/// The same when lights were deleted; indices from the least on.
-LightLinks linksAfterDeleting(const Rig& rig, std::span<const std::size_t> deleted);
-
 /// Puts all numbers of lights that clips may change to rest.
 void restLights(Scene& scene);
 
 /// Whether a clip that plays moves a camera.
 bool movesCamera(const Scene& scene, int camera);
-
-/// Lets lights and cameras stay as they are whatever clips play, as those of a scene file do.
-void leaveLightsAndCameras(Scene& scene);
 
 } // namespace tessera::scenes

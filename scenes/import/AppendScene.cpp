@@ -11,7 +11,7 @@
 #include "base/Error.h"
 #include "scenes/AreaLight.h"
 #include "scenes/Direction.h"
-#include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "scenes/Transform.h"
 
 namespace tessera::scenes {

@@ -7,7 +7,7 @@
 #include "base/Extension.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
-#include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "scenes/import/AppendScene.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/Importers.h"

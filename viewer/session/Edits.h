@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/frame/EnvironmentFilter.h"
-#include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "viewer/edit/LightList.h"
 #include "viewer/session/CameraRig.h"
 

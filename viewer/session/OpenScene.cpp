@@ -11,6 +11,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Framing.h"
 #include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {

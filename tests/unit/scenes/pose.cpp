@@ -10,6 +10,7 @@
 
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
+#include "scenes/RigLinks.h"
 #include "scenes/import/AppendScene.h"
 #include "tests/unit/scenes/RiggedScene.h"
 

@@ -11,6 +11,7 @@
 
 #include "scenes/Load.h"
 #include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
 #include "scenes/write/SceneText.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
