@@ -9,17 +9,15 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "renderer/frame/HookConstants.h"
-#include "renderer/gpu/Buffer.h"
-#include "renderer/gpu/Commands.h"
+#include "engine/HookProgram.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::engine {
 
 namespace {
 
-/// Of shaders/passes/hook_vertices.comp: local_size_x, and floats a vertex.
-constexpr std::size_t kGroupVertices = 64, kRestFloats = 8, kMovedFloats = 6;
+/// Of shaders/passes/hook_vertices.comp: floats a vertex.
+constexpr std::size_t kRestFloats = 8, kMovedFloats = 6;
 /// At once: 32 MiB, a quarter of what OpenGL guarantees a storage block.
 constexpr std::size_t kMostAtOnce = std::size_t(1) << 20;
 
@@ -34,17 +32,6 @@ std::vector<float> restOf(const scenes::Mesh& mesh, std::size_t first, std::size
         rest.insert(rest.end(), {position.x, position.y, position.z, normal.x, normal.y, normal.z, uv.x, uv.y});
     }
     return rest;
-}
-
-std::vector<float> movedOf(const std::vector<float>& rest) {
-    const std::size_t count = rest.size() / kRestFloats;
-    const gpu::Buffer from = gpu::Buffer::of("hook rest", rest);
-    const gpu::Buffer to("hook moved", count * kMovedFloats * sizeof(float), gpu::BufferUse::Readback);
-    gpu::bindStorageBuffer(STORAGE_HOOK_REST, from);
-    gpu::bindStorageBuffer(STORAGE_HOOK_MOVED, to);
-    gpu::dispatch(std::uint32_t((count + kGroupVertices - 1) / kGroupVertices));
-    gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
-    return to.downloadAs<float>(count * kMovedFloats);
 }
 
 struct MovedVertices {
@@ -63,14 +50,16 @@ void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<g
 /// What is farther from its place counts as nowhere: no scene reaches there.
 constexpr double kFarthestMarkedMetres = 1e6;
 
-/// With the program in use.
-MovedVertices movedVertices(const scenes::Hook& hook, const scenes::Mesh& mesh, double timeSeconds, Excess excess) {
+MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, const scenes::Mesh& mesh,
+                            double timeSeconds, Excess excess) {
     MovedVertices result;
     result.colors = mesh.colors;
     const std::size_t vertices = mesh.positionsOS.size();
     for (std::size_t first = 0; first < vertices; first += kMostAtOnce) {
         const std::size_t count = std::min(kMostAtOnce, vertices - first);
-        const std::vector<float> moved = movedOf(restOf(mesh, first, count));
+        const std::vector<float> moved =
+            moving.run(STORAGE_HOOK_REST, gpu::Buffer::of("hook rest", restOf(mesh, first, count)), STORAGE_HOOK_MOVED,
+                       count, kMovedFloats);
         for (std::size_t i = 0; i < count; ++i) {
             const float* const own = moved.data() + kMovedFloats * i;
             glm::vec3 position(own[0], own[1], own[2]);
@@ -112,22 +101,12 @@ HookedScene::HookedScene(const scenes::Scene& scene) : scene_(scene), moved_(sce
     meshes_.assign(meshes.begin(), meshes.end());
 }
 
-shader::ProgramDesc HookedScene::program(const scenes::Hook& hook) {
-    shader::ProgramDesc desc;
-    desc.name = "hook_vertices";
-    desc.compute = "passes/hook_vertices.comp";
-    desc.defines = frame::hookDefines(frame::hookShape(hook));
-    desc.defines.emplace_back("DEPTH_ONLY", "0");
-    return desc;
-}
-
 HookedScene::Changed HookedScene::update(double timeSeconds, Excess excess, shader::ProgramLibrary& programs) {
     const scenes::Hook& hook = scene_.hook.value();
-    gpu::useProgram(programs.get(program(hook)));
-    const gpu::Buffer constants = gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)});
-    gpu::bindUniformBuffer(UNIFORM_HOOK, constants);
+    const HookRun moving(kHookVertices, hook, timeSeconds, programs);
     std::vector<MovedVertices> all;
-    for (const std::size_t mesh : meshes_) all.push_back(movedVertices(hook, scene_.meshes[mesh], timeSeconds, excess));
+    for (const std::size_t mesh : meshes_)
+        all.push_back(movedVertices(moving, hook, scene_.meshes[mesh], timeSeconds, excess));
 
     Changed changed;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {

@@ -20,9 +20,6 @@ public:
     /// The scene must outlive the object. Nothing is moved yet.
     explicit HookedScene(const scenes::Scene& scene);
 
-    /// What a hook moves vertices with.
-    static shader::ProgramDesc program(const scenes::Hook& hook);
-
     /// The scene with moved vertices; its hook no longer says that it moves any once update() has.
     const scenes::Scene& scene() const { return moved_; }
 

@@ -4,16 +4,14 @@
 #include <bit>
 #include <cstdint>
 
-#include "renderer/frame/HookConstants.h"
-#include "renderer/gpu/Buffer.h"
-#include "renderer/gpu/Commands.h"
+#include "engine/HookProgram.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::engine {
 namespace {
 
-/// Of shaders/passes/hook_surfaces.comp: local_size_x, and numbers a point.
-constexpr std::size_t kGroupPoints = 64, kGivenNumbers = 14, kTakenNumbers = 8;
+/// Of shaders/passes/hook_surfaces.comp: numbers a point.
+constexpr std::size_t kGivenNumbers = 14, kTakenNumbers = 8;
 /// At once: 56 MiB, less than the 128 that OpenGL guarantees a storage block.
 constexpr std::size_t kMostPointsAtOnce = std::size_t(1) << 20;
 
@@ -33,15 +31,10 @@ std::vector<std::uint32_t> givenOf(std::span<const scenes::HookPoint> points) {
     return given;
 }
 
-/// With the program in use.
-void addTaken(std::span<const scenes::HookPoint> points, std::vector<scenes::HookedSurface>& surfaces) {
-    const gpu::Buffer from = gpu::Buffer::of("hook points", givenOf(points));
-    const gpu::Buffer to("hook surfaces", points.size() * kTakenNumbers * sizeof(float), gpu::BufferUse::Readback);
-    gpu::bindStorageBuffer(STORAGE_HOOK_POINTS, from);
-    gpu::bindStorageBuffer(STORAGE_HOOK_SURFACES, to);
-    gpu::dispatch(std::uint32_t((points.size() + kGroupPoints - 1) / kGroupPoints));
-    gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
-    const std::vector<float> taken = to.downloadAs<float>(points.size() * kTakenNumbers);
+void addTaken(const HookRun& hook, std::span<const scenes::HookPoint> points,
+              std::vector<scenes::HookedSurface>& surfaces) {
+    const std::vector<float> taken = hook.run(STORAGE_HOOK_POINTS, gpu::Buffer::of("hook points", givenOf(points)),
+                                              STORAGE_HOOK_SURFACES, points.size(), kTakenNumbers);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const float* const own = taken.data() + kTakenNumbers * i;
         surfaces.push_back({{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6], own[7]});
@@ -50,25 +43,14 @@ void addTaken(std::span<const scenes::HookPoint> points, std::vector<scenes::Hoo
 
 } // namespace
 
-shader::ProgramDesc hookedSurfacesProgram(const scenes::Hook& hook) {
-    shader::ProgramDesc desc;
-    desc.name = "hook_surfaces";
-    desc.compute = "passes/hook_surfaces.comp";
-    desc.defines = frame::hookDefines(frame::hookShape(hook));
-    desc.defines.emplace_back("DEPTH_ONLY", "0");
-    return desc;
-}
-
 std::vector<scenes::HookedSurface> hookedSurfaces(const scenes::Hook& hook, double timeSeconds,
                                                   std::span<const scenes::HookPoint> points,
                                                   shader::ProgramLibrary& programs) {
     std::vector<scenes::HookedSurface> surfaces;
     surfaces.reserve(points.size());
-    gpu::useProgram(programs.get(hookedSurfacesProgram(hook)));
-    const gpu::Buffer constants = gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)});
-    gpu::bindUniformBuffer(UNIFORM_HOOK, constants);
+    const HookRun changing(kHookSurfaces, hook, timeSeconds, programs);
     for (std::size_t first = 0; first < points.size(); first += kMostPointsAtOnce)
-        addTaken(points.subspan(first, std::min(kMostPointsAtOnce, points.size() - first)), surfaces);
+        addTaken(changing, points.subspan(first, std::min(kMostPointsAtOnce, points.size() - first)), surfaces);
     return surfaces;
 }
 

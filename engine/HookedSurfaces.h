@@ -7,9 +7,6 @@
 
 namespace tessera::engine {
 
-/// What hookedSurfaces() runs.
-shader::ProgramDesc hookedSurfacesProgram(const scenes::Hook& hook);
-
 /// What a hook's hookSurface() makes of surfaces at a time, by point: its own text, in a compute shader, and no bounds.
 /// Throws gpu::ShaderError where the hook is faulty.
 std::vector<scenes::HookedSurface> hookedSurfaces(const scenes::Hook& hook, double timeSeconds,

@@ -14,8 +14,7 @@
 #include "engine/ChooseLighting.h"
 #include "engine/ChooseSamples.h"
 #include "engine/ChooseView.h"
-#include "engine/HookedScene.h"
-#include "engine/HookedSurfaces.h"
+#include "engine/HookProgram.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
 #include "renderer/shader/ProgramDesc.h"
@@ -150,13 +149,13 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
     scene.hook->parameters = {{"breathsASecond"}, {"swell"}, {"glow"}};
     scene.hook->movesVertices = true;
-    const shader::ProgramDesc asking = engine::hookedSurfacesProgram(*scene.hook);
+    const shader::ProgramDesc asking = engine::hookProgram(engine::kHookSurfaces, *scene.hook);
     programs.emplace(asking.key(), asking);
     scenes::Hook waving;
     waving.file = std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "flag.glsl";
     waving.parameters = {{"wind"}};
     waving.movesVertices = true;
-    const shader::ProgramDesc moving = engine::HookedScene::program(waving);
+    const shader::ProgramDesc moving = engine::hookProgram(engine::kHookVertices, waving);
     programs.emplace(moving.key(), moving);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {

@@ -1,0 +1,36 @@
+#include "engine/HookProgram.h"
+
+#include "renderer/frame/HookConstants.h"
+#include "renderer/gpu/Commands.h"
+#include "shaders/shared/slots.h"
+
+namespace tessera::engine {
+
+shader::ProgramDesc hookProgram(const std::string& name, const scenes::Hook& hook) {
+    shader::ProgramDesc desc;
+    desc.name = name;
+    desc.compute = "passes/" + name + ".comp";
+    desc.defines = frame::hookDefines(frame::hookShape(hook));
+    desc.defines.emplace_back("DEPTH_ONLY", "0");
+    return desc;
+}
+
+HookRun::HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds,
+                 shader::ProgramLibrary& programs)
+    : constants_(gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)})) {
+    gpu::useProgram(programs.get(hookProgram(name, hook)));
+    gpu::bindUniformBuffer(UNIFORM_HOOK, constants_);
+}
+
+std::vector<float> HookRun::run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
+                                std::size_t count, std::size_t numbersEach) const {
+    constexpr std::size_t kGroup = 64; // local_size_x
+    const gpu::Buffer taken("made by hook", count * numbersEach * sizeof(float), gpu::BufferUse::Readback);
+    gpu::bindStorageBuffer(givenSlot, given);
+    gpu::bindStorageBuffer(takenSlot, taken);
+    gpu::dispatch(std::uint32_t((count + kGroup - 1) / kGroup));
+    gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
+    return taken.downloadAs<float>(count * numbersEach);
+}
+
+} // namespace tessera::engine
