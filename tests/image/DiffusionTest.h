@@ -207,4 +207,8 @@ protected:
     }
 };
 
+/// What closed forms and the reference say of it.
+class DiffusionTruth : public DiffusionTest {};
+using DiffusionTruthSlow = DiffusionTruth;
+
 } // namespace tessera::test

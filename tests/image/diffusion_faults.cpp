@@ -1,0 +1,129 @@
+// Faults of the passes that spread light, which closed forms see.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/image/DiffusionTest.h"
+#include "tests/support/ShaderMutant.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using namespace test;
+
+/// What is measured with the shaders under test, and the most that it may be.
+struct Measured {
+    double found, most;
+};
+
+class DiffusionFaults : public DiffusionTest {
+public:
+    struct Fault {
+        const char* what;
+        const char* file;
+        const char* from;
+        const char* to;
+        Measured (DiffusionFaults::*seenBy)(const shader::SourceTree&);
+    };
+
+    Measured step(const shader::SourceTree& shaders) { return {stepError(256, {}, shaders).l2, 6.5e-3}; }
+    Measured coarseStep(const shader::SourceTree& shaders) { return {stepError(128, {}, shaders).l2, 0.017}; }
+    Measured twoWidths(const shader::SourceTree& shaders) {
+        return {std::max(stepErrorOf(0.71, 17.9, shaders), stepErrorOf(2.6, 5.0, shaders)), 2e-3};
+    }
+    Measured slantedStep(const shader::SourceTree& shaders) {
+        return {stepErrorOf(5.0, 9.0, shaders, {{0.6, 0.0}, {0.3, 0.6}}), 3e-3};
+    }
+    Measured stepOfFewerTexelsAlongX(const shader::SourceTree& shaders) {
+        const auto stretch = [](scenes::Scene& scene) { mapTexture(scene, {{0.5, 0.0}, {0.0, 1.0}}); };
+        return {stepError(512, stretch, shaders).l2, 7e-3};
+    }
+    Measured stepOfFewerTexelsAcrossV(const shader::SourceTree& shaders) {
+        const auto stretch = [](scenes::Scene& scene) { mapTexture(scene, {{0.0, 0.5}, {1.0, 0.0}}); };
+        return {stepError(512, stretch, shaders).l2, 7e-3};
+    }
+    /// Even light on a sphere of six charts: how far pixels are off, where the surface keeps half of the light.
+    Measured evenLight(const shader::SourceTree& shaders) {
+        scenes::Scene scene = sphereScene(0.03, 16);
+        for (glm::vec3& normal : scene.meshes[0].normalsOS) normal = glm::vec3(0.0f, 1.0f, 0.0f);
+        scene.materials[0].baseColor = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+        scene.lights[0].directionWS = {0.0, -1.0, 0.0};
+        scene.lights[0].intensity = 1.0f;
+        const engine::RenderedFrame frame = drawn(scene, shaders);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < frame.radiance.size(); i += 4)
+            if (frame.radiance[i + 3] != 0.0f) worst = std::max(worst, std::abs(double(frame.radiance[i]) - 0.5));
+        return {worst, 1e-3};
+    }
+    /// The night of a sphere far larger than light spreads.
+    Measured night(const shader::SourceTree& shaders) {
+        scenes::Scene scene = sphereScene(0.1, 16);
+        scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.9, 0.7, 1.0)); // as the camera looks from
+        const engine::RenderedFrame frame = drawn(scene, shaders);
+        const std::size_t middle = 4 * (100 * 200 + 100);
+        return {double(frame.radiance[middle]), 1e-6};
+    }
+
+private:
+    engine::RenderedFrame drawn(scenes::Scene& scene, const shader::SourceTree& shaders) {
+        scene.background = glm::vec3(0.0f);
+        frame::FrameSettings settings;
+        settings.sizePixels = {200, 200};
+        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        settings.diffusion.sideTexels = 128;
+        return engine::Renderer(context(), scene, shaders).render(Technique::Deferred, settings);
+    }
+};
+
+TEST_F(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
+    const Fault faults[] = {
+        {"one Gaussian's weight", "passes/diffusion_spread.frag", "sum = vec4(constants.weight.rgb * result, 1.0);",
+         "sum = vec4(constants.weight.rgb * result * (abs(constants.weight.r - 0.078) < 0.01 ? 0.8 : 1.0), 1.0);",
+         &DiffusionFaults::step},
+        {"millimetres taken for metres", "passes/diffusion_spread.frag", "    precise float narrow = variance",
+         "    variance *= 1e6;\n    precise float narrow = variance", &DiffusionFaults::step},
+        {"stretch ignored", "passes/diffusion_spread.frag", "constants.gaussian.y == 0.0 ? own.x : own.y", "own.y",
+         &DiffusionFaults::stepOfFewerTexelsAlongX},
+        {"rows taken for as far apart as columns", "passes/diffusion_spread.frag",
+         "constants.gaussian.y == 0.0 ? own.x : own.y", "own.x", &DiffusionFaults::stepOfFewerTexelsAcrossV},
+        {"light spread farther along v", "passes/diffusion_spread.frag", "    precise float narrow = variance",
+         "    variance *= 1.0 + 0.4 * constants.gaussian.y;\n    precise float narrow = variance",
+         &DiffusionFaults::stepOfFewerTexelsAcrossV},
+        {"dilation off", "passes/filled_light.glsl", "if (chart == 0.0) return filled;",
+         "if (chart <= 0.0) return filled;", &DiffusionFaults::evenLight},
+        {"the albedo taken twice", "lib/raster/spread_light.glsl", "powerOf(surface.albedo, 1.0 - material.mixed.z)",
+         "powerOf(surface.albedo, 1.0)", &DiffusionFaults::evenLight},
+        {"back faces lit", "passes/diffusion_light.frag", "    entering = vec4(light, 1.0);",
+         "    surface.normalLS = -surface.normalLS;\n"
+         "    light += shadeSurface(surface, viewpoint, gl_FragCoord.xy);\n"
+         "    entering = vec4(light, 1.0);",
+         &DiffusionFaults::night},
+        {"channels of the profile swapped", "passes/diffusion_spread.frag", "constants.weight.rgb * result",
+         "constants.weight.bgr * result", &DiffusionFaults::step},
+        {"taps that end early", "passes/diffusion_spread.frag", "ceil(DIFFUSION_REACH * perStep / float(apart))",
+         "ceil(2.0 * perStep / float(apart))", &DiffusionFaults::twoWidths},
+        {"taps far apart where light is not smooth", "passes/diffusion_spread.frag", "bool isFine = !isSmooth",
+         "bool isFine = false", &DiffusionFaults::twoWidths},
+        {"a slanted texture taken for a straight one", "passes/diffusion_spread.frag",
+         "precise float aside = shear * float(offset);", "precise float aside = 0.0;", &DiffusionFaults::slantedStep},
+        {"light that texels hold already spread counted as none", "passes/diffusion_light.frag",
+         "constants.inTexels.rgb * light", "0.0 * light", &DiffusionFaults::coarseStep},
+    };
+    for (const Fault& fault : faults) {
+        SCOPED_TRACE(fault.what);
+        const auto measure = [&](const test::ShaderMutant& shaders) { return (this->*fault.seenBy)(shaders.tree()); };
+        const test::ShaderMutant sound, broken;
+        broken.replace(fault.file, fault.from, fault.to);
+        const Measured before = measure(sound), after = measure(broken);
+        fmt::print("{:<55} {:.1e}, without it {:.1e}, at most {:.0e}\n", fault.what, after.found, before.found,
+                   before.most);
+        EXPECT_LE(before.found, before.most);
+        EXPECT_GT(after.found, after.most);
+    }
+}
+
+} // namespace
+} // namespace tessera

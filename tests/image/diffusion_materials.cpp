@@ -1,0 +1,214 @@
+// What enters and leaves by albedo, model and side of the light, against closed forms.
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scenes/builtin/Pictures.h"
+#include "scenes/builtin/Shapes.h"
+#include "tests/image/DiffusionTest.h"
+
+namespace tessera {
+namespace {
+
+using scenes::SubsurfaceMethod;
+using namespace test;
+namespace builtin = scenes::builtin;
+
+/// The first square of the scene diffusion_truth under its sun, without plates' shadows.
+scenes::Scene litSquare() {
+    scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+    return scene;
+}
+
+frame::FrameSettings squareSettings(int side) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {896, 8};
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    settings.diffusion.sideTexels = side;
+    return settings;
+}
+
+/// Under even light, a surface of two colours: what enters has the first power of the albedo, and spreads; what leaves
+/// is multiplied with the other power. With the two powers taken for each other, red beside the edge is half as bright
+/// again.
+TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
+    const glm::dvec3 dark(0.2, 0.3, 0.5), bright(0.9, 0.8, 0.7);
+    scenes::Scene scene = litSquare();
+    scenes::Mesh& mesh = scene.meshes[0];
+    const scenes::Mesh square = mesh;
+    mesh = {};
+    mesh.name = square.name;
+    for (const double side : {-0.5, 0.0}) {
+        const double x = builtin::kTruthEdgeX + side;
+        scenes::builtin::appendQuad(mesh, {x, 0.0, 0.5}, {x + 0.5, 0.0, 0.5}, {x + 0.5, 0.0, -0.5}, {x, 0.0, -0.5});
+        mesh.colors.resize(mesh.positionsOS.size(), glm::vec4(side < 0.0 ? dark : bright, 1.0));
+    }
+    mapTexture(scene, glm::dmat2(1.0));
+    engine::Renderer renderer(context(), scene);
+    for (const float before : {0.25f, 1.0f, 0.0f}) {
+        for (scenes::Material& material : scene.materials) material.subsurface.preScatterShare = before;
+        renderer.materialsChanged();
+        const auto truth = [&](const glm::dvec3& placeWS) {
+            const double beyond = placeWS.x - builtin::kTruthEdgeX;
+            const glm::dvec3 entersDark = glm::pow(dark, glm::dvec3(before));
+            const glm::dvec3 entersBright = glm::pow(bright, glm::dvec3(before));
+            return glm::pow(beyond > 0.0 ? bright : dark, glm::dvec3(1.0 - before)) *
+                   (entersDark + (entersBright - entersDark) * builtin::spreadStep(beyond));
+        };
+        const double error = errorOf(pictureOf(renderer, squareSettings(512)), scene.cameras[0], truth).l2;
+        fmt::print("{} of the albedo before: {:.2e}\n", before, error);
+        EXPECT_LE(error, 2.5e-3) << before; // a step's bar, whose contrast is larger
+    }
+}
+
+/// A quarter and half of the narrowest Gaussian are reflected by pixels at 128 texels, all of it is spread at 256. A
+/// light of pi through 1 / pi, without a dielectric lobe, is that of lambert.
+TEST_F(DiffusionTruth, metallicRoughnessSpreadsAStepAsTheClosedFormSays) {
+    const auto asMetallicRoughness = [](scenes::Scene& scene) {
+        for (scenes::Material& material : scene.materials) {
+            material.model = scenes::MaterialModel::MetallicRoughness;
+            material.metallic = material.specularFactor = 0.0f;
+        }
+        scene.lights[0].intensity = float(std::numbers::pi);
+    };
+    EXPECT_LE(stepError(256, asMetallicRoughness).l2, 6.5e-3);
+    EXPECT_LE(stepError(128, asMetallicRoughness).l2, 0.017);
+}
+
+/// Even light straight from above, seen from there: cosines of 1, at which the Fresnel factor is F0, metallic times the
+/// colour without a dielectric lobe. Of light that spreads, of light that pixels reflect, and of both.
+TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
+    const glm::dvec3 color(0.6, 0.4, 0.8);
+    constexpr double kMetallic = 0.4;
+    scenes::Scene scene = litSquare();
+    for (scenes::Material& material : scene.materials) {
+        material.model = scenes::MaterialModel::MetallicRoughness;
+        material.baseColor = glm::vec4(color, 1.0);
+        material.metallic = float(kMetallic);
+        material.specularFactor = 0.0f;
+    }
+    frame::FrameSettings settings = squareSettings(256);
+    settings.sizePixels = {64, 8};
+    settings.specular = false;
+    const double scale = double(scene.materials[0].subsurface.scaleMetres);
+    for (const double texels : {1e-3, 0.3, 8.0}) {
+        for (scenes::Material& material : scene.materials)
+            material.subsurface.profile = {{float(std::pow(1e3 * scale * texels / 224.0, 2.0)), glm::vec3(1.0f)}};
+        const Picture picture = pictureOf(scene, settings);
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                const double wanted = (1.0 - kMetallic * color[c]) * (1.0 - kMetallic) * color[c] / std::numbers::pi;
+                ASSERT_NEAR(double(picture.pixel(i)[c]), wanted, 1e-4 * wanted) << texels << " texels, pixel " << i;
+            }
+        }
+    }
+}
+
+/// Where light is the same everywhere and the viewer looks along the normal, it leaves as if it had not spread: below a
+/// coat, of an area light as wide as it is far, of an environment.
+TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
+    struct Case {
+        const char* name;
+        std::function<void(scenes::Scene&)> change;
+        double most;
+    };
+    const Case cases[] = {
+        {"sun below a coat",
+         [](scenes::Scene& scene) {
+             for (scenes::Material& material : scene.materials) {
+                 material.model = scenes::MaterialModel::MetallicRoughness;
+                 material.metallic = 0.2f;
+                 material.clearcoat = 0.7f;
+             }
+         },
+         1e-4},
+        {"a disk",
+         [](scenes::Scene& scene) {
+             scenes::Light& light = scene.lights[0];
+             light.type = scenes::LightType::Disk;
+             light.positionWS = glm::dvec3(builtin::kTruthEdgeX, 1000.0, 0.0);
+             light.directionWS = {0.0, -1.0, 0.0};
+             light.radiusMetres = 1000.0f;
+         },
+         1e-3},
+        {"an environment",
+         [](scenes::Scene& scene) {
+             scene.lights.clear();
+             scene.environment = scenes::Environment{"even", scenes::builtin::drawRadiance("even", 1, 1, [](int, int) {
+                                                         return glm::dvec3(0.5, 1.0, 2.0);
+                                                     })};
+         },
+         1e-3},
+    };
+    for (const Case& one : cases) {
+        scenes::Scene scene = litSquare();
+        one.change(scene);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = squareSettings(128);
+        settings.sizePixels = {64, 8};
+        settings.specular = false;
+        const Picture spread = pictureOf(renderer, settings);
+        settings.subsurface = SubsurfaceMethod::None;
+        const Picture still = pictureOf(renderer, settings);
+        for (std::size_t i = 0; i < still.pixelCount(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                const double wanted = double(still.pixel(i)[c]);
+                ASSERT_GT(wanted, 0.0) << one.name;
+                ASSERT_NEAR(double(spread.pixel(i)[c]), wanted, one.most * wanted) << one.name << ", pixel " << i;
+            }
+        }
+    }
+}
+
+/// A slab of 10 mm before a sun: the same everywhere, however far light spreads. Where a Gaussian is narrower than
+/// texels, what passes stays in these, since pixels reflect light from the front alone.
+TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
+    constexpr double kThickness = 0.01, kHalf = 0.05;
+    scenes::Scene scene = litSquare();
+    scenes::Mesh slab;
+    scenes::builtin::appendQuad(slab, {-kHalf, -kHalf, 0.0}, {kHalf, -kHalf, 0.0}, {kHalf, kHalf, 0.0},
+                                {-kHalf, kHalf, 0.0});
+    scenes::builtin::appendQuad(slab, {kHalf, -kHalf, -kThickness}, {-kHalf, -kHalf, -kThickness},
+                                {-kHalf, kHalf, -kThickness}, {kHalf, kHalf, -kThickness});
+    // A chart for each side.
+    for (std::size_t i = 0; i < slab.positionsOS.size(); ++i) {
+        const glm::vec2 place = (glm::vec2(slab.positionsOS[i]) / float(2.0 * kHalf) + 0.5f) * 0.4f + 0.05f;
+        slab.texCoords[0][i] = i < 4 ? place : place + 0.5f;
+    }
+    scenes::Material skin = scene.materials[0];
+    skin.castsShadow = true;
+    skin.subsurface.scaleMetres = 1.0f;
+    skin.subsurface.absorptionPerMillimetre = {0.02f, 0.04f, 0.08f};
+    scene.meshes = {slab};
+    scene.materials = {skin};
+    scene.nodes.resize(1);
+    scene.nodes[0].parentFromNode = glm::dmat4(1.0);
+    scene.nodes[0].instances = {{0, 0}};
+    scene.lights[0].directionWS = {0.0, 0.0, 1.0};
+    scene.lights[0].castsShadow = true;
+    scenes::Camera& camera = scene.cameras[0];
+    camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
+    camera.halfHeightMetres = 0.6 * kHalf;
+    frame::FrameSettings settings;
+    settings.sizePixels = {32, 32};
+    settings.diffusion.sideTexels = 256;
+    for (const float squareMillimetres : {1e-6f, 0.1f, 25.0f}) {
+        scene.materials[0].subsurface.profile = {{squareMillimetres, glm::vec3(1.0f)}};
+        const Picture picture = pictureOf(scene, settings);
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                const double absorption = double(skin.subsurface.absorptionPerMillimetre[c]);
+                const double wanted = std::exp(-absorption * 1e3 * kThickness);
+                ASSERT_NEAR(double(picture.pixel(i)[c]), wanted, 1e-3 * wanted)
+                    << squareMillimetres << " mm^2, pixel " << i;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace tessera
