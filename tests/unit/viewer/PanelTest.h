@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,51 @@
 
 /// Panels without a window.
 namespace tessera::viewer::test {
+
+/// A look at a view.
+inline Look lookAt(frame::DebugView view) {
+    Look look;
+    look.settings.view = view;
+    return look;
+}
+
+/// A scene of all kinds of lights and materials, some of them beyond what the panels would set.
+inline State unusualScene() {
+    scenes::LoadOptions load;
+    scenes::Scene scene = scenes::loadScene("room", load);
+    scenes::Light& spot = scene.lights.emplace_back();
+    spot.type = scenes::LightType::Spot;
+    spot.innerConeRadians = 1.7f;
+    spot.outerConeRadians = 2.1f;
+    spot.color = glm::vec3(1e7f, 0.1f, 0.3f);
+    spot.intensity = 1e12f;
+    spot.rangeMetres = 1e-5f;
+    spot.directionWS = glm::normalize(glm::dvec3(0.1, -0.7, 0.2));
+    spot.flicker = scenes::LightFlicker{.amplitude = 1.0 / 3.0, .frequencyHz = 900.0, .seed = 7};
+    scenes::Light& attenuated = scene.lights.emplace_back();
+    attenuated.falloff = scenes::Falloff::Attenuation;
+    attenuated.attenuation = glm::vec3(1e8f, 0.1f, 0.0f);
+    attenuated.flicker = scenes::LightFlicker{.amplitude = 0.1, .frequencyHz = 0.01, .seed = 3};
+    attenuated.animation.emplace().amplitudeMetres = {1.0, 0.0, 0.0};
+    scene.lights.emplace_back().type = scenes::LightType::Directional;
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes())
+        if (type.isArea) scene.lights.emplace_back().type = type.type;
+    for (std::size_t model = 0; model < scenes::kMaterialModelCount; ++model) {
+        scenes::Material& material = scene.materials.emplace_back();
+        material.model = scenes::MaterialModel(model);
+        material.baseColor = {2.0f, 0.1f, 0.3f, 0.7f};
+        material.alpha = material.alphaY = 3.0f;
+        material.exponent = 1e5f;
+        material.ior = 9.0f;
+        material.anisotropyStrength = 0.5f;
+        material.anisotropyRotationRadians = 7.0f;
+        material.alphaMode = scenes::AlphaMode::Mask;
+        material.alphaCutoff = 1.5f;
+    }
+    State state;
+    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
+    return state;
+}
 
 class PanelTest : public testing::Test {
 protected:

@@ -1,0 +1,230 @@
+// What the interface lays over the picture.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/viewer/PanelTest.h"
+#include "viewer/panels/InspectorBox.h"
+#include "viewer/panels/Legend.h"
+#include "viewer/panels/Overlays.h"
+#include "viewer/panels/ProgressBox.h"
+#include "viewer/session/DrawnLook.h"
+
+namespace tessera::viewer {
+namespace {
+
+class Overlays : public test::PanelTest {};
+
+TEST_F(Overlays, thePointerSaysThatTheDividerCanBeDragged) {
+    State state;
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const PictureArea place = area(state);
+    const float dividerX = place.corner.x + 0.6f * place.size.x;
+    const auto cursorAt = [&](float x) {
+        ImGui::GetIO().MousePos = {x, 100.0f};
+        ImGuiMouseCursor cursor = ImGuiMouseCursor_None;
+        for (int i = 0; i < 2; ++i)
+            frame([&] {
+                drawDivider(state, place, 1.0f);
+                cursor = ImGui::GetMouseCursor();
+            });
+        return cursor;
+    };
+    EXPECT_EQ(cursorAt(dividerX + 2.0f), ImGuiMouseCursor_ResizeEW);
+    EXPECT_EQ(cursorAt(dividerX + 20.0f), ImGuiMouseCursor_Arrow);
+    state.isDividerHeld = true;
+    EXPECT_EQ(cursorAt(dividerX + 20.0f), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
+    state = {};
+    EXPECT_EQ(cursorAt(dividerX), ImGuiMouseCursor_Arrow) << "there is none";
+}
+
+TEST_F(Overlays, theInspectorStaysInThePictureAndHasALoupeForEachSide) {
+    State state;
+    const PictureArea place = area(state);
+    Facts facts;
+    const auto span = [&] {
+        state.loupes.clear();
+        return overlaySpan([&] { drawInspector(state, facts, place); });
+    };
+    state.pointedPlace = glm::vec2(0.5f);
+    facts.inspection.emplace().sides[0].emplace();
+    EXPECT_FALSE(span()) << "nothing is inspected";
+    state.inspects = true;
+    for (const float share : {0.0f, 0.5f, 0.999f}) {
+        state.pointedPlace = glm::vec2(share);
+        const auto drawn = span();
+        ASSERT_TRUE(drawn);
+        EXPECT_GE(drawn->first, place.corner.x - 2.0f);
+        EXPECT_LE(drawn->second, place.corner.x + place.size.x + 2.0f);
+        ASSERT_EQ(state.loupes.size(), 1u);
+        EXPECT_TRUE(place.contains(state.loupes[0].corner));
+        EXPECT_TRUE(place.contains(state.loupes[0].corner + state.loupes[0].size));
+    }
+    facts.inspection->sides[1].emplace();
+    EXPECT_TRUE(span());
+    ASSERT_EQ(state.loupes.size(), 2u);
+    EXPECT_EQ(state.loupes[1].side, 1);
+    EXPECT_GE(state.loupes[1].corner.x, state.loupes[0].corner.x + state.loupes[0].size);
+}
+
+TEST_F(Overlays, theScaleOfCountsStandsOnTheSideThatShowsThem) {
+    State state;
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const PictureArea place = area(state);
+    const float dividerX = place.corner.x + 0.6f * place.size.x, endX = place.corner.x + place.size.x;
+    Facts facts;
+    const auto span = [&] { return overlaySpan([&] { drawLegend(state, facts, place, 1.0f); }); };
+    facts.shown = {test::lookAt(frame::DebugView::Lights), test::lookAt(frame::DebugView::Final)};
+    ASSERT_TRUE(span());
+    EXPECT_GT(span()->first, place.corner.x);
+    EXPECT_LT(span()->second, dividerX);
+    std::swap(facts.shown[0], facts.shown[1]);
+    ASSERT_TRUE(span());
+    EXPECT_GT(span()->first, dividerX);
+    EXPECT_LT(span()->second, endX);
+}
+
+TEST_F(Overlays, theScaleOfCountsEndsAtTheLargestThatThePictureHas) {
+    State state;
+    Facts facts;
+    facts.shown[0] = test::lookAt(frame::DebugView::Lights);
+    /// Colours of the bar, which is the only thing of any colour.
+    const auto brightest = [&] {
+        int most = 0;
+        frame([&] {
+            drawLegend(state, facts, area(state), 1.0f);
+            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
+                const int red = int(vertex.col & 0xffu), blue = int(vertex.col >> 16 & 0xffu);
+                if (red - blue > 40) most = std::max(most, red);
+            }
+        });
+        return most;
+    };
+    EXPECT_GT(brightest(), 240) << "the whole scale, to pale yellow";
+    facts.mostCounts[0] = {frame::DebugView::Lights, 5.0f};
+    EXPECT_LT(brightest(), 200) << "of 512 lights, 5 are dark";
+    facts.mostCounts[0]->view = frame::DebugView::Overdraw;
+    EXPECT_GT(brightest(), 240) << "it is that of another view";
+}
+
+TEST_F(Overlays, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
+    State state;
+    state.showsPanel = false;
+    state.looks[0] = test::lookAt(frame::DebugView::Lights); // chosen, and its shaders compile
+    Facts facts;
+    facts.shown[0] = test::lookAt(frame::DebugView::Normal);
+    facts.isPreparing = true;
+    const std::string status = firstWindowText(state, facts);
+    EXPECT_NE(status.find(lookName(*facts.shown[0])), std::string::npos) << status;
+    EXPECT_EQ(status.find(lookName(state.looks[0])), std::string::npos) << status;
+    EXPECT_FALSE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
+    std::swap(state.looks[0], *facts.shown[0]);
+    EXPECT_TRUE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
+}
+
+TEST_F(Overlays, theStatusLineSaysThatTheCameraFlies) {
+    State state = test::unusualScene();
+    state.showsPanel = false;
+    EXPECT_EQ(firstWindowText(state, {}).find("flying"), std::string::npos);
+    state.open->rig().setMode(CameraRig::Mode::Fly);
+    EXPECT_NE(firstWindowText(state, {}).find("flying"), std::string::npos);
+}
+
+TEST_F(Overlays, theStatusLineSaysHowFarLightHasSpread) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    EXPECT_EQ(firstWindowText(state, facts).find("spreading"), std::string::npos);
+    facts.spreading = engine::SpreadProgress{.objects = 3, .doneObjects = 1, .tiles = 200, .doneTiles = 90};
+    const std::string status = firstWindowText(state, facts);
+    EXPECT_NE(status.find("spreading light: 1 of 3 objects, 45 %"), std::string::npos) << status;
+}
+
+TEST_F(Overlays, theBoxOfProgressStandsInThePictureAndCoversItself) {
+    State state;
+    state.showsPanel = false;
+    const PictureArea place = area(state);
+    const auto boxOf = [&](const Progress& progress) {
+        return overlaySpan([&] { drawProgress(progress, place, 1.0f, *ImGui::GetBackgroundDrawList()); });
+    };
+    const auto unknown = boxOf({"Preparing shaders", {}, true});
+    ASSERT_TRUE(unknown);
+    EXPECT_GE(unknown->first, place.corner.x);
+    EXPECT_LE(unknown->second, place.corner.x + place.size.x);
+    EXPECT_EQ(boxOf({"Drawing the whole picture", 0.5, false}), unknown);
+    EXPECT_EQ(boxOf({"Drawing the whole picture", 7.0, true}), unknown) << "more than all";
+    PictureArea narrow = place;
+    narrow.size = {50.0f, 20.0f};
+    EXPECT_FALSE(overlaySpan([&] { drawProgress({"x", 0.5, true}, narrow, 1.0f, *ImGui::GetBackgroundDrawList()); }));
+}
+
+TEST_F(Overlays, theStatusLineSaysThatThePictureWasCancelled) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    EXPECT_EQ(firstWindowText(state, facts).find("cancelled"), std::string::npos);
+    facts.isCancelled = true;
+    EXPECT_NE(firstWindowText(state, facts).find("cancelled (Enter: draw on)"), std::string::npos);
+}
+
+TEST_F(Overlays, theStatusLineTellsFramesASecondWhileSomethingMoves) {
+    State state;
+    state.showsPanel = false;
+    Facts facts;
+    facts.scale = 1.0;
+    EXPECT_EQ(firstWindowText(state, facts).find("frames/s"), std::string::npos);
+    facts.picturesPerSecond = 24.4;
+    EXPECT_NE(firstWindowText(state, facts).find("24 frames/s"), std::string::npos);
+}
+
+TEST_F(Overlays, aViewIsNamedInItsPictureAndTheLitPictureIsLeftFree) {
+    State state;
+    Facts facts;
+    const auto names = [&] { return overlaySpan([&] { drawNames(state, facts, area(state), 1.0f); }); };
+    facts.shown[0] = test::lookAt(frame::DebugView::Final);
+    EXPECT_FALSE(names());
+    facts.shown[0] = test::lookAt(frame::DebugView::Geometry);
+    ASSERT_TRUE(names());
+    EXPECT_GE(names()->first, area(state).corner.x);
+    EXPECT_LE(names()->second, area(state).corner.x + area(state).size.x);
+    // Beside the divider each side has its own, and neither reaches across.
+    state.compare = Compare::Split;
+    state.divider = 0.6f;
+    const float dividerX = area(state).corner.x + 0.6f * area(state).size.x;
+    facts.shown[1] = test::lookAt(frame::DebugView::Lights);
+    std::vector<float> places;
+    frame([&] {
+        drawNames(state, facts, area(state), 1.0f);
+        for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) places.push_back(vertex.pos.x);
+    });
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](float x) { return x < dividerX; }));
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](float x) { return x > dividerX; }));
+    // Of a difference the two pictures.
+    state.compare = Compare::Difference;
+    EXPECT_TRUE(names());
+    facts.shown[1].reset();
+    EXPECT_FALSE(names()) << "there is nothing to differ from";
+}
+
+TEST_F(Overlays, aDifferenceOfNothingIsSaidOnItsBlackPicture) {
+    State state;
+    state.compare = Compare::Difference;
+    Facts facts;
+    const auto isSaid = [&] { return overlaySpan([&] { drawNames(state, facts, area(state), 1.0f); }).has_value(); };
+    EXPECT_FALSE(isSaid());
+    facts.figures.emplace().bitEqual = 1.0;
+    EXPECT_TRUE(isSaid());
+    facts.figuresAreOld = true;
+    EXPECT_FALSE(isSaid());
+    facts.figuresAreOld = false;
+    facts.figures->bitEqual = 0.999;
+    EXPECT_FALSE(isSaid());
+}
+
+} // namespace
+} // namespace tessera::viewer
