@@ -2,33 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/AtomicFile.h"
 #include "base/EndRequest.h"
 #include "renderer/frame/EnvironmentCache.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"
+#include "viewer/Document.h"
 #include "viewer/panels/Frame.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
-#include "viewer/save/Recovery.h"
-#include "viewer/save/Saver.h"
-#include "viewer/session/EnvironmentJob.h"
-#include "viewer/session/FileTypes.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
-#include "viewer/session/SceneSource.h"
-#include "viewer/session/SceneSwitch.h"
 #include "viewer/show/Inspector.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/show/PictureDrawing.h"
@@ -42,18 +36,8 @@ constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in bet
 constexpr double kNoticeSeconds = 6.0;
 constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
 constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
-constexpr double kKeepSeconds = 3.0;        ///< at rest, after which edits are kept in a file
-/// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
-constexpr double kKeepShare = 20.0;
-constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
 /// How often a signal to end is looked for while there are edits to keep before.
 constexpr double kEndPeriodSeconds = 0.25;
-
-/// Beside the settings.
-std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
-    if (!options.preferencesFile) return std::nullopt;
-    return options.preferencesFile->parent_path() / "recovery";
-}
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -63,39 +47,35 @@ glm::ivec2 windowSize(const ViewerOptions& options) {
 class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)
-        : options_(options), log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
+        : log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
           drawing_(state_, facts_, screen_, window_, log_, pulse_,
                    {[this](const std::string& text) { fail(text); }, [this] { tellProgress(); }}),
-          saver_(state_, screen_, log_), recovery_(recoveryFolder(options)), measurements_([] { Window::wake(); }),
-          environments_([] { Window::wake(); }), scenes_(options, state_, log_, [] { Window::wake(); }) {
+          saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
+          document_({options, state_, facts_, window_, log_, pulse_, screen_, drawing_, saver_, measurements_},
+                    [this](const std::string& text) { fail(text); }) {
         facts_.renderer = window_.context().capabilities().renderer;
         state_.firstWindowSize = window_.sizeScreen();
         layOut();
-        scenes_.open(options.scene, options.load);
-        if (const auto left = recovery_.left()) {
-            state_.question = {Question::About::Recovering, left->string()};
-            log_.line("edits were left in " + left->string());
-        }
+        document_.begin();
     }
     ~Viewer() { holdEnd(false); }
 
     void run() {
         try {
-            while (!isLeaving()) {
+            while (!document_.isLeaving()) {
                 window_.wait(idleSeconds());
                 if (notedEnd() != 0) return endNow();
-                if (isLeaving()) break;
+                if (document_.isLeaving()) break;
                 attempt([this] { watchShaders(); });
                 if (isDue()) frame();
-                holdEnd(hasEdits());
-                attempt([this] { keepEdits(); });
+                holdEnd(document_.hasEdits());
+                attempt([this] { document_.keepEdits(); });
             }
         } catch (...) {
-            endWithEdits();
+            document_.endWithEdits();
             throw;
         }
-        recovery_.forget();
-        scenes_.remember(window_.sizeScreen());
+        document_.close();
         log_.line("closed");
     }
 
@@ -112,9 +92,8 @@ private:
     }
     bool hasPicturePlace() const { return isVisible() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
-        if (window_.hasActivity() || scenes_.hasResult() || environments_.hasResult() || pulse_.settleFrames > 0)
-            return true;
-        if (isVisible() && isBackgroundBusy() && now() >= backgroundToldAt_) return true;
+        if (window_.hasActivity() || document_.hasResult() || pulse_.settleFrames > 0) return true;
+        if (isVisible() && document_.isLoading() && now() >= backgroundToldAt_) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
@@ -127,28 +106,17 @@ private:
         if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
-        if (isVisible() && isBackgroundBusy()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
+        if (isVisible() && document_.isLoading()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
         if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
-        if (hasEdits()) atMost(kEndPeriodSeconds);
-        if (state_.open && recovery_.isBehind(*state_.open)) atMost(std::max(keepAt() - now(), 0.0));
+        if (document_.hasEdits()) atMost(kEndPeriodSeconds);
+        if (const auto keepAt = document_.keepAt()) atMost(std::max(*keepAt - now(), 0.0));
         return seconds;
     }
 
     // ---- What takes long ----
-    /// Something is loaded on another thread, of which the window tells how far it is.
-    bool isBackgroundBusy() const { return !state_.loading.empty() || !environments_.choice().empty(); }
     void noteBackground() {
-        facts_.background.reset();
+        facts_.background = document_.loadingProgress();
         backgroundToldAt_ = now() + kBackgroundSeconds;
-        const auto nameOf = [](const std::string& source) { return std::filesystem::path(source).filename().string(); };
-        if (!state_.loading.empty()) {
-            const std::optional<double> share = scenes_.filteredShare();
-            const char* const what = share ? "Filtering the environment of" : "Loading";
-            facts_.background = {fmt::format("{} {}", what, nameOf(state_.loading)), share, false};
-        } else if (const std::string choice = environments_.choice(); !choice.empty()) {
-            const std::optional<double> share = environments_.filteredShare();
-            facts_.background = {fmt::format("{} {}", share ? "Filtering" : "Loading", nameOf(choice)), share, true};
-        }
     }
     bool isCancellable() const {
         const std::optional<Progress>& told = facts_.progress ? facts_.progress : facts_.background;
@@ -156,9 +124,7 @@ private:
     }
     void cancel() {
         if (facts_.progress) return drawing_.cancel();
-        log_.line("cancelled environment " + environments_.choice());
-        environments_.discard();
-        pulse_.settle();
+        document_.cancelEnvironment();
     }
     /// In the middle of a picture that takes long.
     void tellProgress() {
@@ -168,204 +134,9 @@ private:
         present();
     }
 
-    // ---- Edits that are not saved ----
-    bool hasEdits() const { return state_.open && state_.open->isEdited(); }
-    double keepAt() const { return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_); }
-    /// Keeps them for the case that the program ends unasked; while nobody waits for a picture, and not too often.
-    void keepEdits() {
-        if (!state_.open || !recovery_.isBehind(*state_.open) || now() < keepAt()) return;
-        const double started = now();
-        nextKeepAt_ = started + kFailedKeepSeconds;
-        recovery_.keep(*state_.open);
-        nextKeepAt_ = now() + kKeepShare * (now() - started);
-    }
-    /// The program ends, and nobody can be asked any more.
-    void endWithEdits() {
-        try {
-            if (state_.open) recovery_.keep(*state_.open);
-        } catch (const std::exception& error) {
-            options_.warn(error.what());
-        }
-        scenes_.remember(window_.sizeScreen());
-    }
     void endNow() {
-        endWithEdits();
+        document_.endWithEdits();
         endAsNoted();
-    }
-
-    // ---- Scenes ----
-    bool isLeaving() {
-        if (!window_.shouldClose()) return false;
-        if (isDiscarding_ || mayLeave({Question::About::Quitting, {}})) return true;
-        window_.keepOpen();
-        return false;
-    }
-
-    /// Edits that are not saved are left behind only by an answer.
-    bool mayLeave(const Question& question) {
-        if (!hasEdits()) return true;
-        state_.question = question;
-        pulse_.settle();
-        log_.line("edits are not saved");
-        return false;
-    }
-
-    void open(const std::string& source) {
-        if (mayLeave({Question::About::Opening, source})) load(source);
-    }
-
-    /// Reads the open scene again: its materials and pictures are others.
-    void openVariant(const std::string& variant) {
-        if (!state_.open) return;
-        const Question question{Question::About::Opening, state_.open->source(), variant};
-        if (mayLeave(question)) load(question.scene, question.variant);
-    }
-
-    /// Opens a scene in the place of this one, with its edits until then; or this one again, in a variant.
-    void load(const std::string& source, const std::optional<std::string>& variant = {}) {
-        editsLeft_ = state_.open ? state_.open->edits() : 0;
-        loadingVariant_ = variant;
-        scenes::LoadOptions load;
-        if (variant && state_.open) {
-            load = state_.open->load();
-            load.import.variant = variant->empty() ? std::nullopt : variant;
-        }
-        scenes_.open(source, load);
-    }
-
-    void take(Answer answer) {
-        const std::optional<Question> question = std::exchange(state_.question, std::nullopt);
-        pulse_.settle();
-        if (!question || answer == Answer::Cancel) return;
-        if (question->about == Question::About::Recovering) {
-            if (answer == Answer::Discard) return Recovery::discard(question->scene);
-            recovering_ = question->scene;
-            return load(recovering_);
-        }
-        if (answer == Answer::Keep && !saveScene()) return; // where that fails nothing else happens
-        if (question->about == Question::About::Opening) return load(question->scene, question->variant);
-        isDiscarding_ = true;
-        window_.close();
-    }
-
-    void adoptLoaded() {
-        // The user was not asked about edits made during the load.
-        const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
-        if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
-            return scenes_.discard();
-        std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
-        if (!scene) return;
-        measurements_.clear(facts_);
-        drawing_.resume();
-        facts_.shadows = {};
-        state_.timings.clear();
-        environments_.discard(); // it was chosen for the scene before
-        // What was asked about the edits of the scene before is settled.
-        if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
-        recovery_.forget();
-        attempt([&] { adoptRecovered(*scene); });
-        state_.open = std::move(scene);
-    }
-
-    /// Edits that were left are now this window's, and still not saved.
-    void adoptRecovered(OpenScene& scene) {
-        if (std::exchange(recovering_, {}) != scene.source()) return;
-        scene.markUnsaved();
-        std::erase(state_.recent, identityOf(scene.source()));
-        const std::filesystem::path left = scene.source();
-        recovery_.keep(scene);
-        Recovery::discard(left);
-        log_.line("recovered " + left.string());
-    }
-
-    /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
-    void openFile(const std::string& file) {
-        const FileType* const type = fileTypeOf(file);
-        if (type != nullptr && type->opens == FileType::Opens::Environment) return chooseEnvironment(file);
-        open(file);
-    }
-
-    // ---- Files ----
-    static std::filesystem::path startFolder() {
-        std::error_code error;
-        return std::filesystem::current_path(error);
-    }
-
-    void askWhatToOpen() {
-        const std::vector<std::string> folders = foldersOf(state_.recent);
-        std::error_code error;
-        const bool hasRecent = !folders.empty() && std::filesystem::is_directory(folders.front(), error);
-        state_.files.emplace(FileDialog::Purpose::Open,
-                             hasRecent ? std::filesystem::path(folders.front()) : startFolder());
-        pulse_.settle();
-        log_.line("asks what to open");
-    }
-
-    /// With a reason: the folder of the path cannot be written, so another is proposed.
-    void askWhereToSave(const std::filesystem::path& path, const std::string& reason = {}) {
-        const std::filesystem::path given = path.has_parent_path() ? path.parent_path() : startFolder();
-        const std::filesystem::path folder = reason.empty() ? given : homeFolder().value_or(given);
-        state_.files.emplace(FileDialog::Purpose::Save, folder, path.filename().string(), reason);
-        pulse_.settle();
-        if (!reason.empty()) log_.line("error " + reason);
-        log_.line("asks where to save");
-    }
-
-    /// Asks for another name where no file can be written under this one.
-    bool mayWrite(const std::string& path) {
-        try {
-            requireWritable(path);
-            return true;
-        } catch (const std::exception& error) {
-            askWhereToSave(path, error.what());
-            return false;
-        }
-    }
-
-    /// Whether it was saved, under a free name.
-    bool saveScene() {
-        const std::string path = saver_.freeName(".json");
-        if (!mayWrite(path)) return false;
-        saver_.scene(path);
-        return true;
-    }
-
-    void savePicture(glm::ivec2 size, const char* ending) {
-        if (const std::string path = saver_.freeName(ending); mayWrite(path)) saver_.picture(size, path);
-    }
-
-    void saveAs(const std::string& path, glm::ivec2 size) {
-        if (!mayWrite(path)) return;
-        const FileType* const type = fileTypeOf(path);
-        if (type != nullptr && type->saves == FileType::Saves::Scene) return saver_.scene(path);
-        saver_.picture(size, path);
-    }
-
-    /// For the scene that is open.
-    void chooseEnvironment(const std::string& name) {
-        if (!state_.open)
-            throw std::runtime_error("there is no scene yet for " + name + " to surround; open one first");
-        environments_.start(name);
-        log_.line("loading environment " + name);
-    }
-
-    void adoptEnvironment() {
-        std::optional<ChosenEnvironment> chosen = environments_.take();
-        if (!chosen) return;
-        if (!chosen->error.empty()) throw std::runtime_error(chosen->error);
-        if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
-        log_.line("environment " + chosen->name);
-        state_.open->takeEnvironment(std::move(*chosen));
-        pulse_.settle();
-    }
-
-    /// The title says which scene is open, and whether it has edits that were not saved.
-    void nameWindow() {
-        if (!state_.open) return;
-        const std::string name = std::filesystem::path(state_.open->source()).filename().string();
-        const std::string title = fmt::format("Tessera - {}{}", name, state_.open->isEdited() ? " *" : "");
-        if (title != title_) window_.setTitle(title);
-        title_ = title;
     }
 
     /// What goes wrong is shown, and the window goes on.
@@ -426,8 +197,8 @@ private:
             pulse_.stirred(started);
         }
         pulse_.settleFrames = std::max(pulse_.settleFrames - 1, 0);
-        attempt([this] { adoptLoaded(); });
-        attempt([this] { adoptEnvironment(); });
+        attempt([this] { document_.adoptLoaded(); });
+        attempt([this] { document_.adoptEnvironment(); });
         if (std::string fault = frame::takeCacheFault(); !fault.empty()) {
             log_.line("note " + fault);
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
@@ -446,13 +217,13 @@ private:
         noteBackground();
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
-        state_.loadingEnvironment = environments_.choice();
+        state_.loadingEnvironment = document_.loadingEnvironment();
         for (int side = 0; side < 2; ++side) facts_.shown[std::size_t(side)] = screen_.shownLook(side);
         drawInterface(state_, facts_, area_, uiScale());
         gui_.endFrame();
         screen_.takeEdits();
         serveRequests();
-        nameWindow();
+        document_.nameWindow();
         advance(started);
         expireNotice();
         // More input waits: its result gets a picture, its single steps only now and then.
@@ -513,20 +284,20 @@ private:
     void serveRequests() {
         const Requests requests = std::exchange(state_.requests, {});
         attempt([&] {
-            if (requests.answer) take(*requests.answer);
+            if (requests.answer) document_.take(*requests.answer);
         });
         attempt([&] {
-            if (requests.open) open(*requests.open);
+            if (requests.open) document_.open(*requests.open);
         });
         attempt([&] {
-            if (requests.chosen) openFile(*requests.chosen);
+            if (requests.chosen) document_.openFile(*requests.chosen);
         });
-        if (requests.askWhatToOpen) askWhatToOpen();
+        if (requests.askWhatToOpen) document_.askWhatToOpen();
         attempt([&] {
-            if (requests.variant) openVariant(*requests.variant);
+            if (requests.variant) document_.openVariant(*requests.variant);
         });
         attempt([&] {
-            if (requests.environment) chooseEnvironment(*requests.environment);
+            if (requests.environment) document_.chooseEnvironment(*requests.environment);
         });
         attempt([&] {
             if (requests.clip && state_.open) chooseClip(state_, *requests.clip);
@@ -544,11 +315,11 @@ private:
         const gpu::Rectangle place = areaPixels();
         if (!state_.open || place.width < 1 || place.height < 1) return;
         const glm::ivec2 size(place.width, place.height);
-        if (requests.savePng) savePicture(size, ".png");
-        if (requests.saveExr) savePicture(size, ".exr");
-        if (requests.saveScene) saveScene();
-        if (requests.askWhereToSave) askWhereToSave(saver_.freeName(".json"));
-        if (requests.saveAs) saveAs(*requests.saveAs, size);
+        if (requests.savePng) document_.savePicture(size, ".png");
+        if (requests.saveExr) document_.savePicture(size, ".exr");
+        if (requests.saveScene) document_.saveScene();
+        if (requests.askWhereToSave) document_.askWhereToSave(saver_.freeName(".json"));
+        if (requests.saveAs) document_.saveAs(*requests.saveAs, size);
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) copyCommand(size);
         if (requests.scatter) replaceByScattered(state_);
@@ -561,7 +332,7 @@ private:
     }
 
     void copyCommand(glm::ivec2 size) {
-        if (hasEdits() && !saveScene()) return;
+        if (document_.hasEdits() && !document_.saveScene()) return;
         state_.command = saver_.command(size);
         window_.setClipboard(state_.command);
         state_.notice = {"Copied: " + state_.command, false};
@@ -625,7 +396,6 @@ private:
         window_.context().swapBuffers();
     }
 
-    const ViewerOptions& options_;
     EventLog log_;
     Window window_;
     Gui gui_;
@@ -639,23 +409,15 @@ private:
     double shownAt_ = 0.0;
     std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
     double nextShaderLook_ = 0.0;
-    double backgroundToldAt_ = 0.0; ///< when it is told next how far that is
-    std::string title_;
+    double backgroundToldAt_ = 0.0;                    ///< when it is told next how far that is
     std::pair<const OpenScene*, std::string> learned_; ///< the scene whose letters are known, and its file
-    std::string recovering_;                           ///< the file of edits that is being opened
-    double nextKeepAt_ = 0.0;
-    bool isDiscarding_ = false;                 ///< the window closes without another question
-    std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
-    std::optional<std::string> loadingVariant_; ///< of load()
-    std::string said_;                          ///< the latest notice
+    std::string said_;                                 ///< the latest notice
     double saidUntil_ = 0.0;
     PictureDrawing drawing_;
     Saver saver_;
-    Recovery recovery_;
     Measurements measurements_;
     Inspector inspector_;
-    EnvironmentJob environments_;
-    SceneSwitch scenes_; ///< last: its thread ends before what it wakes
+    Document document_; ///< last: its threads end before what they wake
 };
 
 } // namespace

@@ -1,0 +1,263 @@
+#include "viewer/Document.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/AtomicFile.h"
+#include "viewer/session/FileTypes.h"
+#include "viewer/session/SceneSource.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr double kKeepSeconds = 3.0; ///< at rest, after which edits are kept in a file
+/// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
+constexpr double kKeepShare = 20.0;
+constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
+
+/// Beside the settings.
+std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
+    if (!options.preferencesFile) return std::nullopt;
+    return options.preferencesFile->parent_path() / "recovery";
+}
+
+std::filesystem::path startFolder() {
+    std::error_code error;
+    return std::filesystem::current_path(error);
+}
+
+} // namespace
+
+Document::Document(const Parts& parts, std::function<void(const std::string&)> fail)
+    : options_(parts.options), state_(parts.state), facts_(parts.facts), window_(parts.window), log_(parts.log),
+      pulse_(parts.pulse), screen_(parts.screen), drawing_(parts.drawing), saver_(parts.saver),
+      measurements_(parts.measurements), fail_(std::move(fail)), recovery_(recoveryFolder(parts.options)),
+      environments_([] { Window::wake(); }), scenes_(parts.options, parts.state, parts.log, [] { Window::wake(); }) {}
+
+void Document::begin() {
+    scenes_.open(options_.scene, options_.load);
+    if (const auto left = recovery_.left()) {
+        state_.question = {Question::About::Recovering, left->string()};
+        log_.line("edits were left in " + left->string());
+    }
+}
+
+bool Document::isLeaving() {
+    if (!window_.shouldClose()) return false;
+    if (isDiscarding_ || mayLeave({Question::About::Quitting, {}})) return true;
+    window_.keepOpen();
+    return false;
+}
+
+/// Edits that are not saved are left behind only by an answer.
+bool Document::mayLeave(const Question& question) {
+    if (!hasEdits()) return true;
+    state_.question = question;
+    pulse_.settle();
+    log_.line("edits are not saved");
+    return false;
+}
+
+void Document::open(const std::string& source) {
+    if (mayLeave({Question::About::Opening, source})) load(source);
+}
+
+void Document::openFile(const std::string& file) {
+    const FileType* const type = fileTypeOf(file);
+    if (type != nullptr && type->opens == FileType::Opens::Environment) return chooseEnvironment(file);
+    open(file);
+}
+
+/// Reads the open scene again: its materials and pictures are others.
+void Document::openVariant(const std::string& variant) {
+    if (!state_.open) return;
+    const Question question{Question::About::Opening, state_.open->source(), variant};
+    if (mayLeave(question)) load(question.scene, question.variant);
+}
+
+/// Opens a scene in the place of this one, with its edits until then; or this one again, in a variant.
+void Document::load(const std::string& source, const std::optional<std::string>& variant) {
+    editsLeft_ = state_.open ? state_.open->edits() : 0;
+    loadingVariant_ = variant;
+    scenes::LoadOptions load;
+    if (variant && state_.open) {
+        load = state_.open->load();
+        load.import.variant = variant->empty() ? std::nullopt : variant;
+    }
+    scenes_.open(source, load);
+}
+
+void Document::take(Answer answer) {
+    const std::optional<Question> question = std::exchange(state_.question, std::nullopt);
+    pulse_.settle();
+    if (!question || answer == Answer::Cancel) return;
+    if (question->about == Question::About::Recovering) {
+        if (answer == Answer::Discard) return Recovery::discard(question->scene);
+        recovering_ = question->scene;
+        return load(recovering_);
+    }
+    if (answer == Answer::Keep && !saveScene()) return; // where that fails nothing else happens
+    if (question->about == Question::About::Opening) return load(question->scene, question->variant);
+    isDiscarding_ = true;
+    window_.close();
+}
+
+void Document::adoptLoaded() {
+    // The user was not asked about edits made during the load.
+    const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
+    if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
+        return scenes_.discard();
+    std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
+    if (!scene) return;
+    measurements_.clear(facts_);
+    drawing_.resume();
+    facts_.shadows = {};
+    state_.timings.clear();
+    environments_.discard(); // it was chosen for the scene before
+    // What was asked about the edits of the scene before is settled.
+    if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
+    recovery_.forget();
+    try {
+        adoptRecovered(*scene);
+    } catch (const std::exception& error) {
+        fail_(error.what());
+    }
+    state_.open = std::move(scene);
+}
+
+/// Edits that were left are now this window's, and still not saved.
+void Document::adoptRecovered(OpenScene& scene) {
+    if (std::exchange(recovering_, {}) != scene.source()) return;
+    scene.markUnsaved();
+    std::erase(state_.recent, identityOf(scene.source()));
+    const std::filesystem::path left = scene.source();
+    recovery_.keep(scene);
+    Recovery::discard(left);
+    log_.line("recovered " + left.string());
+}
+
+void Document::chooseEnvironment(const std::string& name) {
+    if (!state_.open) throw std::runtime_error("there is no scene yet for " + name + " to surround; open one first");
+    environments_.start(name);
+    log_.line("loading environment " + name);
+}
+
+void Document::adoptEnvironment() {
+    std::optional<ChosenEnvironment> chosen = environments_.take();
+    if (!chosen) return;
+    if (!chosen->error.empty()) throw std::runtime_error(chosen->error);
+    if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
+    log_.line("environment " + chosen->name);
+    state_.open->takeEnvironment(std::move(*chosen));
+    pulse_.settle();
+}
+
+std::optional<Progress> Document::loadingProgress() const {
+    const auto nameOf = [](const std::string& source) { return std::filesystem::path(source).filename().string(); };
+    if (!state_.loading.empty()) {
+        const std::optional<double> share = scenes_.filteredShare();
+        const char* const what = share ? "Filtering the environment of" : "Loading";
+        return Progress{fmt::format("{} {}", what, nameOf(state_.loading)), share, false};
+    }
+    const std::string choice = environments_.choice();
+    if (choice.empty()) return std::nullopt;
+    const std::optional<double> share = environments_.filteredShare();
+    return Progress{fmt::format("{} {}", share ? "Filtering" : "Loading", nameOf(choice)), share, true};
+}
+
+void Document::cancelEnvironment() {
+    log_.line("cancelled environment " + environments_.choice());
+    environments_.discard();
+    pulse_.settle();
+}
+
+void Document::nameWindow() {
+    if (!state_.open) return;
+    const std::string name = std::filesystem::path(state_.open->source()).filename().string();
+    const std::string title = fmt::format("Tessera - {}{}", name, state_.open->isEdited() ? " *" : "");
+    if (title != title_) window_.setTitle(title);
+    title_ = title;
+}
+
+void Document::askWhatToOpen() {
+    const std::vector<std::string> folders = foldersOf(state_.recent);
+    std::error_code error;
+    const bool hasRecent = !folders.empty() && std::filesystem::is_directory(folders.front(), error);
+    state_.files.emplace(FileDialog::Purpose::Open, hasRecent ? std::filesystem::path(folders.front()) : startFolder());
+    pulse_.settle();
+    log_.line("asks what to open");
+}
+
+void Document::askWhereToSave(const std::filesystem::path& path, const std::string& reason) {
+    const std::filesystem::path given = path.has_parent_path() ? path.parent_path() : startFolder();
+    const std::filesystem::path folder = reason.empty() ? given : homeFolder().value_or(given);
+    state_.files.emplace(FileDialog::Purpose::Save, folder, path.filename().string(), reason);
+    pulse_.settle();
+    if (!reason.empty()) log_.line("error " + reason);
+    log_.line("asks where to save");
+}
+
+/// Asks for another name where no file can be written under this one.
+bool Document::mayWrite(const std::string& path) {
+    try {
+        requireWritable(path);
+        return true;
+    } catch (const std::exception& error) {
+        askWhereToSave(path, error.what());
+        return false;
+    }
+}
+
+bool Document::saveScene() {
+    const std::string path = saver_.freeName(".json");
+    if (!mayWrite(path)) return false;
+    saver_.scene(path);
+    return true;
+}
+
+void Document::savePicture(glm::ivec2 size, const char* ending) {
+    if (const std::string path = saver_.freeName(ending); mayWrite(path)) saver_.picture(size, path);
+}
+
+void Document::saveAs(const std::string& path, glm::ivec2 size) {
+    if (!mayWrite(path)) return;
+    const FileType* const type = fileTypeOf(path);
+    if (type != nullptr && type->saves == FileType::Saves::Scene) return saver_.scene(path);
+    saver_.picture(size, path);
+}
+
+std::optional<double> Document::keepAt() const {
+    if (!state_.open || !recovery_.isBehind(*state_.open)) return std::nullopt;
+    return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_);
+}
+
+void Document::keepEdits() {
+    const std::optional<double> at = keepAt();
+    const double started = Window::nowSeconds();
+    if (!at || started < *at) return;
+    nextKeepAt_ = started + kFailedKeepSeconds;
+    recovery_.keep(*state_.open);
+    const double ended = Window::nowSeconds();
+    nextKeepAt_ = ended + kKeepShare * (ended - started);
+}
+
+void Document::endWithEdits() {
+    try {
+        if (state_.open) recovery_.keep(*state_.open);
+    } catch (const std::exception& error) {
+        options_.warn(error.what());
+    }
+    scenes_.remember(window_.sizeScreen());
+}
+
+void Document::close() {
+    recovery_.forget();
+    scenes_.remember(window_.sizeScreen());
+}
+
+} // namespace tessera::viewer
