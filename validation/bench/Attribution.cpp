@@ -70,34 +70,46 @@ void addShadows(const GroupTruth& truth, const Picture& exact, std::span<const B
     }
 }
 
-/// What goes away where light spreads as over the surface itself: the difference from the truth beside that of
-/// rounding, so it is known against the reference alone.
-void addSubsurfaces(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
-                    std::vector<AttributionLine>& lines) {
+/// What goes away where a part of the light is found as the reference finds it: the difference from the truth beside
+/// that of rounding, so it is known against the reference alone. `textOf` names how a point finds it, empty where it
+/// has none; `take` takes that from its settings.
+template <typename TextOf, typename Take>
+void addFoundLight(const char* cause, const GroupTruth& truth, const std::string& truthName,
+                   std::span<const BenchPoint> points, std::vector<AttributionLine>& lines, const TextOf& textOf,
+                   const Take& take) {
     std::set<std::string> done;
     for (const BenchPoint& point : points) {
-        if (!point.key.subsurface || !done.insert(subsurfaceText(*point.key.subsurface)).second) continue;
+        const std::string text = textOf(point.key);
+        if (text.empty() || !done.insert(text).second) continue;
         frame::FrameSettings settings = truth.settings();
-        settings.subsurface = point.settings.subsurface;
-        settings.diffusion = point.settings.diffusion;
+        take(settings, point.settings);
         const Picture shown = truth.pictureOf(Technique::Forward, settings);
-        lines.push_back(lineOf("subsurface", subsurfaceText(*point.key.subsurface), truthName,
-                               radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
+        lines.push_back(
+            lineOf(cause, text, truthName, radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
     }
 }
 
-/// As addSubsurfaces(), of the environment's light: against the reference, which integrates it.
+/// Light that spreads over surfaces.
+void addSubsurfaces(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
+                    std::vector<AttributionLine>& lines) {
+    addFoundLight(
+        "subsurface", truth, truthName, points, lines,
+        [](const PointKey& key) { return key.subsurface ? subsurfaceText(*key.subsurface) : std::string(); },
+        [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
+            settings.subsurface = own.subsurface;
+            settings.diffusion = own.diffusion;
+        });
+}
+
+/// Light of the environment.
 void addEnvironments(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
                      std::vector<AttributionLine>& lines) {
-    std::set<std::string> done;
-    for (const BenchPoint& point : points) {
-        if (!point.key.environment || !done.insert(environmentText(*point.key.environment)).second) continue;
-        frame::FrameSettings settings = truth.settings();
-        settings.environment = point.settings.environment;
-        const Picture shown = truth.pictureOf(Technique::Forward, settings);
-        lines.push_back(lineOf("environment", environmentText(*point.key.environment), truthName,
-                               radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
-    }
+    addFoundLight(
+        "environment", truth, truthName, points, lines,
+        [](const PointKey& key) { return key.environment ? environmentText(*key.environment) : std::string(); },
+        [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
+            settings.environment = own.environment;
+        });
 }
 
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {

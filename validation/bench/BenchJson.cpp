@@ -93,9 +93,9 @@ std::optional<BenchError> errorFrom(const Json& json) {
 }
 
 /// The values of a table's settings that a point has.
-template <typename Key, typename Setting>
-std::vector<typename Key::Value> valuesFrom(const Json& json, std::span<const Setting> table) {
-    std::vector<typename Key::Value> values;
+template <typename Setting>
+std::vector<KeyValue> valuesFrom(const Json& json, std::span<const Setting> table) {
+    std::vector<KeyValue> values;
     for (const Setting& row : table) {
         const Json& value = json.at(std::string(row.key));
         if (value.is_boolean())
@@ -119,7 +119,7 @@ void addValues(Json& json, const std::optional<Key>& key, std::span<const Settin
 std::optional<ShadowKey> shadowFrom(const Json& json) {
     const Json& filter = json.at(std::string(kShadowFilterKey));
     if (filter.is_null()) return {};
-    return ShadowKey{filter.get<std::string>(), valuesFrom<ShadowKey>(json, shadowSettingTable())};
+    return ShadowKey{filter.get<std::string>(), valuesFrom(json, shadowSettingTable())};
 }
 
 /// Why fields of shadows are null.
@@ -136,7 +136,7 @@ void explainShadows(const PointKey& key, std::map<std::string, std::string>& why
 std::optional<SubsurfaceKey> subsurfaceFrom(const Json& json) {
     const Json& method = json.at(std::string(kSubsurfaceKey));
     if (method.is_null()) return {};
-    return SubsurfaceKey{method.get<std::string>(), valuesFrom<SubsurfaceKey>(json, subsurfaceSettingTable())};
+    return SubsurfaceKey{method.get<std::string>(), valuesFrom(json, subsurfaceSettingTable())};
 }
 
 /// Why fields of subsurfaces are null.
@@ -149,7 +149,7 @@ void explainSubsurface(const PointKey& key, std::map<std::string, std::string>& 
 std::optional<EnvironmentKey> environmentFrom(const Json& json) {
     const Json& light = json.at(std::string(kEnvironmentKey));
     if (light.is_null()) return {};
-    return EnvironmentKey{light.get<std::string>(), valuesFrom<EnvironmentKey>(json, environmentSettingTable())};
+    return EnvironmentKey{light.get<std::string>(), valuesFrom(json, environmentSettingTable())};
 }
 
 /// Why fields of the environment's light are null.

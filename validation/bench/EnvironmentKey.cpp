@@ -1,9 +1,5 @@
 #include "validation/bench/EnvironmentKey.h"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "engine/Settings.h"
 
 namespace tessera::validation {
@@ -20,11 +16,6 @@ std::span<const EnvironmentSetting> environmentSettingTable() {
     return table;
 }
 
-const std::string* EnvironmentKey::text(std::string_view key) const {
-    const auto value = std::ranges::find(values, key, &Value::key);
-    return value == values.end() ? nullptr : &value->text;
-}
-
 EnvironmentKey environmentKeyOf(const frame::FrameSettings& settings) {
     EnvironmentKey key{std::string(infoOf(settings.environment.light).name), {}};
     for (const EnvironmentSetting& row : environmentSettingTable())
@@ -35,13 +26,7 @@ EnvironmentKey environmentKeyOf(const frame::FrameSettings& settings) {
 
 std::string environmentText(const EnvironmentKey& key) {
     if (key.light == infoOf(EnvironmentLight::Off).name) return "no environment light";
-    std::string text = "environment " + key.light;
-    for (const EnvironmentSetting& row : environmentSettingTable()) {
-        const std::string* const value = key.text(row.key);
-        if (value && *value != engine::settingOf(row.key).text({}))
-            text += ", " + fmt::format(fmt::runtime(row.format), *value);
-    }
-    return text;
+    return "environment " + key.light + changedTexts(key.values, environmentSettingTable());
 }
 
 } // namespace tessera::validation

@@ -7,6 +7,7 @@
 
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
+#include "validation/bench/KeyValues.h"
 
 namespace tessera::validation {
 
@@ -24,15 +25,11 @@ std::span<const EnvironmentSetting> environmentSettingTable();
 
 /// How a point finds the light of the environment, and what may change its frame among the settings of that.
 struct EnvironmentKey {
-    struct Value {
-        std::string_view key; ///< EnvironmentSetting::key
-        std::string text;     ///< as the setting reads it
-        bool operator==(const Value&) const = default;
-    };
-    std::string light;         ///< a name of frame::environmentLightTable()
-    std::vector<Value> values; ///< in the order of the table
+    std::string light;            ///< a name of frame::environmentLightTable()
+    std::vector<KeyValue> values; ///< in the order of the table
 
-    const std::string* text(std::string_view key) const; ///< null: no value
+    /// Null: no value.
+    const std::string* text(std::string_view key) const { return valueText(values, key); }
     bool operator==(const EnvironmentKey&) const = default;
 };
 

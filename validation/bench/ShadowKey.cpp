@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace tessera::validation {
 
 using frame::Feature, frame::PackedLights, frame::ShadowFilter;
@@ -42,11 +40,6 @@ std::span<const ShadowSetting> shadowSettingTable() {
     return table;
 }
 
-const std::string* ShadowKey::text(std::string_view key) const {
-    const auto value = std::ranges::find(values, key, &Value::key);
-    return value == values.end() ? nullptr : &value->text;
-}
-
 bool ShadowKey::usesMaps() const {
     const auto filters = frame::shadowFilterTable();
     const auto row = std::ranges::find(filters, filter, &frame::ShadowFilterInfo::name);
@@ -68,13 +61,7 @@ ShadowKey shadowKeyOf(const frame::PackedLights& lights, const frame::FrameSetti
 
 std::string shadowText(const ShadowKey& key) {
     if (key.filter == kNoShadows) return "no shadows";
-    std::string text = key.filter;
-    for (const ShadowSetting& row : shadowSettingTable()) {
-        const std::string* const value = key.text(row.key);
-        if (value && *value != engine::settingOf(row.key).text({}))
-            text += ", " + fmt::format(fmt::runtime(row.format), *value);
-    }
-    return text;
+    return key.filter + changedTexts(key.values, shadowSettingTable());
 }
 
 } // namespace tessera::validation

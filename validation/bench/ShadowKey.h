@@ -6,6 +6,7 @@
 
 #include "engine/Settings.h"
 #include "renderer/frame/PackedLights.h"
+#include "validation/bench/KeyValues.h"
 
 namespace tessera::validation {
 
@@ -26,15 +27,11 @@ std::span<const ShadowSetting> shadowSettingTable();
 
 /// How a point finds shadows: the filter, and what may change its frame among the settings of shadows.
 struct ShadowKey {
-    struct Value {
-        std::string_view key; ///< ShadowSetting::key
-        std::string text;     ///< as the setting reads it
-        bool operator==(const Value&) const = default;
-    };
     std::string filter{kNoShadows}; ///< a name of frame::shadowFilterTable(), or kNoShadows
-    std::vector<Value> values;      ///< in the order of the table; none that is open
+    std::vector<KeyValue> values;   ///< in the order of the table; none that is open
 
-    const std::string* text(std::string_view key) const; ///< null: no value
+    /// Null: no value.
+    const std::string* text(std::string_view key) const { return valueText(values, key); }
     bool usesMaps() const;
     bool operator==(const ShadowKey&) const = default;
 };

@@ -1,10 +1,7 @@
 #include "validation/bench/SubsurfaceKey.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
-
-#include <fmt/format.h>
 
 #include "engine/Settings.h"
 #include "scenes/InUse.h"
@@ -34,11 +31,6 @@ std::span<const SubsurfaceSetting> subsurfaceSettingTable() {
     return table;
 }
 
-const std::string* SubsurfaceKey::text(std::string_view key) const {
-    const auto value = std::ranges::find(values, key, &Value::key);
-    return value == values.end() ? nullptr : &value->text;
-}
-
 std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     std::set<SubsurfaceMethod> methods;
     for (const scenes::Node& node : scene.nodes) {
@@ -59,13 +51,7 @@ std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const f
 
 std::string subsurfaceText(const SubsurfaceKey& key) {
     if (key.method == infoOf(SubsurfaceMethod::None).name) return "no subsurface";
-    std::string text = key.method;
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) {
-        const std::string* const value = key.text(row.key);
-        if (value && *value != engine::settingOf(row.key).text({}))
-            text += ", " + fmt::format(fmt::runtime(row.format), *value);
-    }
-    return text;
+    return key.method + changedTexts(key.values, subsurfaceSettingTable());
 }
 
 } // namespace tessera::validation

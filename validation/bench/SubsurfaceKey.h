@@ -7,6 +7,7 @@
 
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
+#include "validation/bench/KeyValues.h"
 
 namespace tessera::validation {
 
@@ -23,15 +24,11 @@ std::span<const SubsurfaceSetting> subsurfaceSettingTable();
 
 /// What a point's surfaces do with light that enters them: the method, and how light is spread where some spreads.
 struct SubsurfaceKey {
-    struct Value {
-        std::string_view key; ///< SubsurfaceSetting::key
-        std::string text;     ///< as the setting reads it
-        bool operator==(const Value&) const = default;
-    };
-    std::string method;        ///< a name of scenes::subsurfaceMethods(), or "asked" where materials differ
-    std::vector<Value> values; ///< in the order of the table; empty where no light spreads
+    std::string method;           ///< a name of scenes::subsurfaceMethods(), or "asked" where materials differ
+    std::vector<KeyValue> values; ///< in the order of the table; empty where no light spreads
 
-    const std::string* text(std::string_view key) const; ///< null: no value
+    /// Null: no value.
+    const std::string* text(std::string_view key) const { return valueText(values, key); }
     bool operator==(const SubsurfaceKey&) const = default;
 };
 

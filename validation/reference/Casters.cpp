@@ -23,9 +23,15 @@ struct ShadowQuery : RTCIntersectContext {
     Casters::Met met;
 };
 
-/// Where the segment crosses a triangle, between its ends; by the signed volumes of the tetrahedra over the triangle's
-/// edges.
-std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
+/// Where a segment crosses a triangle.
+struct Crossing {
+    Hit hit;
+    double share = 0.0;  ///< of the segment, up to there
+    bool goesIn = false; ///< past the side from which the corners run counter-clockwise
+};
+
+/// Between the segment's ends; by the signed volumes of the tetrahedra over the triangle's edges.
+std::optional<Crossing> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
     const auto& [from, along] = query.segment;
     glm::dvec3 corners[3];
     for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - from;
@@ -36,26 +42,17 @@ std::optional<Hit> crossingOf(const Object& object, std::uint32_t triangle, cons
                           (volumes[0] <= 0.0 && volumes[1] <= 0.0 && volumes[2] <= 0.0);
     const double sum = volumes[0] + volumes[1] + volumes[2];
     if (!isInside || sum == 0.0) return {};
-    Hit hit;
+    Crossing crossing;
+    Hit& hit = crossing.hit;
     hit.object = &object;
     hit.triangle = triangle;
     for (int i = 0; i < 3; ++i) hit.weights[i] = volumes[i] / sum;
     const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
-    const double share = glm::dot(place, along) / glm::dot(along, along);
-    if (!(share > 0.0 && share < 1.0)) return {};
-    return hit;
-}
-
-/// The share of the segment up to a crossing; minus that where it goes in, past the side from which the corners run
-/// counter-clockwise.
-double signedShare(const Object& object, std::uint32_t triangle, const Hit& hit, const ShadowQuery& query) {
-    glm::dvec3 corners[3];
-    for (int i = 0; i < 3; ++i) corners[i] = object.cornerRWS(triangle, i) - query.centreRWS - query.segment.from;
-    const glm::dvec3& along = query.segment.along;
-    const glm::dvec3 place = hit.weights.x * corners[0] + hit.weights.y * corners[1] + hit.weights.z * corners[2];
-    const double share = glm::dot(place, along) / glm::dot(along, along);
+    crossing.share = glm::dot(place, along) / glm::dot(along, along);
+    if (!(crossing.share > 0.0 && crossing.share < 1.0)) return {};
     const glm::dvec3 front = object.handedness * glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    return glm::dot(front, along) < 0.0 ? -share : share;
+    crossing.goesIn = glm::dot(front, along) < 0.0;
+    return crossing;
 }
 
 void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
@@ -64,18 +61,18 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
     arguments->valid[0] = 0; // it goes on until the answer is known
     if (query.met.isHidden || (&object == query.ownObject && triangle == query.ownTriangle)) return;
-    const std::optional<Hit> hit = crossingOf(object, triangle, query);
-    if (!hit) return;
+    const std::optional<Crossing> crossing = crossingOf(object, triangle, query);
+    if (!crossing) return;
     if (object.material->alphaMode == scenes::AlphaMode::Mask) {
-        if (reference::isUndecided(*hit, *query.textures)) query.met.isUndecided = true;
+        if (reference::isUndecided(crossing->hit, *query.textures)) query.met.isUndecided = true;
         const double cutoff = double(object.material->alphaCutoff);
-        const double opacity = opacityAt(*hit, *query.textures);
+        const double opacity = opacityAt(crossing->hit, *query.textures);
         // Three weights, two blends and a product, each rounded to 2^-24 of at most 1.
         if (std::abs(opacity - cutoff) < 16.0 * 0x1p-24 * std::max(1.0, cutoff)) query.met.isUndecided = true;
         if (opacity < cutoff) return;
     }
     if (object.material == query.passed) {
-        query.met.crossings.push_back(signedShare(object, triangle, *hit, query));
+        query.met.crossings.push_back(crossing->goesIn ? -crossing->share : crossing->share);
         return;
     }
     query.met.isHidden = true;

@@ -9,10 +9,14 @@
 
 namespace tessera::reference {
 
+glm::dvec3 besideOf(const glm::dvec3& direction) {
+    return glm::normalize(
+        glm::cross(direction, std::abs(direction.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+}
+
 LightFace::LightFace(const scenes::Light& light, const glm::dvec3& ahead, double radius)
     : type_(light.type), radius_(radius), reach_(radius), area_(std::numbers::pi * radius * radius) {
-    x_ = glm::normalize(
-        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+    x_ = besideOf(ahead);
     y_ = glm::cross(x_, ahead);
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (!info.isArea || light.type == scenes::LightType::Sphere) return;
@@ -24,9 +28,7 @@ LightFace::LightFace(const scenes::Light& light, const glm::dvec3& ahead, double
         return;
     }
     isFlat_ = true;
-    x_ = info.isTurned() ? light.alongWS
-                         : glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0)
-                                                                                    : glm::dvec3(0.0, 1.0, 0.0)));
+    x_ = info.isTurned() ? light.alongWS : besideOf(axis_);
     y_ = glm::cross(axis_, x_);
     sidesMetres_ = {light.widthMetres, light.heightMetres};
     if (!info.hasCorners()) return;

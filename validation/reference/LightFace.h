@@ -6,6 +6,9 @@
 
 namespace tessera::reference {
 
+/// Unit, at right angles to a unit direction.
+glm::dvec3 besideOf(const glm::dvec3& direction);
+
 /// What shadows see of a light with a size (scenes/Shadows.h), from its position.
 class LightFace {
 public:

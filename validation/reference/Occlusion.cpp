@@ -1,6 +1,7 @@
 #include "validation/reference/Occlusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -62,6 +63,22 @@ double shareInside(std::vector<double> crossings) {
     return std::max(std::accumulate(crossings.begin(), crossings.end(), 0.0), 0.0);
 }
 
+/// A segment whose ends move by so many metres across the way, which decides edges, and along it, which decides
+/// contacts.
+std::array<Segment, 6> movedEnds(const Segment& segment, double pointMetres, double lightMetres) {
+    const glm::dvec3 ahead = glm::normalize(segment.along), aside = besideOf(ahead), up = glm::cross(aside, ahead);
+    const auto moved = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
+        return Segment{segment.from + pointStep, segment.along + lightStep - pointStep};
+    };
+    const auto across = [&](const glm::dvec3& way) { return moved(pointMetres * way, lightMetres * way); };
+    return {across(aside),
+            across(-aside),
+            across(up),
+            across(-up),
+            moved(-pointMetres * ahead, lightMetres * ahead),
+            moved(pointMetres * ahead, -lightMetres * ahead)};
+}
+
 Occlusion::Answer decided(double share) {
     return {share, share, share};
 }
@@ -77,25 +94,16 @@ Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool is
     if (!leeway) return decided(share);
     const Occlusion::Answer undecided{share, 0.0, 1.0, true};
     if (exact.isUndecided) return undecided;
-    // The ends move across the way, which decides edges, and along it, which decides contacts.
-    const auto& [from, along] = segment;
+    const glm::dvec3& along = segment.along;
     const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
     // Where casters hide the light, the own triangle does not matter.
     const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
     if (isBehind && !isOwnUndecided) return decided(0.0);
     if (isOwnUndecided && !exact.isHidden) return undecided;
-    const glm::dvec3 ahead = glm::normalize(along);
-    const glm::dvec3 aside = glm::normalize(
-        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-    const glm::dvec3 up = glm::cross(aside, ahead);
-    const auto differs = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
-        const Casters::Met other = casters.meet({from + pointStep, along + lightStep - pointStep}, surface);
-        return other.isHidden != exact.isHidden || other.isUndecided;
-    };
-    for (const glm::dvec3& way : {aside, -aside, up, -up})
-        if (differs(pointMetres * way, lightMetres * way)) return undecided;
-    if (differs(-pointMetres * ahead, lightMetres * ahead) || differs(pointMetres * ahead, -lightMetres * ahead))
-        return undecided;
+    for (const Segment& moved : movedEnds(segment, pointMetres, lightMetres)) {
+        const Casters::Met other = casters.meet(moved, surface);
+        if (other.isHidden != exact.isHidden || other.isUndecided) return undecided;
+    }
     return decided(share);
 }
 
@@ -219,20 +227,13 @@ Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hi
     if (!leeway) return passage;
     const double pointMetres = casters.leewayMetres(pointRWS);
     const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
-    const glm::dvec3 ahead = glm::normalize(along);
-    const glm::dvec3 aside = glm::normalize(
-        glm::cross(ahead, std::abs(ahead.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-    const glm::dvec3 up = glm::cross(aside, ahead);
-    const auto extend = [&](const glm::dvec3& pointStep, const glm::dvec3& lightStep) {
-        const glm::dvec3 other = passageAlong(casters, {from + pointStep, along + lightStep - pointStep}, hit, surface);
+    for (const Segment& moved : movedEnds({from, along}, pointMetres, lightMetres)) {
+        const glm::dvec3 other = passageAlong(casters, moved, hit, surface);
         passage.least = glm::min(passage.least, other);
         passage.most = glm::max(passage.most, other);
-    };
-    for (const glm::dvec3& way : {aside, -aside, up, -up}) extend(pointMetres * way, lightMetres * way);
-    extend(-pointMetres * ahead, lightMetres * ahead);
-    extend(pointMetres * ahead, -lightMetres * ahead);
+    }
     // Of what light from straight behind would give.
-    const glm::dvec3 open = std::abs(glm::dot(surface.normal, ahead)) * (passage.most - passage.least);
+    const glm::dvec3 open = std::abs(glm::dot(surface.normal, glm::normalize(along))) * (passage.most - passage.least);
     passage.isUndecided = std::max({open.r, open.g, open.b}) > kDecisiveShare;
     return passage;
 }
