@@ -10,6 +10,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "scenes/CheckElement.h"
 #include "scenes/Deform.h"
 #include "scenes/Transform.h"
 
@@ -45,11 +46,7 @@ void deformAll(Scene& scene, const Pose& pose) {
         if (deformed.weights != kNone) weights = pose.weights[std::size_t(deformed.weights)];
         const auto requireFinite = [&](const glm::dmat4& matrix) {
             const auto areFinite = [](const auto& vectors) {
-                return std::ranges::all_of(vectors, [](const auto& vector) {
-                    for (glm::length_t i = 0; i < vector.length(); ++i)
-                        if (!std::isfinite(vector[i])) return false;
-                    return true;
-                });
+                return std::ranges::all_of(vectors, [](const auto& vector) { return allFinite(vector); });
             };
             if (!std::isfinite(matrix[3].x) || !areFinite(mesh.positionsOS) ||
                 !std::ranges::all_of(mesh.texCoords, areFinite))

@@ -11,7 +11,7 @@ bool isMetallic(const SurfacePoint& point) {
     return scenes::infoOf(point.model).microsurface == scenes::Microsurface::MetallicRoughness;
 }
 bool hasAlpha(const SurfacePoint& point) {
-    return isMetallic(point) || scenes::infoOf(point.model).microsurface == scenes::Microsurface::Dielectric;
+    return isMetallic(point) || scenes::infoOf(point.model).isMicrofacet();
 }
 
 /// The surface as the hook gets it: what its model lacks is neutral, and an unlit one shines by its colour.
