@@ -176,6 +176,37 @@ TEST_F(DiffusionSlow, spreadLightIsKeptWhileWhatEntersIsTheSame) {
     expectKept();
 }
 
+/// enteredMaterial() says so of the key under which it is kept, takeEnteredValues() in the shader of the light itself.
+TEST_F(Diffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmissionASurfaceHas) {
+    for (const bool prune : {true, false}) {
+        scenes::Scene ball = sphereScene(0.03, 12);
+        scenes::Material& skin = ball.materials[0];
+        const auto layOver = [&](float amount) {
+            skin.clearcoat = amount;
+            skin.clearcoatPerceptualRoughness = amount;
+            skin.sheenColor = skin.emissive = glm::vec3(amount);
+            skin.perceptualRoughness = amount;
+            skin.ior = 1.0f + amount;
+        };
+        skin.model = scenes::MaterialModel::MetallicRoughness;
+        skin.metallic = 0.0f;
+        layOver(0.6f);
+        frame::FrameSettings settings;
+        settings.sizePixels = {80, 45};
+        settings.diffusion.sideTexels = 64;
+        settings.prune = prune;
+        engine::Renderer renderer(context(), ball);
+        renderer.render(Technique::Deferred, settings);
+        EXPECT_FALSE(passesThatSpread(renderer).empty());
+        layOver(0.4f);
+        renderer.materialsChanged();
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "pruned: " << prune;
+        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen)
+            << "pruned: " << prune;
+    }
+}
+
 TEST_F(Diffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnotherWay) {
     scenes::Scene ball = sphereScene(0.03, 12);
     // Another colour from every side.
