@@ -163,7 +163,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--shard", options->shard, "Measures part I of N, whole groups of points")->type_name("I/N");
     command
         ->add_option("--merge", options->merge,
-                     "Puts finished shards together in the output folder; of several machines in a column each")
+                     "Puts finished shards together in the output folder; of several machines each gets a column")
         ->type_name("DIR")
         ->expected(1, -1);
     command->footer(R"(Examples

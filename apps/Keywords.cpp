@@ -28,8 +28,8 @@ constexpr std::array kLoadKeywords{
     LoadKeywordRow{{"default_light", KeywordKind::Switch, "False leaves a scene without lights dark"},
                    [](const KeywordValue& value, FrameOptions& options) { options.noDefaultLight = !value.isOn; }},
     LoadKeywordRow{{"environment", KeywordKind::Text,
-                    "Lights the scene from everywhere: none, a built-in one's name, or a picture in latitude and "
-                    "longitude"},
+                    "Lights the scene from all directions: none, a built-in one's name, a picture in latitude and "
+                    "longitude, or a glTF model with an image-based light"},
                    [](const KeywordValue& value, FrameOptions& options) { options.environment = value.text; }},
     LoadKeywordRow{
         {"clip", KeywordKind::TextOrNumber, "The clip of the scene that plays, by name or counted from 0, or none"},

@@ -88,9 +88,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->group("Frame");
     command
         .add_option("--environment", options.environment,
-                    "Lights the scene from everywhere: " + environmentNames() +
-                        " or a picture in latitude and "
-                        "longitude [the scene's own]")
+                    "Lights the scene from all directions: " + environmentNames() +
+                        ", a picture in latitude and longitude, or a glTF model with an image-based light [the "
+                        "scene's own]")
         ->type_name("NAME")
         ->group("Environment");
     addSettings(command, options, "Environment");
@@ -98,7 +98,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addSettings(command, options, "Subsurface scattering");
     command
         .add_option("--memory-limit", options.memoryLimit,
-                    "The most memory that reading a scene may take [half of the machine's]")
+                    "The most memory that reading a scene may take, as in 512M or 4G [half of the machine's]")
         ->type_name("SIZE")
         ->group("Reading");
     command
@@ -110,8 +110,8 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     command
         .add_option_function<std::string>(
             "--light-units", [&options](const std::string& name) { options.import.lightUnits = lightUnitsNamed(name); },
-            "What the numbers of a glTF model's lights count: lumen, 683 for each watt, or watt [lumen for models that "
-            "Blender exported, else watt]")
+            "What the numbers of a glTF model's lights count: watt takes them as they are, lumen divides them by 683 "
+            "[lumen for models that Blender exported, else watt]")
         ->type_name("NAME")
         ->group("Reading");
     command

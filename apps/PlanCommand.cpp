@@ -47,13 +47,13 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     command->add_option("--dot", options->dot, "Writes the graph for Graphviz (dot -Tsvg FILE); - prints it alone")
         ->type_name("FILE");
     command
-        ->add_option("--also", options->also,
-                     "Plans a frame of several views: one more, from that camera of the scene; may be repeated")
+        ->add_option("--also", options->also, "Adds a view from that camera of the scene to the frame; may be repeated")
         ->type_name("CAMERA")
         ->expected(1)
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_flag("--measure", options->measure, "Draws frames to fill in milliseconds");
+    command->add_flag("--measure", options->measure,
+                      "Draws frames, which adds milliseconds and the memory of light lists");
     command->footer(R"(Examples
   tessera plan hall                                     passes, what is left out and why, memory
   tessera plan hall --technique forward --measure       with milliseconds

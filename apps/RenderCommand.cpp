@@ -245,7 +245,7 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->add_option_function<std::string>(
             "--frames", [options](const std::string& text) { options->frames = frameRangeNamed(text); },
             "Renders N pictures, or the frames A to B, or every Sth of these; FILE then holds a place such as "
-            "f_%04d.png. Frames that the same options made before stay")
+            "f_%04d.png. Frames that the same options have made are not made again")
         ->type_name("N|A:B[:S]");
     addNumber(*command, "--fps", options->framesPerSecond,
               "Frames a second of scene time: frame k shows --time + k/R seconds [30]", "R");

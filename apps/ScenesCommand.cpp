@@ -12,10 +12,10 @@ namespace tessera::app {
 namespace {
 
 int listScenes() {
-    fmt::print("{:<9} {:>9} {:>7} {:>10}  {}\n", "scene", "triangles", "lights", "materials", "what it is for");
+    fmt::print("{:<15} {:>9} {:>7} {:>10}  {}\n", "scene", "triangles", "lights", "materials", "what it is for");
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        fmt::print("{:<9} {:>9} {:>7} {:>10}  {}\n", builtin.name, scenes::triangleCount(scene), scene.lights.size(),
+        fmt::print("{:<15} {:>9} {:>7} {:>10}  {}\n", builtin.name, scenes::triangleCount(scene), scene.lights.size(),
                    scene.materials.size(), builtin.purpose);
     }
     return kGood;

@@ -51,10 +51,10 @@ static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&
 using FarSide = RefractionInfo::FarSide;
 constexpr RefractionInfo kRefractions[] = {
     {Refraction::Environment, "environment", "the environment alone", false, FarSide::None},
-    {Refraction::OneSide, "one_side", "what lies along rays that bend once", true, FarSide::None},
-    {Refraction::TwoSides, "two_sides", "the same behind a far side along the near one, where they bend back", true,
+    {Refraction::OneSide, "one_side", "surfaces along rays that bend once", true, FarSide::None},
+    {Refraction::TwoSides, "two_sides", "the same along rays that bend back at a parallel far side", true,
      FarSide::Parallel},
-    {Refraction::BackFaces, "back_faces", "the same behind the back faces of their meshes, where they bend again", true,
+    {Refraction::BackFaces, "back_faces", "the same along rays that bend again at the back faces of meshes", true,
      FarSide::BackFaces},
 };
 static_assert(isInOrder(kRefractions, &RefractionInfo::refraction, std::size(kRefractions)));

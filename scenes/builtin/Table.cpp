@@ -7,8 +7,8 @@ namespace tessera::scenes {
 std::span<const BuiltinScene> builtinScenes() {
     constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
     static constexpr std::array kScenes = {
-        BuiltinScene{"hall", "colonnaded hall, many materials, 256 coloured lights: the default", builtin::makeHall,
-                     16 * kMiB},
+        BuiltinScene{"hall", "colonnaded hall, many materials, 256 coloured lamps, sky and sun: the default",
+                     builtin::makeHall, 16 * kMiB},
         BuiltinScene{"spheres", "roughness against metalness: what a material change looks like", builtin::makeSpheres,
                      kMiB},
         BuiltinScene{"models", "every material model, gloss with a direction, coats and cloth", builtin::makeModels,
