@@ -84,7 +84,7 @@ constexpr KeyBinding kBindings[] = {
          s.inspects = !s.inspects;
          s.pinnedPlace.reset();
      }},
-    {GLFW_KEY_SPACE, kNone, "Space", "what moves by itself goes on, or stops", togglePlaying},
+    {GLFW_KEY_SPACE, kNone, "Space", "play or pause what moves", togglePlaying},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode, "Camera"},
     {GLFW_KEY_F, kNone, "F", "what is selected in view: the light, or all that has the material; else all of the scene",
