@@ -144,7 +144,7 @@ void refuseEmptyAssignments(const std::vector<const char*>& words) {
 }
 
 int runProgram(int argc, char** argv) {
-    CLI::App app("Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.",
+    CLI::App app("Tessera renders scenes with many lights by several techniques, and checks that their pictures agree.",
                  "tessera");
     app.formatter(helpFormat());
     app.set_help_flag("-h,--help", "This text; also after a command");

@@ -305,7 +305,7 @@ PYBIND11_MODULE(tessera, module) {
     pybind11::options options;
     options.disable_function_signatures();
     module.doc() =
-        "Tessera renders scenes with very many lights, by several techniques that must agree, and proves it.";
+        "Tessera renders scenes with many lights by several techniques, and checks that their pictures agree.";
     keepLog();
     translateErrors(module);
     defineScene(module);

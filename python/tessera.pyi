@@ -1,4 +1,4 @@
-"""Tessera renders scenes with very many lights, by several techniques that must agree, and proves it."""
+"""Tessera renders scenes with many lights by several techniques, and checks that their pictures agree."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
