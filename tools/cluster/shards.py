@@ -23,10 +23,11 @@ what may be divided
 {works}
 
 examples
-  A matrix on a Slurm cluster, 16 shards as a job array, merged by a job of its own when all are finished:
+  A matrix of 16 groups (scenes x lights x sizes) on a Slurm cluster, a shard for each: a job array, merged by a job of
+  its own when all are finished:
     shards.py slurm --shards 16 -o results -- bench hall --matrix matrix.json
   At most four nodes at once, in a partition, each shard within an hour (options of sbatch):
-    shards.py slurm --shards 16 --jobs 4 --with=--partition=gpu --with=--time=60 -o results -- bench hall
+    shards.py slurm --shards 16 --jobs 4 --with=--partition=gpu --with=--time=60 -o results -- bench hall --matrix matrix.json
   The same on the machines that hosts.txt names, by GNU parallel over ssh, one shard at a time on each:
     shards.py parallel --shards 16 --with=--sshloginfile=hosts.txt -o results -- bench hall --matrix matrix.json
   Frames of a sequence, on this machine, two processes, without GNU parallel:
