@@ -237,10 +237,10 @@ std::optional<double> uniformScale(const glm::dmat4& matrix) {
 
 /// A document states thicknesses in the space of each mesh, the scene in metres of the world. Source:
 /// KHR_materials_volume, "Properties". What a skin moves is taken to be as large as its mesh.
-void placeThicknesses(Context& context, const Materials& materials, const std::vector<PlacedNode>& allPlaced,
-                      const Instancing& instancing) {
+std::map<int, std::optional<double>> thicknessScales(const Context& context, const std::vector<PlacedNode>& allPlaced,
+                                                     const Instancing& instancing) {
     const model::Model& model = context.document.model;
-    std::map<int, std::optional<double>> scales; // that all nodes share, by the document's material
+    std::map<int, std::optional<double>> scales;
     for (const PlacedNode& placed : allPlaced) {
         const model::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
         if (!placed.isDrawn || node.mesh == kNone) continue;
@@ -259,7 +259,12 @@ void placeThicknesses(Context& context, const Materials& materials, const std::v
         else
             for (const glm::dmat4& transform : instanced->second) take(uniformScale(placed.worldFromNode * transform));
     }
-    for (const auto& [material, scale] : scales) {
+    return scales;
+}
+
+/// What clips say of them the rig scales.
+void placeThicknesses(Context& context, const Materials& materials) {
+    for (const auto& [material, scale] : context.thicknessScales) {
         const std::optional<int> imported = materials.imported(material);
         if (!imported) continue;
         Material& placed = context.scene.materials[static_cast<std::size_t>(*imported)];
@@ -350,9 +355,10 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     }
     addInstances(context, meshes, instancing, sceneNodes);
     importVariant(context, materials);
+    context.thicknessScales = thicknessScales(context, allPlaced, instancing);
     rigging.finish();
     bindVariant(context, materials);
-    placeThicknesses(context, materials, allPlaced, instancing);
+    placeThicknesses(context, materials);
     warnOfUndrawn(context);
     importEnvironment(context);
     ledger.settle(mark, bytesOf(scene));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -150,8 +151,10 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
             failValues(fmt::format("holds {} in element {}; every value must be finite", values.values[i],
                                    i / static_cast<std::size_t>(components)));
     sampler.values = std::move(values.values);
+    constexpr double kMost = std::numeric_limits<float>::max();
     if (animated.scale != 1.0)
-        for (float& value : sampler.values) value = static_cast<float>(value * animated.scale);
+        for (float& value : sampler.values)
+            value = static_cast<float>(std::clamp(value * animated.scale, -kMost, kMost));
     if (animated.property == AnimatedProperty::Rotation)
         for (std::size_t key = 0; key < sampler.timesSeconds.size(); ++key) {
             const std::size_t first =

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -22,6 +23,9 @@ struct Context {
     };
     Undrawn points = {}, lines = {};
     std::map<int, int> variantMaterials = {}; ///< of the document, by meshes of the scene, in the variant that is shown
+    /// By material of the document: metres of the world a unit of the meshes that show it; none where they do not share
+    /// one that is the same in all directions.
+    std::map<int, std::optional<double>> thicknessScales = {};
     std::unordered_set<std::string> warned = {};             ///< the scene's warnings
     std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
     std::unordered_set<std::string> cameraNames = {};

@@ -122,6 +122,10 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     if (isUnlit && !isOfUnlit) return animated;
     if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
     animated.emissiveFactor = stored.emissiveFactor;
+    if (info->property == AnimatedProperty::Thickness) {
+        const auto scale = context_.thicknessScales.find(static_cast<int>(index));
+        if (scale != context_.thicknessScales.end()) animated.scale = scale->second.value_or(1.0);
+    }
     if (const std::optional<int> material = materials_.imported(static_cast<int>(index)))
         animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, *material));
     return animated;

@@ -226,6 +226,34 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
     EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 1.0f);
 }
 
+/// Its keys state it in the space of the mesh, as the material does. A sampler that another channel takes as well keeps
+/// its numbers there.
+TEST(GltfAnimation, aThicknessIsScaledAsTheNodesThatShowIt) {
+    const auto posed = [](const char* nodes) {
+        Builder builder;
+        builder.material().merge_patch(Json::parse(R"({"extensions": {
+            "KHR_materials_transmission": {"transmissionFactor": 1},
+            "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2}}})"));
+        builder.json["nodes"] = Json::parse(nodes);
+        const int output = builder.add(std::vector<float>{0.25f, 0.75f}, kFloatType, "SCALAR", 2);
+        const auto at = [](const char* path) {
+            const std::string pointer = std::string("/materials/0/") + path;
+            return Json{{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+        };
+        addClip(builder, {0, 1}, output, at("extensions/KHR_materials_volume/thicknessFactor"));
+        builder.json["animations"][0]["channels"].push_back(
+            {{"sampler", 0}, {"target", at("pbrMetallicRoughness/roughnessFactor")}});
+        Scene scene = builder.import();
+        EXPECT_EQ(scene.rig.clips.at(0).channels.size(), 2u);
+        poseScene(scene, 0.5);
+        EXPECT_FLOAT_EQ(scene.materials.at(0).perceptualRoughness, 0.5f);
+        return scene.materials.at(0).thicknessMetres;
+    };
+    EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0}])"), 0.5f);
+    EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0, "scale": [3, 3, 3]}])"), 1.5f);
+    EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0, "scale": [1, 2, 3]}])"), 0.5f) << "in metres, with a warning";
+}
+
 TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
     Builder builder;
     builder.merge(R"({"nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}], "scenes": [{"nodes": [0]}],
