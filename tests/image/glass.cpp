@@ -1045,6 +1045,26 @@ TEST_F(GlassBehind, thatIsRoughBlursWhatStandsThere) {
     const double blurred = errorOf(rough), sharp = errorOf(coveredByGlass(edge, bareGlass(1.5)));
     fmt::print("behind rough glass: mean error {:.3f}, {:.3f} if it were smooth\n", blurred, sharp);
     EXPECT_LT(blurred, 0.5 * sharp);
+
+    // Of a GGX lobe (1 + s / sqrt(s^2 + alpha^2)) / 2 lies below a slope s of its half vectors along one direction, and
+    // they turn light by twice their angle: from a quarter to three quarters of the light it is so far.
+    constexpr double kAlpha = 0.3 * 0.3;
+    const double wanted = 2.0 * kBehindWallMetres * std::tan(2.0 * std::atan(kAlpha / std::sqrt(3.0)));
+    const auto widthOf = [&](const std::vector<float>& picture) {
+        std::vector<double> columns(kBehindPixels);
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x)
+                columns[std::size_t(x)] += at(picture, x, y).r / double(kBehindPixels);
+        const auto placeOf = [&](double share) {
+            const auto next = std::ranges::find_if(columns, [&](double shown) { return shown > share; });
+            if (next == columns.begin() || next == columns.end()) return std::numeric_limits<double>::quiet_NaN();
+            const double rise = (share - *(next - 1)) / (*next - *(next - 1));
+            return metresOf(int(next - columns.begin()) - 1) + rise * kBehindPixelMetres;
+        };
+        return placeOf(0.75) - placeOf(0.25);
+    };
+    EXPECT_NEAR(widthOf(truth.picture.rgba), wanted, 0.1 * wanted); // by samples
+    EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
 }
 
 /// Along rays bent once and moved aside, with levels and without, of one sample and of several.
