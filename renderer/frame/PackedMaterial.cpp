@@ -82,11 +82,21 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
     return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
-/// Beer's law: what is left after the thickness. Source: KHR_materials_volume, "Attenuation".
+/// Beer's law: what is left after the thickness; in place of less than 1e-30 its natural logarithm, which is below 0,
+/// so that where a texture makes the body thinner the colour is still known. Source: KHR_materials_volume,
+/// "Attenuation".
 glm::vec3 leftByBody(const scenes::Material& material) {
-    if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return glm::vec3(1.0f);
+    glm::vec3 left(1.0f);
+    if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return left;
     const double distances = double(material.thicknessMetres) / double(material.attenuationDistanceMetres);
-    return glm::vec3(glm::pow(glm::dvec3(material.attenuationColor), glm::dvec3(distances)));
+    constexpr double kLeast = 1e-30, kLeastLogarithm = -1e30; // which single precision holds
+    for (int c = 0; c < 3; ++c) {
+        const auto color = double(material.attenuationColor[c]), share = std::pow(color, distances);
+        left[c] = float(share >= kLeast ? share
+                        : color > 0.0   ? std::max(std::log(color) * distances, kLeastLogarithm)
+                                        : kLeastLogarithm);
+    }
+    return left;
 }
 
 /// Half of (n_F - n_C) / (n_d - 1), the inverse of the Abbe number, which is 20 over the dispersion. Source:

@@ -106,6 +106,17 @@ TEST_F(GlassSheets, areScaledByTheirTextures) {
             EXPECT_NEAR(shown[c], expected, 1e-3 * expected + 1e-6) << thickness << ", " << c;
         }
     }
+    // As thick as the material says it leaves less than single precision holds, and where it is thinner a colour.
+    sheet.attenuationDistanceMetres = 1.0f / 1024.0f; // 512 times
+    for (const float thickness : {1.0f, 1.0f / 128.0f, 1.0f / 512.0f}) {
+        const Scene scene = scaled(1.0f, thickness);
+        const glm::vec4 shown = center(scene);
+        for (int c = 0; c < 3; ++c) {
+            const double left = std::pow(double(sheet.attenuationColor[c]), 512.0 * double(thickness));
+            const double expected = 0.96 * double(sheet.transmission) * left * double(scene.background[c]);
+            EXPECT_NEAR(shown[c], expected, 1e-3 * expected + 1e-6) << "strong, " << thickness << ", " << c;
+        }
+    }
 }
 
 TEST_F(GlassSheets, behindEachOtherMultiply) {

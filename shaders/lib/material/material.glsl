@@ -19,14 +19,15 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     precise vec3 left = material.attenuation.rgb;
     precise float bodyMetres = material.transmission.z;
 #if HAS_THICKNESS_TEXTURE
-    // Beer's law. 1 leaves the bits as they are. Drivers find powers of 0 by its logarithm, which has no bound.
+    // Beer's law. 1 leaves the bits as they are.
     float thickness = sampleSlot(thicknessTexture, TEXTURE_SLOT_THICKNESS, fragment).g;
     bodyMetres *= thickness;
     if (!(thickness > 0.0))
         left = vec3(1.0);
     else if (thickness != 1.0)
-        left = mix(vec3(0.0), pow(max(left, vec3(1e-30)), vec3(thickness)), greaterThan(left, vec3(0.0)));
+        left = mix(exp(left * thickness), pow(max(left, vec3(1e-30)), vec3(thickness)), greaterThan(left, vec3(0.0)));
 #endif
+    left = max(left, vec3(0.0)); // what is given as a logarithm is nothing
     precise float share = transmission * (1.0 - metallic);
     precise vec3 passing = baseColor * left * share;
     precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;

@@ -86,7 +86,12 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     EXPECT_EQ(packMaterial(material).transmission, glm::vec4(0.5f, 0.0f, 3.0f, 0.0f));
     EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "without a distance";
     material.attenuationDistanceMetres = 1.5f; // twice
-    EXPECT_EQ(left(), glm::vec4(0.25f, 0.0625f, 0.0f, 0.0f));
+    EXPECT_EQ(left(), glm::vec4(0.25f, 0.0625f, -1e30f, 0.0f)) << "of nothing the logarithm has no bound";
+    material.attenuationDistanceMetres = 0.03125f; // 96 times
+    EXPECT_FLOAT_EQ(left().x, float(std::pow(0.5, 96.0)));
+    EXPECT_FLOAT_EQ(left().y, float(96.0 * std::log(0.25))) << "less than 1e-30";
+    material.attenuationDistanceMetres = 1e-38f;
+    EXPECT_EQ(left(), glm::vec4(-1e30f, -1e30f, -1e30f, 0.0f));
     material.thicknessMetres = 0.0f;
     EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "a sheet";
     EXPECT_EQ(packMaterial(material).transmission.z, 0.0f);
