@@ -95,6 +95,23 @@ TEST(LightPictures, levelsBlurAsTheirGaussiansSay) {
     }
 }
 
+TEST(LightPictures, levelsTakeFourTimesTheTexelsOfAPictureAtMost) {
+    const auto texelsOf = [](int width, int height) {
+        std::size_t texels = 0;
+        for (const PictureLevel& level : pictureLevels(width, height))
+            texels += std::size_t(level.width) * std::size_t(level.height);
+        return texels;
+    };
+    for (const int width : {64, 65, 100, 128, 1000, 2048, 16384})
+        for (const int height : {64, 70, 256}) {
+            EXPECT_LE(texelsOf(width, height), std::size_t(4 * width * height)) << width << " x " << height;
+            EXPECT_GE(texelsOf(width, height), std::size_t(3 * width * height)) << "the first two are as fine";
+        }
+    EXPECT_EQ(texelsOf(1, 1), 1u + 256u);
+    EXPECT_EQ(texelsOf(2, 2), 4u + 2u * 256u);
+    EXPECT_EQ(texelsOf(8, 8), 64u + 4u * 256u);
+}
+
 TEST(LightPictures, aRampStaysTheSameRampInAllLevels) {
     const std::vector<ShownPicture> shown{
         {test::lightTexture(64, 64,
