@@ -40,10 +40,18 @@ Material filmOnMetal(float thicknessNm, float ior = 1.8f, float roughness = 0.0f
 
 class FlatFilms : public FlatTest {
 protected:
-    /// What a mirror seen straight on shows of even light.
-    glm::vec4 shown(const Material& material) {
+    /// What a mirror shows of even light, seen straight on or at an angle.
+    glm::vec4 shown(const Material& material, double cosView = 1.0) {
         Scene scene = flatScene(material);
         scene.environment = evenEnvironment(1.0);
+        if (cosView < 1.0) {
+            const double sine = std::sqrt(1.0 - cosView * cosView);
+            scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
+            scene.cameras[0].worldFromCamera[0] = {cosView, 0.0, -sine, 0.0};
+            scene.cameras[0].worldFromCamera[2] = {sine, 0.0, cosView, 0.0};
+            scene.cameras[0].worldFromCamera[3] = {2.0 * sine, 0.0, 2.0 * cosView, 1.0};
+            scene.cameras[0].halfHeightMetres = 0.02;
+        }
         return center(scene);
     }
 };
@@ -73,6 +81,22 @@ TEST_F(FlatFilms, aQuarterOfAWaveTakesTheReflectionFromGlass) {
     Material half = filmOnGlass(quarterNm, ior);
     half.iridescence = 0.5f;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown(half)[c], 0.5f * (0.04f + coated[c]), 1e-5f) << "half of it";
+}
+
+/// There Schlick's curve leads from the reflectance that it has at a cosine of 0.1, and from none where that would be
+/// less: of red the film itself would show 0.005 more at 0.05, of blue 0.06 less at 0.1.
+TEST_F(FlatFilms, nearTheHorizonAreThoseAtACosineOfATenth) {
+    const Material film = filmOnGlass(400.0f);
+    const auto risen = [](double straight, double cosView) {
+        return straight + (1.0 - straight) * std::pow(1.0 - cosView, 5.0);
+    };
+    const double rise = risen(0.0, 0.1);
+    const glm::vec4 least = shown(film, 0.1), nearer = shown(film, 0.05);
+    const double red = (double(least.r) - rise) / (1.0 - rise);
+    EXPECT_GT(red, 0.15);
+    EXPECT_NEAR(nearer.r, risen(red, 0.05), 1e-3);
+    EXPECT_NEAR(least.b, rise, 1e-3);
+    EXPECT_NEAR(nearer.b, risen(0.0, 0.05), 1e-3);
 }
 
 /// A film of no thickness, or with the index of air, is none.
