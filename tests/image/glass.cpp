@@ -295,7 +295,7 @@ double reflectedOfEvenLight(double alpha, double cosView, double straight) {
 }
 
 /// What passes is what a mirror would not reflect, and a rough lobe reflects less than that at grazing angles; what it
-/// reflects more, elsewhere, stays below 0.002.
+/// reflects more, elsewhere, stays below 0.0025.
 TEST_F(Glass, roughInEvenLightLosesWhatItsLobeDoesNotReflect) {
     constexpr double kSteepRadians = 1.0, kLeastCosine = 0.1, kStraight = 0.04;
     for (const double roughness : {0.3, 0.5, 1.0}) {
@@ -311,14 +311,15 @@ TEST_F(Glass, roughInEvenLightLosesWhatItsLobeDoesNotReflect) {
                 const double cosView = glm::dot(bentNormal(kSteepRadians), toViewerOfBent(x, y));
                 if (cosView < kLeastCosine) continue;
                 const double mirrored = kStraight + (1.0 - kStraight) * std::pow(1.0 - cosView, 5.0);
-                const double wanted = 1.0 - mirrored + reflectedOfEvenLight(roughness * roughness, cosView, kStraight);
+                const double reflected = reflectedOfEvenLight(roughness * roughness, cosView, kStraight);
+                const double wanted = 1.0 - mirrored + reflected;
                 const double found = double(shown[std::size_t(4 * (y * kBentPixels + x))]);
-                // The table of lobes is as good as EnvironmentTruth.aWhiteFurnaceLosesWhatThePublishedTableSays has it.
-                ASSERT_NEAR(found, wanted, 2e-3) << roughness << ", cosine " << cosView;
+                // Tables are as good as EnvironmentTruth.everyModelReflectsEvenLightAsTheReferenceDoes has them.
+                ASSERT_NEAR(found, wanted, 0.01 * reflected + 1e-3) << roughness << ", cosine " << cosView;
                 darkest = std::min(darkest, found);
                 brightest = std::max(brightest, found);
             }
-        EXPECT_LT(brightest, 1.002) << roughness;
+        EXPECT_LT(brightest, 1.0025) << roughness;
         EXPECT_LT(darkest, 0.85) << roughness << ": grazing angles are among them";
     }
 }
