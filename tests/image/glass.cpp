@@ -1068,7 +1068,7 @@ TEST_F(GlassBehind, thatIsRoughBlursWhatStandsThere) {
             for (int x = 0; x < kBehindPixels; ++x)
                 columns[std::size_t(x)] += at(picture, x, y).r / double(kBehindPixels);
         const auto placeOf = [&](double share) {
-            const auto next = std::ranges::find_if(columns, [&](double shown) { return shown > share; });
+            const auto next = std::ranges::find_if(columns, [&](double below) { return below > share; });
             if (next == columns.begin() || next == columns.end()) return std::numeric_limits<double>::quiet_NaN();
             const double rise = (share - *(next - 1)) / (*next - *(next - 1));
             return metresOf(int(next - columns.begin()) - 1) + rise * kBehindPixelMetres;
