@@ -195,7 +195,7 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
 
 void LightCulling::expectSoundRandomScenes() {
     Seen all;
-    const std::uint64_t scenes = test::isWholeSweep() ? 200 : 36;
+    const std::uint64_t scenes = test::isWholeSweep() ? 200 : 20;
     for (std::uint64_t seed = 1; seed <= scenes && !HasFailure(); ++seed)
         all += expectSoundScene(test::randomLitScene(seed), seed);
     fmt::print("{} scenes: {} covered pixels, {} pairs needed, {} visited\n", scenes, all.covered, all.needed,
@@ -212,7 +212,7 @@ TEST_F(LightCullingSlow, noLightIsMissingFromTwoHundredRandomScenesAndNoPixelDif
 
 void LightCulling::expectSoundFarAway() {
     Seen all;
-    const std::uint64_t scenes = test::isWholeSweep() ? 80 : 12;
+    const std::uint64_t scenes = test::isWholeSweep() ? 80 : 6;
     for (std::uint64_t seed = 1; seed <= scenes && !HasFailure(); ++seed) {
         scenes::Scene scene = test::randomLitScene(seed);
         const double times = std::pow(10.0, double(1 + seed % 6));

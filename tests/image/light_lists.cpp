@@ -84,14 +84,16 @@ protected:
     }
 
     /// With every technique and method; with every builder on the GPU, or one in turn, and then without pruning, whose
-    /// programs are large, deferred techniques alone.
+    /// programs are large, one technique alone. Forward's is pruned, which changes no bit.
     void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings, bool everyBuilder) {
         engine::Renderer renderer(context(), scene);
-        const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
+        frame::FrameSettings pruned = settings;
+        pruned.prune = true;
+        const std::vector<float> truth = renderer.render(Technique::Forward, pruned).radiance;
         std::size_t turn = 0;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             if (!engine::takesSamples(technique, settings.samples)) continue;
-            if (!everyBuilder && !settings.prune && !technique.usesGBuffer()) continue;
+            if (!everyBuilder && !settings.prune && technique.technique != Technique::ClusteredDeferred) continue;
             for (const culling::Method method : technique.methods) {
                 if (method == culling::Method::None) continue;
                 settings.culling.method = method;

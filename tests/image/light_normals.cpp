@@ -166,12 +166,16 @@ void LightNormals::expectEveryFormOfNormals() {
     mixed = layouts[2];
     mixed.encoding[std::size_t(Channel::Normal)] = Encoding::Exact; // and end without it
     layouts.push_back(mixed);
+    std::size_t turn = 0;
     for (const scenes::Scene& scene : {latticeLitBy(200), test::litFromWithin(scenes::loadScene("hall"), 200, 4.0f)}) {
         engine::Renderer renderer(context(), scene);
         for (const NormalMethod& of : kByNormals) {
             if (!test::isWholeSweep() && (of.method == Method::Tile25d) != (scene.name == "hall")) continue;
             double exact = 0.0;
+            ++turn;
             for (std::size_t layout = 0; layout < layouts.size(); ++layout) {
+                // All are compared with the first.
+                if (!test::isWholeSweep() && layout != 0 && (layout + turn) % 3 != 0) continue;
                 SCOPED_TRACE(fmt::format("{}, layout {}, {}", scene.name, layout, infoOf(of.method).name));
                 frame::FrameSettings settings = normalSettings({321, 179}, of.method, 8);
                 settings.layout = layouts[layout];

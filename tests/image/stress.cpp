@@ -53,7 +53,7 @@ protected:
 };
 
 TEST_F(Stress, everyCaseHoldsInItsShortForm) {
-    run(validation::StressEffort::Quick, 2);
+    run(validation::StressEffort::Quick, 1);
 }
 
 class StressSlow : public Stress {};

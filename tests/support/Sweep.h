@@ -25,9 +25,9 @@ auto inTurn(Range&& all, std::size_t turn) {
     return isWholeSweep() ? elements.subspan(0) : elements.subspan(turn % elements.size(), 1);
 }
 
-/// Of the techniques that take so many samples a pixel, but forward, every other one, or each `every`th: so many turns
-/// one after the other have them all. All in a whole sweep.
-inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1, std::size_t every = 2) {
+/// Of the techniques that take so many samples a pixel, but forward, each `every`th: so many turns one after the other
+/// have them all. All in a whole sweep.
+inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1, std::size_t every = 3) {
     std::vector<engine::Technique> techniques;
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         if (info.technique == engine::Technique::Forward || !engine::takesSamples(info, samples)) continue;
