@@ -1,9 +1,9 @@
 """Runs the commands of a document: every line of its ```sh blocks, in order, in an empty folder of its own.
 
-    run_document.py DOCUMENT PROGRAM
+    run_document.py DOCUMENT PROGRAM [SIZE]
 
-`tessera` and ./run are the already built PROGRAM; the repository's folders stand there by name, for commands that read
-them. Blocks marked otherwise (```console, ```text, ...) show output and are not run.
+`tessera` and ./run are the already built PROGRAM; ./run alone makes the demonstration in pictures of SIZE, 320x180 unless
+it is given. The repository's folders stand there by name, for commands that read them. Blocks marked otherwise (```console, ```text, ...) show output and are not run.
 """
 
 import os
@@ -62,7 +62,7 @@ def exceptionOf(command):
     return None
 
 
-def prepare(folder, root, program):
+def prepare(folder, root, program, size):
     """The repository as a reader sees it, with the built program behind ./run; the demonstration in a small size."""
     for entry in root.iterdir():
         if entry.is_dir() and entry.name not in ("build", "out") and not entry.name.startswith("."):
@@ -70,17 +70,18 @@ def prepare(folder, root, program):
     (folder / ".bin").mkdir()
     (folder / ".bin" / "tessera").symlink_to(program)
     run = folder / "run"
-    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- demo -o out --size 320x180\nexec "{program}" "$@"\n')
+    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- demo -o out --size {size}\nexec "{program}" "$@"\n')
     run.chmod(0o755)
 
 
 def main():
     document, program = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    size = sys.argv[3] if len(sys.argv) > 3 else "320x180"
     root = pathlib.Path(__file__).resolve().parents[2]
     failures = 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        prepare(folder, root, program)
+        prepare(folder, root, program, size)
         environment = dict(os.environ, PATH=f"{folder}/.bin:{os.environ['PATH']}")
         # With a display ./run would open the viewer and wait.
         for variable in ("DISPLAY", "WAYLAND_DISPLAY"):

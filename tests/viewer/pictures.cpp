@@ -118,8 +118,8 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
 }
 
 TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
-    const std::string arguments = "head_skin --diffusion-texels 256";
-    DrivenViewer viewer = open({"head_skin", "--diffusion-texels", "256"});
+    const std::string arguments = "head_skin --diffusion-texels 128";
+    DrivenViewer viewer = open({"head_skin", "--diffusion-texels", "128"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(arguments, size));
     viewer.waitFor("spread light in view", 0);

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "tests/cli/program/Cli.h"
+#include "tests/support/Sweep.h"
 
 namespace tessera::test {
 namespace {
@@ -18,7 +19,10 @@ protected:
     void expectNoTemporaries() const {
         for (const auto& [name, contents] : files()) EXPECT_FALSE(isTemporary(name)) << name;
     }
+    /// At twelve places of its loop, or at four.
+    void expectInterruptionsLeaveNoTemporaries();
 };
+using OutputSlow = Output;
 
 TEST_F(Output, placesWhereNothingCanBeWrittenAreNamedAndNeverTouched) {
     fs::create_directory(folder_.path() / "folder.png");
@@ -73,11 +77,12 @@ TEST_F(Output, aReaderWhoLeftCostsNoFile) {
     EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("error")));
 }
 
-TEST_F(Output, anInterruptedRunEndsByItsSignalAndNeverLeavesTemporaries) {
+void Output::expectInterruptionsLeaveNoTemporaries() {
+    const int attempts = isWholeSweep() ? 12 : 4;
     std::signal(SIGINT, SIG_DFL); // a background process of a shell ignores it, and the program would inherit that
     // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
     int midWrites = 0;
-    for (int attempt = 0; attempt < 12; ++attempt) {
+    for (int attempt = 0; attempt < attempts; ++attempt) {
         const int signal = attempt % 2 == 0 ? SIGINT : SIGTERM;
         Process process({kProgram, "render", "room", "--size", "16x9", "--frames", "100000", "-o", "f%d.exr"},
                         {folder_.path(), {}, 60.0});
@@ -96,6 +101,12 @@ TEST_F(Output, anInterruptedRunEndsByItsSignalAndNeverLeavesTemporaries) {
         for (const auto& [name, contents] : files()) fs::remove(folder_.path() / name);
     }
     RecordProperty("signalsInTheMidstOfAWrite", midWrites);
+}
+TEST_F(Output, anInterruptedRunEndsByItsSignalAndNeverLeavesTemporaries) {
+    expectInterruptionsLeaveNoTemporaries();
+}
+TEST_F(OutputSlow, anInterruptedRunEndsByItsSignalAndNeverLeavesTemporaries) {
+    expectInterruptionsLeaveNoTemporaries();
 }
 
 } // namespace
