@@ -3,7 +3,8 @@
     run_document.py DOCUMENT PROGRAM [SIZE]
 
 `tessera` and ./run are the already built PROGRAM; ./run alone makes the demonstration in pictures of SIZE, 320x180 unless
-it is given. The repository's folders stand there by name, for commands that read them. Blocks marked otherwise (```console, ```text, ...) show output and are not run.
+it is given. The repository's folders stand there by name, for commands that read them. Blocks marked otherwise
+(```console, ```text, ...) show output and are not run.
 """
 
 import os

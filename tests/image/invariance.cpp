@@ -34,6 +34,8 @@ protected:
     /// Every built-in scene with two techniques and every layout, or those that expectPruningInvisible() leaves out,
     /// small with one of both in turn.
     void expectUnusedInvisible();
+    /// Of each material alone with two techniques, or with one of both in turn.
+    void expectPruningInvisibleOfEachLobe();
     /// With every other technique in turn, or with one of those with a G-buffer in turn; then unpruned only where lit.
     void expectMaterialNumbersInvisible();
     /// Of the hall, or of simpler shaders.
@@ -82,13 +84,14 @@ TEST_F(InvarianceSlow, pruningNeverChangesABitOfAnyBuiltinSceneWithAnyLayout) {
     expectPruningInvisible();
 }
 
-TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
+void Invariance::expectPruningInvisibleOfEachLobe() {
+    constexpr Technique kBoth[] = {Technique::Forward, Technique::Deferred};
     const scenes::Scene everything = test::everythingScene();
     for (std::size_t material = 0; material < everything.materials.size(); ++material) {
         scenes::Scene scene = everything;
         for (scenes::Node& node : scene.nodes)
             for (scenes::MeshInstance& instance : node.instances) instance.material = int(material);
-        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+        for (const Technique technique : test::inTurn(kBoth, material)) {
             // Forward stores nothing, and layouts are taken in turn.
             const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
             for (const frame::LayoutInfo& layout : layouts.subspan(material % layouts.size(), 1)) {
@@ -102,6 +105,12 @@ TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
             }
         }
     }
+}
+TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
+    expectPruningInvisibleOfEachLobe();
+}
+TEST_F(InvarianceSlow, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
+    expectPruningInvisibleOfEachLobe();
 }
 
 void Invariance::expectUnusedInvisible() {

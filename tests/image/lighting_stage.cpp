@@ -39,8 +39,8 @@ protected:
     }
     /// With every technique, or one in turn.
     void expectEveryFeature();
-    /// Every view of a scene of everything in every layout, or of its metal in one layout in turn. Channels of the
-    /// G-buffer, which are not lit, then in `exact` alone.
+    /// Every view of a scene of everything in every layout, or of its metal in one layout in turn. Of channels of the
+    /// G-buffer, which are not lit, then each third in `exact` alone.
     void expectEveryView();
 };
 using LightingInComputeSlow = LightingInCompute;
@@ -85,8 +85,9 @@ TEST_F(LightingInComputeSlow, aSceneOfEveryFeatureIsThePictureOfForwardWithEvery
 void LightingInCompute::expectEveryView() {
     const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     engine::Renderer renderer(context(), scene);
-    std::size_t turn = 0;
+    std::size_t turn = 0, channels = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
+        if (!test::isWholeSweep() && view.needsGBuffer && channels++ % 3 != 0) continue;
         for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), view.needsGBuffer ? 0 : turn++)) {
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
             frame::FrameSettings settings;
