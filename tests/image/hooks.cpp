@@ -55,7 +55,7 @@ protected:
         return engine::Renderer(context(), scene).render(technique, settings).radiance;
     }
 
-    /// With each technique and filter, or one filter in turn.
+    /// With each technique and filter, or every other technique of both scenes with one filter in turn.
     void expectNoChange();
     /// Of a scene of everything and an even one with every technique, or of metal, and the even one with one in turn.
     void expectTechniquesAgree();
@@ -67,10 +67,11 @@ using HooksSlow = Hooks;
 
 void Hooks::expectNoChange() {
     constexpr frame::TextureFilter kFilters[] = {frame::TextureFilter::Hardware, frame::TextureFilter::Exact};
-    std::size_t turn = 0;
+    std::size_t turn = 0, pairs = 0;
     for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
         const scenes::Scene same = hooked(scene, "{\n}\n");
         for (const Technique technique : {Technique::Forward, Technique::Deferred, Technique::ClusteredDeferred}) {
+            if (!test::isWholeSweep() && pairs++ % 2 != 0) continue;
             for (const frame::TextureFilter filter : test::inTurn(kFilters, turn++)) {
                 frame::FrameSettings settings = smallSettings();
                 settings.filter = filter;
