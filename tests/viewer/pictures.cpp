@@ -1,12 +1,20 @@
 // The window's picture equals the file that `tessera render` writes.
 #include <fmt/format.h>
 
+#include "tests/support/Sweep.h"
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {
 namespace {
 
-using ViewerPictures = ViewerTest;
+class ViewerPictures : public ViewerTest {
+protected:
+    /// Of the hall, or in a quarter of its lights.
+    void expectThePictureOfRender();
+    /// On 256 texels, or on 128.
+    void expectSpreadLightOfACameraThatMoves();
+};
+using ViewerPicturesSlow = ViewerPictures;
 
 /// Height at the top of the picture that names and meaning of a view take.
 constexpr int kTitlePixels = 80;
@@ -15,12 +23,13 @@ Shot belowTitle(const Shot& shot) {
     return shot.part({0, kTitlePixels}, {shot.sizePixels.x, shot.sizePixels.y - kTitlePixels});
 }
 
-TEST_F(ViewerPictures, theWindowShowsThePictureOfRenderBitForBit) {
-    DrivenViewer viewer = open({"hall", "--technique", "clustered_deferred"});
+void ViewerPictures::expectThePictureOfRender() {
+    const std::string lights = isWholeSweep() ? "256" : "64";
+    DrivenViewer viewer = open({"hall", "--lights", lights, "--technique", "clustered_deferred"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_EQ(size.x, 1280 - kPanelPixels);
     const Shot shown = pictureIn(viewer, size);
-    EXPECT_TRUE(shown == rendered("hall --technique clustered_deferred", size));
+    EXPECT_TRUE(shown == rendered("hall --lights " + lights + " --technique clustered_deferred", size));
     // Neither empty nor one colour.
     EXPECT_GT(differingShare(shown, Shot{size, std::vector<std::uint8_t>(shown.rgb.size(), shown.rgb[0])}, 8), 0.5);
 
@@ -57,6 +66,12 @@ TEST_F(ViewerPictures, theWindowShowsThePictureOfRenderBitForBit) {
     EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == shown);
     viewer.key("ctrl+q");
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+TEST_F(ViewerPictures, theWindowShowsThePictureOfRenderBitForBit) {
+    expectThePictureOfRender();
+}
+TEST_F(ViewerPicturesSlow, theWindowShowsThePictureOfRenderBitForBit) {
+    expectThePictureOfRender();
 }
 
 TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
@@ -117,9 +132,9 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
-TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
-    const std::string arguments = "head_skin --diffusion-texels 128";
-    DrivenViewer viewer = open({"head_skin", "--diffusion-texels", "128"});
+void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
+    const std::string texels = isWholeSweep() ? "256" : "128", arguments = "head_skin --diffusion-texels " + texels;
+    DrivenViewer viewer = open({"head_skin", "--diffusion-texels", texels});
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(arguments, size));
     viewer.waitFor("spread light in view", 0);
@@ -136,6 +151,12 @@ TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAl
     command = command.substr(command.find(' ') + 1);
     shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.png");
     EXPECT_TRUE(readShot(folder_.path() / "pasted.png") == shown) << command;
+}
+TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
+    expectSpreadLightOfACameraThatMoves();
+}
+TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
+    expectSpreadLightOfACameraThatMoves();
 }
 
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
