@@ -65,7 +65,7 @@ void Invariance::expectPruningInvisible() {
             for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), 0)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, engine::infoOf(technique).name, layout.name));
                 frame::FrameSettings settings = small();
-                if (!test::isWholeSweep()) settings.sizePixels = {160, 91};
+                if (!test::isWholeSweep()) settings.sizePixels = {96, 55};
                 settings.layout = layout.layout;
                 const Picture pruned = drawn(technique, settings);
                 settings.prune = false;
@@ -132,7 +132,7 @@ void Invariance::expectUnusedInvisible() {
             for (const Technique technique : test::inTurn(kOneOfEachFamily, turn)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, int(technique), layout.name));
                 frame::FrameSettings settings = small();
-                if (!test::isWholeSweep()) settings.sizePixels = {160, 91};
+                if (!test::isWholeSweep()) settings.sizePixels = {96, 55};
                 settings.layout = layout.layout;
                 EXPECT_EQ(graph::planText(engine::planFrame(more, technique, settings)),
                           graph::planText(engine::planFrame(scene, technique, settings)));
@@ -234,8 +234,10 @@ void Invariance::expectTheSameFromRunToRun() {
     const char* const name = test::isWholeSweep() ? "hall" : "lattice";
     const scenes::Scene scene = scenes::loadScene(name);
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-        const Picture first = picture(scene, small(), technique.technique);
-        const Picture second = picture(scenes::loadScene(name), small(), technique.technique);
+        frame::FrameSettings settings = small();
+        if (!test::isWholeSweep()) settings.sizePixels = {160, 91};
+        const Picture first = picture(scene, settings, technique.technique);
+        const Picture second = picture(scenes::loadScene(name), settings, technique.technique);
         EXPECT_EQ(first.rgba, second.rgba) << technique.name;
     }
 }

@@ -65,7 +65,7 @@ protected:
     void expectForwardsPictureOfRandomScenes();
     /// Of a scene of everything with two techniques, or every other one of its metal with one in turn.
     void expectViewsAgree();
-    /// Each scene with every technique, or with one in turn.
+    /// Each scene with every technique, or the hall and one of everything with one in turn.
     void expectPruningInvisible();
     /// With every technique, or one in turn.
     void expectNoBadPixel();
@@ -252,6 +252,7 @@ void Multisampling::expectPruningInvisible() {
     int turn = 0;
     for (const Scene& scene : {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()}) {
         int inTurn = turn++;
+        if (!test::isWholeSweep() && scene.name == "room") continue;
         for (const Technique technique : {Technique::ClusteredForward, Technique::ForwardPrepass, Technique::Forward}) {
             if (!test::isWholeSweep() && inTurn-- != 0) continue;
             SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));

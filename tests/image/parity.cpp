@@ -69,7 +69,7 @@ bool usesGBuffer(const std::string& technique) {
 /// One that tiles evenly and one that is odd both ways.
 constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 constexpr glm::ivec2 kOptionSizes[] = {{320, 180}, {321, 179}};
-constexpr glm::ivec2 kSmallSizes[] = {{192, 112}, {193, 111}}; ///< where they are taken in turn
+constexpr glm::ivec2 kSmallSizes[] = {{128, 72}, {129, 71}}; ///< where they are taken in turn
 
 void Parity::expectScenesAgree() {
     const std::size_t techniques = engine::techniqueTable().size() - 1;
