@@ -2,9 +2,9 @@
 
     run_document.py DOCUMENT PROGRAM [SIZE]
 
-`tessera` and ./run are the already built PROGRAM; ./run alone makes the demonstration in pictures of SIZE, 320x180 unless
-it is given. The repository's folders stand there by name, for commands that read them. Blocks marked otherwise
-(```console, ```text, ...) show output and are not run.
+`tessera` and ./run are the already built PROGRAM; the repository's folders stand there by name, for commands that read
+them. With SIZE, WIDTHxHEIGHT, commands that ask for pictures of more pixels get that size instead. ./run alone makes the
+demonstration in a small size. Blocks marked otherwise (```console, ```text, ...) show output and are not run.
 """
 
 import os
@@ -63,6 +63,17 @@ def exceptionOf(command):
     return None
 
 
+def limited(command, size):
+    """The command with no `--size` of more pixels than `size`, which is text, or None for any."""
+    def pixels(text):
+        width, height = text.split("x")
+        return int(width) * int(height)
+    if size is None:
+        return command
+    return re.sub(r"--size (\d+x\d+)",
+                  lambda found: found.group() if pixels(found.group(1)) <= pixels(size) else f"--size {size}", command)
+
+
 def prepare(folder, root, program, size):
     """The repository as a reader sees it, with the built program behind ./run; the demonstration in a small size."""
     for entry in root.iterdir():
@@ -71,13 +82,14 @@ def prepare(folder, root, program, size):
     (folder / ".bin").mkdir()
     (folder / ".bin" / "tessera").symlink_to(program)
     run = folder / "run"
-    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- demo -o out --size {size}\nexec "{program}" "$@"\n')
+    demonstration = limited("demo -o out --size 320x180", size)
+    run.write_text(f'#!/bin/sh\n[ $# -gt 0 ] || set -- {demonstration}\nexec "{program}" "$@"\n')
     run.chmod(0o755)
 
 
 def main():
     document, program = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-    size = sys.argv[3] if len(sys.argv) > 3 else "320x180"
+    size = sys.argv[3] if len(sys.argv) > 3 else None
     root = pathlib.Path(__file__).resolve().parents[2]
     failures = 0
     with tempfile.TemporaryDirectory() as name:
@@ -95,7 +107,7 @@ def main():
                 continue
             print(where, flush=True)
             try:
-                result = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, text=True,
+                result = subprocess.run(["bash", "-c", limited(command, size)], cwd=folder, env=environment, text=True,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                         timeout=TIMEOUT_SECONDS)
                 code, output = result.returncode, result.stdout

@@ -134,6 +134,9 @@ class Documents(unittest.TestCase):
         self.assertEqual(run_document.commandsOf(text), [(3, "one two"), (6, "three"), (13, "six")])
 
     def testACommandIsNeverLeftOutForItsBeginningAlone(self):
+        self.assertEqual(run_document.limited("render a --size 320x180 -o b", "160x90"), "render a --size 160x90 -o b")
+        self.assertEqual(run_document.limited("render a --size 120x120", "160x90"), "render a --size 120x120")
+        self.assertEqual(run_document.limited("render a --size 320x180", None), "render a --size 320x180")
         self.assertIsNone(run_document.exceptionOf("./tester"))
         self.assertIsNone(run_document.exceptionOf("tessera render hall -o view.png"))
         self.assertIsNotNone(run_document.exceptionOf("./test -R Graph   # one test"))

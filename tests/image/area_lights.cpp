@@ -62,6 +62,8 @@ scenes::Scene withAreaLights(scenes::Scene scene) {
 class AreaLights : public EnvironmentTest {
 protected:
     void expectAllTechniquesAlike();
+    /// Of each type with a technique that has light lists, or with the one whose programs other tests share.
+    void expectPruningChangesNoBit();
 };
 using AreaLightsSlow = AreaLights;
 
@@ -108,7 +110,8 @@ TEST_F(AreaLightsSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
     expectAllTechniquesAlike();
 }
 
-TEST_F(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
+void AreaLights::expectPruningChangesNoBit() {
+    const Technique technique = isWholeSweep() ? Technique::TiledDeferred : Technique::Deferred;
     scenes::Scene scene = quadScene({});
     for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
@@ -117,10 +120,16 @@ TEST_F(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
         settings.sizePixels = {96, 54};
         const auto radiance = [&](bool prune) {
             settings.prune = prune;
-            return engine::Renderer(context(), scene).render(Technique::TiledDeferred, settings).radiance;
+            return engine::Renderer(context(), scene).render(technique, settings).radiance;
         };
         EXPECT_EQ(radiance(true), radiance(false));
     }
+}
+TEST_F(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
+    expectPruningChangesNoBit();
+}
+TEST_F(AreaLightsSlow, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
+    expectPruningChangesNoBit();
 }
 
 TEST_F(AreaLights, aSceneWithoutThemHasNoTraceOfThem) {

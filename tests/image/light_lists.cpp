@@ -210,9 +210,10 @@ TEST_F(LightListsSlow, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLi
 void LightLists::expectListsOfAnyCount() {
     frame::FrameSettings settings;
     settings.sizePixels = {65, 49};
-    settings.prune = false; // the lattice's first light is out of view
+    settings.prune = !test::isWholeSweep();
     std::size_t turn = 0;
     for (const int count : {1, 31, 32, 33, 4097}) {
+        if (count == 1 && settings.prune) continue; // the lattice's first light is out of view, so it would be left out
         SCOPED_TRACE(count);
         expectSameLists(latticeOf(count), settings, std::array{16}, test::isWholeSweep(), turn++);
     }

@@ -117,8 +117,10 @@ TEST_F(MultisamplingSlow, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily
 void Multisampling::expectForwardsPictureOfRandomScenes() {
     constexpr std::size_t kTurns = 9; // odd, so that turns go through the tiles, of which there are four
     std::vector<Scene> lit{test::everythingScene(), test::columnsBeforeWall(200)};
-    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 3); ++seed)
-        lit.push_back(test::randomLitScene(seed));
+    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 3); ++seed) {
+        const Scene scene = test::randomLitScene(seed);
+        lit.push_back(test::isWholeSweep() ? scene : test::withEveryKindOfLight(scene));
+    }
     struct Case {
         Technique technique;
         culling::Method method;
@@ -128,7 +130,9 @@ void Multisampling::expectForwardsPictureOfRandomScenes() {
         engine::Renderer renderer(context(), lit[i]);
         frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
         settings = engine::settingsOn(context().capabilities(), settings);
-        settings.prune = test::isWholeSweep() ? i % 4 == 0 : i == 0; // without pruning all scenes share their programs
+        // Without pruning all scenes share their programs, however large ones; with every kind of light they do with
+        // it.
+        settings.prune = !test::isWholeSweep() || i % 4 == 0;
         std::vector<Case> cases;
         for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
             if (!engine::takesSamples(info, settings.samples)) continue;
