@@ -25,6 +25,7 @@ protected:
     /// Every technique, or those in turn; without pruning in each case, or in those of samples and between the two.
     void expectAllTechniquesAlike();
     /// Of each material in light from the map and from samples, or in one of both in turn.
+    void expectMapTimesFresnelsFactor();
     void expectTheReferencesBall();
 };
 using EnvironmentMirrorsSlow = EnvironmentMirrors;
@@ -155,14 +156,18 @@ std::vector<MirrorCase> mirrorCases() {
             {"microfacet, ior 0.75", water, ofGlass(0.75)}};
 }
 
-TEST_F(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
+constexpr EnvironmentLight kBothLights[] = {EnvironmentLight::SplitSum, EnvironmentLight::Sampled};
+
+void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
+    std::size_t turn = 0;
     const std::pair<const char*, MapRadiance> maps[] = {{"squares", squaresAt}, {"a sun", sunShownBy(40, 20)}};
-    for (const MirrorCase& one : mirrorCases())
+    for (const MirrorCase& one : mirrorCases()) {
+        ++turn;
         for (const auto& [name, map] : maps) {
             scenes::Scene scene = planeBelowTheSky(one.material);
             scene.environment = environmentShowing(map);
             engine::Renderer renderer(context(), scene);
-            for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            for (const EnvironmentLight how : inTurn(kBothLights, turn)) {
                 frame::FrameSettings settings;
                 settings.sizePixels = {kMirrorPixels, kMirrorPixels};
                 settings.environment.light = how;
@@ -189,6 +194,13 @@ TEST_F(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFacto
                 EXPECT_GT(brightest, map(0, 0) > 0.5 ? 0.99 : 0.1 * kSunRadiance) << "the sun is in view";
             }
         }
+    }
+}
+TEST_F(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
+    expectMapTimesFresnelsFactor();
+}
+TEST_F(EnvironmentMirrorsSlow, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
+    expectMapTimesFresnelsFactor();
 }
 
 /// By samples it keeps its lobe; no filtered level is as sharp.
@@ -223,7 +235,6 @@ TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflec
 
 /// Normals of a ball are interpolated between vertices that rasterisers round to 1/256 of a pixel.
 void EnvironmentMirrors::expectTheReferencesBall() {
-    constexpr EnvironmentLight kHow[] = {EnvironmentLight::SplitSum, EnvironmentLight::Sampled};
     std::size_t turn = 0;
     constexpr int kBallPixels = 40;
     for (const MirrorCase& one : mirrorCases()) {
@@ -238,7 +249,7 @@ void EnvironmentMirrors::expectTheReferencesBall() {
         const validation::ReferencePicture truth = validation::referencePicture(
             scene, settings, [] {}, validation::Leeway::None);
         engine::Renderer renderer(context(), scene);
-        for (const EnvironmentLight how : inTurn(kHow, turn++)) {
+        for (const EnvironmentLight how : inTurn(kBothLights, turn++)) {
             settings.environment.light = how;
             const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
             double shown = 0.0, wanted = 0.0;

@@ -8,6 +8,7 @@
 #include "engine/Rendering.h"
 #include "scenes/Limits.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
@@ -47,6 +48,9 @@ protected:
             EXPECT_LT(figures.excluded, 0.02);
         }
     }
+
+    /// Every technique in each scene, or some in turn.
+    void expectTechniquesAgreeAtLimits();
 
     static scenes::Scene floorUnderLamp(double eyeMetres, double lampMetres) {
         scenes::Scene scene = validation::stressFarFloor(eyeMetres);
@@ -157,8 +161,11 @@ TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     }
 }
 
+using FarEyeSlow = FarEye;
+
 /// The ends of scenes/Limits.h.
-TEST_F(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
+void FarEye::expectTechniquesAgreeAtLimits() {
+    std::size_t turn = 0;
     scenes::Scene near = test::everythingScene();
     near.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
     scenes::Scene vast = test::everythingScene();
@@ -183,9 +190,15 @@ TEST_F(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
         int lit = 0;
         for (std::size_t i = 0; i < truth.radiance.size(); i += 4) lit += truth.radiance[i] > 0.0f;
         EXPECT_GT(lit, 160 * 90 / 4);
-        for (const engine::TechniqueInfo& technique : engine::techniqueTable())
-            EXPECT_TRUE(renderer.render(technique.technique, settings_).radiance == truth.radiance) << technique.name;
+        for (const Technique technique : test::techniquesInTurn(turn++, 1, 6))
+            EXPECT_TRUE(renderer.render(technique, settings_).radiance == truth.radiance) << infoOf(technique).name;
     }
+}
+TEST_F(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
+    expectTechniquesAgreeAtLimits();
+}
+TEST_F(FarEyeSlow, techniquesAgreeAtTheLimitsOfLengths) {
+    expectTechniquesAgreeAtLimits();
 }
 
 } // namespace

@@ -405,6 +405,7 @@ TEST_F(Glass, dispersionElsewhereInASceneChangesNoBit) {
 /// Roughness spreads light by the index of refraction: none at 1, all from 1.5 on and at 0, which has no bound.
 void Glass::expectRoughAsTheReference() {
     for (const double ior : {1.0, 1.25, 1.5, 2.0, 0.0}) {
+        if (!isWholeSweep() && (ior == 1.25 || ior == 1.5)) continue;
         Material rough = bareGlass(ior, 0.6);
         if (ior == 2.0) rough.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
         rough.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};

@@ -318,16 +318,23 @@ protected:
         return settings;
     }
     /// Of a scene of everything, or of its metal.
+    void expectNoMoveNoChange();
     void expectMovedAsAMesh();
     /// Of a scene of materials that do not vary, or of metal.
     void expectAlikeAtAnyTime();
 };
 using VertexHooksSlow = VertexHooks;
 
-TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
-    const scenes::Scene scene = test::everythingScene();
+void VertexHooks::expectNoMoveNoChange() {
+    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     const frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
     EXPECT_EQ(drawn(moving(scene, "{\n}\n", 0.0), settings), drawn(scene, settings));
+}
+TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
+    expectNoMoveNoChange();
+}
+TEST_F(VertexHooksSlow, oneThatMovesNothingChangesNoBit) {
+    expectNoMoveNoChange();
 }
 
 void VertexHooks::expectMovedAsAMesh() {

@@ -65,6 +65,8 @@ protected:
     void expectEveryLight(int count, bool every, std::size_t turn = 0);
     /// With counts of lights about those from which a round visits more of them.
     void expectEveryLightOfEveryCount();
+    /// With every method and builder on the GPU, or each method with one builder in turn.
+    void expectNoLightLacking();
     /// The same bits with every number of lights per round.
     void expectOnePicture(const scenes::Scene& scene);
 };
@@ -123,14 +125,16 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsRefused) {
 }
 
 /// What builds lists in shaders loops over lights too.
-TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
+void LightRounds::expectNoLightLacking() {
+    constexpr std::pair<Builder, int> kBuilders[] = {
+        {Builder::Compute, 64}, {Builder::Compute, 1}, {Builder::Fragment, 1}};
+    std::size_t turn = 0;
     const scenes::Scene scene = wallOf(scenes::kMostLights);
     engine::Renderer renderer(context(), scene);
     const std::vector<float> forward = renderer.render(Technique::Forward, settings()).radiance;
     for (const Method method : {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin}) {
         const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
-        for (const auto& [builder, lanes] :
-             {std::pair(Builder::Compute, 64), std::pair(Builder::Compute, 1), std::pair(Builder::Fragment, 1)}) {
+        for (const auto& [builder, lanes] : test::inTurn(kBuilders, turn++)) {
             SCOPED_TRACE(fmt::format("{}, {} lanes, {}", infoOf(method).name, lanes, infoOf(builder).name));
             frame::FrameSettings asked = settings();
             asked.culling.method = method;
@@ -140,6 +144,12 @@ TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
             EXPECT_TRUE(renderer.render(technique, asked).radiance == forward);
         }
     }
+}
+TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
+    expectNoLightLacking();
+}
+TEST_F(LightRoundsSlow, listsBuiltOnTheGpuNeverLackALight) {
+    expectNoLightLacking();
 }
 
 void LightRounds::expectOnePicture(const scenes::Scene& scene) {

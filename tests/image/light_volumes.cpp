@@ -142,6 +142,7 @@ protected:
     }
     // Lambert materials unless the sweep is whole: which pixels a volume covers is no matter of them.
     void expectPlacesEqual();
+    void expectMirroredNodesEqual();
     /// 72 scenes, or a third of them, all with pruning.
     void expectRandomScenesEqual();
 };
@@ -281,11 +282,17 @@ TEST_F(LightVolumes, spotsAlongAWallAreExactlyAsInDeferred) {
     }
 }
 
-TEST_F(LightVolumes, mirroredNodesAreExactlyAsInDeferred) {
-    scenes::Scene scene = test::everythingScene();
+void LightVolumes::expectMirroredNodesEqual() {
+    scenes::Scene scene = sceneOfVolumes();
     for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
     engine::Renderer renderer(context(), scene);
     EXPECT_TRUE(expectEqual(renderer, scene, sized(193, 121)));
+}
+TEST_F(LightVolumes, mirroredNodesAreExactlyAsInDeferred) {
+    expectMirroredNodesEqual();
+}
+TEST_F(LightVolumesSlow, mirroredNodesAreExactlyAsInDeferred) {
+    expectMirroredNodesEqual();
 }
 
 TEST_F(LightVolumes, aSphereNeverVisitsMuchMoreThanItsCircle) {

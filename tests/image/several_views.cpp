@@ -62,6 +62,8 @@ protected:
         }
     }
     void expectTwoCamerasAreTwoFrames();
+    /// Of a scene of everything, or of its metal.
+    void expectViewsMayDiffer();
     void expectSharingChangesNoBit();
 };
 using SeveralViewsSlow = SeveralViews;
@@ -87,8 +89,8 @@ TEST_F(SeveralViewsSlow, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
     expectTwoCamerasAreTwoFrames();
 }
 
-TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
-    const scenes::Scene scene = withTwoCameras(test::everythingScene());
+void SeveralViews::expectViewsMayDiffer() {
+    const scenes::Scene scene = withTwoCameras(test::isWholeSweep() ? test::everythingScene() : test::metalScene());
     View fragment = view(Technique::ClusteredDeferred, 0, {64, 48});
     fragment.settings.culling.builder = culling::Builder::Fragment;
     View compute = view(Technique::ForwardPlus, 1, {97, 55});
@@ -99,6 +101,12 @@ TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists)
     View volumes = view(Technique::DeferredVolumes, 1, {64, 48});
     volumes.settings.space = frame::LightingSpace::View;
     expectEqual(scene, {fragment, compute, zbin, volumes});
+}
+TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
+    expectViewsMayDiffer();
+}
+TEST_F(SeveralViewsSlow, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
+    expectViewsMayDiffer();
 }
 
 TEST_F(SeveralViews, eachViewsListsAreCulledByItsOwnNormals) {

@@ -33,8 +33,8 @@ scenes::Scene withUnusedOfEverything(scenes::Scene scene);
 /// For sweeps over scenes whose subject is not spread light: an atlas of 64 texels a side, for speed.
 frame::DiffusionSettings coarseDiffusion();
 
-/// The same for sweeps whose subject is not the number of lights: a built-in scene, of 1000 area lights only 250 unless
-/// the sweep is a whole one (Sweep.h). Each costs a pixel in its range many times what a point light does.
+/// The same for sweeps whose subject is not the number of lights: a built-in scene, of 256 lights or more only 100
+/// unless the sweep is a whole one (Sweep.h).
 scenes::Scene builtinForSweep(const scenes::BuiltinScene& builtin, scenes::LoadOptions options = {});
 
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
