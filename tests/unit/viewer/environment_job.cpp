@@ -67,7 +67,7 @@ TEST_F(EnvironmentJobTest, itTellsHowMuchIsFilteredOfTheChoiceAlone) {
     const tessera::test::TempFolder folder; // where nothing is kept yet
     setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
     EXPECT_FALSE(job().filteredShare());
-    chosen("sky");
+    chosen("studio");
     EXPECT_GT(shareAtEnd().value_or(0.0), 0.9);
     EXPECT_FALSE(job().filteredShare()) << "it was taken";
     chosen("none");
