@@ -49,7 +49,7 @@ TEST_F(LightingInCompute, picturesAreThoseOfForward) {
     for (const char* name : {"hall", "lattice"}) {
         SCOPED_TRACE(name);
         frame::FrameSettings settings;
-        settings.sizePixels = {321, 179};
+        settings.sizePixels = {161, 91};
         const scenes::Scene scene = scenes::loadScene(name);
         engine::Renderer renderer(context(), scene);
         expectForwardsPicture(renderer, settings, choosing());

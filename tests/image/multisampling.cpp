@@ -63,7 +63,7 @@ protected:
     void expectOptionsAgree();
     /// Of random scenes, with every technique, culling method and tile, or some with every ninth of these in turn.
     void expectForwardsPictureOfRandomScenes();
-    /// Of a scene of everything with two techniques, or every other one of its metal with one in turn.
+    /// Of a scene of everything with two techniques, or every other view of its metal with one in turn.
     void expectViewsAgree();
     /// Each scene with every technique, or the hall and one of everything with one in turn.
     void expectPruningInvisible();

@@ -22,11 +22,11 @@ using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase,
 
 class ShadowMapsTest : public test::ShadowTest {
 protected:
-    /// Of every scene with every filter and technique; or of each with one filter in turn and every other technique.
+    /// Of every scene with every filter and technique; or of each with one filter in turn and each third technique.
     void expectSameLookups();
-    /// Of a scene of everything, or of Lambert materials, and then with every other technique.
+    /// Of a scene of everything, or of Lambert materials, and then with each third technique.
     void expectSameOnMasked();
-    /// With every technique, or every other one.
+    /// With every technique, or each third one.
     void expectShadowsWithinBudget();
     /// Of every scene, or of the head.
     void expectFewWrong();
