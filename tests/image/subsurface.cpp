@@ -30,6 +30,8 @@ protected:
     /// filter and number of samples, or each with some.
     void expectAllTechniquesAlike();
     void expectExponentialBehindSlabs();
+    /// With every filter, or with rays and hard edges.
+    void expectExponentialAtEveryAngle();
 };
 using SubsurfaceSlow = Subsurface;
 
@@ -207,7 +209,7 @@ glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, co
 }
 
 /// Four faces of a lamp's map lie to its sides; of a way at an angle the part along the slab's normal is 0.64 at most.
-TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
+void Subsurface::expectExponentialAtEveryAngle() {
     constexpr double kThickness = 0.01;
     scenes::Mesh slab;
     scenes::builtin::appendBox(slab, {-0.5, -0.5, -kThickness}, {0.5, 0.5, 0.0});
@@ -248,6 +250,12 @@ TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
             EXPECT_LE(worst, bar.ofSlab) << infoOf(bar.filter).name << ", light " << light;
         }
     }
+}
+TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
+    expectExponentialAtEveryAngle();
+}
+TEST_F(SubsurfaceSlow, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
+    expectExponentialAtEveryAngle();
 }
 
 /// What passes is added to all that is reflected: a white body that absorbs nothing returns up to twice what arrives.
