@@ -1077,7 +1077,9 @@ TEST_F(GlassBehind, thatIsRoughBlursWhatStandsThere) {
         };
         return placeOf(0.75) - placeOf(0.25);
     };
-    EXPECT_NEAR(widthOf(truth.picture.rgba), wanted, 0.1 * wanted); // by samples
+    // The means of columns, of 48 x 32 samples, place each quarter to 2.6 % of the width; the lobe's cosine takes 2 %
+    // of it.
+    EXPECT_NEAR(widthOf(truth.picture.rgba), wanted, 0.13 * wanted);
     EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
 }
 

@@ -361,8 +361,8 @@ TEST_F(Compare, aSmallModelHoldsAgainstItself) {
     if (assets == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
     for (const char* model :
          {"SpecularTest/SpecularTest.glb", "AlphaBlendModeTest/AlphaBlendModeTest.glb", "Cameras/Cameras.gltf"}) {
-        const ProcessResult result = run({"compare", (fs::path(assets) / model).string(), "--size", "96x54",
-                                          "--techniques", "deferred", "--json", "c.json"});
+        const ProcessResult result = run({"compare", (fs::path(assets) / model).string(), "--size", "96x54", "--fov",
+                                          "120", "--backdrop", "off", "--techniques", "deferred", "--json", "c.json"});
         EXPECT_EQ(result.exitCode, kGood) << result.out << result.err; // which warns of missing lights and cameras
         const Json pair = json("c.json")["pairs"][0];
         EXPECT_LT(pair["litShare"], 0.1) << model;

@@ -68,7 +68,7 @@ TEST_F(Manual, itTellsEveryCommandAndEveryOptionOfTheHelp) {
     for (const std::string& command : commands) {
         SCOPED_TRACE(command);
         const std::string help = runGood({command, "--help"});
-        const std::string text = section("SS", command);
+        const std::string text = section("SS", command) + '\n';
         std::smatch usage;
         ASSERT_TRUE(std::regex_search(help, usage, std::regex("Usage: ([^\n]+)")));
         EXPECT_THAT(text, HasSubstr("\n" + usage[1].str() + "\n"));
