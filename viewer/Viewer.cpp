@@ -170,6 +170,7 @@ private:
             std::vector<std::string>& having = programs[fault.text];
             if (!fault.program.empty()) having.push_back(fault.program);
         }
+        const bool hadFaults = !state_.shaderFaults.empty();
         state_.shaderFaults.clear();
         for (auto& [text, having] : programs) {
             log_.line("shader error " + text);
@@ -181,6 +182,8 @@ private:
                 state_.notice = {fmt::format("Shaders reloaded: {} program{} compiled", done.programs,
                                              done.programs == 1 ? "" : "s"),
                                  false};
+            else if (hadFaults)
+                state_.notice = {"Shaders reloaded: their errors are gone", false};
             else if (isAsked)
                 state_.notice = {"Shaders reloaded: nothing has changed in them", false};
         }

@@ -94,7 +94,8 @@ TEST_F(ViewerEdits, anEditIsUndoneAndRedoneByKeys) {
 
 TEST_F(ViewerEdits, severalLightsAreSelectedInTheListAndDeletedAtOnce) {
     folder_.write("row.json", R"({"tessera": 1, "base": {"file": "builtin:room"}, "lights": [
-        {"name": "a", "type": "point", "position": [-1, 1.5, 0], "intensity": 8, "range": 3},
+        {"name": "a", "type": "point", "position": [-1, 1.5, 0], "intensity": 8,
+         "falloff": {"type": "inverse_square", "range": 3}},
         {"name": "b", "type": "point", "position": [0, 1.5, 0], "intensity": 8},
         {"name": "c", "type": "point", "position": [0.5, 1.5, 0], "intensity": 8},
         {"name": "d", "type": "point", "position": [1, 1.5, 0], "intensity": 8}]})");
