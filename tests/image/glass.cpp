@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "base/Median.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
 #include "tests/image/Textbook.h"
@@ -1153,7 +1154,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
 }
 
 /// Where its bodies stand on a table before a lamp's foot and a pane's holder.
-TEST_F(GlassSlow, theSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
+TEST_F(GlassSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
@@ -1163,21 +1164,36 @@ TEST_F(GlassSlow, theSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Picture truth = validation::referencePicture(
                               scene, settings, [] {}, validation::Leeway::None)
                               .picture;
-    const auto errorOf = [&](Refraction refraction) {
+    const auto drawnWith = [&](Refraction refraction) {
         settings.refraction = refraction;
-        const std::vector<float> shown = renderer.render(Technique::Deferred, settings).radiance;
-        double sum = 0.0;
-        for (std::size_t pixel = 0; pixel < truth.pixelCount(); ++pixel)
-            for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i) {
-                const double own = double(shown[i]), other = double(truth.rgba[i]);
-                sum += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
-            }
-        return sum / (3.0 * double(truth.pixelCount()));
+        return renderer.render(Technique::Deferred, settings).radiance;
     };
-    const double alone = errorOf(Refraction::Environment), with = errorOf(Refraction::OneSide);
-    fmt::print("glass: relMSE {:.2e} with the environment alone, {:.2e} with what stands behind, {:.1f} times less\n",
-               alone, with, alone / with);
-    EXPECT_LT(with, 0.5 * alone);
+    const std::vector<float> alone = drawnWith(Refraction::Environment), behind = drawnWith(Refraction::OneSide);
+    // Of each pixel that the two show differently: bodies, and nothing else.
+    std::vector<double> errorsAlone, errorsBehind;
+    double squaresAlone = 0.0, squaresBehind = 0.0;
+    const auto errorAt = [&](const std::vector<float>& shown, std::size_t pixel, double& squares) {
+        double error = 0.0, light = 0.0;
+        for (std::size_t i = 4 * pixel; i < 4 * pixel + 3; ++i) {
+            const double own = double(shown[i]), other = double(truth.rgba[i]);
+            error += std::abs(own - other);
+            light += other + 0.01;
+            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01)) / 3.0;
+        }
+        return error / light;
+    };
+    for (std::size_t pixel = 0; pixel < truth.pixelCount(); ++pixel) {
+        if (std::equal(&alone[4 * pixel], &alone[4 * pixel + 3], &behind[4 * pixel])) continue;
+        errorsAlone.push_back(errorAt(alone, pixel, squaresAlone));
+        errorsBehind.push_back(errorAt(behind, pixel, squaresBehind));
+    }
+    const double count = double(errorsAlone.size()), medianAlone = medianOf(errorsAlone),
+                 medianBehind = medianOf(errorsBehind);
+    fmt::print("glass: {} pixels of bodies; median error {:.3f} with the environment alone, {:.3f} with what stands "
+               "behind; relMSE {:.2f} and {:.2f}\n",
+               errorsAlone.size(), medianAlone, medianBehind, squaresAlone / count, squaresBehind / count);
+    EXPECT_GT(count, 100.0);
+    EXPECT_LT(medianBehind, 0.7 * medianAlone);
 }
 
 } // namespace
