@@ -106,14 +106,14 @@ struct ViewWiring {
 
     void addEnvironment(const frame::EnvironmentHandles& all, graph::BufferHandle constants) {
         if (spec.showsEnvironment) {
-            backdrop = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}};
+            backdrop = frame::EnvironmentHandles{constants, {}, {}, {}};
             if (spec.settings.environment.backdrop == frame::Backdrop::Sharp)
                 backdrop->map = all.map;
             else
                 backdrop->filtered = all.filtered;
         }
         if (!spec.features[frame::Feature::Environment]) return;
-        lighting.environment = frame::EnvironmentHandles{all.environment, constants, {}, {}, {}};
+        lighting.environment = frame::EnvironmentHandles{constants, {}, {}, {}};
         if (spec.lightsByEnvironmentMap()) lighting.environment->map = all.map;
         if (spec.usesEnvironmentSamples())
             lighting.environment->samples = all.samples;

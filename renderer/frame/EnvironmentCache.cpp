@@ -22,7 +22,7 @@ namespace tessera::frame {
 namespace {
 
 /// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 7, kLobeVersion = 6;
+constexpr std::uint64_t kEnvironmentVersion = 8, kLobeVersion = 6;
 
 /// Of words and bytes; another one in the place of any single word gives another hash for sure.
 class WordHash {
@@ -112,7 +112,9 @@ std::uint64_t keyOf(const scenes::Image& map) {
 
 /// Room for what a map is filtered to.
 FilteredEnvironment emptyFor(const scenes::Image& map) {
-    const auto shape = [](int side) { return Octahedron{side, std::vector<glm::vec3>(std::size_t(side * side))}; };
+    const auto shape = [](int side) {
+        return DividedOctahedron{side, std::vector<glm::vec3>(std::size_t((side + 1) * (side + 1)))};
+    };
     const int side = filteredSideOf(map);
     FilteredEnvironment empty;
     for (int level = 0; level < filteredLevelsOf(side); ++level)
@@ -123,8 +125,8 @@ FilteredEnvironment emptyFor(const scenes::Image& map) {
 
 Parts partsOf(FilteredEnvironment& filtered) {
     Parts parts;
-    for (Octahedron& level : filtered.levels) parts.push_back(std::as_writable_bytes(std::span(level.texels)));
-    parts.push_back(std::as_writable_bytes(std::span(filtered.irradiance.texels)));
+    for (DividedOctahedron& level : filtered.levels) parts.push_back(std::as_writable_bytes(std::span(level.corners)));
+    parts.push_back(std::as_writable_bytes(std::span(filtered.irradiance.corners)));
     return parts;
 }
 

@@ -19,12 +19,48 @@ namespace {
 using shared::filteredSide, shared::filteredTop;
 using std::numbers::pi;
 
+/// All directions on the square of an unfolded octahedron, by texels with their values in their middles.
+struct Octahedron {
+    int side = 0;
+    std::vector<glm::vec3> texels; ///< row after row
+
+    static glm::dvec2 codeOfTexel(int x, int y, int side) {
+        return glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(side) - 1.0;
+    }
+    /// Past an edge the square goes on at the mirrored place of the same edge.
+    const glm::vec3& at(int x, int y) const {
+        const auto fold = [this](int& beyond, int& along) {
+            if (beyond >= 0 && beyond < side) return;
+            beyond = beyond < 0 ? -1 - beyond : 2 * side - 1 - beyond;
+            along = side - 1 - along;
+        };
+        fold(x, y);
+        fold(y, x);
+        return texels[std::size_t(y) * std::size_t(side) + std::size_t(x)];
+    }
+};
+
 template <typename Value>
 Octahedron makeOctahedron(int side, const Value& value) {
     Octahedron result{side, std::vector<glm::vec3>(std::size_t(side) * std::size_t(side))};
     tbb::parallel_for(0, side, [&](int y) {
         for (int x = 0; x < side; ++x)
             result.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] = glm::vec3(value(x, y));
+    });
+    return result;
+}
+
+/// `value` of the unit direction of each corner; `rowDone` is called from any thread.
+template <typename Value>
+DividedOctahedron makeDivided(
+    int side, const Value& value, const std::function<void()>& rowDone = [] {}) {
+    const auto pitch = std::size_t(side) + 1;
+    DividedOctahedron result{side, std::vector<glm::vec3>(pitch * pitch)};
+    tbb::parallel_for(0, side + 1, [&](int y) {
+        for (int x = 0; x <= side; ++x)
+            result.corners[std::size_t(y) * pitch + std::size_t(x)] =
+                glm::vec3(value(directionOf(DividedOctahedron::codeOfCorner(x, y, side))));
+        rowDone();
     });
     return result;
 }
@@ -114,26 +150,17 @@ std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int
     return samples;
 }
 
-Octahedron filtered(const std::vector<Bordered>& sources, const std::vector<LobeSample>& samples, int side,
-                    const std::function<void()>& rowDone) {
-    Octahedron result{side, std::vector<glm::vec3>(std::size_t(side) * std::size_t(side))};
-    tbb::parallel_for(0, side, [&](int y) {
-        for (int x = 0; x < side; ++x) {
-            const glm::vec3 n(directionOf(Octahedron::codeOfTexel(x, y, side)));
-            const glm::vec3 other = std::abs(n.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
-            const glm::vec3 t = glm::normalize(glm::cross(other, n)), b = glm::cross(n, t);
-            glm::vec4 sum(0.0f);
-            for (const LobeSample& sample : samples) {
-                const glm::vec3 direction = sample.direction.x * t + sample.direction.y * b + sample.direction.z * n;
-                const glm::vec4 fine = sources[std::size_t(sample.level)].interpolated(direction);
-                const glm::vec4 coarse = sources[std::size_t(sample.level) + 1].interpolated(direction);
-                sum += sample.weight * (fine + sample.share * (coarse - fine));
-            }
-            result.texels[std::size_t(y) * std::size_t(side) + std::size_t(x)] = glm::vec3(sum);
-        }
-        rowDone();
-    });
-    return result;
+glm::vec3 filtered(const std::vector<Bordered>& sources, const std::vector<LobeSample>& samples, const glm::vec3& n) {
+    const glm::vec3 other = std::abs(n.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 t = glm::normalize(glm::cross(other, n)), b = glm::cross(n, t);
+    glm::vec4 sum(0.0f);
+    for (const LobeSample& sample : samples) {
+        const glm::vec3 direction = sample.direction.x * t + sample.direction.y * b + sample.direction.z * n;
+        const glm::vec4 fine = sources[std::size_t(sample.level)].interpolated(direction);
+        const glm::vec4 coarse = sources[std::size_t(sample.level) + 1].interpolated(direction);
+        sum += sample.weight * (fine + sample.share * (coarse - fine));
+    }
+    return glm::vec3(sum);
 }
 
 /// Normalised associated Legendre functions of the cosine and sine to the top: (l, m) at l (l + 1) / 2 + m. Source:
@@ -237,19 +264,12 @@ glm::dvec2 codeOf(const glm::dvec3& direction) {
     return {(1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0), (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0)};
 }
 
-glm::dvec2 Octahedron::codeOfTexel(int x, int y, int side) {
-    return glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(side) - 1.0;
+glm::dvec2 DividedOctahedron::codeOfCorner(int x, int y, int side) {
+    return glm::dvec2(2.0 * x, 2.0 * y) / double(side) - 1.0;
 }
 
-const glm::vec3& Octahedron::at(int x, int y) const {
-    const auto fold = [this](int& beyond, int& along) {
-        if (beyond >= 0 && beyond < side) return;
-        beyond = beyond < 0 ? -1 - beyond : 2 * side - 1 - beyond;
-        along = side - 1 - along;
-    };
-    fold(x, y);
-    fold(y, x);
-    return texels[std::size_t(y) * std::size_t(side) + std::size_t(x)];
+const glm::vec3& DividedOctahedron::at(int x, int y) const {
+    return corners[std::size_t(y) * std::size_t(side + 1) + std::size_t(x)];
 }
 
 int filteredSideOf(const scenes::Image& map) {
@@ -265,11 +285,10 @@ double alphaOfLevel(int level, int levels) {
     return std::pow(double(ENVIRONMENT_LEAST_ALPHA), double(levels - 1 - level) / double(levels - 1));
 }
 
-Octahedron irradianceOf(const scenes::Image& map, int order, int side) {
+DividedOctahedron irradianceOf(const scenes::Image& map, int order, int side) {
     constexpr int kLeastWidth = 256, kMostWidth = 1024; // far finer than irradiance changes
     const Harmonics light = harmonicsOf(atLeast(coarserMap(map, kMostWidth, kMostWidth / 2), kLeastWidth), order);
-    return makeOctahedron(side, [&](int x, int y) {
-        const glm::dvec3 n = directionOf(Octahedron::codeOfTexel(x, y, side));
+    return makeDivided(side, [&](const glm::dvec3& n) {
         const std::vector<double> p = legendre(order, n.y, std::sqrt(std::max(0.0, 1.0 - n.y * n.y)));
         const double longitude = std::atan2(n.x, -n.z);
         glm::dvec3 sum(0.0);
@@ -309,35 +328,37 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
                         kMostSamples);
     };
     const auto workOf = [&](int level) {
-        return double(samplesOf(level)) * filteredSide(side, level) * filteredSide(side, level);
+        const int rows = filteredSide(side, level) + 1;
+        return double(samplesOf(level)) * rows * rows;
     };
     for (int level = 0; level < levels; ++level) work += workOf(level);
     for (int level = 0; level < levels; ++level) {
         std::atomic<int> rows = 0;
         const int levelSide = filteredSide(side, level);
-        result.levels.push_back(
-            filtered(sources, lobeSamples(alphaOfLevel(level, levels), samplesOf(level), side, int(sources.size())),
-                     levelSide, [&] { progress((done + workOf(level) * ++rows / double(levelSide)) / work); }));
+        const std::vector<LobeSample> samples =
+            lobeSamples(alphaOfLevel(level, levels), samplesOf(level), side, int(sources.size()));
+        result.levels.push_back(makeDivided(
+            levelSide, [&](const glm::dvec3& n) { return filtered(sources, samples, glm::vec3(n)); },
+            [&] { progress((done + workOf(level) * ++rows / double(levelSide + 1)) / work); }));
         done += workOf(level);
     }
     return result;
 }
 
 glm::ivec2 atlasTexels(int side) {
-    return {std::max(side / 2, ENVIRONMENT_IRRADIANCE_SIDE) + 2,
-            filteredTop(side, filteredLevelsOf(side)) + ENVIRONMENT_IRRADIANCE_SIDE + 2};
+    return {std::max(side / 2, ENVIRONMENT_IRRADIANCE_SIDE) + 1,
+            filteredTop(side, filteredLevelsOf(side)) + ENVIRONMENT_IRRADIANCE_SIDE + 1};
 }
 
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered) {
     const int side = 2 * filtered.levels[0].side;
     const glm::ivec2 size = atlasTexels(side);
     std::vector<glm::vec4> atlas(std::size_t(size.x) * std::size_t(size.y), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
-    const auto put = [&](const Octahedron& level, int number) {
+    const auto put = [&](const DividedOctahedron& level, int number) {
         const int top = filteredTop(side, number);
-        for (int y = -1; y <= level.side; ++y)
-            for (int x = -1; x <= level.side; ++x)
-                atlas[std::size_t(top + 1 + y) * std::size_t(size.x) + std::size_t(1 + x)] =
-                    glm::vec4(level.at(x, y), 1.0f);
+        for (int y = 0; y <= level.side; ++y)
+            for (int x = 0; x <= level.side; ++x)
+                atlas[std::size_t(top + y) * std::size_t(size.x) + std::size_t(x)] = glm::vec4(level.at(x, y), 1.0f);
     };
     for (std::size_t i = 0; i < filtered.levels.size(); ++i) put(filtered.levels[i], int(i));
     put(filtered.irradiance, int(filtered.levels.size()));

@@ -16,21 +16,21 @@ namespace tessera::frame {
 glm::dvec3 directionOf(const glm::dvec2& code);
 glm::dvec2 codeOf(const glm::dvec3& direction);
 
-/// All directions on such a square of side x side texels.
-struct Octahedron {
+/// Values of all directions at the corners of such a square's side x side cells: side is even, so that the octahedron's
+/// edges run along corners. The square's outer corners are there twice, since two of its edges meet in each.
+struct DividedOctahedron {
     int side = 0;
-    std::vector<glm::vec3> texels; ///< row after row
+    std::vector<glm::vec3> corners; ///< row after row, side + 1 each
 
-    static glm::dvec2 codeOfTexel(int x, int y, int side);
-    /// Past an edge the square goes on at the mirrored place of the same edge.
+    static glm::dvec2 codeOfCorner(int x, int y, int side);
     const glm::vec3& at(int x, int y) const;
 };
 
 struct FilteredEnvironment {
     /// The light of a level is averaged by a GGX lobe of alphaOfLevel() around its direction, seen from there, weighted
     /// by the cosine.
-    std::vector<Octahedron> levels;
-    Octahedron irradiance; ///< on a surface that faces that way, ENVIRONMENT_IRRADIANCE_SIDE
+    std::vector<DividedOctahedron> levels;
+    DividedOctahedron irradiance; ///< on a surface that faces that way, ENVIRONMENT_IRRADIANCE_SIDE
 };
 
 inline constexpr int kMostFilteredSide = 1024, kLeastFilteredSide = 32; ///< of filteredSideOf(), and of the last level
@@ -49,10 +49,10 @@ FilteredEnvironment filterEnvironment(
 
 /// Irradiance by spherical harmonics up to an order, which tests compare: kIrradianceOrder is what filterEnvironment()
 /// takes. Source: Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps".
-Octahedron irradianceOf(const scenes::Image& map, int order, int side);
+DividedOctahedron irradianceOf(const scenes::Image& map, int order, int side);
 
-/// All levels and the irradiance in one picture, each with a border of one texel, RGBA; shaders/shared/environment.h
-/// says where they lie.
+/// All levels and the irradiance in one picture, a texel for each corner, RGBA; shaders/shared/environment.h says where
+/// they lie.
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered);
 glm::ivec2 atlasTexels(int side);
 

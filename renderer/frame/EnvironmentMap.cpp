@@ -122,7 +122,7 @@ EnvironmentShape environmentShape(const scenes::Image& map) {
 
 EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
                                std::shared_ptr<const FilteredEnvironment> filtered)
-    : environment_(environment), known_(std::move(filtered)), smooth_(gpu::Sampler::linearClamp()) {
+    : environment_(environment), known_(std::move(filtered)) {
     const int most = gpu::Context::current()->capabilities().maxTextureSize; // before it is filtered, which takes long
     const scenes::Image& map = environment.map;
     if (std::max(map.width, map.height) > most)

@@ -51,10 +51,9 @@ public:
     /// The environment must outlive it. `filtered` may be null: it is made when it is asked for.
     explicit EnvironmentGpu(const scenes::Environment& environment,
                             std::shared_ptr<const FilteredEnvironment> filtered = {});
-    const gpu::Texture& map();                             ///< as environmentTexels()
-    const gpu::Buffer& samples();                          ///< as makeEnvironmentSamples()
-    const gpu::Texture& filtered();                        ///< as atlasOf()
-    const gpu::Sampler& smooth() const { return smooth_; } ///< between texels
+    const gpu::Texture& map();      ///< as environmentTexels()
+    const gpu::Buffer& samples();   ///< as makeEnvironmentSamples()
+    const gpu::Texture& filtered(); ///< as atlasOf()
 
 private:
     void makeMap();
@@ -63,7 +62,6 @@ private:
     std::shared_ptr<const FilteredEnvironment> known_; ///< until it is on the GPU
     std::unique_ptr<gpu::Texture> map_, filtered_;
     std::unique_ptr<gpu::Buffer> samples_;
-    gpu::Sampler smooth_;
 };
 
 } // namespace tessera::frame

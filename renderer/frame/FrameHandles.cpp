@@ -117,7 +117,7 @@ void CasterTreeHandles::bind(const graph::PassContext& context) const {
 }
 
 EnvironmentHandles EnvironmentHandles::read(graph::PassBuilder& pass) const {
-    EnvironmentHandles result{environment, pass.read(constants, Access::UniformRead), {}, {}, {}};
+    EnvironmentHandles result{pass.read(constants, Access::UniformRead), {}, {}, {}};
     result.map = readWhereThere(pass, map, Access::Sampled);
     result.filtered = readWhereThere(pass, filtered, Access::Sampled);
     result.samples = readWhereThere(pass, samples, Access::TexelRead);
@@ -127,8 +127,7 @@ EnvironmentHandles EnvironmentHandles::read(graph::PassBuilder& pass) const {
 void EnvironmentHandles::bind(const graph::PassContext& context) const {
     gpu::bindUniformBuffer(UNIFORM_ENVIRONMENT, context.buffer(constants), 0, sizeof(shared::EnvironmentConstants));
     if (map) gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT, context.texture(*map));
-    if (filtered)
-        gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT_FILTERED, context.texture(*filtered), &environment->smooth());
+    if (filtered) gpu::bindTexture(TEXTURE_UNIT_ENVIRONMENT_FILTERED, context.texture(*filtered));
     if (samples) bindTexels(context, TEXTURE_UNIT_ENVIRONMENT_SAMPLES, *samples, Format::Rgba32Float);
 }
 
@@ -242,7 +241,6 @@ SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> 
 EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
                                      EnvironmentGpu* environment) {
     EnvironmentHandles handles;
-    handles.environment = environment;
     const auto some = [&](bool (FrameSpec::*uses)() const) {
         return std::ranges::any_of(specs, [&](const FrameSpec* spec) { return (spec->*uses)(); });
     };

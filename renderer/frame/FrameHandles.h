@@ -60,8 +60,7 @@ struct ViewHandles {
 
 /// Light from everywhere (EnvironmentGpu). A pass reads what it is given.
 struct EnvironmentHandles {
-    EnvironmentGpu* environment = nullptr; ///< null if the frame is only planned
-    graph::BufferHandle constants;         ///< shared::EnvironmentConstants
+    graph::BufferHandle constants; ///< shared::EnvironmentConstants
     std::optional<graph::TextureHandle> map, filtered;
     std::optional<graph::BufferHandle> samples;
     EnvironmentHandles read(graph::PassBuilder& pass) const;

@@ -16,12 +16,12 @@ struct Box {
     glm::dvec3 radiance;
 };
 
-// Azimuths are those of a camera that looks along -(1, 0.7, 1): its left is (-1, 0, 1).
+// Azimuths are those of a camera that looks along -(1, 0.7, 1): its left is (-1, 0, 1). No box is in its picture.
 const Box kBoxes[] = {
-    {{-0.25, 0.95, 1.25}, {0.52, 0.40}, 0.05, {5.6, 5.2, 4.7}},    // key, front left above
-    {{1.35, 0.40, -0.25}, {0.70, 0.80}, 0.30, {0.60, 0.64, 0.70}}, // fill, right
-    {{-1.2, 0.45, -0.55}, {0.13, 0.60}, 0.04, {4.6, 4.8, 5.2}},    // rim, behind on the left
-    {{0.35, 0.50, -1.3}, {0.11, 0.52}, 0.04, {3.4, 3.5, 3.7}},     // rim, behind on the right
+    {{-0.10, 0.95, 1.25}, {0.56, 0.44}, 0.05, {5.6, 5.2, 4.7}},    // key, front left above
+    {{1.35, 0.40, -0.10}, {0.75, 0.85}, 0.30, {0.85, 0.90, 0.98}}, // fill, right
+    {{-1.28, 0.45, 0.12}, {0.13, 0.60}, 0.04, {4.6, 4.8, 5.2}},    // rim, left of the picture
+    {{0.45, 0.50, -1.25}, {0.11, 0.52}, 0.04, {3.4, 3.5, 3.7}},    // rim, right of the picture
     {{0.0, 1.0, 0.0}, {0.42, 0.42}, 0.20, {1.1, 1.1, 1.15}},       // above
 };
 
@@ -45,11 +45,12 @@ glm::dvec3 boxRadiance(const Box& box, const glm::dvec3& direction) {
 
 glm::dvec3 studioRadiance(const glm::dvec3& direction) {
     const double up = direction.y;
-    // Walls that are lit from above, a floor that is lit by them, and between them a sweep without a corner.
+    // Walls, a floor that is lit by them, and between them a sweep without a corner: darker than what is lit by the
+    // boxes, so that a model stands out.
     const glm::dvec3 wall =
-        glm::mix(glm::dvec3(0.20, 0.20, 0.205), glm::dvec3(0.10, 0.10, 0.105), smoothStep(0.0, 1.0, up));
+        glm::mix(glm::dvec3(0.11, 0.11, 0.113), glm::dvec3(0.055, 0.055, 0.058), smoothStep(0.0, 1.0, up));
     const glm::dvec3 floor =
-        glm::mix(glm::dvec3(0.19, 0.187, 0.183), glm::dvec3(0.12, 0.117, 0.113), smoothStep(0.0, 1.0, -up));
+        glm::mix(glm::dvec3(0.105, 0.103, 0.101), glm::dvec3(0.066, 0.064, 0.062), smoothStep(0.0, 1.0, -up));
     glm::dvec3 radiance = glm::mix(floor, wall, smoothStep(-0.12, 0.12, up));
     for (const Box& box : kBoxes) radiance += boxRadiance(box, direction);
     return radiance;

@@ -9,7 +9,7 @@
 
 // Alpha of level 0 of the filtered map; the last has alpha 1. Below it lobes see the map itself.
 #define ENVIRONMENT_LEAST_ALPHA 0.01
-#define ENVIRONMENT_IRRADIANCE_SIDE 64  // texels
+#define ENVIRONMENT_IRRADIANCE_SIDE 64  // cells
 #define ENVIRONMENT_BACKDROP_ALPHA 0.12 // of what a blurred backdrop shows
 
 // RGBA32F texels of a sample of the map: xyz unit direction in the map, w its density in 1/sr; rgb radiance.
@@ -26,15 +26,16 @@ struct EnvironmentConstants {
                     // alpha, w texels along the square that they were filtered from
 };
 
-// Texels along a level of the filtered map; two levels each have the same.
+// Cells along the square of a level of the filtered map, which has a texel at each of their corners; two levels each
+// have the same.
 SHARED_FUNCTION int filteredSide(int side, int level) {
     return side >> (level / 2 + 1);
 }
 
-// Rows of the atlas above a level, with its border: they lie below one another, and the irradiance below the last one.
+// Rows of the atlas above a level: they lie below one another, and the irradiance below the last one.
 SHARED_FUNCTION int filteredTop(int side, int level) {
     int pairs = level / 2; // of levels above it
-    return 2 * (side - (side >> pairs)) + (level % 2) * (side >> (pairs + 1)) + 2 * level;
+    return 2 * (side - (side >> pairs)) + (level % 2) * (side >> (pairs + 1)) + level;
 }
 
 SHARED_END

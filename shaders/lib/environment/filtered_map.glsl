@@ -1,18 +1,31 @@
-// The map as it was filtered beforehand: all its levels in one picture, each the square of an unfolded octahedron with a
-// border, so that the sampler interpolates across its edges. Level 0 of a texture alone is read: rasterisers that choose
-// a level for four pixels at a time would show other levels where surfaces are drawn than where they are stored.
+// The map as it was filtered beforehand: all its levels in one picture, each an octahedron with its faces divided into
+// triangles, unfolded into a square. A texel is a corner of triangles, and between corners light is linear: the edges of
+// the octahedron run along edges of triangles, where a bilinear sampler would interpolate across them and show them as
+// lines.
 #pragma once
 #include "lib/environment/environment_constants.glsl"
 #include "lib/maths/octahedral.glsl"
 
 layout(binding = TEXTURE_UNIT_ENVIRONMENT_FILTERED) uniform sampler2D filteredEnvironment;
 
+// `side` counts the cells along the square, which two triangles each fill.
 vec3 filteredTexel(vec2 code, int side, int level)
 {
-    vec2 origin = vec2(0.0, float(filteredTop(int(environment.light.w), level)));
-    precise vec2 place = (0.5 * code + 0.5) * float(side) + (origin + 1.0);
-    precise vec2 uv = place / vec2(textureSize(filteredEnvironment, 0));
-    return textureLod(filteredEnvironment, uv, 0.0).rgb;
+    int halfSide = side / 2;
+    ivec2 middle = ivec2(halfSide, halfSide + filteredTop(int(environment.light.w), level));
+    // From the square's middle outwards all quarters are alike: a cell is halved by the edge that faces the middle.
+    ivec2 outward = ivec2(signNotZero(code.x), signNotZero(code.y));
+    precise vec2 place = abs(code) * float(halfSide);
+    ivec2 cell = min(ivec2(place), ivec2(halfSide - 1));
+    precise vec2 inside = place - vec2(cell);
+    bool isInner = inside.x + inside.y <= 1.0;
+    ivec2 corner = isInner ? cell : cell + 1;
+    precise vec2 share = isInner ? inside : 1.0 - inside.yx;
+    vec3 a = texelFetch(filteredEnvironment, middle + outward * corner, 0).rgb;
+    vec3 b = texelFetch(filteredEnvironment, middle + outward * (cell + ivec2(1, 0)), 0).rgb;
+    vec3 c = texelFetch(filteredEnvironment, middle + outward * (cell + ivec2(0, 1)), 0).rgb;
+    precise vec3 light = a + share.x * (b - a) + share.y * (c - a);
+    return light;
 }
 
 vec3 filteredLevel(vec2 code, int level)

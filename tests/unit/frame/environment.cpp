@@ -24,14 +24,17 @@ scenes::Image mapOf(int width, int height, const std::function<double(int, int)>
 }
 
 /// Mean radiance over all directions.
-double meanOf(const Octahedron& level) {
+double meanOf(const DividedOctahedron& level) {
     double sum = 0.0, weights = 0.0;
-    for (int y = 0; y < level.side; ++y)
-        for (int x = 0; x < level.side; ++x) {
+    const auto cells = [&](int at) {
+        return at == 0 || at == level.side ? 0.5 : 1.0;
+    }; // around a corner, along an axis
+    for (int y = 0; y <= level.side; ++y)
+        for (int x = 0; x <= level.side; ++x) {
             // The solid angle of a piece of a plane falls by the cube of its distance.
-            const glm::dvec3 direction = directionOf(Octahedron::codeOfTexel(x, y, level.side));
+            const glm::dvec3 direction = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
             const double inverse = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-            const double weight = 4.0 / (level.side * level.side) * std::pow(inverse, 3.0);
+            const double weight = cells(x) * cells(y) * 4.0 / (level.side * level.side) * std::pow(inverse, 3.0);
             sum += weight * double(level.at(x, y).x);
             weights += weight;
         }
@@ -45,15 +48,17 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
         const glm::dvec3 direction(level * std::cos(turn), up, level * std::sin(turn));
         EXPECT_LT(glm::distance(directionOf(codeOf(direction)), direction), 1e-12);
     }
-    // The texel past an edge is the one that lies there on the sphere.
-    Octahedron places{8, std::vector<glm::vec3>(64)};
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x)
-            places.texels[std::size_t(8 * y + x)] = glm::vec3(directionOf(Octahedron::codeOfTexel(x, y, 8)));
-    for (int i = 0; i < 8; ++i)
-        for (const auto& [x, y, inX, inY] : {std::tuple(-1, i, 0, 7 - i), std::tuple(8, i, 7, 7 - i),
-                                             std::tuple(i, -1, 7 - i, 0), std::tuple(i, 8, 7 - i, 7)})
-            EXPECT_EQ(places.at(x, y), places.at(inX, inY)) << x << ", " << y;
+    // Corners on the square's edges that are one place of the sphere hold one value.
+    const FilteredEnvironment filtered = filterEnvironment(mapOf(64, 32, [](int x, int y) { return x + 100.0 * y; }));
+    for (const DividedOctahedron* level : {&filtered.levels.front(), &filtered.levels.back(), &filtered.irradiance}) {
+        const int last = level->side;
+        for (int i = 0; i <= last; ++i) {
+            EXPECT_EQ(level->at(0, i), level->at(0, last - i)) << i;
+            EXPECT_EQ(level->at(last, i), level->at(last, last - i)) << i;
+            EXPECT_EQ(level->at(i, 0), level->at(last - i, 0)) << i;
+            EXPECT_EQ(level->at(i, last), level->at(last - i, last)) << i;
+        }
+    }
 }
 
 TEST(LatitudeMap, aCoarserOneHoldsTheLightOfEachTexelAtItsPlace) {
@@ -130,9 +135,9 @@ TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
 
 TEST(EnvironmentFilter, evenLightStaysEvenAndIrradianceIsPiOfIt) {
     const FilteredEnvironment filtered = filterEnvironment(mapOf(64, 32, [](int, int) { return 2.0; }));
-    for (const Octahedron& level : filtered.levels)
-        for (const glm::vec3& texel : level.texels) ASSERT_NEAR(texel.x, 2.0f, 1e-5f) << level.side;
-    for (const glm::vec3& texel : filtered.irradiance.texels) ASSERT_NEAR(texel.x, 2.0f * float(pi), 1e-3f);
+    for (const DividedOctahedron& level : filtered.levels)
+        for (const glm::vec3& corner : level.corners) ASSERT_NEAR(corner.x, 2.0f, 1e-5f) << level.side;
+    for (const glm::vec3& corner : filtered.irradiance.corners) ASSERT_NEAR(corner.x, 2.0f * float(pi), 1e-3f);
 }
 
 TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
@@ -143,14 +148,14 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
     light += 1e5 * 2.0 * pi / 512.0 * (std::cos(pi * 120 / 256.0) - std::cos(pi * 121 / 256.0)) / (4.0 * pi);
     const int levels = int(filtered.levels.size());
     for (int i = 0; i < levels; ++i) {
-        const Octahedron& level = filtered.levels[std::size_t(i)];
-        // A lobe moves light but keeps its sum, as far as texels of cubes can tell.
+        const DividedOctahedron& level = filtered.levels[std::size_t(i)];
+        // A lobe moves light but keeps its sum, as far as triangles between corners can tell.
         EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
         // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
         // sharp lobes and 1/4 where they are as broad as can be.
         const double alpha = alphaOfLevel(i, levels);
         const double most = 1.5 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
-        for (const glm::vec3& texel : level.texels) ASSERT_LE(double(texel.x), most) << i;
+        for (const glm::vec3& corner : level.corners) ASSERT_LE(double(corner.x), most) << i;
     }
 }
 
@@ -165,12 +170,12 @@ TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
     const glm::ivec2 size = atlasTexels(side);
     ASSERT_EQ(atlas.size(), std::size_t(size.x) * std::size_t(size.y));
     std::size_t texels = 0;
-    const auto expectAt = [&](const Octahedron& level, int number, int sideTexels) {
-        ASSERT_EQ(level.side, sideTexels);
-        for (int y = 0; y < level.side; ++y)
-            for (int x = 0; x < level.side; ++x) {
-                const auto row = std::size_t(shared::filteredTop(side, number) + 1 + y);
-                ASSERT_EQ(glm::vec3(atlas[row * std::size_t(size.x) + std::size_t(1 + x)]), level.at(x, y)) << number;
+    const auto expectAt = [&](const DividedOctahedron& level, int number, int cells) {
+        ASSERT_EQ(level.side, cells);
+        for (int y = 0; y <= level.side; ++y)
+            for (int x = 0; x <= level.side; ++x) {
+                const auto row = std::size_t(shared::filteredTop(side, number) + y);
+                ASSERT_EQ(glm::vec3(atlas[row * std::size_t(size.x) + std::size_t(x)]), level.at(x, y)) << number;
                 ++texels;
             }
     };
@@ -178,7 +183,7 @@ TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
         expectAt(filtered.levels[std::size_t(level)], level, shared::filteredSide(side, level));
     EXPECT_EQ(filtered.levels.back().side, kLeastFilteredSide);
     expectAt(filtered.irradiance, levels, ENVIRONMENT_IRRADIANCE_SIDE);
-    EXPECT_EQ(texels, 2u * (64 * 64 + 32 * 32) + 64 * 64);
+    EXPECT_EQ(texels, 2u * (65 * 65 + 33 * 33) + 65 * 65);
 }
 
 /// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md
@@ -189,12 +194,12 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
     const glm::dvec3 towards = scenes::directionInMap({100.5 / 256.0, 50.5 / 128.0});
     double before = 1.0;
     for (const int order : {2, 4, 8, kIrradianceOrder}) {
-        constexpr int kSideTexels = 32;
-        const Octahedron irradiance = irradianceOf(sun, order, kSideTexels);
+        constexpr int kSide = 32;
+        const DividedOctahedron irradiance = irradianceOf(sun, order, kSide);
         double worst = 0.0;
-        for (int y = 0; y < kSideTexels; ++y)
-            for (int x = 0; x < kSideTexels; ++x) {
-                const glm::dvec3 n = directionOf(Octahedron::codeOfTexel(x, y, kSideTexels));
+        for (int y = 0; y <= kSide; ++y)
+            for (int x = 0; x <= kSide; ++x) {
+                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, kSide));
                 const double truth = std::max(glm::dot(n, towards), 0.0);
                 const double own = double(irradiance.at(x, y).x) / (1e5 * solidAngle);
                 worst = std::max(worst, std::abs(own - truth));
@@ -207,16 +212,17 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
 }
 
 TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {
-    constexpr int kOrder = 4, kSideTexels = 8;
+    constexpr int kOrder = 4, kSide = 8;
     const auto light = [](int x, int y) { return (x * 7919 + y * 104729) % 1009; };
     const std::pair<scenes::Image, scenes::Image> finerAndCoarser[] = {
         {mapOf(16384, 2, [&](int x, int y) { return light(x / 16, y); }), mapOf(1024, 2, light)},
         {mapOf(3, 16384, [&](int x, int y) { return light(x, y / 32); }), mapOf(3, 512, light)}};
     for (const auto& [finer, coarser] : finerAndCoarser) {
-        const Octahedron seen = irradianceOf(finer, kOrder, kSideTexels);
-        const Octahedron wanted = irradianceOf(coarser, kOrder, kSideTexels);
-        for (std::size_t i = 0; i < wanted.texels.size(); ++i)
-            ASSERT_NEAR(seen.texels[i].x, wanted.texels[i].x, 1e-5f * wanted.texels[i].x) << finer.width << ", " << i;
+        const DividedOctahedron seen = irradianceOf(finer, kOrder, kSide);
+        const DividedOctahedron wanted = irradianceOf(coarser, kOrder, kSide);
+        for (std::size_t i = 0; i < wanted.corners.size(); ++i)
+            ASSERT_NEAR(seen.corners[i].x, wanted.corners[i].x, 1e-5f * wanted.corners[i].x)
+                << finer.width << ", " << i;
     }
 }
 
@@ -230,10 +236,10 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     const FilteredEnvironment again = cachedEnvironment(map, folder.path(), note);
     EXPECT_FALSE(computed);
     ASSERT_EQ(again.levels.size(), fresh.levels.size());
-    for (std::size_t i = 0; i < fresh.levels.size(); ++i) EXPECT_EQ(again.levels[i].texels, fresh.levels[i].texels);
-    EXPECT_EQ(again.irradiance.texels, fresh.irradiance.texels);
+    for (std::size_t i = 0; i < fresh.levels.size(); ++i) EXPECT_EQ(again.levels[i].corners, fresh.levels[i].corners);
+    EXPECT_EQ(again.irradiance.corners, fresh.irradiance.corners);
     std::filesystem::resize_file(file.path(), 1000);
-    EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
+    EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
     EXPECT_TRUE(computed);
     // One bit is enough, in the middle as in the last number.
     const auto size = std::streamoff(std::filesystem::file_size(file.path()));
@@ -244,7 +250,7 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
         const int byte = bytes.get();
         bytes.seekp(at).put(char(byte ^ 1));
         bytes.close();
-        EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.texels, fresh.irradiance.texels);
+        EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
         EXPECT_TRUE(computed) << at;
     }
     // Another map of the same shape has another file.
@@ -260,7 +266,7 @@ TEST(EnvironmentFilter, aFolderThatCannotBeWrittenIsToldOnce) {
     std::ofstream(file) << "in the way";
     const scenes::Image map = mapOf(32, 16, [](int x, int) { return 2.0 + x; });
     const FilteredEnvironment fresh = filterEnvironment(map);
-    EXPECT_EQ(cachedEnvironment(map, file / "cache").irradiance.texels, fresh.irradiance.texels);
+    EXPECT_EQ(cachedEnvironment(map, file / "cache").irradiance.corners, fresh.irradiance.corners);
     const std::string fault = takeCacheFault();
     EXPECT_NE(fault.find((file / "cache").string()), std::string::npos) << fault;
     EXPECT_NE(fault.find("Not a directory"), std::string::npos) << fault;
