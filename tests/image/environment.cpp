@@ -142,7 +142,7 @@ TEST_F(Environment, theBackdropIsTheMapAndTurnsWithIt) {
 
 /// Light that is linear in the direction is linear when it is blurred: a lobe shortens the direction by the same factor
 /// everywhere. Interpolation bends it by the square of a triangle's size, where across the edges of the octahedron,
-/// which are the planes of the map's axes, a bilinear sampler would show lines of 0.02.
+/// which are the planes of the map's axes, a bilinear sampler shows lines of 0.014.
 TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
     const glm::dvec3 gradient(0.55, 0.35, -0.6);
     scenes::Scene scene = quadScene(unlit());

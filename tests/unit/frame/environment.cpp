@@ -152,9 +152,11 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
         // A lobe moves light but keeps its sum, as far as triangles between corners can tell.
         EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
         // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
-        // sharp lobes and 1/4 where they are as broad as can be.
+        // sharp lobes and 1/4 where they are as broad as can be. The lamp stands near a corner of the octahedron, where
+        // texels are three times as small as on average, so that samples lie apart: a corner that has the lamp in the
+        // very middle of its lobe sees up to 1.54 of that.
         const double alpha = alphaOfLevel(i, levels);
-        const double most = 1.5 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
+        const double most = 1.6 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& corner : level.corners) ASSERT_LE(double(corner.x), most) << i;
     }
 }
@@ -194,12 +196,12 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
     const glm::dvec3 towards = scenes::directionInMap({100.5 / 256.0, 50.5 / 128.0});
     double before = 1.0;
     for (const int order : {2, 4, 8, kIrradianceOrder}) {
-        constexpr int kSide = 32;
-        const DividedOctahedron irradiance = irradianceOf(sun, order, kSide);
+        constexpr int kCells = 32;
+        const DividedOctahedron irradiance = irradianceOf(sun, order, kCells);
         double worst = 0.0;
-        for (int y = 0; y <= kSide; ++y)
-            for (int x = 0; x <= kSide; ++x) {
-                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, kSide));
+        for (int y = 0; y <= kCells; ++y)
+            for (int x = 0; x <= kCells; ++x) {
+                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, kCells));
                 const double truth = std::max(glm::dot(n, towards), 0.0);
                 const double own = double(irradiance.at(x, y).x) / (1e5 * solidAngle);
                 worst = std::max(worst, std::abs(own - truth));
@@ -212,14 +214,14 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
 }
 
 TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {
-    constexpr int kOrder = 4, kSide = 8;
+    constexpr int kOrder = 4, kCells = 8;
     const auto light = [](int x, int y) { return (x * 7919 + y * 104729) % 1009; };
     const std::pair<scenes::Image, scenes::Image> finerAndCoarser[] = {
         {mapOf(16384, 2, [&](int x, int y) { return light(x / 16, y); }), mapOf(1024, 2, light)},
         {mapOf(3, 16384, [&](int x, int y) { return light(x, y / 32); }), mapOf(3, 512, light)}};
     for (const auto& [finer, coarser] : finerAndCoarser) {
-        const DividedOctahedron seen = irradianceOf(finer, kOrder, kSide);
-        const DividedOctahedron wanted = irradianceOf(coarser, kOrder, kSide);
+        const DividedOctahedron seen = irradianceOf(finer, kOrder, kCells);
+        const DividedOctahedron wanted = irradianceOf(coarser, kOrder, kCells);
         for (std::size_t i = 0; i < wanted.corners.size(); ++i)
             ASSERT_NEAR(seen.corners[i].x, wanted.corners[i].x, 1e-5f * wanted.corners[i].x)
                 << finer.width << ", " << i;
