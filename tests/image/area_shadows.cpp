@@ -10,6 +10,7 @@
 
 #include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/LightTypes.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
@@ -213,8 +214,7 @@ using AreaShadowsSlow = AreaShadows;
 void AreaShadows::expectSameToTheLastBit() {
     const std::vector<engine::Technique> both{engine::Technique::TiledDeferred, engine::Technique::ClusteredForward};
     std::size_t turn = 0;
-    for (const LightType type :
-         {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube, LightType::Polygon}) {
+    for (const LightType type : test::kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scenes::Light light = lampOverTheFloor(type);
         light.radiusMetres = 0.2f;
