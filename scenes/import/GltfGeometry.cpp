@@ -16,7 +16,7 @@ constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6; ///< modes; lin
 
 // ---- Vertices ------------------------------------------------------------------------------------------------------
 
-/// One attribute's accessor, read and checked against the specification.
+/// Reads the attributes, morph targets, influences and corners of a primitive, and checks them against the specification.
 class PrimitiveReader {
 public:
     PrimitiveReader(Context& context, const model::Primitive& primitive, std::string place, std::string meshName)
@@ -25,8 +25,7 @@ public:
 
     bool has(const std::string& attribute) const { return attributes_->contains(attribute); }
 
-    /// Where the primitive has a stream of KHR_draco_mesh_compression, it stands for the accessors it names and for the
-    /// indices. Called first.
+    /// Called first. A stream of KHR_draco_mesh_compression stands for the indices and for the attributes it names.
     void decode() {
         if (!primitive_.draco) return;
         if (primitive_.mode == kFan)
@@ -34,7 +33,7 @@ public:
         decoded_ = decodeDraco(context_.document, context_.buffers, primitive_, place_, meshName_);
     }
 
-    /// In which corners() are to be read: what the library decodes is a list, whatever was encoded.
+    /// How corners() make triangles: those of a stream are a list, whatever was encoded.
     int mode() const { return decoded_ ? kTriangles : primitive_.mode; }
 
     void fillVertices(Mesh& mesh) {
