@@ -192,7 +192,7 @@ class Shards(unittest.TestCase):
         for most, command in ((1, ["hall"]), (2, ["hall", "room", "--frames", "3"]), (6, ["hall", "--matrix", "sizes.json"]),
                               (12, ["hall", "room", "--matrix=sizes.json", "--tile", "8"])):
             self.runGood(*words(most, *command))
-            self.refused(f"--shards {most + 1}: there are {most} groups of points", *words(most + 1, *command))
+            self.refused(f"in one size): {most}; give fewer", *words(most + 1, *command))
         # What it cannot know it leaves to the program.
         for command in (["hall", "--matrix", "broken.json"], ["hall", "--matrix", "missing.json"], ["--frames", "3", "hall"],
                         ["hall", "--tile=8", "room"]):

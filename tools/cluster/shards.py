@@ -196,7 +196,7 @@ def requireSense(work, arguments):
         raise Refused("say with --shards into how many parts the work is to be divided")
     most = work.parts(words) if work.parts else None
     if most is not None and arguments.shards > most:
-        raise Refused(f"--shards {arguments.shards}: there are {most} {work.part}; give no more shards than that")
+        raise Refused(f"--shards {arguments.shards}: more than there are {work.part}: {most}; give fewer shards")
 
 
 def programOf(name):
