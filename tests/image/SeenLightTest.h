@@ -5,6 +5,7 @@
 
 #include "engine/Rendering.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/AreaLights.h"
 
 /// Lights that are seen themselves, and pictures of them.
 namespace tessera::test {
@@ -14,12 +15,7 @@ inline constexpr glm::vec3 kShown(5.0f, 2.5f, 1.25f); ///< the radiance of seenL
 /// A rectangle of 1 x 0.6 m without one of its corners.
 inline constexpr double kEllSquareMetres = 0.52;
 inline scenes::LightCorners ellCorners() {
-    scenes::LightCorners corners;
-    corners.count = 0;
-    for (const glm::vec2& corner : {glm::vec2(-0.5f, -0.3f), glm::vec2(0.5f, -0.3f), glm::vec2(0.5f, 0.1f),
-                                    glm::vec2(0.1f, 0.1f), glm::vec2(0.1f, 0.3f), glm::vec2(-0.5f, 0.3f)})
-        corners.add(corner);
-    return corners;
+    return cornersOf({{-0.5f, -0.3f}, {0.5f, -0.3f}, {0.5f, 0.1f}, {0.1f, 0.1f}, {0.1f, 0.3f}, {-0.5f, 0.3f}});
 }
 
 /// At a place, turned to +z, 1 m wide and 0.6 m high or long, or of a radius of 0.4 m; a polygon is an L.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -14,7 +13,7 @@
 #include "tests/image/AreaLightTest.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 
 namespace tessera {
 namespace {
@@ -23,13 +22,6 @@ using engine::Technique;
 using scenes::LightType;
 using std::numbers::pi;
 using namespace test;
-
-scenes::LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
-    scenes::LightCorners corners;
-    corners.count = 0;
-    for (const glm::vec2& place : places) corners.add(place);
-    return corners;
-}
 
 /// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
 class AreaLightTruth : public EnvironmentTest {

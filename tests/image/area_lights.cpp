@@ -8,7 +8,7 @@
 #include "scenes/Load.h"
 #include "tests/image/AreaLightTest.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 

@@ -12,8 +12,8 @@
 #include "scenes/AreaLight.h"
 #include "scenes/LookAt.h"
 #include "tests/image/EnvironmentTest.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
-#include "tests/support/LightTypes.h"
 
 namespace tessera {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "scenes/LookAt.h"
 #include "tests/image/SeenLightTest.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/TestScenes.h"
 #include "validation/compare/ShownTriangles.h"
 

@@ -7,7 +7,7 @@
 #include "renderer/graph/Plan.h"
 #include "scenes/Load.h"
 #include "tests/image/SeenLightTest.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 

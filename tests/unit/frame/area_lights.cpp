@@ -10,7 +10,7 @@
 #include "renderer/frame/CullLights.h"
 #include "renderer/frame/LightBuffer.h"
 #include "scenes/AreaLight.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 
 namespace tessera::frame {
@@ -93,9 +93,7 @@ TEST(PackedAreaLights, aSphereHasARadiusAndATubeHalfOfItselfToo) {
 
 TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockwise) {
     scenes::Light light = surfaceLight(LightType::Polygon);
-    light.corners.count = 0;
-    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(0, 2), glm::vec2(1, 0.5), glm::vec2(1.5, 0)})
-        light.corners.add(corner); // clockwise
+    light.corners = test::cornersOf({{0, 0}, {0, 2}, {1, 0.5f}, {1.5f, 0}}); // clockwise
     PackedLights packed = packSurfaces({light, surfaceLight(LightType::Disk)});
     ASSERT_EQ(packed.corners.size(), 2u);
     EXPECT_EQ(glm::vec3(packed.shapes[0].axis), glm::vec3(2, 0, 0));

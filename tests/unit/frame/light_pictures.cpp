@@ -6,8 +6,8 @@
 
 #include "renderer/frame/LightRange.h"
 #include "shaders/shared/light_pictures.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
-#include "tests/support/LightTypes.h"
 
 namespace tessera::frame {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/LookAt.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 
 namespace tessera::frame {

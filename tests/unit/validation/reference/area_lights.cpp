@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "scenes/AreaLight.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
-#include "tests/support/LightTypes.h"
 #include "tests/support/Random.h"
 #include "validation/reference/LightSurface.h"
 #include "validation/reference/Reflectance.h"

@@ -9,7 +9,7 @@
 
 #include "renderer/frame/LightRange.h"
 #include "tests/image/Textbook.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 
 namespace tessera::reference {
 namespace {

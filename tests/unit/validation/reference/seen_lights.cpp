@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/LookAt.h"
-#include "tests/support/LightTypes.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 #include "tests/unit/scenes/TinyScene.h"
 #include "validation/reference/Render.h"

@@ -2,9 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
+
+#include <glm/glm.hpp>
 
 #include "scenes/Light.h"
 
+/// Types of area lights, and outlines of polygons.
 namespace tessera::test {
 
 namespace detail {
@@ -21,5 +25,13 @@ constexpr auto typesThat() {
 /// The types of the table that shine from a surface, and those of them that have a front and a back.
 inline constexpr auto kAreaTypes = detail::typesThat<&scenes::LightTypeInfo::isArea>();
 inline constexpr auto kFlatTypes = detail::typesThat<&scenes::LightTypeInfo::isFlat>();
+
+/// An outline of these corners, in metres.
+inline scenes::LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
+    scenes::LightCorners corners;
+    corners.count = 0;
+    for (const glm::vec2& place : places) corners.add(place);
+    return corners;
+}
 
 } // namespace tessera::test
