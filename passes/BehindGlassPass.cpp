@@ -1,5 +1,7 @@
 #include "passes/BehindGlassPass.h"
 
+#include <string>
+
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -35,20 +37,12 @@ BehindStep addBehindStep(graph::Graph& graph, const char* name, const shader::Pr
 } // namespace
 
 shader::ProgramDesc BehindGlassPass::pictureProgram(const frame::FrameSpec& spec) {
-    shader::ProgramDesc program;
-    program.name = "behind_glass";
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/behind_glass.frag";
-    program.defines = {{"SAMPLES", std::to_string(spec.samples)}};
-    return program;
+    return shader::screenProgram("behind_glass", "passes/behind_glass.frag",
+                                 {{"SAMPLES", std::to_string(spec.samples)}});
 }
 
 shader::ProgramDesc BehindGlassPass::levelsProgram() {
-    shader::ProgramDesc program;
-    program.name = "behind_glass_levels";
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/behind_glass_levels.frag";
-    return program;
+    return shader::screenProgram("behind_glass_levels", "passes/behind_glass_levels.frag");
 }
 
 BehindGlassPass::Outputs BehindGlassPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {

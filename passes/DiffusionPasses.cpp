@@ -29,26 +29,18 @@ shader::ProgramDesc lightProgram(const frame::FrameSpec& spec) {
     return frame::frameProgram(spec, "diffusion_light", "passes/geometry.vert", "passes/diffusion_light.frag", defines);
 }
 
-shader::ProgramDesc screenProgram(const std::string& name, const std::string& file, frame::Defines defines = {}) {
-    shader::ProgramDesc program;
-    program.name = name;
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/" + file;
-    program.defines = std::move(defines);
-    return program;
-}
 shader::ProgramDesc halveProgram() {
-    return screenProgram("diffusion_halve", "diffusion_halve.frag");
+    return shader::screenProgram("diffusion_halve", "passes/diffusion_halve.frag");
 }
 shader::ProgramDesc fillProgram() {
-    return screenProgram("diffusion_fill", "diffusion_fill.frag");
+    return shader::screenProgram("diffusion_fill", "passes/diffusion_fill.frag");
 }
 shader::ProgramDesc storeProgram(bool sums) {
-    return screenProgram("diffusion_store", "diffusion_store.frag", {{"SUMS", sums ? "1" : "0"}});
+    return shader::screenProgram("diffusion_store", "passes/diffusion_store.frag", {{"SUMS", sums ? "1" : "0"}});
 }
 shader::ProgramDesc spreadProgram(bool alongV) {
-    return screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "diffusion_spread.frag",
-                         {{"SUMS", alongV ? "1" : "0"}});
+    return shader::screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "passes/diffusion_spread.frag",
+                                 {{"SUMS", alongV ? "1" : "0"}});
 }
 
 /// Of the names of an object's passes and resources.

@@ -23,14 +23,10 @@ shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) 
 
 shader::ProgramDesc DisplayPass::program(const frame::FrameSpec& spec) {
     const frame::DisplayMapping mapping = frame::displayMapping(spec.settings.view, spec.settings.layout);
-    shader::ProgramDesc program;
-    program.name = "display";
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/display.frag";
-    program.defines = {{"DISPLAY_MAPPING", std::to_string(unsigned(mapping))},
-                       {"HEAT_LOG2", std::to_string(frame::countScaleLog2(spec.settings.view))},
-                       {"TONE_MAP", fmt::format("{}u", unsigned(spec.settings.toneMap))}};
-    return program;
+    return shader::screenProgram("display", "passes/display.frag",
+                                 {{"DISPLAY_MAPPING", std::to_string(unsigned(mapping))},
+                                  {"HEAT_LOG2", std::to_string(frame::countScaleLog2(spec.settings.view))},
+                                  {"TONE_MAP", fmt::format("{}u", unsigned(spec.settings.toneMap))}});
 }
 
 DisplayPass::Outputs DisplayPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {

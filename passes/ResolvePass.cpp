@@ -1,5 +1,7 @@
 #include "passes/ResolvePass.h"
 
+#include <string>
+
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -29,12 +31,8 @@ const KindInfo& infoOf(const ResolvePass::Params& params) {
 
 shader::ProgramDesc ResolvePass::program(const frame::FrameSpec& spec, const Params& params) {
     const bool depths = params.kind != Kind::Radiance;
-    shader::ProgramDesc program;
-    program.name = depths ? "resolve_depths" : "resolve";
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/resolve.frag";
-    program.defines = {{"SAMPLES", std::to_string(spec.samples)}, {"RESOLVES_DEPTHS", depths ? "1" : "0"}};
-    return program;
+    return shader::screenProgram(depths ? "resolve_depths" : "resolve", "passes/resolve.frag",
+                                 {{"SAMPLES", std::to_string(spec.samples)}, {"RESOLVES_DEPTHS", depths ? "1" : "0"}});
 }
 
 ResolvePass::Outputs ResolvePass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params,

@@ -1,5 +1,7 @@
 #include "passes/SeenLightsPass.h"
 
+#include <string>
+
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Buffer.h"
 #include "renderer/gpu/Commands.h"
@@ -8,13 +10,9 @@
 namespace tessera::passes {
 
 std::vector<shader::ProgramDesc> SeenLightsPass::programs(const frame::FrameSpec& spec) {
-    shader::ProgramDesc copy;
-    copy.name = "copy_depth";
-    copy.vertex = "passes/fullscreen.vert";
-    copy.fragment = "passes/copy_depth.frag";
-    copy.defines = {{"SAMPLES", std::to_string(spec.samples)}};
-    return {copy, frame::frameProgram(spec, "seen_lights", "passes/seen_lights.vert", "passes/seen_lights.frag",
-                                      {{"SEEN_PICTURES", spec.showsLightPictures ? "1" : "0"}})};
+    return {shader::screenProgram("copy_depth", "passes/copy_depth.frag", {{"SAMPLES", std::to_string(spec.samples)}}),
+            frame::frameProgram(spec, "seen_lights", "passes/seen_lights.vert", "passes/seen_lights.frag",
+                                {{"SEEN_PICTURES", spec.showsLightPictures ? "1" : "0"}})};
 }
 
 SeenLightsPass::Outputs SeenLightsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {

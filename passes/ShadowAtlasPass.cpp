@@ -71,11 +71,7 @@ void drawFaces(const frame::ShadowMaps& maps, const Layout& layout, const graph:
 } // namespace
 
 shader::ProgramDesc ShadowAtlasPass::program() {
-    shader::ProgramDesc program;
-    program.name = "shadow_atlas";
-    program.vertex = "passes/fullscreen.vert";
-    program.fragment = "passes/shadow_atlas.frag";
-    return program;
+    return shader::screenProgram("shadow_atlas", "passes/shadow_atlas.frag");
 }
 
 ShadowAtlasPass::Outputs ShadowAtlasPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {

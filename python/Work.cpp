@@ -66,19 +66,28 @@ Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, 
     return rendered;
 }
 
-Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
-    app::Request& request = loaded.request;
-    engine::requireTaken(request);
-    request.settings.display = true;
-    engine::Renderer& renderer = readyRenderer(loaded, Worker::get().context());
+/// Counts the objects whose light spreads as the job's steps. The renderer outlives the job, whether it draws or
+/// throws.
+engine::RenderedFrame renderTelling(engine::Renderer& renderer, const engine::ViewRequest& request, Job& job) {
+    struct Telling {
+        engine::Renderer& renderer;
+        ~Telling() { renderer.tellSpread({}); }
+    } const telling{renderer};
     renderer.tellSpread([&job](std::size_t done, std::size_t objects) {
         if (done == 0)
             job.expect(objects);
         else
             job.advance();
     });
-    const engine::RenderedFrame frame = renderer.render(request.technique, request.settings);
-    renderer.tellSpread({});
+    return renderer.render(request.technique, request.settings);
+}
+
+Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
+    app::Request& request = loaded.request;
+    engine::requireTaken(request);
+    request.settings.display = true;
+    engine::Renderer& renderer = readyRenderer(loaded, Worker::get().context());
+    const engine::RenderedFrame frame = renderTelling(renderer, request, job);
     const engine::DrawnShadows shadows = renderer.shadows();
     const std::string& name = request.scene.name;
     warnAbout(name, renderer.missingTextures());

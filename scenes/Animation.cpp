@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
 
 namespace tessera::scenes {
 namespace {
@@ -69,22 +68,6 @@ void spline(const AnimationSampler& sampler, std::size_t key, double share, doub
                    weights[3] * double(in[i]);
 }
 
-glm::dvec4 numberOfMember(const auto& owner, const AnimatedMember& member) {
-    glm::dvec4 number(0.0);
-    std::visit(
-        [&](auto memberOfAny) {
-            if constexpr (requires { owner.*memberOfAny; }) {
-                const auto& value = owner.*memberOfAny;
-                if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
-                    number.x = value;
-                else
-                    for (glm::length_t i = 0; i < value.length(); ++i) number[i] = value[i];
-            }
-        },
-        member);
-    return number;
-}
-
 } // namespace
 
 double lengthSeconds(const Clip& clip) {
@@ -114,19 +97,6 @@ void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSecond
     atKey(sampler, isRotation, key + 1, to);
     if (isRotation) return slerp(value, to, share);
     for (std::size_t i = 0; i < value.size(); ++i) value[i] = (1.0 - share) * value[i] + share * to[i];
-}
-
-glm::dvec4 numberOf(const Light& light, const AnimatedMember& member) {
-    return numberOfMember(light, member);
-}
-glm::dvec4 numberOf(const Material& material, const AnimatedMember& member) {
-    return numberOfMember(material, member);
-}
-glm::dvec4 numberOf(const TextureTransform& transform, const AnimatedMember& member) {
-    return numberOfMember(transform, member);
-}
-glm::dvec4 numberOf(const Camera& camera, const AnimatedMember& member) {
-    return numberOfMember(camera, member);
 }
 
 } // namespace tessera::scenes

@@ -2,21 +2,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
-#include <string_view>
-#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "scenes/Camera.h"
+#include "scenes/AnimatedProperties.h"
 #include "scenes/Interpolation.h"
-#include "scenes/Light.h"
-#include "scenes/Material.h"
 #include "scenes/Mesh.h"
-#include "scenes/Texture.h"
 
 /// What moves in a scene, as plain data: clips of keyframes, skins and morph targets. scenes/Pose.h says how the scene
 /// looks at a time. Source: glTF 2.0 specification, sections 3.7.3, 3.7.2.2 and 3.11; KHR_animation_pointer.
@@ -37,201 +31,6 @@ struct AnimationSampler {
 
 /// The value of a curve at a time, `width` numbers. A rotation is a unit quaternion.
 void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSeconds, std::span<double> value);
-
-/// What a channel of a clip changes; animatedProperties() says what each of them is.
-enum class AnimatedProperty : std::uint8_t {
-    Translation,
-    Rotation,
-    Scale,
-    Weights,
-    LightColor,
-    LightIntensity,
-    LightRange,
-    LightInnerCone,
-    LightOuterCone,
-    BaseColor,
-    Emissive,
-    Metallic,
-    PerceptualRoughness,
-    NormalScale,
-    OcclusionStrength,
-    AlphaCutoff,
-    EmissiveStrength, ///< multiplies Emissive: AnimationChannel::factor
-    Ior,
-    SpecularFactor,
-    SpecularColor,
-    AnisotropyStrength,
-    AnisotropyRotation,
-    Clearcoat,
-    ClearcoatRoughness,
-    ClearcoatNormalScale,
-    SheenColor,
-    SheenRoughness,
-    Iridescence,
-    IridescenceIor,
-    IridescenceLeastThickness,
-    IridescenceThickness,
-    Transmission,
-    Thickness,
-    AttenuationDistance,
-    AttenuationColor,
-    Dispersion,
-    TextureOffset,
-    TextureScale,
-    TextureRotation,
-    CameraFovY,
-    CameraPerspectiveNear,
-    CameraPerspectiveFar,
-    CameraHalfHeight,
-    CameraOrthographicNear,
-    CameraOrthographicFar,
-    Count
-};
-
-/// Texture: a material's use of one.
-enum class AnimatedOwner : std::uint8_t { Node, Weights, Light, Material, Texture, Camera };
-
-/// Whether what it owns is in Rig::numbers.
-constexpr bool ownsNumbers(AnimatedOwner owner) {
-    return owner != AnimatedOwner::Node && owner != AnimatedOwner::Weights;
-}
-
-/// Whether that counts in Scene::materials.
-constexpr bool isOfMaterial(AnimatedOwner owner) {
-    return owner == AnimatedOwner::Material || owner == AnimatedOwner::Texture;
-}
-
-/// A member of what owns the property.
-using AnimatedMember =
-    std::variant<std::monostate, float Light::*, glm::vec3 Light::*, float Material::*, glm::vec3 Material::*,
-                 glm::vec4 Material::*, float TextureTransform::*, glm::vec2 TextureTransform::*, double Camera::*>;
-
-/// The numbers of a member of its owner, the others 0.
-glm::dvec4 numberOf(const Light& light, const AnimatedMember& member);
-glm::dvec4 numberOf(const Material& material, const AnimatedMember& member);
-glm::dvec4 numberOf(const TextureTransform& transform, const AnimatedMember& member);
-glm::dvec4 numberOf(const Camera& camera, const AnimatedMember& member);
-
-struct AnimatedPropertyInfo {
-    AnimatedProperty property;
-    AnimatedOwner owner;   ///< whose list of Rig a channel's target counts in
-    std::string_view path; ///< in glTF, from the node, light, material, texture's place or camera
-    int width;             ///< numbers of a value; 0: one a morph target
-    AnimatedMember member{};
-    /// Bounds of what a clip says, within those that the member has anyway.
-    double least = -std::numeric_limits<double>::infinity();
-    double most = std::numeric_limits<double>::infinity();
-};
-
-namespace detail {
-// Short of 0 and of 180 degrees, at which a picture has no size.
-inline constexpr double kLeastFovRadians = 1e-6, kMostFovRadians = 3.14159;
-
-inline constexpr std::array kAnimatedProperties{
-    AnimatedPropertyInfo{AnimatedProperty::Translation, AnimatedOwner::Node, "translation", 3},
-    AnimatedPropertyInfo{AnimatedProperty::Rotation, AnimatedOwner::Node, "rotation", 4},
-    AnimatedPropertyInfo{AnimatedProperty::Scale, AnimatedOwner::Node, "scale", 3},
-    AnimatedPropertyInfo{AnimatedProperty::Weights, AnimatedOwner::Weights, "weights", 0},
-    AnimatedPropertyInfo{AnimatedProperty::LightColor, AnimatedOwner::Light, "color", 3, &Light::color},
-    AnimatedPropertyInfo{AnimatedProperty::LightIntensity, AnimatedOwner::Light, "intensity", 1, &Light::intensity},
-    AnimatedPropertyInfo{AnimatedProperty::LightRange, AnimatedOwner::Light, "range", 1, &Light::rangeMetres},
-    AnimatedPropertyInfo{AnimatedProperty::LightInnerCone, AnimatedOwner::Light, "spot/innerConeAngle", 1,
-                         &Light::innerConeRadians},
-    AnimatedPropertyInfo{AnimatedProperty::LightOuterCone, AnimatedOwner::Light, "spot/outerConeAngle", 1,
-                         &Light::outerConeRadians},
-    AnimatedPropertyInfo{AnimatedProperty::BaseColor, AnimatedOwner::Material, "pbrMetallicRoughness/baseColorFactor",
-                         4, &Material::baseColor},
-    AnimatedPropertyInfo{AnimatedProperty::Emissive, AnimatedOwner::Material, "emissiveFactor", 3, &Material::emissive},
-    AnimatedPropertyInfo{AnimatedProperty::Metallic, AnimatedOwner::Material, "pbrMetallicRoughness/metallicFactor", 1,
-                         &Material::metallic},
-    AnimatedPropertyInfo{AnimatedProperty::PerceptualRoughness, AnimatedOwner::Material,
-                         "pbrMetallicRoughness/roughnessFactor", 1, &Material::perceptualRoughness},
-    AnimatedPropertyInfo{AnimatedProperty::NormalScale, AnimatedOwner::Material, "normalTexture/scale", 1,
-                         &Material::normalScale},
-    AnimatedPropertyInfo{AnimatedProperty::OcclusionStrength, AnimatedOwner::Material, "occlusionTexture/strength", 1,
-                         &Material::occlusionStrength},
-    AnimatedPropertyInfo{AnimatedProperty::AlphaCutoff, AnimatedOwner::Material, "alphaCutoff", 1,
-                         &Material::alphaCutoff},
-    AnimatedPropertyInfo{AnimatedProperty::EmissiveStrength, AnimatedOwner::Material,
-                         "extensions/KHR_materials_emissive_strength/emissiveStrength", 1},
-    AnimatedPropertyInfo{AnimatedProperty::Ior, AnimatedOwner::Material, "extensions/KHR_materials_ior/ior", 1,
-                         &Material::ior, 1.0},
-    AnimatedPropertyInfo{AnimatedProperty::SpecularFactor, AnimatedOwner::Material,
-                         "extensions/KHR_materials_specular/specularFactor", 1, &Material::specularFactor},
-    AnimatedPropertyInfo{AnimatedProperty::SpecularColor, AnimatedOwner::Material,
-                         "extensions/KHR_materials_specular/specularColorFactor", 3, &Material::specularColor},
-    AnimatedPropertyInfo{AnimatedProperty::AnisotropyStrength, AnimatedOwner::Material,
-                         "extensions/KHR_materials_anisotropy/anisotropyStrength", 1, &Material::anisotropyStrength},
-    AnimatedPropertyInfo{AnimatedProperty::AnisotropyRotation, AnimatedOwner::Material,
-                         "extensions/KHR_materials_anisotropy/anisotropyRotation", 1,
-                         &Material::anisotropyRotationRadians},
-    AnimatedPropertyInfo{AnimatedProperty::Clearcoat, AnimatedOwner::Material,
-                         "extensions/KHR_materials_clearcoat/clearcoatFactor", 1, &Material::clearcoat},
-    AnimatedPropertyInfo{AnimatedProperty::ClearcoatRoughness, AnimatedOwner::Material,
-                         "extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 1,
-                         &Material::clearcoatPerceptualRoughness},
-    AnimatedPropertyInfo{AnimatedProperty::ClearcoatNormalScale, AnimatedOwner::Material,
-                         "extensions/KHR_materials_clearcoat/clearcoatNormalTexture/scale", 1,
-                         &Material::clearcoatNormalScale},
-    AnimatedPropertyInfo{AnimatedProperty::SheenColor, AnimatedOwner::Material,
-                         "extensions/KHR_materials_sheen/sheenColorFactor", 3, &Material::sheenColor},
-    AnimatedPropertyInfo{AnimatedProperty::SheenRoughness, AnimatedOwner::Material,
-                         "extensions/KHR_materials_sheen/sheenRoughnessFactor", 1, &Material::sheenPerceptualRoughness},
-    AnimatedPropertyInfo{AnimatedProperty::Iridescence, AnimatedOwner::Material,
-                         "extensions/KHR_materials_iridescence/iridescenceFactor", 1, &Material::iridescence},
-    AnimatedPropertyInfo{AnimatedProperty::IridescenceIor, AnimatedOwner::Material,
-                         "extensions/KHR_materials_iridescence/iridescenceIor", 1, &Material::iridescenceIor},
-    AnimatedPropertyInfo{AnimatedProperty::IridescenceLeastThickness, AnimatedOwner::Material,
-                         "extensions/KHR_materials_iridescence/iridescenceThicknessMinimum", 1,
-                         &Material::iridescenceLeastThicknessNm},
-    AnimatedPropertyInfo{AnimatedProperty::IridescenceThickness, AnimatedOwner::Material,
-                         "extensions/KHR_materials_iridescence/iridescenceThicknessMaximum", 1,
-                         &Material::iridescenceThicknessNm},
-    AnimatedPropertyInfo{AnimatedProperty::Transmission, AnimatedOwner::Material,
-                         "extensions/KHR_materials_transmission/transmissionFactor", 1, &Material::transmission},
-    AnimatedPropertyInfo{AnimatedProperty::Thickness, AnimatedOwner::Material,
-                         "extensions/KHR_materials_volume/thicknessFactor", 1, &Material::thicknessMetres},
-    AnimatedPropertyInfo{AnimatedProperty::AttenuationDistance, AnimatedOwner::Material,
-                         "extensions/KHR_materials_volume/attenuationDistance", 1, &Material::attenuationDistanceMetres,
-                         1e-6},
-    AnimatedPropertyInfo{AnimatedProperty::AttenuationColor, AnimatedOwner::Material,
-                         "extensions/KHR_materials_volume/attenuationColor", 3, &Material::attenuationColor},
-    AnimatedPropertyInfo{AnimatedProperty::Dispersion, AnimatedOwner::Material,
-                         "extensions/KHR_materials_dispersion/dispersion", 1, &Material::dispersion},
-    AnimatedPropertyInfo{AnimatedProperty::TextureOffset, AnimatedOwner::Texture,
-                         "extensions/KHR_texture_transform/offset", 2, &TextureTransform::offset},
-    AnimatedPropertyInfo{AnimatedProperty::TextureScale, AnimatedOwner::Texture,
-                         "extensions/KHR_texture_transform/scale", 2, &TextureTransform::scale},
-    AnimatedPropertyInfo{AnimatedProperty::TextureRotation, AnimatedOwner::Texture,
-                         "extensions/KHR_texture_transform/rotation", 1, &TextureTransform::rotationRadians},
-    AnimatedPropertyInfo{AnimatedProperty::CameraFovY, AnimatedOwner::Camera, "perspective/yfov", 1,
-                         &Camera::fovYRadians, kLeastFovRadians, kMostFovRadians},
-    AnimatedPropertyInfo{AnimatedProperty::CameraPerspectiveNear, AnimatedOwner::Camera, "perspective/znear", 1,
-                         &Camera::nearMetres, kNearestPlaneMetres, kFarthestMetres},
-    AnimatedPropertyInfo{AnimatedProperty::CameraPerspectiveFar, AnimatedOwner::Camera, "perspective/zfar", 1,
-                         &Camera::farMetres, kNearestPlaneMetres},
-    AnimatedPropertyInfo{AnimatedProperty::CameraHalfHeight, AnimatedOwner::Camera, "orthographic/ymag", 1,
-                         &Camera::halfHeightMetres, kNearestPlaneMetres, kFarthestMetres},
-    AnimatedPropertyInfo{AnimatedProperty::CameraOrthographicNear, AnimatedOwner::Camera, "orthographic/znear", 1,
-                         &Camera::nearMetres, 0.0, kFarthestMetres},
-    AnimatedPropertyInfo{AnimatedProperty::CameraOrthographicFar, AnimatedOwner::Camera, "orthographic/zfar", 1,
-                         &Camera::farMetres, kNearestPlaneMetres},
-};
-consteval bool areAnimatedPropertiesSound() {
-    for (std::size_t i = 0; i < kAnimatedProperties.size(); ++i)
-        if (kAnimatedProperties[i].property != AnimatedProperty(i)) return false;
-    return kAnimatedProperties.size() == std::size_t(AnimatedProperty::Count);
-}
-static_assert(areAnimatedPropertiesSound(), "the table of animated properties follows the enumeration");
-} // namespace detail
-
-/// The only list of them; row i is that of property i.
-constexpr std::span<const AnimatedPropertyInfo> animatedProperties() {
-    return detail::kAnimatedProperties;
-}
-constexpr const AnimatedPropertyInfo& infoOf(AnimatedProperty property) {
-    return detail::kAnimatedProperties[std::size_t(property)];
-}
 
 struct AnimationChannel {
     AnimatedProperty property = AnimatedProperty::Translation;

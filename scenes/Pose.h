@@ -23,15 +23,15 @@ struct Pose {
 Pose poseAt(const Rig& rig, double timeSeconds);
 
 /// Writes a pose of the scene's rig into the scene: transforms of nodes, deformed meshes, lights and cameras that nodes
-/// carry, and numbers that a clip which plays changes. It depends on the pose alone, not on
-/// earlier ones. Throws InputError where something then lies too far away or nowhere.
+/// carry, and numbers that a clip which plays changes. The scene then depends on this pose alone, not on earlier ones.
+/// Throws InputError where something then lies too far away or nowhere.
 void applyPose(Scene& scene, const Pose& pose);
 
-/// Takes the numbers that clips may change as they are now for those at rest. To be called before a clip is posed: a
-/// scene file may say other numbers than the model that its clips come from.
+/// Makes what the scene says now the numbers at rest of all that clips may change. To be called before a clip is posed:
+/// a scene file may say other numbers than the model that its clips come from.
 void takeRest(Scene& scene);
 
-/// The scene's materials, with the numbers at rest that clips which play change.
+/// The scene's materials, with the numbers at rest in place of those that clips which play change.
 std::vector<Material> restingMaterials(const Scene& scene);
 
 /// Whether a pose changes anything of the scene.

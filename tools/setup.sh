@@ -9,7 +9,7 @@ fail() {
     exit 1
 }
 
-# Packages of the given sets (build, test, package, python, fit, fuzz, zink), one a line.
+# Packages of the given sets of the table, one a line.
 packagesOf() {
     awk -v sets=" $* " '!/^#/ && index(sets, " " $2 " ") { print $1 }' "$packageTable"
 }

@@ -61,6 +61,7 @@ static_assert(int(DebugView::MovedTooFar) == VIEW_MOVED_TOO_FAR);
 static_assert(int(DebugView::Overdraw) == VIEW_OVERDRAW && int(DebugView::Faults) == VIEW_FAULTS);
 static_assert(int(DebugView::ShadowAtlas) == VIEW_SHADOW_ATLAS && int(DebugView::Stored) == VIEW_STORED);
 
+static_assert(static_cast<unsigned>(DisplayMapping::Radiance) == DISPLAY_RADIANCE);
 static_assert(static_cast<unsigned>(DisplayMapping::Raw) == DISPLAY_RAW);
 static_assert(static_cast<unsigned>(DisplayMapping::Signed) == DISPLAY_SIGNED);
 static_assert(static_cast<unsigned>(DisplayMapping::Distance) == DISPLAY_DISTANCE);

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/frame/LatitudeMap.h"
+#include "renderer/frame/VanDerCorput.h"
 #include "shaders/shared/environment.h"
 
 namespace tessera::frame {
@@ -130,9 +131,7 @@ std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int
     std::vector<LobeSample> samples;
     double weights = 0.0;
     for (int i = 0; i < count; ++i) {
-        std::uint32_t bits = std::uint32_t(i), reversed = 0;
-        for (int bit = 0; bit < 32; ++bit, bits >>= 1) reversed = (reversed << 1) | (bits & 1u);
-        const double u = (i + 0.5) / count, angle = 2.0 * pi * double(reversed) * 0x1p-32;
+        const double u = (i + 0.5) / count, angle = 2.0 * pi * vanDerCorput(std::uint32_t(i));
         const double cosine2 = (1.0 - u) / (1.0 + (alpha * alpha - 1.0) * u), cosine = std::sqrt(cosine2);
         const double sine = std::sqrt(1.0 - cosine2), up = 2.0 * cosine2 - 1.0;
         if (!(up > 0.0)) continue;

@@ -11,6 +11,7 @@
 
 #include "base/Error.h"
 #include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/VanDerCorput.h"
 #include "renderer/gpu/Context.h"
 
 namespace tessera::frame {
@@ -18,13 +19,6 @@ namespace tessera::frame {
 namespace {
 
 constexpr std::size_t kSamples = std::size_t{1} << ENVIRONMENT_SAMPLES_LOG2;
-
-/// The bits of a number in reverse order, as a fraction: the sequence of van der Corput.
-double reversed(std::uint32_t bits) {
-    std::uint32_t turned = 0;
-    for (int i = 0; i < 32; ++i, bits >>= 1) turned = (turned << 1) | (bits & 1u);
-    return double(turned) * 0x1p-32;
-}
 
 /// The second dimension of the sequence of Sobol. Source: Sobol 1967, "On the distribution of points in a cube and the
 /// approximate evaluation of integrals".
@@ -95,7 +89,7 @@ std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std:
     samples.reserve(kSamples * ENVIRONMENT_SAMPLE_TEXELS);
     if (summed.empty()) return std::vector<glm::vec4>(kSamples * ENVIRONMENT_SAMPLE_TEXELS, glm::vec4(0.0f));
     for (std::uint32_t i = 0; i < kSamples; ++i) {
-        const double u = reversed(i), v = sobol(i);
+        const double u = vanDerCorput(i), v = sobol(i);
         const auto found = std::min(std::upper_bound(summed.begin(), summed.end(), u), summed.end() - 1);
         const std::size_t at = std::size_t(found - summed.begin());
         const double before = at == 0 ? 0.0 : summed[at - 1], part = *found - before;

@@ -25,8 +25,8 @@ struct PipelineState {
     Blend blend = Blend::None;       ///< of every floating-point or normalised colour attachment
     bool colorWrite = true;
     bool alphaToCoverage = false;
-    bool depthClamp =
-        false; ///< nothing is clipped at the near and far plane (shadow casters behind the light's near plane)
+    /// Nothing is clipped at the near and far plane, such as casters of shadows before a light's near plane.
+    bool depthClamp = false;
     bool bothSides = false;     ///< SceneGpu draws single-sided surfaces too without culling
     bool farSides = false;      ///< SceneGpu draws back faces alone, of what transmits and has a body
     float slopeBias = 0.0f;     ///< times the larger change of depth to the next pixel is added to a triangle's depth

@@ -51,13 +51,6 @@ GLint glMagnification(scenes::Filter filter) {
     return takesNearest(filter) ? GL_NEAREST : GL_LINEAR;
 }
 
-scenes::Sampler clamped(scenes::Filter filter) {
-    return {.magnification = filter,
-            .minification = filter,
-            .wrapU = scenes::Wrap::ClampToEdge,
-            .wrapV = scenes::Wrap::ClampToEdge};
-}
-
 } // namespace
 
 bool takesNearest(scenes::Filter filter) {
@@ -78,18 +71,11 @@ Sampler::Sampler(std::string label, const scenes::Sampler& sampler, float maxAni
     labelObject(LabelKind::Sampler, id, label);
 }
 
-Sampler Sampler::nearestClamp() {
-    return Sampler("nearest, clamped", clamped(scenes::Filter::Nearest));
-}
 Sampler Sampler::linearClamp() {
-    return Sampler("linear, clamped", clamped(scenes::Filter::Linear));
-}
-
-Sampler Sampler::shadowCompare() {
-    Sampler sampler("shadow comparison", clamped(scenes::Filter::Linear));
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    glSamplerParameteri(sampler.id(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
-    return sampler;
+    return Sampler("linear, clamped", {.magnification = scenes::Filter::Linear,
+                                       .minification = scenes::Filter::Linear,
+                                       .wrapU = scenes::Wrap::ClampToEdge,
+                                       .wrapV = scenes::Wrap::ClampToEdge});
 }
 
 Sampler::~Sampler() {

@@ -15,13 +15,8 @@ class Sampler {
 public:
     /// `maxAnisotropy` is clamped to what the driver offers; 1 is isotropic.
     Sampler(std::string label, const scenes::Sampler& sampler, float maxAnisotropy = 1.0f);
-    /// Single texels, edges clamped: G-buffers and other screen-sized textures.
-    static Sampler nearestClamp();
     /// Bilinear between the texels of level 0, edges clamped.
     static Sampler linearClamp();
-    /// Bilinear depth comparison that passes where the reference is >= the stored depth (reverse-Z: in front of the
-    /// occluder).
-    static Sampler shadowCompare();
     ~Sampler();
     Sampler(Sampler&&) noexcept = default;
     Sampler& operator=(Sampler&&) noexcept = default;

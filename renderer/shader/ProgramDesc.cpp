@@ -1,10 +1,21 @@
 #include "renderer/shader/ProgramDesc.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/Error.h"
 
 namespace tessera::shader {
+
+ProgramDesc screenProgram(std::string name, std::string fragment, Defines defines) {
+    ProgramDesc program;
+    program.name = std::move(name);
+    program.vertex = "passes/fullscreen.vert";
+    program.fragment = std::move(fragment);
+    program.defines = std::move(defines);
+    return program;
+}
 
 std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc) {
     const bool rasterises = !desc.vertex.empty();

@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "renderer/gpu/Program.h"
@@ -7,7 +8,11 @@
 
 namespace tessera::shader {
 
+using graph::Defines;
 using graph::ProgramDesc;
+
+/// A program that runs a fragment shader for every pixel of its targets: gpu::drawFullscreenTriangle().
+ProgramDesc screenProgram(std::string name, std::string fragment, Defines defines = {});
 
 struct ExpandedStage {
     gpu::Stage stage;

@@ -31,8 +31,6 @@ struct RoomFinish {
 /// By RoomMaterial. The numbers are exact in single precision, so that nothing is lost on the way to a GPU.
 extern const std::array<RoomFinish, kRoomMaterialCount> kRoomFinishes;
 
-inline constexpr glm::dvec3 kRoomMin{-2.0, 0.0, -3.0}; ///< metres
-inline constexpr glm::dvec3 kRoomMax{2.0, 3.0, 3.0};
 inline constexpr glm::dvec3 kRoomLampWS{0.0, 1.5, 0.0};
 inline constexpr double kRoomLampCandela = 1.5; ///< white, of infinite range
 

@@ -25,14 +25,9 @@ Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneN
     : context_(context), materials_(materials), sceneNodes_(std::move(sceneNodes)),
       hasAnimatedWeights_(sceneNodes_.size()) {
     for (const model::Animation& animation : context.document.model.animations)
-        for (const model::AnimationChannel& channel : animation.channels) {
-            std::string_view pointer = channel.pointer;
-            if (channel.path == "weights" && channel.node != kNone)
-                hasAnimatedWeights_[static_cast<std::size_t>(channel.node)] = true;
-            else if (const auto node = cutIndex(pointer, kNodesPointer);
-                     node && *node < hasAnimatedWeights_.size() && pointer == "weights")
+        for (const model::AnimationChannel& channel : animation.channels)
+            if (const auto node = nodeOfWeights(channel); node && *node < hasAnimatedWeights_.size())
                 hasAnimatedWeights_[*node] = true;
-        }
 }
 
 int Rigging::restNode(int index) {
@@ -55,13 +50,8 @@ int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot
 }
 
 std::optional<int> Rigging::morphlessNode(const model::AnimationChannel& channel) const {
-    std::string_view path = channel.pointer;
-    std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
-    if (channel.path != "pointer") {
-        path = channel.path;
-        node = channel.node == kNone ? std::nullopt : std::optional(static_cast<std::size_t>(channel.node));
-    }
-    if (!node || *node >= sceneNodes_.size() || path != "weights") return {};
+    const std::optional<std::size_t> node = nodeOfWeights(channel);
+    if (!node || *node >= sceneNodes_.size()) return {};
     const int index = static_cast<int>(*node);
     const bool hasTargets = context_.document.model.nodes[*node].mesh != kNone && !restWeights(index).empty();
     return hasTargets ? std::nullopt : std::optional(index);
@@ -193,12 +183,11 @@ Clip Rigging::clip(int index) {
     for (const auto& [i, count] : counting) {
         const model::AnimationChannel& channel = stored.channels[i];
         std::optional<Animated> what = animated(channel);
-        if (const std::optional<int> node = morphlessNode(channel); !what && node) {
-            morphless_.insert(*node);
-            continue;
-        }
         if (!what) {
-            leaveOut(channel.pointer.empty() ? channel.path : channel.pointer, count);
+            if (const std::optional<int> node = morphlessNode(channel))
+                morphless_.insert(*node);
+            else
+                leaveOut(channel.pointer.empty() ? channel.path : channel.pointer, count);
             continue;
         }
         if (what->targets.empty()) continue;

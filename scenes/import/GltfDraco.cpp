@@ -260,7 +260,8 @@ DracoGeometry decodeDraco(const Document& document, Buffers& buffers, const mode
     } catch (const MemoryRefused&) {
         throw; // names the place already
     } catch (const InputError& error) {
-        document.fail(stream, fmt::format("the stream of mesh '{}' {}", meshName, error.what()));
+        document.fail(stream, fmt::format("the stream of mesh '{}' {}; compress the mesh anew, or leave it plain",
+                                          meshName, error.what()));
     }
     document.ledger.settle(mark, keptBytes);
     return geometry;

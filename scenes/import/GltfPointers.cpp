@@ -59,6 +59,13 @@ std::string changedBy(const model::AnimationChannel& channel) {
     return channel.pointer;
 }
 
+std::optional<std::size_t> nodeOfWeights(const model::AnimationChannel& channel) {
+    const std::string changed = changedBy(channel);
+    std::string_view path = changed;
+    const std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
+    return path == infoOf(AnimatedProperty::Weights).path ? node : std::nullopt;
+}
+
 std::string kindOf(std::string_view pointer) {
     std::string kind;
     for (std::size_t i = 0; i < pointer.size(); ++i) {

@@ -20,6 +20,9 @@ std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view 
 /// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
 std::string changedBy(const model::AnimationChannel& channel);
 
+/// The node whose weights a channel changes, by number of the document; none: it changes something else.
+std::optional<std::size_t> nodeOfWeights(const model::AnimationChannel& channel);
+
 /// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
 std::string kindOf(std::string_view pointer);
 

@@ -14,8 +14,8 @@
 
 namespace tessera::scenes::gltf {
 
-/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), and clips (GltfClips.cpp), of what
-/// channels point at (GltfPointers.cpp).
+/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), clips (GltfClips.cpp), and what in the scene their
+/// channels change (GltfPointers.cpp).
 class Rigging {
 public:
     /// `sceneNodes` is by node of the document the scene's, kNone where the scene does not have it.

@@ -39,8 +39,8 @@ elif words[0] == "render":
 
 DRY_SLURM = """\
 # 2 of bench, the lines of {here}/out put/commands.txt
-cd '{here}' && '{here}/stand in' bench 'a b.json' --frames 3 --shard 1/2 --resume -o '{here}/out put/shards/1-of-2'
-cd '{here}' && '{here}/stand in' bench 'a b.json' --frames 3 --shard 2/2 --resume -o '{here}/out put/shards/2-of-2'
+cd '{here}' && '{here}/stand in' bench 'a b.json' hall --frames 3 --shard 1/2 --resume -o '{here}/out put/shards/1-of-2'
+cd '{here}' && '{here}/stand in' bench 'a b.json' hall --frames 3 --shard 2/2 --resume -o '{here}/out put/shards/2-of-2'
 # scheduled by
 sbatch --parsable --job-name=tessera-bench '--output={here}/out put/logs/shard-%a.log' --open-mode=append --requeue \
 '--chdir={here}' --array=1-2%1 --exclusive --partition=gpu '{job}' '{here}/out put/commands.txt'
@@ -100,7 +100,7 @@ class Shards(unittest.TestCase):
             quoted = shlex.quote(str(job))
             for expected, words in ((DRY_SLURM, ["slurm", "-o", "out put", "--shards", "2", "--jobs", "1", "--with=--partition=gpu"]),
                                     (DRY_PARALLEL, ["parallel", "-o", "truth", "--with=--sshloginfile=hosts.txt"])):
-                command = ["bench", "a b.json", "--frames", "3"] if words[0] == "slurm" else [
+                command = ["bench", "a b.json", "hall", "--frames", "3"] if words[0] == "slurm" else [
                     "render", "hall", "my room.json", "--technique", "reference"]
                 result = self.tool(*words, "--program", "./stand in", "--dry-run", "--", *command, folder=here)
                 self.assertEqual(result.stderr, "")
@@ -181,6 +181,22 @@ class Shards(unittest.TestCase):
         self.assertFalse((self.folder / "out").exists())
         self.runGood(*start, "render", "hall")
         self.refused("holds other work", *start, "render", "room")
+
+    def testABenchIsDividedIntoNoMoreShardsThanItHasGroups(self):
+        (self.folder / "sizes.json").write_text('{"technique": ["forward"], "lights": [4, 8], "size": ["32x18", "64x36", "16x9"]}')
+        (self.folder / "broken.json").write_text('{"lights": [4')
+
+        def words(shards, *command):
+            return ["xargs", "-o", "out", "--dry-run", "--program", self.standIn, "--shards", shards, "--", "bench", *command]
+
+        for most, command in ((1, ["hall"]), (2, ["hall", "room", "--frames", "3"]), (6, ["hall", "--matrix", "sizes.json"]),
+                              (12, ["hall", "room", "--matrix=sizes.json", "--tile", "8"])):
+            self.runGood(*words(most, *command))
+            self.refused(f"in one size): {most}; give fewer", *words(most + 1, *command))
+        # What it cannot know it leaves to the program.
+        for command in (["hall", "--matrix", "broken.json"], ["hall", "--matrix", "missing.json"], ["--frames", "3", "hall"],
+                        ["hall", "--tile=8", "room"]):
+            self.runGood(*words(9, *command))
 
     def testWithoutAMeansOfSchedulingTheOthersAreNamed(self):
         (self.folder / "bin").mkdir()

@@ -14,17 +14,9 @@ from sources import sourcesOf
 # Folders whose sources are one target each; the longest that holds a file counts.
 TARGETS = ("apps", "base", "engine", "passes", "python", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
            "tests/cli/program", "tests/viewer")
-# Sources of other folders that tests/CMakeLists.txt compiles into a target too.
-GUESTS = {
-    "tests/unit": ["apps/" + part + ".cpp" for part in ("ErrorLine", "FirstLook", "FrameOptionText", "Numbers", "Options",
-                                                        "OutputFolder", "Outputs", "Progress", "Keywords", "Request")] + ["tests/support/TestScenes.cpp"],
-    "python": ["apps/" + part + ".cpp" for part in ("BenchJob", "BenchRun", "Comparison", "FilterEnvironment", "FrameOptionText",
-                                                    "Keywords", "OnePicture", "OutputFolder", "Outputs", "Planning", "Progress",
-                                                    "Request")] + ["viewer/save/OptionText.cpp"],
-    "tests/image": ["tests/support/TestScenes.cpp", "tests/support/CullingScenes.cpp"],
-    "tests/cli/program": ["tests/support/Process.cpp"],
-    "tests/viewer": ["tests/support/Process.cpp"],
-}
+# Files that say which sources of other folders a target takes too.
+LISTS = ("python/CMakeLists.txt", "tests/CMakeLists.txt")
+STATEMENT = re.compile(r"(foreach|endforeach|target_sources|tessera_test)\(([^)]*)\)")
 NAMESPACE = re.compile(r"(?:inline )?namespace ([\w:]*) ?\{$")
 END = re.compile(r"\} // namespace")
 TYPE = re.compile(r"(?:struct|class|union|enum(?: class)?) (\w+)\b(?!;)")
@@ -66,19 +58,42 @@ def parameterTypes(text):
     return ",".join(re.sub(r"\s*\w+(\[\])?$", "", parameter.split("=")[0].strip()) for parameter in parameters)
 
 
-def targetsOf(path):
+def guestsOf(lists):
+    """{folder of a target: sources of other folders that it takes} of {path of a CMakeLists.txt: its text}."""
+    guests = collections.defaultdict(set)
+    for path, text in lists.items():
+        here, homes, loops = pathlib.PurePath(path).parent, {}, []
+        for statement, words in STATEMENT.findall(re.sub(r"#.*", "", text)):
+            first, *rest = words.split() or [""]
+            if statement == "foreach":
+                loops.append((first, rest))
+            elif statement == "endforeach":
+                loops.pop()
+            elif statement == "tessera_test":  # its name, label and folder
+                homes[first] = here / rest[1]
+            else:
+                for source in rest[1:]:  # after PRIVATE
+                    values = next((values for variable, values in loops if "${%s}" % variable in source), [""])
+                    for value in values:
+                        whole = re.sub(r"\$\{(?!PROJECT_SOURCE_DIR)\w+\}", value, source)
+                        found = whole.removeprefix("${PROJECT_SOURCE_DIR}/")
+                        guests[str(homes.get(first, here))].add(found if found != whole else str(here / whole))
+    return guests
+
+
+def targetsOf(path, guests):
     """The targets that a source is compiled into."""
     home = max((target for target in TARGETS if path.startswith(target + "/")), key=len, default=None)
-    return ([home] if home else []) + [target for target, guests in GUESTS.items() if path in guests]
+    return ([home] if home else []) + [target for target, taken in guests.items() if path in taken]
 
 
-def faultsOf(files):
-    """Messages on {path: text}, paths relative to the repository's root."""
+def faultsOf(files, guests):
+    """Messages on {path: text}, paths relative to the repository's root. `guests` is what guestsOf() says."""
     places = collections.defaultdict(dict) # of each name, by file
     for path, text in sorted(files.items()):
         if path.endswith(".cpp"):
             for number, where, name in namesIn(text):
-                for target in targetsOf(path):
+                for target in targetsOf(path, guests):
                     places[target, where, name].setdefault(path, number)
     messages = []
     for (_, _, name), found in places.items():
@@ -90,7 +105,8 @@ def faultsOf(files):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    messages = faultsOf({file.relative_to(root).as_posix(): file.read_text(encoding="utf-8") for file in sourcesOf(root)})
+    guests = guestsOf({path: (root / path).read_text(encoding="utf-8") for path in LISTS})
+    messages = faultsOf({file.relative_to(root).as_posix(): file.read_text(encoding="utf-8") for file in sourcesOf(root)}, guests)
     print("\n".join(messages), end="\n" if messages else "")
     return 1 if messages else 0
 

@@ -14,10 +14,20 @@ import run_document
 
 
 class Batches(unittest.TestCase):
+    GUESTS = check_batches.guestsOf({
+        "tests/CMakeLists.txt": """tessera_test(test_unit unit unit SLOW ${floors})
+            foreach(part Numbers # of a line
+                    Outputs)
+                target_sources(test_unit PRIVATE ${PROJECT_SOURCE_DIR}/apps/${part}.cpp)
+            endforeach()
+            tessera_test(test_viewer cli viewer)
+            target_sources(test_viewer PRIVATE support/Process.cpp support/Screen.cpp)""",
+        "python/CMakeLists.txt": "target_sources(tessera_python PRIVATE ${PROJECT_SOURCE_DIR}/viewer/save/OptionText.cpp)"})
+
     def faults(self, first, second, where=("apps/A.cpp", "apps/B.cpp")):
         wrapped = [f"namespace tessera::app {{\nnamespace {{\n{text}\n}} // namespace\n}} // namespace tessera::app\n"
                    for text in (first, second)]
-        return check_batches.faultsOf(dict(zip(where, wrapped)))
+        return check_batches.faultsOf(dict(zip(where, wrapped)), self.GUESTS)
 
     def testANameThatTwoSourcesOfATargetDefineIsNamedWithBothPlaces(self):
         self.assertEqual(self.faults("constexpr int kSteps = 4;", "\nconstexpr double kSteps[] = {0.5};"),
@@ -26,6 +36,9 @@ class Batches(unittest.TestCase):
             self.assertEqual(len(self.faults(text, text)), 1, text)
 
     def testSourcesThatATargetTakesFromElsewhereAreItsOwnToo(self):
+        self.assertEqual(self.GUESTS, {"tests/unit": {"apps/Numbers.cpp", "apps/Outputs.cpp"},
+                                       "tests/viewer": {"tests/support/Process.cpp", "tests/support/Screen.cpp"},
+                                       "python": {"viewer/save/OptionText.cpp"}})
         self.assertEqual(len(self.faults("struct Row {", "struct Row {", ("apps/Outputs.cpp", "tests/unit/apps/A.cpp"))), 1)
         self.assertEqual(len(self.faults("struct Row {", "struct Row {", ("tests/support/Process.cpp", "tests/viewer/A.cpp"))), 1)
         self.assertEqual(self.faults("struct Row {", "struct Row {", ("apps/main.cpp", "tests/unit/apps/A.cpp")), [])

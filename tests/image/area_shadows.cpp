@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 #include <numbers>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
 
@@ -149,24 +149,20 @@ TEST_F(AreaShadows, ofADiskAreThoseOfItsCircle) {
 TEST_F(AreaShadows, ofAPolygonAreThoseOfItsOutline) {
     scenes::Light light = lampOverTheFloor(LightType::Polygon);
     // Its second axis points along -y, whichever way round that is.
-    const auto setCorners = [&](std::initializer_list<glm::vec2> corners) {
-        light.corners.count = 0;
-        for (const glm::vec2& corner : corners) light.corners.add(corner);
-    };
-    setCorners({{-0.4f, -0.1f}, {0.4f, -0.1f}, {-0.4f, 0.1f}});
+    light.corners = test::cornersOf({{-0.4f, -0.1f}, {0.4f, -0.1f}, {-0.4f, 0.1f}});
     expectShares("triangle", light, [](double x) {
         const double beyond = heldToUnit(0.5 - x / 0.8);
         return 1.0 - beyond * beyond;
     });
     // A bridge: four fifths of it are its legs, which are half of its length.
-    setCorners({{-0.4f, -0.1f},
-                {-0.2f, -0.1f},
-                {-0.2f, 0.05f},
-                {0.2f, 0.05f},
-                {0.2f, -0.1f},
-                {0.4f, -0.1f},
-                {0.4f, 0.1f},
-                {-0.4f, 0.1f}});
+    light.corners = test::cornersOf({{-0.4f, -0.1f},
+                                     {-0.2f, -0.1f},
+                                     {-0.2f, 0.05f},
+                                     {0.2f, 0.05f},
+                                     {0.2f, -0.1f},
+                                     {0.4f, -0.1f},
+                                     {0.4f, 0.1f},
+                                     {-0.4f, 0.1f}});
     expectShares("bridge", light, [](double x) {
         const double left = heldToUnit((x + 0.4) / 0.2), bar = heldToUnit((x + 0.2) / 0.4),
                      right = heldToUnit((x - 0.2) / 0.2);
@@ -213,8 +209,7 @@ using AreaShadowsSlow = AreaShadows;
 void AreaShadows::expectSameToTheLastBit() {
     const std::vector<engine::Technique> both{engine::Technique::TiledDeferred, engine::Technique::ClusteredForward};
     std::size_t turn = 0;
-    for (const LightType type :
-         {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube, LightType::Polygon}) {
+    for (const LightType type : test::kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scenes::Light light = lampOverTheFloor(type);
         light.radiusMetres = 0.2f;

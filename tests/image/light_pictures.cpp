@@ -12,6 +12,7 @@
 #include "scenes/AreaLight.h"
 #include "scenes/LookAt.h"
 #include "tests/image/EnvironmentTest.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
 
 namespace tessera {
@@ -20,8 +21,6 @@ namespace {
 using engine::Technique;
 using scenes::LightType;
 using namespace test;
-
-constexpr LightType kPicturedTypes[] = {LightType::Rectangle, LightType::Disk, LightType::Polygon};
 
 scenes::Light picturedArea(LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS,
                            const scenes::LightTexture& texture) {
@@ -46,7 +45,7 @@ scenes::LightTexture fieldsTexture() {
 
 scenes::Scene withPictures(scenes::Scene scene) {
     double x = -1.0;
-    for (const LightType type : kPicturedTypes) {
+    for (const LightType type : kFlatTypes) {
         scenes::Light light = picturedArea(type, {x, 0.6, 1.2}, {-0.3 * x, -0.4, -1.0}, fieldsTexture());
         light.isTwoSided = type == LightType::Disk;
         light.rangeMetres = type == LightType::Disk ? 4.0f : scenes::kInfinity;
@@ -127,7 +126,7 @@ TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
     metal.metallic = 0.5f;
     metal.perceptualRoughness = 0.4f;
     metal.doubleSided = true;
-    for (const LightType type : kPicturedTypes) {
+    for (const LightType type : kFlatTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scenes::Scene scene = quadScene(metal);
         scene.lights = {picturedArea(type, {0.3, 0.2, 0.8}, {0.1, -0.2, -1.0}, {})};
@@ -146,7 +145,7 @@ TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
 }
 
 TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
-    for (const LightType type : kPicturedTypes) {
+    for (const LightType type : kFlatTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         // From the front, x to the right and y upwards: red is left, green at the top.
         scenes::Light light = picturedArea(type, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {});
@@ -315,7 +314,7 @@ TEST_F(LightPictureTruthSlow, onABallPicturesAreNearTheirIntegral) {
 
 TEST_F(LightPictureTruth, lightsOfAnySizeAndPlaceGiveFiniteLight) {
     const scenes::LightTexture texture = fieldsTexture();
-    for (const LightType type : kPicturedTypes)
+    for (const LightType type : kFlatTypes)
         for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f})
             for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1e-5), glm::dvec3(0.5, 0.0, 0.0),
                                          glm::dvec3(0.0, 0.0, -0.1), glm::dvec3(1e5, 0.0, 1.0)}) {

@@ -8,6 +8,7 @@ import argparse
 import dataclasses
 import itertools
 import json
+import math
 import os
 import pathlib
 import shlex
@@ -79,6 +80,24 @@ def benchMerge(job):
     return shellLine(job, [job.program, "bench", "-o", job.out / "merged", "--merge", *parts])
 
 
+def groupsOf(words):
+    """How many groups of points a bench has at most: a scene with one number of lights in one size each. None where the
+    words do not tell; what is wrong with a matrix the program says."""
+    scenes = scenesOf(words)
+    rest = words[1 + len(scenes):]
+    for before, word in zip(["", *rest], rest):
+        isValue = before.startswith("-") and "=" not in before
+        if not word.startswith("-") and not isValue:
+            return None
+    files = [word for before, word in zip(["", *rest], rest) if before == "--matrix"]
+    files += [word.partition("=")[2] for word in rest if word.startswith("--matrix=")]
+    try:
+        matrix = json.loads(pathlib.Path(files[-1]).read_text()) if files else {}
+        return len(scenes) * math.prod(len(matrix[key]) for key in ("lights", "size") if key in matrix) or None
+    except (OSError, ValueError, TypeError):
+        return None
+
+
 def stressFile(job, index):
     return f"{job.part(index)}.json"
 
@@ -120,11 +139,14 @@ class Work:
     pictures: typing.Optional[str] = None  # default of --name
     isTimed: bool = False  # wants a machine for itself
     isByScene: bool = False  # a shard is a scene; else --shards says how many there are
+    parts: typing.Optional[typing.Callable] = None  # how many parts the words can be divided into, or None
+    part: str = ""  # what such parts are called
 
 
 WORKS = [
     Work("bench", "groups of points; OUT/merged is what one run would have written, or has a column a machine",
-         ["--shard", "--resume", "--merge", "-o", "--output"], benchLine, benchMerge, isTimed=True),
+         ["--shard", "--resume", "--merge", "-o", "--output"], benchLine, benchMerge, isTimed=True,
+         parts=groupsOf, part="groups of points (one scene, named right after bench, with one number of lights in one size)"),
     Work("stress", "cases; OUT/stress.json has all of them", ["--shard", "--json"], stressLine, stressMerge),
     Work("frames", "`render SCENE --frames N`: every Nth frame, into OUT", ["--shard", "-o", "--output"], framesLine,
          pictures="frame_%05d.png"),
@@ -172,6 +194,9 @@ def requireSense(work, arguments):
         return
     if not arguments.shards or arguments.shards < 1:
         raise Refused("say with --shards into how many parts the work is to be divided")
+    most = work.parts(words) if work.parts else None
+    if most is not None and arguments.shards > most:
+        raise Refused(f"--shards {arguments.shards}: more than there are {work.part}: {most}; give fewer shards")
 
 
 def programOf(name):

@@ -21,8 +21,8 @@ struct RunIdentity {
     std::string settings; ///< the options of the frames
     std::string against;  ///< the requested truth of the errors
     int frames = 0;
-    int shard = 1,
-        shards = 1; ///< which part of the groups is measured here: those whose number is shard - 1 modulo shards
+    /// Which part of the groups is measured here: those whose number is shard - 1 modulo shards.
+    int shard = 1, shards = 1;
     std::string command;
 };
 

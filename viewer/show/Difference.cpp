@@ -8,11 +8,7 @@ namespace tessera::viewer {
 namespace {
 
 shader::ProgramDesc program() {
-    shader::ProgramDesc desc;
-    desc.name = "difference";
-    desc.vertex = "passes/fullscreen.vert";
-    desc.fragment = "passes/difference.frag";
-    return desc;
+    return shader::screenProgram("difference", "passes/difference.frag");
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 
 #include "engine/Settings.h"
 #include "renderer/frame/GBufferBounds.h"
-#include "scenes/Animation.h"
+#include "scenes/AnimatedProperties.h"
 #include "scenes/Light.h"
 
 namespace tessera {

@@ -10,15 +10,14 @@
 #include "renderer/frame/CullLights.h"
 #include "renderer/frame/LightBuffer.h"
 #include "scenes/AreaLight.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 
 namespace tessera::frame {
 namespace {
 
 using scenes::LightType;
-
-constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
-                                 LightType::Polygon};
+using test::kAreaTypes;
 
 /// In sight of the default camera, which looks along -z.
 scenes::Light surfaceLight(LightType type) {
@@ -94,9 +93,7 @@ TEST(PackedAreaLights, aSphereHasARadiusAndATubeHalfOfItselfToo) {
 
 TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockwise) {
     scenes::Light light = surfaceLight(LightType::Polygon);
-    light.corners.count = 0;
-    for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(0, 2), glm::vec2(1, 0.5), glm::vec2(1.5, 0)})
-        light.corners.add(corner); // clockwise
+    light.corners = test::cornersOf({{0, 0}, {0, 2}, {1, 0.5f}, {1.5f, 0}}); // clockwise
     PackedLights packed = packSurfaces({light, surfaceLight(LightType::Disk)});
     ASSERT_EQ(packed.corners.size(), 2u);
     EXPECT_EQ(glm::vec3(packed.shapes[0].axis), glm::vec3(2, 0, 0));
@@ -143,7 +140,7 @@ TEST(PackedAreaLights, inViewSpaceTheSurfaceIsTurnedWithTheView) {
 
 TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
     std::vector<scenes::Light> lights;
-    for (const LightType type : kShapes) {
+    for (const LightType type : kAreaTypes) {
         scenes::Light& light = lights.emplace_back(surfaceLight(type));
         light.radiusMetres = light.widthMetres = 0.0f;
         for (glm::vec2& corner : light.corners.metres) corner *= 1e-7f;
@@ -163,7 +160,7 @@ TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
 
 TEST(PackedAreaLights, theirSurfaceLiesInTheBallThatCullingTakesThemFor) {
     test::Random random(7);
-    for (const LightType type : kShapes) {
+    for (const LightType type : kAreaTypes) {
         for (int i = 0; i < 50; ++i) {
             const scenes::Light light = randomSurface(random, type);
             const bool isRound = type != LightType::Rectangle && type != LightType::Polygon;
@@ -188,7 +185,7 @@ TEST(AreaLightReach, isItsRangeOrWhereItCanCauseNoMoreThanTheTolerance) {
     EXPECT_FALSE(takesTolerance(panel));
     panel.heightMetres = 0.0f;
     EXPECT_EQ(reachMetres(panel, 0.0), 0.0);
-    for (const LightType type : kShapes) {
+    for (const LightType type : kAreaTypes) {
         scenes::Light light = surfaceLight(type);
         EXPECT_TRUE(takesTolerance(light));
         double last = scenes::kInfinity;
@@ -301,7 +298,8 @@ TEST(AreaLightCulling, aListByNormalsNeverLacksALightThatHasAPartInFrontOfASurfa
         const WallOfNormals wall(random);
         std::vector<scenes::Light> lights;
         for (int i = 0; i < 300; ++i) {
-            scenes::Light& light = lights.emplace_back(randomSurface(random, kShapes[random.index(5)]));
+            scenes::Light& light =
+                lights.emplace_back(randomSurface(random, kAreaTypes[random.index(int(kAreaTypes.size()))]));
             light.positionWS = glm::dvec3(0.0, 0.0, -5.0) + random.direction() * random.between(0.0, 5.0);
             light.rangeMetres = float(random.between(1.0, 8.0));
         }

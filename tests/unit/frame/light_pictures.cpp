@@ -6,6 +6,7 @@
 
 #include "renderer/frame/LightRange.h"
 #include "shaders/shared/light_pictures.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
 
 namespace tessera::frame {
@@ -61,7 +62,7 @@ TEST(LightPictures, sidesAndNumbersAreReadAsTheyWerePacked) {
 
 TEST(LightPictures, anEvenPictureIsTheSameNumberEverywhere) {
     const glm::vec3 factor(0.1f, 1.0f, 3.7f);
-    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+    for (const LightType type : test::kFlatTypes) {
         const std::vector<ShownPicture> shown{
             {test::lightTexture(37, 5, [&](int, int) { return factor; }), type, scenes::LightCorners()}};
         const std::vector<glm::vec4> texels = prefilteredPictures(shown);

@@ -7,15 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "scenes/LookAt.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 
 namespace tessera::frame {
 namespace {
 
 using scenes::LightType;
-
-constexpr LightType kSurfaces[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
-                                   LightType::Polygon};
+using test::kAreaTypes;
 
 /// 5 m before the default camera, which looks along -z, and turned to it.
 scenes::Light lamp(LightType type) {
@@ -74,7 +73,7 @@ TEST(SeenLights, aPlaceInThePictureAlwaysLiesInItsLightsWindow) {
         if (i % 2 == 0) camera.projection = scenes::Projection::Orthographic;
         camera.halfHeightMetres = 2.0;
         camera.nearMetres = random.logarithmic(0.01, 1.0);
-        scenes::Light light = lamp(kSurfaces[i / 2 % 5]);
+        scenes::Light light = lamp(kAreaTypes[i / 2 % kAreaTypes.size()]);
         light.isTwoSided = true;
         light.positionWS =
             eyeWS + glm::dmat3(camera.worldFromCamera) *
@@ -116,7 +115,7 @@ TEST(SeenLights, aWindowIsNoWiderThanItsLightAndTwoPixels) {
     camera.halfHeightMetres = 1.0;
     FrameSettings settings;
     settings.sizePixels = {400, 400};
-    for (const LightType type : kSurfaces) {
+    for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         const std::vector<SeenLight> seen = seenOf(lamp(type), camera, settings);
         ASSERT_EQ(seen.size(), 1u);
@@ -130,7 +129,7 @@ TEST(SeenLights, aWindowIsNoWiderThanItsLightAndTwoPixels) {
 TEST(SeenLights, areThoseThatShineAndAreInViewAndToBeSeen) {
     const scenes::Camera camera;
     FrameSettings settings;
-    for (const LightType type : kSurfaces) {
+    for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         ASSERT_EQ(seenOf(lamp(type)).size(), 1u);
         const auto isGone = [&](const char* why, const std::function<void(scenes::Light&)>& change) {

@@ -2,24 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "scenes/Shadows.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 
 namespace tessera::scenes {
 namespace {
 
-LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
-    LightCorners corners;
-    corners.count = 0;
-    for (const glm::vec2& place : places) corners.add(place);
-    return corners;
-}
+using tessera::test::cornersOf;
 
 TEST(AreaLight, isDarkExactlyWithoutASurface) {
     Light light;

@@ -141,6 +141,15 @@ public:
     Folder folder;
 };
 
+/// The material of the triangle, as it is imported with what a patch adds to it. The patch may use texture 0.
+inline Material importedMaterial(const char* patch) {
+    Builder builder;
+    builder.material().merge_patch(Json::parse(patch));
+    builder.addTexture();
+    const Scene scene = builder.import();
+    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
+}
+
 inline bool hasWarning(const Scene& scene, const std::string& part) {
     for (const std::string& warning : scene.warnings)
         if (warning.find(part) != std::string::npos) return true;

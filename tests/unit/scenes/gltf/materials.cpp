@@ -1,17 +1,14 @@
+// Materials of glTF files and their extensions, but for textures and variants.
+#include <iterator>
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
-#include "GltfBuilder.h"
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
-
-Material importedMaterial(const char* patch) {
-    Builder builder;
-    builder.material().merge_patch(Json::parse(patch));
-    builder.addTexture();
-    const Scene scene = builder.import();
-    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
-}
 
 TEST(GltfMaterials, factorsAreImportedExactly) {
     const Material material = importedMaterial(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4],
@@ -269,89 +266,6 @@ TEST(GltfMaterials, layersOutOfRangeAreRefused) {
         EXPECT_THROW(importedMaterial(patch), InputError) << patch;
 }
 
-// ---- Textures ------------------------------------------------------------------------------------------------------
-
-TextureUse importedUse(const char* info, const char* sampler = nullptr) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"] = Json::parse(info);
-    builder.addTexture();
-    if (sampler != nullptr) {
-        builder.json["samplers"] = Json::array({Json::parse(sampler)});
-        builder.json["textures"][0]["sampler"] = 0;
-    }
-    return builder.import().materials.at(0).texture(TextureSlot::BaseColor);
-}
-
-TEST(GltfTextures, samplerSettingsAreImportedExactly) {
-    const TextureUse use =
-        importedUse(R"({"index": 0})", R"({"magFilter": 9728, "minFilter": 9985, "wrapS": 33071, "wrapT": 33648})");
-    EXPECT_EQ(use.sampler,
-              (Sampler{Filter::Nearest, Filter::LinearMipmapNearest, Wrap::ClampToEdge, Wrap::MirroredRepeat}));
-    const Filter filters[] = {Filter::NearestMipmapNearest, Filter::LinearMipmapNearest, Filter::NearestMipmapLinear,
-                              Filter::LinearMipmapLinear};
-    for (int i = 0; i < 4; ++i) {
-        const std::string sampler = "{\"minFilter\": " + std::to_string(9984 + i) + "}";
-        EXPECT_EQ(importedUse(R"({"index": 0})", sampler.c_str()).sampler.minification, filters[i]);
-    }
-}
-
-TEST(GltfTextures, samplerDefaultsAreRepeatAndTrilinear) {
-    const Sampler trilinear{Filter::Linear, Filter::LinearMipmapLinear, Wrap::Repeat, Wrap::Repeat};
-    EXPECT_EQ(importedUse(R"({"index": 0})").sampler, trilinear);
-    EXPECT_EQ(importedUse(R"({"index": 0})", "{}").sampler, trilinear);
-}
-
-TEST(GltfTextures, transformIsImportedExactly) {
-    const TextureUse use = importedUse(R"({"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform":
-        {"offset": [0.5, 0.25], "scale": [2, 3], "rotation": 0.125, "texCoord": 1}}})");
-    EXPECT_EQ(use.transform, (TextureTransform{{0.5f, 0.25f}, {2, 3}, 0.125f}));
-    EXPECT_EQ(use.texCoordSet, 1);
-    EXPECT_EQ(importedUse(R"({"index": 0})").transform, TextureTransform{});
-}
-
-TEST(GltfTextures, transformInsideAnExtensionIsImportedExactly) {
-    const Material material =
-        importedMaterial(R"({"extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0,
-        "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [4, 5]}}}}}})");
-    EXPECT_EQ(material.texture(TextureSlot::SpecularFactor).transform.scale, glm::vec2(4, 5));
-    EXPECT_EQ(material.texture(TextureSlot::SpecularFactor).texCoordSet, 1);
-}
-
-TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsWarnedOf) {
-    EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 1})").texCoordSet, 1);
-    EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 2})").image, kNone);
-}
-
-TEST(GltfTextures, imageIsReadTheSameFromDataUriFileAndBufferView) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
-    const Image embedded = builder.import().images.at(0);
-    EXPECT_EQ(embedded.name, "image 0");
-    EXPECT_EQ(embedded.width, 2);
-
-    builder.folder.write("my pictures/r\xc3\xb6t.png", pngRedBlue());
-    builder.json["images"][0] = Json::parse(R"({"uri": "my%20pictures/r%C3%B6t.png"})");
-    const Image external = builder.import().images.at(0);
-    EXPECT_EQ(external.texels, embedded.texels);
-    builder.json["images"][0]["uri"] = "my pictures/r\xc3\xb6t.png";
-    EXPECT_EQ(builder.import().images.at(0).texels, embedded.texels);
-
-    const int view = builder.addView(pngRedBlue());
-    builder.json["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}, {"name", "in a view"}};
-    const Image inView = builder.import().images.at(0);
-    EXPECT_EQ(inView.texels, embedded.texels);
-    EXPECT_EQ(inView.name, "in a view");
-}
-
-TEST(GltfTextures, imageUsedTwiceIsDecodedOnce) {
-    Builder builder;
-    builder.material().merge_patch(Json::parse(R"({"normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}})"));
-    builder.addTexture();
-    builder.json["textures"].push_back(Json::parse(R"({"source": 0})"));
-    EXPECT_EQ(builder.import().images.size(), 1u);
-}
-
 TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {
     Builder builder;
     builder.material().merge_patch(Json::parse(R"({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1],
@@ -392,150 +306,6 @@ TEST(GltfSpecularGlossiness, theAlphaOfItsTextureBecomesRoughness) {
     const Material lost = builder.import().materials.at(0);
     EXPECT_EQ(lost.perceptualRoughness, 0.5f) << "of the factor alone";
     EXPECT_EQ(lost.texture(TextureSlot::MetallicRoughness).image, kNone);
-}
-
-/// Two triangles: one that is paint, in 'red' ruby and in 'blue' sky, and one that always is paint.
-Builder withVariants() {
-    Builder builder;
-    builder.merge(R"({"extensionsUsed": ["KHR_materials_variants"],
-        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}},
-        "materials": [{"name": "paint"}, {"name": "sky"}, {"name": "ruby"}]})");
-    builder.primitive()["material"] = 0;
-    builder.json["meshes"][0]["primitives"].push_back(builder.primitive());
-    builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
-        Json::parse(R"([{"material": 2, "variants": [0]}, {"material": 1, "variants": [1]}])");
-    return builder;
-}
-
-/// The names of the materials of the first node's instances.
-std::vector<std::string> worn(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const MeshInstance& instance : scene.nodes.at(0).instances)
-        names.push_back(scene.materials.at(std::size_t(instance.material)).name);
-    return names;
-}
-
-TEST(GltfVariants, aVariantBindsItsMaterialsAndKeepsTheNumbersOfOthers) {
-    using Names = std::vector<std::string>;
-    Builder builder = withVariants();
-    const Scene plain = builder.import();
-    EXPECT_EQ(plain.variants, (Names{"red", "blue"}));
-    EXPECT_EQ(worn(plain), (Names{"paint", "paint"}));
-    EXPECT_EQ(plain.materials.size(), 1u) << "what is not shown is not read";
-    EXPECT_TRUE(plain.warnings.empty());
-    EXPECT_EQ(plain.notes, (Names{"shows its materials as they are without a variant; its variants are red, blue"}));
-    builder.wishes.variant = "blue";
-    const Scene blue = builder.import();
-    EXPECT_EQ(worn(blue), (Names{"sky", "paint"}));
-    EXPECT_EQ(blue.materials.at(0).name, "paint");
-    EXPECT_EQ(blue.notes, (Names{"shows the variant 'blue'; its variants are red, blue"}));
-    builder.wishes.variant = "green"; // of another model of the scene
-    EXPECT_EQ(worn(builder.import()), (Names{"paint", "paint"}));
-}
-
-TEST(GltfVariants, skinnedAndMorphedMeshesShowThemToo) {
-    Builder builder = withVariants();
-    builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}])");
-    builder.json["meshes"][0]["primitives"].erase(1);
-    builder.json["meshes"][0]["weights"] = {0.5};
-    builder.wishes.variant = "red";
-    EXPECT_EQ(worn(builder.import()), (std::vector<std::string>{"ruby"}));
-}
-
-TEST(GltfVariants, whatIsNotThereIsRefused) {
-    Builder builder = withVariants();
-    builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"][0]["variants"][0] = 2;
-    EXPECT_NE(builder.error().find("/variants/0: points at /extensions/KHR_materials_variants/variants/2, but there "
-                                   "are only 2"),
-              std::string::npos)
-        << builder.error();
-}
-
-TEST(GltfTextures, missingOrBrokenImageIsACheckerboardOfColoursAndNothingElse) {
-    Builder builder;
-    builder.material().merge_patch(Json::parse(
-        R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 1}},
-            "normalTexture": {"index": 0}, "emissiveTexture": {"index": 1}})"));
-    builder.addTexture();
-    builder.json["images"] = Json::parse(R"([{"uri": "gone.png"}, {"uri": "data:image/png;base64,QUJD"}])");
-    builder.json["textures"].push_back(Json::parse(R"({"source": 1})"));
-    const Scene scene = builder.import();
-    ASSERT_EQ(scene.images.size(), 1u) << "one stands in for both";
-    EXPECT_NE(scene.images[0].texels.front(), scene.images[0].texels[8 * 4]) << "its squares are 8 texels wide";
-    const Material& material = scene.materials.at(0);
-    EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
-    EXPECT_EQ(material.texture(TextureSlot::Emissive).image, 0);
-    EXPECT_EQ(material.texture(TextureSlot::Normal).image, kNone);
-    EXPECT_EQ(material.texture(TextureSlot::MetallicRoughness).image, kNone);
-    EXPECT_EQ(scene.warnings.size(), 2u) << "once each, however often they are used";
-    EXPECT_TRUE(hasWarning(scene, "gone.png: there is no such file"));
-    EXPECT_TRUE(hasWarning(scene, "model.gltf: /images/1: is in no known picture format"));
-    EXPECT_TRUE(hasWarning(scene, "; its colours are a checkerboard, and what else it holds is left out"));
-
-    builder.json["textures"][0] = Json::object();
-    EXPECT_TRUE(hasWarning(builder.import(), "/textures/0: has no source in a supported format"));
-}
-
-TEST(GltfTextures, webpGoesBeforeTheOtherPictureAndThatStandsInForIt) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
-    std::filesystem::copy_file(std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/corpus/picture/small.webp",
-                               builder.folder.write("a.webp", std::string()),
-                               std::filesystem::copy_options::overwrite_existing);
-    builder.json["images"].push_back(Json::parse(R"({"uri": "a.webp", "mimeType": "image/webp"})"));
-    builder.json["textures"][0] = Json::parse(R"({"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}})");
-    const Scene both = builder.import();
-    ASSERT_EQ(both.images.size(), 1u);
-    EXPECT_EQ(both.images[0].name, "a.webp");
-    EXPECT_TRUE(both.warnings.empty());
-
-    builder.json["textures"][0].erase("source");
-    builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"EXT_texture_webp"};
-    EXPECT_EQ(builder.import().images.at(0).name, "a.webp");
-
-    builder.json["textures"][0]["source"] = 0;
-    builder.json["images"][1]["uri"] = "gone.webp";
-    const Scene other = builder.import();
-    ASSERT_EQ(other.images.size(), 1u);
-    EXPECT_EQ(other.images[0].width, 2) << "the PNG";
-    EXPECT_EQ(other.warnings.size(), 1u);
-    EXPECT_TRUE(hasWarning(other, "; the texture's other picture is used instead"));
-}
-
-TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
-    // A TGA of one grey, whose runs of 128 texels take two bytes each.
-    std::vector<std::uint8_t> tga{0, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 16, 0, 8, 8, 0x20};
-    for (int run = 0; run < 4096 * 2048 / 128; ++run) tga.insert(tga.end(), {0xff, 7});
-    builder.folder.write("grey.tga", bytesOf(tga));
-    builder.json["images"][0] = Json::parse(R"({"uri": "grey.tga"})");
-    const std::filesystem::path file = builder.folder.write("model.gltf", builder.json.dump());
-    EXPECT_EQ(underLedger(importGltf, file).images.at(0).width, 4096);
-    EXPECT_THROW(underLedger(importGltf, file, 8 * kMiB), MemoryRefused);
-}
-
-TEST(GltfTextures, missingOrBrokenImageIsRefusedByNameWhereTheLoadIsStrict) {
-    Builder builder;
-    builder.wishes.isStrict = true;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
-    builder.json["images"][0] = Json::parse(R"({"uri": "gone.png"})");
-    EXPECT_NE(builder.error().find("gone.png: there is no such file"), std::string::npos);
-    EXPECT_NE(builder.error().find("model.gltf: /images/0: "), std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "https://example.org/a.png"})");
-    EXPECT_NE(builder.error().find("/images/0: its uri 'https://example.org/a.png' is not a relative path"),
-              std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,QUJD"})");
-    EXPECT_NE(builder.error().find("/images/0: is in no known picture format"), std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,*"})");
-    EXPECT_NE(builder.error().find("/images/0: its base64 has an invalid character at position 0"), std::string::npos);
-    builder.json["images"][0] = Json::object();
-    EXPECT_NE(builder.error().find("/images/0: has neither a uri nor a bufferView"), std::string::npos);
-    builder.json["textures"][0] = Json::object();
-    EXPECT_NE(builder.error().find("/textures/0: has no source in a supported format"), std::string::npos);
 }
 
 } // namespace

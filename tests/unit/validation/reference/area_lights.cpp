@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/AreaLight.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
 #include "tests/support/Random.h"
 #include "validation/reference/LightSurface.h"
@@ -213,7 +214,7 @@ TEST(ReferenceAreaLights, farAwayEveryLightGivesItsProjectedArea) {
 }
 
 TEST(ReferenceAreaLights, flatLightsShineForwardUnlessTheyHaveTwoSides) {
-    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+    for (const LightType type : test::kFlatTypes) {
         ShiningLight light = shiningArea(type, {0.3, 0.2, 1.0}, {0, 0, -1});
         const double front = factorOf(light);
         EXPECT_GT(front, 0.1);
@@ -248,20 +249,20 @@ TEST(ReferenceAreaLights, aMirrorShowsALightsRadianceInsideItsOutlineAndNothingO
     const glm::dvec3 toViewer = viewerAt(0.8);
     const glm::dvec3 reflection(-toViewer.x, -toViewer.y, toViewer.z);
     const glm::dvec3 aside = glm::normalize(glm::cross(reflection, {0, 1, 0}));
-    for (int type = int(LightType::Rectangle); type <= int(LightType::Polygon); ++type) {
-        ShiningLight light = shiningArea(LightType(type), 2.0 * reflection, -reflection);
+    for (const LightType type : test::kAreaTypes) {
+        ShiningLight light = shiningArea(type, 2.0 * reflection, -reflection);
         light.light.alongWS = aside;
         light.light.lengthMetres = 1.0f;
         // A peak of this alpha has 1 - 1/(1 + (t/alpha)^2) of its light within half vectors of slope t: at least 0.1
         // here, all but 1e-4. The rest is masked, alpha^2 / 4.
         for (const double offset : {0.0, 0.15, -0.25}) {
             light.positionRWS = 2.0 * reflection + offset * aside;
-            EXPECT_NEAR(shownBy(mirror, light, toViewer), 1.0, 3e-4) << type << ' ' << offset;
+            EXPECT_NEAR(shownBy(mirror, light, toViewer), 1.0, 3e-4) << scenes::infoOf(type).name << ' ' << offset;
         }
         light.positionRWS = 2.0 * reflection + 1.0 * aside;
         const double outside = shownBy(mirror, light, toViewer);
-        EXPECT_GT(outside, 0.0) << type;
-        EXPECT_LT(outside, 1e-4) << type;
+        EXPECT_GT(outside, 0.0) << scenes::infoOf(type).name;
+        EXPECT_LT(outside, 1e-4) << scenes::infoOf(type).name;
     }
 }
 
@@ -420,7 +421,7 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
 // ---- Pictures ------------------------------------------------------------------------------------------------------
 
 TEST(ReferenceLightPictures, anEvenPictureIsAFactorOfTheLight) {
-    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+    for (const LightType type : test::kFlatTypes) {
         ShiningLight plain = shiningArea(type, {0.2, 0.3, 0.8}, glm::normalize(glm::dvec3(0.1, 0.2, -1.0)));
         plain.light.alongWS = scenes::usualAlong(plain.light.directionWS);
         ShiningLight pictured = plain;

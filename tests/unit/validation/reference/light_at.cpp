@@ -9,6 +9,7 @@
 
 #include "renderer/frame/LightRange.h"
 #include "tests/image/Textbook.h"
+#include "tests/support/AreaLights.h"
 
 namespace tessera::reference {
 namespace {
@@ -141,7 +142,7 @@ TEST(ReferenceLight, theIrradianceOfASmallAreaLightGoesWithItsProjectedArea) {
         light.directionWS = {std::sin(angle), 0.0, -std::cos(angle)};
         return incidentAt(shining(light), {0, 0, 0}).irradiance.r;
     };
-    for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Polygon}) {
+    for (const LightType type : test::kFlatTypes) {
         Light light = areaLight(type);
         EXPECT_NEAR(at(light, 0.0), given(4.0), 1e-6) << "the radius is rounded to fp32";
         EXPECT_NEAR(at(light, 1.0), given(4.0 * std::cos(1.0)), 1e-6);
@@ -167,8 +168,9 @@ TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTole
     constexpr double kTolerance = 1e-3;
     Settings settings;
     settings.rangeTolerance = kTolerance;
-    for (int type = int(LightType::Rectangle); type <= int(LightType::Polygon); ++type) {
-        Light light = areaLight(LightType(type));
+    for (const LightType type : test::kAreaTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        Light light = areaLight(type);
         EXPECT_EQ(rangeOf(light, 3.0, 0.0), double(scenes::kInfinity));
         const double range = rangeOf(light, 3.0, kTolerance);
         EXPECT_DOUBLE_EQ(shining(light, settings).rangeMetres, range);
@@ -176,9 +178,9 @@ TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTole
         const double bound = scenes::infoOf(light.type).isTurned() ? std::sqrt(2.0)
                              : light.type == LightType::Tube       ? std::sqrt(1.25)
                                                                    : double(light.radiusMetres);
-        const double area = LightType(type) == LightType::Tube ? 2.0 + std::numbers::pi / 4.0 : 4.0;
-        EXPECT_NEAR(3.0 * area / std::pow(range - bound, 2), kTolerance, 1e-9) << type;
-        EXPECT_NEAR(std::numbers::pi * std::pow(scenes::shadowRadiusMetres(light), 2), area, 1e-6) << type;
+        const double area = type == LightType::Tube ? 2.0 + std::numbers::pi / 4.0 : 4.0;
+        EXPECT_NEAR(3.0 * area / std::pow(range - bound, 2), kTolerance, 1e-9);
+        EXPECT_NEAR(std::numbers::pi * std::pow(scenes::shadowRadiusMetres(light), 2), area, 1e-6);
         light.rangeMetres = 7.0f;
         EXPECT_EQ(rangeOf(light, 3.0, kTolerance), 7.0);
     }

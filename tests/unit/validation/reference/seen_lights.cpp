@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/LookAt.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
 #include "tests/unit/scenes/TinyScene.h"
 #include "validation/reference/Render.h"
@@ -18,9 +19,7 @@ namespace tessera::reference {
 namespace {
 
 using scenes::LightType;
-
-constexpr LightType kShapes[] = {LightType::Rectangle, LightType::Disk, LightType::Sphere, LightType::Tube,
-                                 LightType::Polygon};
+using test::kAreaTypes;
 
 ShiningLight lamp(LightType type) {
     ShiningLight shining;
@@ -89,7 +88,7 @@ std::optional<double> steppedTo(const ShiningLight& light, const Ray& ray) {
 TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
     tessera::test::Random random(21);
     int met = 0, missed = 0;
-    std::array<int, std::size(kShapes)> metOf{};
+    std::array<int, std::size(kAreaTypes)> metOf{};
     for (int i = 0; i < 25000; ++i) { // 5000 of each type
         scenes::Camera camera;
         camera.nearMetres = 1e-6;
@@ -97,7 +96,7 @@ TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
         camera.projection = i % 2 == 0 ? scenes::Projection::Perspective : scenes::Projection::Orthographic;
         camera.halfHeightMetres = 2.0;
         camera.worldFromCamera = scenes::worldFromLookAt(glm::dvec3(0.0), random.direction());
-        ShiningLight light = lamp(kShapes[i / 2 % 5]);
+        ShiningLight light = lamp(kAreaTypes[i / 2 % kAreaTypes.size()]);
         light.light.isTwoSided = true;
         light.light.directionWS = random.direction();
         light.light.alongWS = random.around(light.light.directionWS, 0.0, 0.0);
@@ -132,7 +131,7 @@ TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
     // has two fifths of its rectangle: by the mean areas that shapes of such sizes show.
     EXPECT_GT(met, 2000);
     EXPECT_GT(missed, 2000);
-    for (std::size_t i = 0; i < metOf.size(); ++i) EXPECT_GT(metOf[i], 15) << scenes::infoOf(kShapes[i]).name;
+    for (std::size_t i = 0; i < metOf.size(); ++i) EXPECT_GT(metOf[i], 15) << scenes::infoOf(kAreaTypes[i]).name;
 }
 
 class ReferenceLightInView : public testing::Test {
@@ -145,7 +144,7 @@ protected:
 };
 
 TEST_F(ReferenceLightInView, onlyFrontsAndOutsidesBetweenThePlanesAreMet) {
-    for (const LightType type : kShapes) {
+    for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         const bool isFlat = scenes::infoOf(type).isFlat;
         ShiningLight light = lamp(type);

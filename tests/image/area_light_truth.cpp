@@ -1,0 +1,371 @@
+// Area lights: known answers, and the integral over a light.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scenes/LookAt.h"
+#include "tests/image/AreaLightTest.h"
+#include "tests/image/EnvironmentTest.h"
+#include "tests/image/FlatTest.h"
+#include "tests/support/AreaLights.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::LightType;
+using std::numbers::pi;
+using namespace test;
+
+/// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
+class AreaLightTruth : public EnvironmentTest {
+protected:
+    double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
+                const glm::dvec3& toViewer = {0.0, 0.0, 1.0},
+                const std::optional<scenes::Environment>& environment = {}) {
+        if (!shown_ || !(shown_->material == material) || shown_->toViewer != toViewer || environment ||
+            shown_->scene.environment) {
+            shown_.emplace();
+            shown_->material = material;
+            shown_->toViewer = toViewer;
+            scenes::Scene& scene = shown_->scene = quadScene(material);
+            scene.environment = environment;
+            scenes::Camera& camera = scene.cameras[0];
+            camera.projection = scenes::Projection::Orthographic;
+            camera.halfHeightMetres = 1e-4;
+            camera.worldFromCamera = scenes::worldFromLookAt(3.0 * glm::normalize(toViewer), glm::dvec3(0.0));
+            shown_->renderer.emplace(context(), scene);
+        }
+        shown_->scene.lights = lights;
+        for (scenes::Light& light : shown_->scene.lights) light.isSeen = false;
+        frame::FrameSettings settings;
+        settings.sizePixels = {3, 3};
+        const std::vector<float> radiance = shown_->renderer->render(Technique::Deferred, settings).radiance;
+        return double(radiance[4 * 4]);
+    }
+    /// Of the picture of a ball against the integral over a light.
+    BallError onBall(const scenes::Material& material, LightType type) {
+        scenes::Scene scene = ballUnderSky(material);
+        scene.lights = {areaLight(type, {1.2, 1.5, 2.0}, {-1.2, -1.5, -2.0}, 1.0f)};
+        scene.lights[0].isSeen = false; // the corner of a rectangle reaches into the picture
+        return errorOfBall(scene, 48, 0);
+    }
+    /// For every type, roughness by roughness, or each with some: types differ in their outlines alone.
+    void expectNearTheIntegralOnABall();
+    /// k_d 1, without 1/pi: shows the irradiance.
+    static scenes::Material matte() {
+        scenes::Material material;
+        material.model = scenes::MaterialModel::Lambert;
+        material.doubleSided = true;
+        return material;
+    }
+
+private:
+    /// What seen() showed last: a renderer takes longer to make than such a picture.
+    struct Shown {
+        scenes::Material material;
+        glm::dvec3 toViewer{0.0};
+        scenes::Scene scene;
+        std::optional<engine::Renderer> renderer;
+    };
+    std::optional<Shown> shown_;
+};
+using AreaLightTruthSlow = AreaLightTruth;
+
+// Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".
+TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
+    constexpr double kRelative = 1e-4; // of round outlines; straight ones are within 2e-6
+    const auto sideways = [](LightType type, const glm::dvec3& at, const glm::dvec3& to) {
+        return areaLight(type, at, to, 1.0f);
+    };
+    // A parallel rectangle a x b above one of its corners (B-4), four times.
+    for (const double height : {0.05, 0.5, 2.0, 50.0}) {
+        scenes::Light light = sideways(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        light.widthMetres = 2.0f;
+        light.heightMetres = 1.0f;
+        const double x = 1.0 / height, y = 0.5 / height;
+        const double corner = (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
+                               y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
+                              (2.0 * pi);
+        EXPECT_NEAR(seen(matte(), {light}) / (4.0 * pi * corner), 1.0, kRelative) << "rectangle at " << height;
+    }
+    // A perpendicular one that stands on the surface's plane, seen from before the middle of its edge (B-3, twice):
+    // half of it is below the horizon where it is let down by half its height.
+    for (const double distance : {0.1, 0.5, 3.0})
+        for (const double down : {0.0, 1.0}) {
+            scenes::Light light = sideways(LightType::Rectangle, {0.0, distance, 1.0 - down}, {0.0, -1.0, 0.0});
+            light.widthMetres = 2.0f;
+            light.heightMetres = 2.0f;
+            const double high = 2.0 - down, x = 1.0 / distance, y = high / distance;
+            const double half =
+                (std::atan(x) - std::atan(x / std::sqrt(1 + y * y)) / std::sqrt(1 + y * y)) / (2.0 * pi);
+            EXPECT_NEAR(seen(matte(), {light}) / (2.0 * pi * half), 1.0, kRelative)
+                << "standing rectangle at " << distance << ", let down by " << down;
+        }
+    // A parallel disk above the point (B-13).
+    for (const double height : {0.03, 0.3, 3.0, 300.0}) {
+        const scenes::Light light = sideways(LightType::Disk, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        const double factor = 0.09 / (0.09 + height * height);
+        EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative) << "disk at " << height;
+    }
+    // A sphere that is all above the horizon: (r/d)^2 cos (B-37).
+    for (const double angle : {0.0, 0.5, 1.0}) {
+        for (const double distance : {0.7, 5.0, 400.0}) {
+            const scenes::Light light = sideways(
+                LightType::Sphere, distance * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)), {0.0, 0.0, -1.0});
+            const double factor = 0.09 / (distance * distance) * std::cos(angle);
+            EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative)
+                << "sphere at " << distance << ", " << angle;
+        }
+    }
+    // An endless tube above the surface: r/h, as a strip of its width.
+    scenes::Light tube = sideways(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0});
+    tube.lengthMetres = 2e4f;
+    EXPECT_NEAR(seen(matte(), {tube}) / (pi * 0.3), 1.0, 2e-3) << "tube";
+}
+
+/// Half of the sum, over the edges, of the angle under which one is seen times the height of the unit normal of its
+/// plane (Lambert 1760).
+TEST_F(AreaLightTruth, aPolygonLightsAMatteSurfaceAsLambertSays) {
+    const scenes::LightCorners outlines[] = {
+        cornersOf({{-0.4f, -0.3f}, {0.7f, 0.0f}, {0.1f, 0.6f}}),
+        cornersOf({{0, 0}, {1, -0.5f}, {0.5f, 0}, {1, 0.5f}, {0, 0.3f}}), // points inwards
+        cornersOf({{0, 0.5f},
+                   {0.4f, 0.4f},
+                   {0.6f, 0},
+                   {0.4f, -0.3f},
+                   {0, -0.5f},
+                   {-0.4f, -0.4f},
+                   {-0.5f, 0},
+                   {-0.3f, 0.3f}})};
+    for (const scenes::LightCorners& corners : outlines)
+        for (const glm::dvec3& at :
+             {glm::dvec3(0.2, 0.1, 1.0), glm::dvec3(-1.0, 0.5, 1.2), glm::dvec3(0.0, 0.0, 40.0)}) {
+            scenes::Light light = areaLight(LightType::Polygon, at, -at - glm::dvec3(0.0, 0.2, 0.4), 1.0f);
+            light.corners = corners;
+            double sum = 0.0;
+            const glm::dvec3 acrossWS = glm::cross(light.directionWS, light.alongWS);
+            const auto cornerWS = [&](std::size_t i) {
+                const glm::dvec2 corner(corners.metres[i % corners.count]);
+                return glm::normalize(at + corner.x * light.alongWS + corner.y * acrossWS);
+            };
+            for (std::size_t i = 0; i < corners.count; ++i) {
+                const glm::dvec3 normal = glm::cross(cornerWS(i), cornerWS(i + 1));
+                sum += std::asin(glm::length(normal)) * glm::normalize(normal).z; // of less than a right angle
+            }
+            EXPECT_NEAR(seen(matte(), {light}) / (0.5 * std::abs(sum)), 1.0, 1e-4) // of small ones edges cancel
+                << corners.count << " corners at " << at.z;
+        }
+}
+
+TEST_F(AreaLightTruth, aSquarePolygonIsTheRectangleOfItsSides) {
+    scenes::Material metal;
+    metal.metallic = 0.5f;
+    metal.doubleSided = true;
+    for (const double roughness : {0.2, 0.6})
+        for (const glm::dvec3& at :
+             {glm::dvec3(-0.5, 0.1, 1.0), glm::dvec3(0.6, 0.0, 0.2), glm::dvec3(-1.0, 2.0, 9.0)}) {
+            metal.perceptualRoughness = float(roughness);
+            scenes::Light rectangle = areaLight(LightType::Rectangle, at, -at, 1.0f), polygon = rectangle;
+            polygon.type = LightType::Polygon;
+            rectangle.widthMetres = 1.5f;
+            for (glm::vec2& corner : polygon.corners.metres) corner.x *= 1.5f;
+            const double wanted = seen(metal, {rectangle}, {0.5, 0.0, 1.0});
+            EXPECT_GT(wanted, 1e-4);
+            EXPECT_NEAR(seen(metal, {polygon}, {0.5, 0.0, 1.0}) / wanted, 1.0, 1e-4) << roughness << ", " << at.z;
+            std::reverse(polygon.corners.metres.begin(), polygon.corners.metres.begin() + 4);
+            EXPECT_NEAR(seen(metal, {polygon}, {0.5, 0.0, 1.0}) / wanted, 1.0, 1e-4) << "the other way round";
+        }
+}
+
+TEST_F(AreaLightTruth, flatLightsShineFromTheirFrontAndWhereTheyAreTwoSidedFromTheBack) {
+    for (const LightType type : kFlatTypes) {
+        scenes::Light light = areaLight(type, {0.1, 0.2, 1.0}, {0.0, 0.0, 1.0}, 1.0f);
+        EXPECT_EQ(seen(matte(), {light}), 0.0);
+        light.isTwoSided = true;
+        scenes::Light front = light;
+        front.directionWS = -light.directionWS;
+        front.isTwoSided = false;
+        EXPECT_NEAR(seen(matte(), {light}), seen(matte(), {front}), 1e-6);
+    }
+}
+
+TEST_F(AreaLightTruth, aLightThatSetsWithNothingInItsWayLosesNothingToShadows) {
+    for (const LightType type : {LightType::Sphere, LightType::Tube, LightType::Disk}) {
+        for (const double height : {0.2, 0.0, -0.2}) {
+            scenes::Light light = areaLight(type, {0.9, 0.0, height}, {-1.0, 0.0, 0.0}, 3.0f);
+            const double open = seen(matte(), {light});
+            EXPECT_GT(open, 1e-3);
+            light.castsShadow = true;
+            EXPECT_NEAR(seen(matte(), {light}), open, 1e-6 * open) << scenes::infoOf(type).name << " at " << height;
+        }
+    }
+}
+
+/// Six walls of a box: each lobe sees the same light all over the hemisphere, and so what it reflects of even light.
+TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
+    std::vector<scenes::Light> walls;
+    for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+        for (const double side : {-1.0, 1.0}) {
+            scenes::Light wall = areaLight(LightType::Rectangle, side * 2.0 * axis, -side * axis, 1.0f);
+            wall.widthMetres = wall.heightMetres = 4.0f;
+            walls.push_back(wall);
+        }
+    EXPECT_NEAR(seen(matte(), walls), pi, 2e-5);
+    // E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4.
+    constexpr double kCosines[] = {0.1, 0.5, 1.0}, kAlphas[] = {0.05, 0.25, 1.0};
+    constexpr double kReflected[3][3] = {{.9113, .9927, .9973}, {.8916, .8572, .9158}, {.7602, .4507, .3069}};
+    scenes::Material white;
+    white.metallic = 1.0f;
+    white.doubleSided = true;
+    for (int a = 0; a < 3; ++a)
+        for (int m = 0; m < 3; ++m) {
+            white.perceptualRoughness = float(std::sqrt(kAlphas[a]));
+            const glm::dvec3 toViewer(std::sqrt(1.0 - kCosines[m] * kCosines[m]), 0.0, kCosines[m]);
+            EXPECT_NEAR(seen(white, walls, toViewer), kReflected[a][m], 1e-3)
+                << "alpha " << kAlphas[a] << ", cosine " << kCosines[m];
+        }
+}
+
+/// Just above the size at which outlines count as places, on a surface that they graze: (r/d)^2 cos.
+TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
+    for (const double cosine : {0.1, 0.3, 0.7})
+        for (const double share : {2.1e-3, 1e-2}) {
+            const double distance = 0.3 / share;
+            const glm::dvec3 at = distance * glm::dvec3(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+            const double factor = share * share * cosine;
+            EXPECT_NEAR(seen(matte(), {areaLight(LightType::Sphere, at, -at, 1.0f)}) / (pi * factor), 1.0, 1e-3)
+                << cosine << ", " << share;
+        }
+}
+
+/// What an environment's light gets back between microfacets is not the lights'.
+TEST_F(AreaLightTruth, lightsAreNotCompensated) {
+    scenes::Material metal;
+    metal.metallic = 1.0f;
+    metal.doubleSided = true;
+    scenes::Scene scene = quadScene(metal);
+    scene.lights = {areaLight(LightType::Disk, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
+    scene.environment = evenEnvironment(0.0);
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 9};
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> plain = renderer.render(Technique::Deferred, settings).radiance;
+    settings.environment.compensates = true;
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, plain);
+}
+
+/// A mirror sees a light all or nothing, wherever its outline is.
+TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
+    scenes::Material mirror;
+    mirror.metallic = 1.0f;
+    mirror.perceptualRoughness = 0.0f;
+    mirror.doubleSided = true;
+    for (const LightType type : kAreaTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        const scenes::Light light = areaLight(type, {-1.0, 0.0, 1.0}, {1.0, 0.0, -1.0}, 2.0f);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 0.0, 1.0}), 2.0, 0.02);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 2.0, 1.0}), 0.0, 0.02);
+        EXPECT_NEAR(seen(mirror, {light}, {1.0, 0.0, 6.0}), 0.0, 0.02);
+    }
+}
+
+/// Where outlines are so small that they count as places, nothing jumps.
+TEST_F(AreaLightTruth, lightsGoOverIntoSmallOnesWithoutAStep) {
+    scenes::Material metal;
+    metal.metallic = 1.0f;
+    metal.doubleSided = true;
+    for (const double roughness : {0.1, 0.5, 1.0})
+        for (const LightType type : kAreaTypes) {
+            metal.perceptualRoughness = float(roughness);
+            double before = 0.0;
+            for (double distance = 20.0; distance < 3000.0; distance *= 1.07) {
+                const glm::dvec3 at = distance * glm::normalize(glm::dvec3(-0.5, 0.1, 1.0));
+                const scenes::Light light = areaLight(type, at, -at, 1.0f);
+                const double here = seen(metal, {light}, {0.5, 0.0, 1.0}) * distance * distance;
+                if (before > 0.0) {
+                    EXPECT_NEAR(here / before, 1.0, 0.03) << scenes::infoOf(type).name << " at " << distance;
+                }
+                before = here;
+            }
+        }
+}
+
+TEST_F(AreaLightTruth, extremeSizesAndPlacesGiveFiniteLight) {
+    constexpr float kRadiance = 1e6f;
+    scenes::Material metal;
+    metal.metallic = 0.5f;
+    metal.doubleSided = true;
+    for (const double roughness : {0.0, 0.3, 1.0})
+        for (const glm::dvec3& toViewer : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, 1e-3)}) {
+            metal.perceptualRoughness = float(roughness);
+            const double fromEverywhere = seen(metal, {}, toViewer, evenEnvironment(kRadiance));
+            for (const LightType type : kAreaTypes)
+                for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f})
+                    for (const glm::dvec3& at :
+                         {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1e-5), glm::dvec3(0.0, 0.0, -0.1),
+                          glm::dvec3(0.5, 0.0, 0.0), glm::dvec3(1e5, 0.0, 1.0)}) {
+                        scenes::Light light = areaLight(type, at, {0.3, 0.0, -1.0}, kRadiance);
+                        light.alongWS = glm::normalize(glm::cross(light.directionWS, glm::dvec3(0.0, 1.0, 0.0)));
+                        light.widthMetres = light.heightMetres = light.lengthMetres = light.radiusMetres = size;
+                        for (glm::vec2& corner : light.corners.metres) corner *= size;
+                        const double radiance = seen(metal, {light}, toViewer);
+                        EXPECT_TRUE(std::isfinite(radiance) && radiance >= 0.0 && radiance <= 1.001 * fromEverywhere)
+                            << scenes::infoOf(type).name << " of " << size << " at " << at.x << " " << at.z << ": "
+                            << radiance << ", of light from everywhere " << fromEverywhere;
+                    }
+        }
+}
+
+/// Against the integral over the light, by roughness and shape: docs/area-lights.md.
+void AreaLightTruth::expectNearTheIntegralOnABall() {
+    using enum LightType;
+    std::vector<std::pair<LightType, double>> balls{
+        {Rectangle, 1.0}, {Disk, 0.25}, {Sphere, 0.0}, {Tube, 0.75}, {Polygon, 0.5}};
+    if (isWholeSweep()) {
+        balls.clear();
+        for (const LightType type : kAreaTypes)
+            for (const double roughness : {0.0, 0.25, 0.5, 0.75, 1.0}) balls.emplace_back(type, roughness);
+    }
+    for (const auto& [type, roughness] : balls) {
+        scenes::Material metal;
+        metal.metallic = 1.0f;
+        metal.perceptualRoughness = float(roughness);
+        const BallError error = onBall(metal, type);
+        fmt::print("{:9} roughness {:.2f} bias {:+.1e} relMSE {:.1e}\n", scenes::infoOf(type).name, roughness,
+                   error.bias, error.relMse);
+        // The shapes of lobes: the worst is half as large. A mirror has the outline alone, of which pixels may differ.
+        EXPECT_LE(std::abs(error.bias), roughness > 0.0 ? 0.03 : 2e-3);
+        EXPECT_LE(error.relMse, roughness > 0.0 ? 0.025 : 1e-4);
+    }
+}
+TEST_F(AreaLightTruth, onABallIsNearTheIntegralOverTheLight) {
+    expectNearTheIntegralOnABall();
+}
+TEST_F(AreaLightTruthSlow, onABallIsNearTheIntegralOverTheLight) {
+    expectNearTheIntegralOnABall();
+}
+
+TEST_F(AreaLightTruth, onABrushedBallIsNearTheIntegralOverTheLight) {
+    for (const double turnRadians : {0.0, 0.7, 1.5707963}) {
+        scenes::Material brushed;
+        brushed.metallic = 1.0f;
+        brushed.perceptualRoughness = 0.4f;
+        brushed.anisotropyStrength = 0.8f; // alphas of 0.70 and 0.16
+        brushed.anisotropyRotationRadians = float(turnRadians);
+        const BallError error = onBall(brushed, LightType::Rectangle);
+        fmt::print("turned by {:.2f}: bias {:+.1e} relMSE {:.1e}\n", turnRadians, error.bias, error.relMse);
+        // A round lobe of the same strength has 0.5 to 0.7.
+        EXPECT_LE(std::abs(error.bias), 0.4);
+        EXPECT_LE(error.relMse, 0.25);
+    }
+}
+
+} // namespace
+} // namespace tessera

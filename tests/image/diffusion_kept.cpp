@@ -1,0 +1,331 @@
+// Spread light from frame to frame: what is kept, what is spread anew, and what is added in slices.
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/image/DiffusionTest.h"
+#include "tests/image/EnvironmentTest.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using scenes::SubsurfaceMethod;
+using namespace test;
+
+class KeptDiffusion : public DiffusionTest {
+protected:
+    void expectKept();
+    void expectAllLitAlike();
+};
+using KeptDiffusionSlow = KeptDiffusion;
+
+/// Names of the passes of the latest frame that spread light.
+std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
+    std::vector<std::string> names;
+    for (const gpu::PassTiming& timing : renderer.backend().passTimings())
+        if (timing.name.starts_with("diffusion")) names.push_back(timing.name);
+    return names;
+}
+
+/// The camera and settings of pixels change, then what lights. With maps, outside of a whole sweep, settings of pixels
+/// do not: they are the same passes' as with rays.
+void KeptDiffusion::expectKept() {
+    for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        scenes::Scene ball = sphereScene(0.03, 12);
+        for (scenes::Light& light : ball.lights) light.castsShadow = true;
+        frame::FrameSettings settings;
+        settings.sizePixels = {160, 90};
+        settings.diffusion.sideTexels = 128;
+        settings.shadowFilter = filter;
+        Technique technique = Technique::Deferred;
+        engine::Renderer renderer(context(), ball);
+        renderer.render(technique, settings);
+        EXPECT_FALSE(passesThatSpread(renderer).empty());
+        int step = 0;
+        const auto moved = [&](auto change, bool keeps) {
+            change();
+            ++step;
+            const std::vector<float> seen = renderer.render(technique, settings).radiance;
+            EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << infoOf(filter).name << ", " << step;
+            const std::vector<float> fresh = engine::Renderer(context(), ball).render(technique, settings).radiance;
+            double most = 0.0;
+            for (std::size_t i = 0; i < seen.size(); ++i)
+                most = std::max(most, std::abs(double(seen[i]) - double(fresh[i])));
+            EXPECT_EQ(most, 0.0) << infoOf(filter).name << ", " << step;
+        };
+        moved([&] { settings.eyeOffsetWS = {0.01, 0.0, 0.002}; }, true);
+        const bool isShort = !isWholeSweep() && filter != frame::ShadowFilter::Traced;
+        const auto ofPixels = [&](Technique drawnBy, int samples, bool specular, frame::DebugView view) {
+            technique = drawnBy;
+            settings.samples = samples;
+            settings.specular = specular;
+            settings.view = view;
+        };
+        if (!isShort) {
+            moved([&] { ofPixels(Technique::Forward, 1, false, frame::DebugView::Final); }, true);
+            moved([&] { ofPixels(Technique::Deferred, 1, true, frame::DebugView::Normal); }, true);
+            moved([&] { settings.view = frame::DebugView::Final; }, true);
+            // The other side of a comparison.
+            moved([&] { settings.subsurface = scenes::SubsurfaceMethod::None; }, true);
+            moved([&] { settings.subsurface.reset(); }, true);
+        }
+        // Pixels of several samples may look up any texel, so that all are lit, once.
+        moved([&] { ofPixels(Technique::Forward, 4, true, frame::DebugView::Final); }, false);
+        if (!isShort) {
+            moved([&] { ofPixels(Technique::Forward, 1, true, frame::DebugView::Final); }, true);
+            moved([&] { ofPixels(Technique::Forward, 4, true, frame::DebugView::Final); }, true);
+        }
+        moved([&] { ball.lights[0].intensity *= 2.0f; }, false);
+        moved([&] { ball.lights[0].directionWS = glm::dvec3(0.0, -1.0, 0.0); }, false);
+        moved([&] { settings.diffusion.gaussians = 2; }, false);
+        moved([&] { settings.eyeOffsetWS = {0.0, 0.01, 0.0}; }, true);
+        ball.materials[0].subsurface.preScatterShare = 1.0f;
+        renderer.materialsChanged();
+        moved([] {}, false);
+        // Of a highlight, which leaves where it arrives.
+        ball.materials[0].specularColor = glm::vec3(0.5f);
+        ball.materials[0].metallic = 0.0f;
+        ball.materials[0].perceptualRoughness = 0.3f;
+        renderer.materialsChanged();
+        moved([] {}, true);
+    }
+}
+TEST_F(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
+    expectKept();
+}
+TEST_F(KeptDiffusionSlow, spreadLightIsKeptWhileWhatEntersIsTheSame) {
+    expectKept();
+}
+
+/// enteredMaterial() says so of the key under which it is kept, takeEnteredValues() in the shader of the light itself.
+TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmissionASurfaceHas) {
+    for (const bool prune : {true, false}) {
+        scenes::Scene ball = sphereScene(0.03, 12);
+        scenes::Material& skin = ball.materials[0];
+        const auto layOver = [&](float amount) {
+            skin.clearcoat = amount;
+            skin.clearcoatPerceptualRoughness = amount;
+            skin.sheenColor = skin.emissive = glm::vec3(amount);
+            skin.perceptualRoughness = amount;
+            skin.ior = 1.0f + amount;
+        };
+        skin.model = scenes::MaterialModel::MetallicRoughness;
+        skin.metallic = 0.0f;
+        layOver(0.6f);
+        frame::FrameSettings settings;
+        settings.sizePixels = {80, 45};
+        settings.diffusion.sideTexels = 64;
+        settings.prune = prune;
+        engine::Renderer renderer(context(), ball);
+        renderer.render(Technique::Deferred, settings);
+        EXPECT_FALSE(passesThatSpread(renderer).empty());
+        layOver(0.4f);
+        renderer.materialsChanged();
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "pruned: " << prune;
+        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen)
+            << "pruned: " << prune;
+    }
+}
+
+TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnotherWay) {
+    scenes::Scene ball = sphereScene(0.03, 12);
+    // Another colour from every side.
+    const auto surround = [&](double brightness) {
+        ball.environment = environmentOf(8, 4, [&](int x, int y) { return brightness * glm::dvec3(x, y, 8 - x); });
+    };
+    surround(0.1);
+    frame::FrameSettings settings;
+    settings.sizePixels = {80, 45};
+    settings.diffusion.sideTexels = 64;
+    settings.environment.samples = 4;
+    engine::Renderer renderer(context(), ball);
+    renderer.render(Technique::Deferred, settings);
+    EXPECT_FALSE(passesThatSpread(renderer).empty());
+    const auto moved = [&](const char* what, const auto& change, bool keeps) {
+        change();
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << what;
+        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen) << what;
+    };
+    moved(
+        "nothing", [] {}, true);
+    moved(
+        "its backdrop", [&] { settings.environment.backdrop = frame::Backdrop::Off; }, true);
+    moved(
+        "turned by the frame", [&] { settings.environment.rotationDegrees = 70.0f; }, false);
+    moved(
+        "turned by the scene", [&] { ball.environment->rotationDegrees = -30.0f; }, false);
+    moved(
+        "brighter by the frame", [&] { settings.environment.intensity = 2.0f; }, false);
+    moved(
+        "brighter by the scene", [&] { ball.environment->intensity = 0.7f; }, false);
+    moved(
+        "more samples where none are taken", [&] { settings.environment.samples = 16; }, true);
+    moved(
+        "sampled", [&] { settings.environment.light = frame::EnvironmentLight::Sampled; }, false);
+    moved(
+        "more samples", [&] { settings.environment.samples = 4; }, false);
+    moved(
+        "turned while sampled", [&] { settings.environment.rotationDegrees = 0.0f; }, false);
+    moved(
+        "off", [&] { settings.environment.light = frame::EnvironmentLight::Off; }, false);
+    moved(
+        "filtered", [&] { settings.environment.light = frame::EnvironmentLight::SplitSum; }, false);
+    surround(0.2);
+    renderer.environmentChanged();
+    moved(
+        "another map", [] {}, false);
+}
+
+/// Of light spread at half the resolution and in one Gaussian: both, either and neither, or both and neither in every
+/// other step.
+void KeptDiffusion::expectAllLitAlike() {
+    scenes::Scene ball = sphereScene(0.03, 24);
+    ball.cameras[0].projection = scenes::Projection::Perspective;
+    ball.cameras[0].fovYRadians = 0.7;
+    ball.cameras[0].nearMetres = 1e-3;
+    for (const bool half : {false, true}) {
+        for (const std::optional<int> gaussians : {std::optional<int>(), std::optional<int>(1)}) {
+            if (!isWholeSweep() && half != gaussians.has_value()) continue;
+            frame::FrameSettings settings;
+            settings.sizePixels = {200, 150};
+            settings.diffusion.sideTexels = isWholeSweep() ? 512 : 256;
+            settings.diffusion.half = half;
+            if (gaussians) settings.diffusion.gaussians = *gaussians;
+            scenes::Scene seen = ball;
+            engine::Renderer renderer(context(), seen), all(context(), ball);
+            settings.prune = true;
+            for (int step = 0; step < 7; step += isWholeSweep() ? 1 : 2) {
+                // Around the ball, then so near that most of it lies outside of the picture.
+                const double angle = 0.9 * step, metres = step < 5 ? 0.12 : 0.045;
+                const glm::dvec3 eyeWS(metres * std::sin(angle), 0.02 - 0.01 * step, metres * std::cos(angle));
+                ball.cameras[0].worldFromCamera = scenes::worldFromLookAt(eyeWS, glm::dvec3(0.0));
+                seen.cameras[0] = ball.cameras[0];
+                settings.prune = true;
+                const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
+                settings.prune = false;
+                EXPECT_EQ(all.render(Technique::Deferred, settings).radiance, pruned)
+                    << "half " << half << ", step " << step;
+            }
+        }
+    }
+}
+TEST_F(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
+    expectAllLitAlike();
+}
+TEST_F(KeptDiffusionSlow, lightingOnlyWhatIsSeenChangesNoBit) {
+    expectAllLitAlike();
+}
+
+TEST_F(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
+    scenes::Scene ball = sphereScene(0.03, 24);
+    for (scenes::Light& light : ball.lights) light.castsShadow = true;
+    ball.cameras[0].projection = scenes::Projection::Perspective;
+    ball.cameras[0].fovYRadians = 0.7;
+    ball.cameras[0].nearMetres = 1e-3;
+    const auto lookFrom = [&](double angle) {
+        const glm::dvec3 eyeWS(0.12 * std::sin(angle), 0.02, 0.12 * std::cos(angle));
+        ball.cameras[0].worldFromCamera = scenes::worldFromLookAt(eyeWS, glm::dvec3(0.0));
+    };
+    lookFrom(0.0);
+    for (const bool half : {false, true}) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {120, 90};
+        settings.diffusion.sideTexels = 256;
+        settings.diffusion.half = half;
+        const auto fresh = [&] { return engine::Renderer(context(), ball).render(Technique::Deferred, settings); };
+        engine::Renderer renderer(context(), ball);
+        const auto addAll = [&](bool isOfAll) {
+            renderer.limitSpreadLight(engine::SpreadLimit{.tiles = 4, .isOfAll = isOfAll});
+            engine::SpreadProgress before;
+            int slices = 0;
+            do {
+                renderer.draw(Technique::Deferred, settings);
+                const engine::SpreadProgress progress = renderer.spreadProgress();
+                EXPECT_EQ(progress.objects, 1u);
+                EXPECT_EQ(progress.isOfAll, isOfAll);
+                EXPECT_GE(progress.doneTiles, before.doneTiles);
+                EXPECT_EQ(progress.doneObjects, progress.isDone() ? 1u : 0u);
+                before = progress;
+                if (++slices > 1000) FAIL() << "no end of slices";
+            } while (!before.isDone());
+            EXPECT_GT(slices, isOfAll ? 0 : 2) << "half " << half;
+        };
+        const auto drawKnown = [&] {
+            renderer.limitSpreadLight(engine::SpreadLimit{});
+            return renderer.render(Technique::Deferred, settings).radiance;
+        };
+        addAll(false);
+        EXPECT_EQ(drawKnown(), fresh().radiance);
+        EXPECT_TRUE(passesThatSpread(renderer).empty());
+
+        // Another camera sees what is not known yet.
+        lookFrom(2.5);
+        const std::vector<float> known = drawKnown(), whole = fresh().radiance;
+        EXPECT_FALSE(renderer.spreadProgress().isDone());
+        EXPECT_NE(known, whole);
+        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "what is not known was told in the first slice";
+        addAll(true);
+        EXPECT_EQ(drawKnown(), whole);
+        lookFrom(-1.8);
+        EXPECT_EQ(drawKnown(), fresh().radiance) << "all is known";
+        EXPECT_TRUE(renderer.spreadProgress().isDone());
+
+        renderer.limitSpreadLight({});
+        lookFrom(0.0);
+        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, fresh().radiance);
+    }
+}
+
+TEST_F(KeptDiffusion, aFrameTellsOfHowManyObjectsTheLightHasSpread) {
+    scenes::Scene balls = sphereScene(0.03, 12);
+    scenes::Node other = balls.nodes[0];
+    other.parentFromNode[3] += glm::dvec4(0.01, 0.0, 0.0, 0.0);
+    balls.nodes.push_back(other);
+    frame::FrameSettings settings;
+    settings.sizePixels = {80, 60};
+    settings.diffusion.sideTexels = 64;
+    engine::Renderer renderer(context(), balls);
+    using Told = std::vector<std::pair<std::size_t, std::size_t>>;
+    Told told;
+    renderer.tellSpread([&](std::size_t done, std::size_t objects) { told.emplace_back(done, objects); });
+    const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
+    EXPECT_EQ(told, (Told{{0, 2}, {1, 2}, {2, 2}}));
+    told.clear();
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, first);
+    EXPECT_TRUE(told.empty()) << "nothing was spread anew";
+    EXPECT_EQ(engine::Renderer(context(), balls).render(Technique::Deferred, settings).radiance, first);
+}
+
+TEST_F(KeptDiffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows) {
+    scenes::Scene ball = sphereScene(0.03, 24);
+    frame::FrameSettings settings;
+    settings.sizePixels = {120, 90};
+    settings.diffusion.sideTexels = 128;
+    engine::Renderer renderer(context(), ball);
+    const std::vector<float> spread = renderer.render(Technique::Deferred, settings).radiance;
+    const float intensity = ball.lights[0].intensity;
+    ball.lights[0].intensity = 3.0f * intensity;
+    renderer.limitSpreadLight(engine::SpreadLimit{});
+    const std::vector<float> limited = renderer.render(Technique::Deferred, settings).radiance;
+    engine::Renderer fresh(context(), ball);
+    fresh.limitSpreadLight(engine::SpreadLimit{});
+    EXPECT_EQ(limited, fresh.render(Technique::Deferred, settings).radiance);
+    EXPECT_EQ(fresh.spreadProgress().doneTiles, 0u);
+    settings.subsurface = SubsurfaceMethod::None;
+    const std::vector<float> none = fresh.render(Technique::Deferred, settings).radiance;
+    ASSERT_EQ(limited.size(), none.size());
+    for (std::size_t i = 0; i < none.size(); ++i) ASSERT_NEAR(limited[i], none[i], 1e-4f + 1e-3f * std::abs(none[i]));
+    // And back: what was told of the texels does not pass for light.
+    ball.lights[0].intensity = intensity;
+    settings.subsurface.reset();
+    renderer.limitSpreadLight({});
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, spread);
+}
+
+} // namespace
+} // namespace tessera

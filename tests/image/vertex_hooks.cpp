@@ -1,0 +1,208 @@
+// Hooks that move vertices: every pass and technique, their bound, and the reference.
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "base/Error.h"
+#include "tests/image/HookTest.h"
+#include "tests/support/Sweep.h"
+#include "validation/compare/TechniqueCompare.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::ShadowFilter;
+using testing::HasSubstr;
+
+class VertexHooks : public test::HookTest {
+protected:
+    scenes::Scene moving(const scenes::Scene& scene, std::string_view body, double mayMoveMetres) {
+        scenes::Scene result = hooked(scene, "{\n}\n");
+        scenes::Hook& hook = *result.hook;
+        setText(hook, std::string(test::kVertexHeader).append(body));
+        hook.changesSurfaces = false;
+        hook.movesVertices = true;
+        hook.mayMoveMetres = mayMoveMetres;
+        scenes::checkScene(result);
+        return result;
+    }
+    static frame::FrameSettings shadowed(ShadowFilter filter) {
+        frame::FrameSettings settings = smallSettings();
+        settings.shadows = test::kAllLightsCast;
+        settings.shadowFilter = filter;
+        return settings;
+    }
+    /// Of a scene of everything, or of its metal.
+    void expectNoMoveNoChange();
+    void expectMovedAsAMesh();
+    /// Of a scene of materials that do not vary, or of metal.
+    void expectAlikeAtAnyTime();
+};
+using VertexHooksSlow = VertexHooks;
+
+void VertexHooks::expectNoMoveNoChange() {
+    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+    const frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
+    EXPECT_EQ(drawn(moving(scene, "{\n}\n", 0.0), settings), drawn(scene, settings));
+}
+TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
+    expectNoMoveNoChange();
+}
+TEST_F(VertexHooksSlow, oneThatMovesNothingChangesNoBit) {
+    expectNoMoveNoChange();
+}
+
+void VertexHooks::expectMovedAsAMesh() {
+    scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+    const scenes::Scene hook =
+        moving(scene, "{\n    positionOS += vec3(0.25, 0.0, 0.125);\n    normalOS = normalOS.yzx;\n}\n", 0.3);
+    for (scenes::Mesh& mesh : scene.meshes) {
+        for (glm::vec3& position : mesh.positionsOS) position += glm::vec3(0.25f, 0.0f, 0.125f);
+        for (glm::vec3& normal : mesh.normalsOS)
+            normal = glm::vec3(glm::dvec3(normal.y, normal.z, normal.x) / glm::length(glm::dvec3(normal)));
+    }
+    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard}) {
+        const frame::FrameSettings settings = shadowed(filter);
+        for (const Technique technique : {Technique::ForwardPrepass, Technique::ClusteredDeferred})
+            EXPECT_EQ(drawn(hook, settings, technique), drawn(scene, settings, technique)) << int(technique);
+    }
+}
+TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    expectMovedAsAMesh();
+}
+TEST_F(VertexHooksSlow, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    expectMovedAsAMesh();
+}
+
+void VertexHooks::expectAlikeAtAnyTime() {
+    const scenes::Scene still = test::isWholeSweep() ? test::evenScene() : test::metalScene();
+    const scenes::Scene scene =
+        moving(still, "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n", 0.2);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
+    settings.timeSeconds = 0.5;
+    const std::vector<float> first = renderer.render(Technique::Forward, settings).radiance;
+    settings.timeSeconds = 2.0;
+    EXPECT_NE(renderer.render(Technique::Forward, settings).radiance, first);
+    settings.timeSeconds = 0.5;
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, first);
+    EXPECT_EQ(drawn(scene, settings), first);
+    expectParity(renderer, settings, test::techniquesInTurn(0));
+}
+TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    expectAlikeAtAnyTime();
+}
+TEST_F(VertexHooksSlow, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    expectAlikeAtAnyTime();
+}
+
+TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
+    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.x *= 0.5;\n}\n", 0.6);
+    engine::Renderer renderer(context(), scene);
+    const frame::FrameSettings settings = smallSettings();
+    EXPECT_THROW(validation::referencePicture(scene, settings), InputError);
+    const scenes::Scene& shown = renderer.sceneAt(settings.timeSeconds);
+    EXPECT_EQ(shown.meshes[0].positionsOS[0].x, 0.5f * scene.meshes[0].positionsOS[0].x);
+    const std::vector<std::uint8_t> covered = validation::referencePicture(shown, settings).picture.covered;
+    EXPECT_EQ(engine::toPicture(renderer.render(Technique::Forward, settings)).covered, covered);
+}
+
+TEST_F(VertexHooks, viewsOfAFrameShowOneTime) {
+    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.z += 0.1 * hook.timeSeconds;\n}\n", 1.0);
+    engine::Renderer renderer(context(), scene);
+    std::vector<engine::ViewRequest> views(2, {Technique::Forward, smallSettings()});
+    EXPECT_NO_THROW(renderer.draw(views));
+    views[1].settings.timeSeconds = 1.0;
+    try {
+        renderer.draw(views);
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("give all of them one time"));
+    }
+}
+
+TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
+    const struct {
+        std::string_view body, says;
+    } cases[] = {{"{\n    positionOS.y += 2.0;\n}\n", "by 2 m, and mayMoveMetres is 1"},
+                 {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "and mayMoveMetres is 1"}};
+    for (const auto& tried : cases) {
+        const scenes::Scene scene = moving(test::quadScene({}), tried.body, 1.0);
+        try {
+            drawn(scene, smallSettings());
+            FAIL() << "expected an InputError";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(scene.hook->file + ": at 0 s hookVertex moves vertex 0"));
+            EXPECT_THAT(error.what(), HasSubstr(tried.says));
+        }
+    }
+}
+
+class MovedTooFar : public VertexHooks {
+protected:
+    /// Colour of the middle of a half of the picture.
+    glm::vec3 shown(engine::Renderer& renderer, Technique technique, double share) {
+        frame::FrameSettings settings = smallSettings();
+        settings.view = frame::DebugView::MovedTooFar;
+        const std::vector<float> radiance = renderer.render(technique, settings).radiance;
+        const std::size_t pixel = 4 * (160 * 45 + std::size_t(160 * share));
+        return {radiance[pixel], radiance[pixel + 1], radiance[pixel + 2]};
+    }
+};
+
+TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
+    scenes::Material material;
+    material.baseColor = {0.0f, 1.0f, 0.0f, 1.0f};
+    const struct {
+        std::string_view body;
+        glm::vec3 left, right;
+    } cases[] = {
+        {"{\n    positionOS.z += 0.5;\n}\n", glm::vec3(0.4f), glm::vec3(0.4f)},
+        {"{\n    positionOS.z += 1.5;\n}\n", {0.9f, 0.0f, 0.9f}, {0.9f, 0.0f, 0.9f}},
+        {"{\n    positionOS.z = sqrt(-1.0 - hook.timeSeconds);\n}\n", {0.0f, 0.9f, 0.9f}, {0.0f, 0.9f, 0.9f}},
+    };
+    for (const auto& tried : cases) {
+        const scenes::Scene scene = moving(test::quadScene(material), tried.body, 1.0);
+        engine::Renderer renderer(context(), scene);
+        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+            for (const auto& [share, wanted] : {std::pair(0.45, tried.left), std::pair(0.55, tried.right)}) {
+                // Between them 0.4 and 1 times as bright, by how a surface faces the eye.
+                const glm::vec3 found = shown(renderer, technique, share);
+                for (int c = 0; c < 3; ++c) {
+                    EXPECT_LE(found[c], wanted[c] + 0.003f) << tried.body;
+                    EXPECT_GE(found[c], 0.39f * wanted[c]) << tried.body;
+                }
+            }
+        }
+    }
+}
+
+TEST_F(MovedTooFar, onlyTheVerticesThatDoAreAndOtherFramesDoNotShowIt) {
+    const scenes::Scene scene =
+        moving(test::quadScene({}), "{\n    if (positionOS.x > 0.0) positionOS.z += hook.timeSeconds;\n}\n", 1.0);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = smallSettings();
+    const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
+    settings.view = frame::DebugView::MovedTooFar;
+    settings.timeSeconds = 1.25;
+    const std::vector<float> painted = renderer.render(Technique::Forward, settings).radiance;
+    std::size_t reddish = 0, grey = 0;
+    for (std::size_t i = 0; i < painted.size(); i += 4) {
+        if (painted[i + 3] == 0.0f) continue;
+        ++(painted[i] > 1.5f * painted[i + 1] ? reddish : grey);
+    }
+    EXPECT_GT(reddish, 100u);
+    EXPECT_GT(grey, 100u);
+    settings.view = frame::DebugView::Final;
+    EXPECT_THROW(renderer.render(Technique::Forward, settings), InputError);
+    settings.timeSeconds = 0.0;
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before);
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,264 @@
+// Skins and morph targets of glTF files.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/scenes/gltf/AnimationBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// The triangle with a skin of joints 1 and 2, of which 2 is a child of 1, 1 along x. Every vertex follows joint 2.
+Builder skinnedTriangle() {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0, "translation": [7, 7, 7]}, {"children": [2]},
+                                {"translation": [1, 0, 0]}],
+                      "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2]}]})");
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["JOINTS_0"] =
+        builder.add(std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByteType, "VEC4", 3);
+    attributes["WEIGHTS_0"] =
+        builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC4", 3);
+    return builder;
+}
+
+// ---- Skins ---------------------------------------------------------------------------------------------------------
+
+TEST(GltfSkins, verticesFollowTheirJointsAndNotTheirNode) {
+    Builder builder = skinnedTriangle();
+    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, kHalfRoot, kHalfRoot}, kFloatType, "VEC4", 2);
+    addClip(builder, {0, 1}, output, {{"node", 2}, {"path", "rotation"}});
+    const Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty());
+    expectPlace(drawnAt(scene, 0.0)[1], {2.0, 0.0, 0.0});
+    expectPlace(drawnAt(scene, 1.0)[1], {1.0, 1.0, 0.0});
+}
+
+TEST(GltfSkins, inverseBindMatricesComeFirst) {
+    Builder builder = skinnedTriangle();
+    std::vector<float> matrices(32, 0.0f);
+    for (std::size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u}) matrices[i] = 1.0f;
+    matrices[16 + 12] = -1.0f;
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloatType, "MAT4", 2);
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
+    builder.json["accessors"].back()["count"] = 1;
+    EXPECT_THAT(builder.error(), HasSubstr("/skins/0/inverseBindMatrices: accessor 3 has 1 matrices for 2 joints"));
+    builder.json["accessors"].back()["type"] = "VEC4";
+    EXPECT_THAT(builder.error(), HasSubstr("accessor 3 must be of MAT4"));
+}
+
+TEST(GltfSkins, aVertexMayFollowEightJoints) {
+    Builder builder = skinnedTriangle();
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["JOINTS_1"] = builder.add(std::vector<std::uint16_t>(12, 0), kUnsignedShortType, "VEC4", 3);
+    attributes["WEIGHTS_1"] =
+        builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByteType, "VEC4", 3, true); // four thirds in all
+    // 1 of joint 2 and 4/3 of joint 1.
+    expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
+}
+
+/// A chain of them, 1 mm each, whose middle one turns.
+TEST(GltfSkins, tenThousandJointsAreFollowed) {
+    constexpr int kJoints = 10'000, kMiddle = 5'000;
+    Builder builder = skinnedTriangle();
+    Json joints = Json::array(), nodes = Json::array({Json::object({{"mesh", 0}, {"skin", 0}})});
+    for (int joint = 1; joint <= kJoints; ++joint) {
+        Json& node = nodes.emplace_back(Json::object({{"translation", {0.001, 0, 0}}}));
+        if (joint < kJoints) node["children"] = Json::array({joint + 1});
+        joints.push_back(joint);
+    }
+    builder.json["nodes"] = nodes;
+    builder.json["skins"][0]["joints"] = joints;
+    std::vector<std::uint16_t> followed(12, 0);
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) followed[4 * vertex] = kJoints - 1;
+    builder.primitive()["attributes"]["JOINTS_0"] = builder.add(followed, kUnsignedShortType, "VEC4", 3);
+    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}, kFloatType, "VEC4", 2);
+    addClip(builder, {0, 1}, output, {{"node", kMiddle}, {"path", "rotation"}});
+    const Scene scene = builder.import();
+    expectPlace(drawnAt(scene, 0.0)[1], {11.0, 0.0, 0.0});
+    expectPlace(drawnAt(scene, 1.0)[1], {-1.0, 0.0, 0.0}); // half a turn about (5, 0)
+    expectPlace(drawnAt(scene, 0.5)[1], {5.0, 6.0, 0.0});
+}
+
+TEST(GltfSkins, jointsOutsideOfTheSceneAreFollowedAndNotDrawn) {
+    Builder builder = skinnedTriangle();
+    builder.json["nodes"][1]["mesh"] = 0;
+    builder.json["nodes"][1]["translation"] = {0, 5, 0};
+    builder.json["scenes"][0]["nodes"] = Json::array({0});
+    const Scene scene = builder.import();
+    EXPECT_EQ(triangleCount(scene), 1u);
+    expectPlace(drawnAt(scene, 0.0)[0], {1.0, 5.0, 0.0});
+}
+
+TEST(GltfSkins, jointsThatTheSkinLacksAreRefusedUnlessTheirWeightIsZero) {
+    Builder builder = skinnedTriangle();
+    builder.json["skins"][0]["joints"] = Json::array({1});
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0: vertex 0 of mesh 'mesh 0' follows joint 1, but /skins/0 has "
+                                           "only 1"));
+    Builder spare = skinnedTriangle();
+    spare.primitive()["attributes"]["JOINTS_0"] =
+        spare.add(std::vector<std::uint8_t>{1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0}, kUnsignedByteType, "VEC4", 3);
+    expectPlace(drawnAt(spare.import(), 0.0)[0], {1.0, 0.0, 0.0});
+}
+
+TEST(GltfSkins, instancesOfOneMeshAreDeformedEachByItsOwnSkin) {
+    Builder builder = skinnedTriangle();
+    builder.json["skins"].push_back(Json::object({{"joints", Json::array({1, 1})}}));
+    builder.json["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
+    builder.json["nodes"].push_back(Json::object({{"mesh", 0}}));
+    builder.json["scenes"][0]["nodes"] = Json::array({0, 1, 3, 4});
+    const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
+    ASSERT_EQ(places.size(), 9u);
+    expectPlace(places[0], {0.0, 0.0, 0.0}); // node 4, plain; skinned ones stand behind all nodes
+    expectPlace(places[3], {1.0, 0.0, 0.0});
+    expectPlace(places[6], {0.0, 0.0, 0.0});
+}
+
+// ---- Morph targets -------------------------------------------------------------------------------------------------
+
+TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
+    Builder builder;
+    builder.primitive()["targets"] = Json::array({Json::object(
+        {{"POSITION", builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3)}})});
+    EXPECT_TRUE(builder.import().rig.deformed.empty()) << "nothing can move it";
+    builder.json["meshes"][0]["weights"] = Json::array({0.5});
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.5});
+    builder.json["nodes"][0]["weights"] = Json::array({2});
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 2.0});
+}
+
+TEST(GltfMorphTargets, everyAttributeIsMorphedAndWeightsAreAnimated) {
+    Builder builder;
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3);
+    attributes["TANGENT"] =
+        builder.add(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, kFloatType, "VEC4", 3);
+    attributes["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloatType, "VEC2", 3);
+    attributes["COLOR_0"] = builder.add(std::vector<float>(12, 0.5f), kFloatType, "VEC4", 3);
+    const int ones = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
+    builder.primitive()["targets"] = Json::array(
+        {Json::object({{"POSITION", ones}}),
+         {{"NORMAL", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
+          {"TANGENT", builder.add(std::vector<float>{-1, 1, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
+          {"TEXCOORD_0", builder.add(std::vector<float>(6, 0.25f), kFloatType, "VEC2", 3)},
+          {"COLOR_0", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, -1, 0, 0}, kFloatType, "VEC3", 3)}}});
+    const int weights = builder.add(std::vector<float>{0, 0, 0.5f, 1}, kFloatType, "SCALAR", 4);
+    addClip(builder, {0, 1}, weights, {{"node", 0}, {"path", "weights"}});
+    Scene scene = builder.import();
+    poseScene(scene, 1.0);
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_EQ(mesh.positionsOS[1], glm::vec3(1.5f, 0.5f, 0.5f));
+    EXPECT_NEAR(mesh.normalsOS[0].x, kHalfRoot, 1e-6f);
+    EXPECT_NEAR(mesh.tangentsOS[0].y, 1.0f, 1e-6f);
+    EXPECT_EQ(mesh.tangentsOS[0].w, -1.0f);
+    EXPECT_EQ(mesh.texCoords[0][0], glm::vec2(0.25f));
+    EXPECT_EQ(mesh.colors[0], glm::vec4(1.0f, 0.5f, 0.5f, 0.5f));
+    EXPECT_EQ(mesh.colors[2].x, 0.0f);
+}
+
+TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
+    Builder builder;
+    const int indices = builder.addView(bytesOf(std::vector<std::uint16_t>{2, 0}));
+    const int values = builder.addView(bytesOf(std::vector<float>{0, 0, 3}));
+    builder.json["accessors"].push_back(
+        {{"componentType", kFloatType},
+         {"type", "VEC3"},
+         {"count", 3},
+         {"sparse",
+          {{"count", 1},
+           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShortType}}},
+           {"values", {{"bufferView", values}}}}}});
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", builder.json["accessors"].size() - 1}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
+    expectPlace(places[0], {0.0, 0.0, 0.0});
+    expectPlace(places[2], {0.0, 1.0, 3.0});
+}
+
+TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
+    Builder builder;
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{2, 0, 1}, kUnsignedByteType, "SCALAR", 3);
+    builder.primitive()["targets"] = Json::array({Json::object(
+        {{"POSITION", builder.add(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC3", 3)}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    Scene scene = builder.import();
+    poseScene(scene, 0.0);
+    // (0,0,0) (1,0,1) (0,1,0): the plane x = z.
+    for (const glm::vec3& normalOS : scene.meshes.at(0).normalsOS) {
+        EXPECT_NEAR(normalOS.x, -kHalfRoot, 1e-6f);
+        EXPECT_NEAR(normalOS.z, kHalfRoot, 1e-6f);
+    }
+}
+
+TEST(GltfMorphTargets, anotherLengthIsRefusedByName) {
+    Builder builder;
+    builder.primitive()["targets"] =
+        Json::array({Json::object({{"POSITION", builder.add(std::vector<float>(6, 0.0f), kFloatType, "VEC3", 2)}})});
+    builder.json["nodes"][0]["weights"] = Json::array({1});
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/targets/0/POSITION: accessor 1 of mesh 'mesh 0' "
+                                           "has 2 elements, but there are 3 positions"));
+}
+
+// ---- Limits --------------------------------------------------------------------------------------------------------
+
+TEST(GltfSkins, deformedInstancesAreChargedBeforeTheyAreCopied) {
+    const auto errorWith = [](int instances) {
+        constexpr std::size_t kVertices = 3000;
+        Builder builder = skinnedTriangle();
+        Json& attributes = builder.primitive()["attributes"];
+        attributes["POSITION"] = builder.add(std::vector<float>(3 * kVertices), kFloatType, "VEC3", kVertices);
+        attributes["JOINTS_0"] =
+            builder.add(std::vector<std::uint8_t>(4 * kVertices), kUnsignedByteType, "VEC4", kVertices);
+        attributes["WEIGHTS_0"] = builder.add(std::vector<float>(4 * kVertices), kFloatType, "VEC4", kVertices);
+        Json roots = Json::array({0, 1});
+        for (int i = 0; i < instances; ++i) {
+            roots.push_back(builder.json["nodes"].size());
+            builder.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+        }
+        builder.json["scenes"][0]["nodes"] = roots;
+        try {
+            underLedger(importGltf, builder.folder.write("many.gltf", builder.json.dump()), 64 * kMiB);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(errorWith(20), "");
+    // 84 KB each
+    EXPECT_THAT(errorWith(2000), HasSubstr("/nodes/"));
+}
+
+TEST(GltfMorphTargets, weightsOfNodesAreChargedByTargetsAndNodes) {
+    const auto errorWith = [](int targets, int nodes) {
+        Builder builder;
+        const int moved = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
+        builder.primitive()["targets"] = Json::array();
+        for (int i = 0; i < targets; ++i) builder.primitive()["targets"].push_back(Json::object({{"POSITION", moved}}));
+        builder.json["meshes"][0]["weights"] = Json::array({1});
+        builder.json["nodes"] = Json::array();
+        builder.json["scenes"][0]["nodes"] = Json::array();
+        for (int i = 0; i < nodes; ++i) {
+            builder.json["nodes"].push_back(Json::object({{"mesh", 0}}));
+            builder.json["scenes"][0]["nodes"].push_back(i);
+        }
+        try {
+            underLedger(importGltf, builder.folder.write("many.gltf", builder.json.dump()), 64 * kMiB);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(errorWith(3000, 30), "");
+    EXPECT_EQ(errorWith(30, 3000), "");
+    // 108 MB beside what either takes: 36 KB a node
+    EXPECT_THAT(errorWith(3000, 3000), HasSubstr("/nodes/"));
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
