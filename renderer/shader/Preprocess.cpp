@@ -118,8 +118,10 @@ private:
             throw InputError(fmt::format("{}: the scene's hook is not there any more; bring it back, or load the scene "
                                          "again",
                                          hookFile_));
-        result_.text +=
-            "#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
+        // The driver finds a name of a parameter that means something else in GLSL.
+        result_.files.push_back(hookFile_ + " (its parameters)");
+        result_.text += "#if HOOKED\n" + lineDirective(1, result_.files.size() - 1);
+        result_.text += "layout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
         std::istringstream parameters(hookParameters_);
         for (std::string name; parameters >> name;) result_.text += fmt::format("    float {};\n", name);
         result_.text += "} hook;\n" + lineDirective(1, *hook);

@@ -34,6 +34,29 @@ bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedSta
     });
 }
 
+/// The file of the hook that a program is made with; empty: it has none.
+std::string hookOf(const ProgramDesc& desc) {
+    const auto found = std::ranges::find(desc.defines, kHookFile, &Defines::value_type::first);
+    return found == desc.defines.end() ? "" : found->second;
+}
+
+constexpr const char* kHookFunctions[] = {"hookSurface", "hookVertex"}; // lib/material/hook_interface.glsl
+constexpr const char* kHookSignatures =
+    "write void hookSurface(inout HookedSurface surface, HookInputs inputs), void hookVertex(inout vec3 positionOS, "
+    "inout vec3 normalOS, vec2 uv) or both, each once and outside of conditionals";
+
+/// What is wrong with the hook of a program whose mapped log tells a fault; empty where that is the program's own.
+std::string hookProblem(const ProgramDesc& desc, const std::string& log) {
+    const std::string hook = hookOf(desc);
+    if (hook.empty()) return "";
+    const bool names = log.find(hook) != std::string::npos;
+    const bool calls =
+        std::ranges::any_of(kHookFunctions, [&](const char* name) { return log.find(name) != std::string::npos; });
+    if (!names && !calls) return "";
+    return fmt::format("{}: the driver refuses this hook:\n{}{}{}", hook, log, names ? "" : "\n",
+                       names ? "" : kHookSignatures);
+}
+
 /// A build under way, with the data that maps its errors to source lines.
 struct Build {
     ProgramDesc desc;
@@ -51,6 +74,10 @@ struct Build {
             for (gpu::ShaderError::StageLog& log : logs)
                 for (const ExpandedStage& stage : stages)
                     if (stage.stage == log.stage) log.text = errorsFirst(mapLog(log.text, stage.source.files));
+            std::string all = error.linkLog();
+            for (const gpu::ShaderError::StageLog& log : logs) all += (all.empty() ? "" : "\n") + log.text;
+            while (all.ends_with('\n')) all.pop_back();
+            if (const std::string problem = hookProblem(desc, all); !problem.empty()) throw InputError(problem);
             throw gpu::ShaderError(error.program(), std::move(logs), error.linkLog());
         }
     }
@@ -114,6 +141,8 @@ Reloading ProgramLibrary::reload() {
             ++result.programs;
         } catch (const gpu::ShaderError& error) {
             result.faults.push_back({error.log(), error.program()});
+        } catch (const InputError& error) { // its hook is faulty
+            result.faults.push_back({error.what(), label(entry->desc)});
         }
     }
     return result;

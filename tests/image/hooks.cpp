@@ -178,8 +178,8 @@ TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {
     const scenes::Scene faulty = hooked(test::evenScene(), "{\n    surface.color = undeclaredName;\n}\n");
     try {
         drawn(faulty, smallSettings());
-        FAIL() << "expected a ShaderError";
-    } catch (const gpu::ShaderError& error) {
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr(faulty.hook->file + ":3: error"));
     }
     EXPECT_NO_THROW(drawn(test::evenScene(), smallSettings()));

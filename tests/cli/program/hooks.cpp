@@ -55,5 +55,26 @@ TEST_F(HookedSquare, whatItHasNotIsRefusedByName) {
                 {"room: has no hook whose parameter 'red'"});
 }
 
+TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
+    const std::string signature = "void hookSurface(inout HookedSurface surface, HookInputs inputs)";
+    const std::string refused = path("shine.glsl") + ": the driver refuses this hook";
+    folder_.write("shine.glsl", signature + "\n{\n    surface.emission = undeclaredName;\n}\n");
+    expectError(kBadInput, command({}), {refused, path("shine.glsl") + ":3: "});
+    // What follows is found where a program is linked, without a file.
+    for (const std::string& nothing :
+         Words{"#if 0\n" + signature + " {}\n#endif\n", signature + ";\n", "void hookSurface(int a) {}\n"}) {
+        folder_.write("shine.glsl", nothing);
+        expectError(kBadInput, command({}), {refused, "write " + signature, "outside of conditionals"});
+    }
+}
+
+TEST_F(HookedSquare, aParameterWhoseNameMeansSomethingElseInGlslIsTheHooksFault) {
+    std::string square = text("square.json");
+    square.replace(square.find("\"red\""), 5, "\"mat3\"");
+    folder_.write("square.json", square);
+    folder_.write("shine.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n");
+    expectError(kBadInput, command({}), {path("shine.glsl") + " (its parameters):4: "});
+}
+
 } // namespace
 } // namespace tessera::test
