@@ -170,4 +170,9 @@ std::optional<HookFault> hookFault(std::string_view text) {
     return std::nullopt;
 }
 
+void requireHook(const std::string& file, std::string_view text) {
+    if (const std::optional<HookFault> fault = hookFault(text))
+        throw InputError(fmt::format("{}:{}: {}", file, fault->line, fault->why));
+}
+
 } // namespace tessera::scenes

@@ -208,6 +208,11 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     ASSERT_FALSE(faults.empty());
     EXPECT_THAT(faults.front().text, HasSubstr(scene.hook->file + ":2: error"));
     EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
+    folder.write(name, std::string(kHeader).append("{ discard; }\n")); // which a driver takes
+    const std::vector<shader::ShaderFault> holes = renderer.programs().reload().faults;
+    ASSERT_FALSE(holes.empty());
+    EXPECT_THAT(holes.front().text, HasSubstr(scene.hook->file + ":2: discard: a hook makes no holes"));
+    EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
     folder.write(name, std::string(kHeader).append("{ surface.color = vec3(0.0); }\n"));
     EXPECT_TRUE(renderer.programs().reload().faults.empty());
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);

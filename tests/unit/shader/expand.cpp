@@ -205,6 +205,24 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
     EXPECT_THAT(expanded("main.frag", {{"HOOK_HASH", "7u"}}).text, Not(HasSubstr("HookBlock")));
 }
 
+TEST_F(Expand, theTextOfAHookIsLookedAtBeforeAProgramTakesIt) {
+    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
+    folder.write("lib/material/hook_interface.glsl", "\n");
+    const std::string hook = folder.write("tint.glsl", "void hookSurface()\r\n{}").string();
+    SourceTree tree(folder.path());
+    tree.checkHooks([&](const std::string& file, std::string_view seen) {
+        EXPECT_EQ(seen, "void hookSurface()\n{}\n");
+        throw InputError(file + ": not this one");
+    });
+    try {
+        expand(tree, "main.frag", {{"HOOK_FILE", hook}});
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), hook + ": not this one");
+    }
+    EXPECT_NO_THROW(expand(tree, "main.frag", {}));
+}
+
 TEST_F(Expand, aHookThatIsNotThereIsNamed) {
     folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
     folder.write("lib/material/hook_interface.glsl", "\n");
