@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -49,11 +50,14 @@ constexpr const char* kHookSignatures =
 std::string hookProblem(const ProgramDesc& desc, const std::string& log) {
     const std::string hook = hookOf(desc);
     if (hook.empty()) return "";
-    const bool names = log.find(hook) != std::string::npos;
-    const bool calls =
-        std::ranges::any_of(kHookFunctions, [&](const char* name) { return log.find(name) != std::string::npos; });
-    if (!names && !calls) return "";
-    return fmt::format("{}: the driver refuses this hook:\n{}{}{}", hook, log, names ? "" : "\n",
+    std::string errors; // without warnings, most of which are about the program's own files
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
+    const auto holds = [&errors](const std::string& word) { return errors.find(word) != std::string::npos; };
+    const bool names = holds(hook);
+    if (!names && std::ranges::none_of(kHookFunctions, holds)) return "";
+    return fmt::format("{}: the driver refuses this hook: {}{}{}", hook, errors, names ? "" : "\n",
                        names ? "" : kHookSignatures);
 }
 

@@ -57,9 +57,10 @@ TEST_F(HookedSquare, whatItHasNotIsRefusedByName) {
 
 TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
     const std::string signature = "void hookSurface(inout HookedSurface surface, HookInputs inputs)";
-    const std::string refused = path("shine.glsl") + ": the driver refuses this hook";
+    const std::string refused = "/shine.glsl: the driver refuses this hook: ";
     folder_.write("shine.glsl", signature + "\n{\n    surface.emission = undeclaredName;\n}\n");
-    expectError(kBadInput, command({}), {refused, path("shine.glsl") + ":3: "});
+    expectError(kBadInput, command({}), {refused, "/shine.glsl:3: "});
+    EXPECT_THAT(run(command({})).err, testing::Not(testing::HasSubstr("warning")));
     // What follows is found where a program is linked, without a file.
     for (const std::string& nothing :
          Words{"#if 0\n" + signature + " {}\n#endif\n", signature + ";\n", "void hookSurface(int a) {}\n"}) {
@@ -73,7 +74,7 @@ TEST_F(HookedSquare, aParameterWhoseNameMeansSomethingElseInGlslIsTheHooksFault)
     square.replace(square.find("\"red\""), 5, "\"mat3\"");
     folder_.write("square.json", square);
     folder_.write("shine.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n");
-    expectError(kBadInput, command({}), {path("shine.glsl") + " (its parameters):4: "});
+    expectError(kBadInput, command({}), {"/shine.glsl (its parameters):4: "});
 }
 
 TEST_F(HookedSquare, loopsThatTheDriverGivesUpAreNamedWherePixelsAreNoNumbers) {
