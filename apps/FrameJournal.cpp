@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/import/FileBytes.h"
@@ -40,7 +41,22 @@ std::string contentsOf(const fs::path& file) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+void requireRegular(const std::string& file) {
+    std::error_code unknown;
+    const fs::file_status status = fs::status(file, unknown);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw InputError(fmt::format("{}: is no file that can record which frames are finished; take it away or render "
+                                     "to another name",
+                                     file));
+}
+
 } // namespace
+
+void FrameJournal::requireWritable(const FramePattern& pattern, const Shard& shard) {
+    const std::string file = fileOf(pattern, shard);
+    tessera::requireWritable(file);
+    requireRegular(file);
+}
 
 std::string FrameJournal::fileOf(const FramePattern& pattern, const Shard& shard) {
     const std::string which = shard.count > 1 ? fmt::format(".{}of{}", shard.index, shard.count) : "";
@@ -76,12 +92,7 @@ bool FrameJournal::isFinished(const std::string& path, std::uint64_t settings) c
 void FrameJournal::add(const std::string& path, std::uint64_t settings, std::span<const std::uint8_t> bytes) {
     const std::string line = lineOf(path, settings, std::as_bytes(bytes));
     const std::string text = (endsWithinLine_ ? "\n" : "") + line + "\n";
-    std::error_code unknown;
-    const fs::file_status status = fs::status(file_, unknown);
-    if (fs::exists(status) && !fs::is_regular_file(status))
-        throw InputError(fmt::format("{}: is no file that can record which frames are finished; take it away or render "
-                                     "to another name",
-                                     file_));
+    requireRegular(file_);
     std::FILE* const file = std::fopen(file_.c_str(), "ab");
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     good = good && std::fflush(file) == 0;

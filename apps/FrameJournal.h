@@ -21,6 +21,9 @@ public:
     /// Where the journal of a shard is: for f_%04d.png f_frames.png.txt, of shard 2/4 f_frames.png.2of4.txt.
     static std::string fileOf(const FramePattern& pattern, const Shard& shard);
 
+    /// Throws what add() would throw for the place alone, before the work is done in vain.
+    static void requireWritable(const FramePattern& pattern, const Shard& shard);
+
     /// Whether the file of that path is there as these settings made it.
     bool isFinished(const std::string& path, std::uint64_t settings) const;
     /// To be called when the file is written. Throws std::runtime_error where the journal cannot be.

@@ -1,6 +1,7 @@
 #include "apps/FrameRange.h"
 
 #include <charconv>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,10 +35,11 @@ FrameRange frameRangeNamed(const std::string& text) {
     const std::vector<int> numbers = numbersBetweenColons(text);
     if (numbers.empty())
         throw InputError(fmt::format("--frames '{}' is not a whole number of pictures, such as 90, nor the first and "
-                                     "the last frame, such as 10:19, with a step, such as 10:19:3",
-                                     text));
+                                     "the last frame, such as 10:19, with a step, such as 10:19:3; no number is above "
+                                     "{}",
+                                     text, std::numeric_limits<int>::max()));
     if (numbers.size() == 1 && numbers[0] < 1)
-        throw InputError(fmt::format("--frames {} is less than one picture", text));
+        throw InputError(fmt::format("--frames {} is less than one picture; give 1 or more", text));
     FrameRange range;
     range.last = numbers[0] - 1;
     if (numbers.size() > 1) {
@@ -46,7 +48,7 @@ FrameRange frameRangeNamed(const std::string& text) {
             throw InputError(fmt::format("--frames {}: frames are counted from 0; give --time for earlier ones", text));
         if (range.last < range.first)
             throw InputError(fmt::format("--frames {} ends before it begins; give the lower frame first", text));
-        if (range.step < 1) throw InputError(fmt::format("--frames {}: the step is less than 1", text));
+        if (range.step < 1) throw InputError(fmt::format("--frames {}: the step is less than 1; give 1 or more", text));
     }
     if ((range.last - range.first) / range.step >= kMostFrames)
         throw InputError(fmt::format("--frames {} is more than {} pictures; render it in parts, such as 0:{}", text,

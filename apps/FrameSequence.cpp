@@ -25,8 +25,11 @@ std::vector<std::string> FrameSequence::outputs() const {
 }
 
 void FrameSequence::requireWritable() const {
-    if (!frames_.empty()) tessera::requireWritable(pattern_.path(frames_.front())); // the others lie beside it
-    tessera::requireWritable(FrameJournal::fileOf(pattern_, options_.shard));
+    if (!frames_.empty()) { // the others lie beside them, and have no longer names than the last
+        tessera::requireWritable(pattern_.path(frames_.front()));
+        tessera::requireWritable(pattern_.path(frames_.back()));
+    }
+    FrameJournal::requireWritable(pattern_, options_.shard);
 }
 
 double FrameSequence::secondsOf(int frame, const frame::FrameSettings& settings) const {

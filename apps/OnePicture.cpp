@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "renderer/frame/LightRounds.h"
 #include "validation/compare/ReferencePicture.h"
 
 namespace tessera::app {
@@ -20,9 +21,15 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
         hasNaN = hasNaN || std::isnan(rgba[pixel]);
         isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
     }
-    if (bad > 0)
-        return fmt::format("{} of its pixels are infinite or no numbers; {}", bad,
-                           hasNaN && !cut.empty() ? cut : "a light is too bright or too near");
+    if (bad > 0) {
+        std::string why = "a light is too bright or too near";
+        if (scene.hook)
+            why +=
+                fmt::format(", or a loop of its hook takes more than the {} iterations of a pixel that Mesa's software "
+                            "rasteriser makes",
+                            frame::kMostLoopIterations);
+        return fmt::format("{} of its pixels are infinite or no numbers; {}", bad, hasNaN && !cut.empty() ? cut : why);
+    }
     if (covered > 0)
         return isBlack ? "is black: no light reaches the surfaces in view; --view diffuse shows them without light, "
                          "and lights may be out of range, behind the surfaces or off"

@@ -128,8 +128,9 @@ struct Place {
 
 Place placeOf(const std::string& path) {
     if (path.empty()) fail("\"\"", "the name is empty; name a file");
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
+    std::error_code ignored, unknown;
+    const fs::file_status status = fs::status(path, unknown);
+    if (unknown == std::errc::filename_too_long) fail(path, unknown.message() + "; give a shorter one");
     if (fs::is_directory(status)) fail(path, "it is a folder; name a file in it");
 
     // /dev/stdout may be a regular file, which must not be replaced.

@@ -19,7 +19,7 @@ shader::ProgramDesc hookProgram(const std::string& name, const scenes::Hook& hoo
 /// One of them at a time; its program is in use as long as no other is.
 class HookRun {
 public:
-    /// Throws gpu::ShaderError where the hook is faulty.
+    /// Throws InputError where the hook is faulty.
     HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds, shader::ProgramLibrary& programs);
 
     /// What it makes of what is given, `count` times so many numbers. The slots are those of its storage blocks.

@@ -50,6 +50,17 @@ void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<g
 /// What is farther from its place counts as nowhere: no scene reaches there.
 constexpr double kFarthestMarkedMetres = 1e6;
 
+std::string excessText(const scenes::Hook& hook, const scenes::Mesh& mesh, std::size_t vertex, double timeSeconds,
+                       double metres) {
+    const std::string place = fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}'", hook.file,
+                                          timeSeconds, vertex, mesh.name);
+    if (!std::isfinite(metres))
+        return place + " to where a number is infinite or none; look for a division by 0, a root or a logarithm of "
+                       "less than 0, or a vector without length that it normalizes";
+    return place + fmt::format(" by {:g} m, and mayMoveMetres is {:g}; raise that, or move it less", metres,
+                               hook.mayMoveMetres);
+}
+
 MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, const scenes::Mesh& mesh,
                             double timeSeconds, Excess excess) {
     MovedVertices result;
@@ -74,9 +85,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
                 mark(first + i, vertices, isNowhere ? kNowhereMark : kTooFarMark, result.colors);
                 if (isNowhere) position = rest;
             } else if (isTooFar) {
-                throw InputError(fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}' by {:g} m, and "
-                                             "mayMoveMetres is {:g}; raise that, or move it less",
-                                             hook.file, timeSeconds, first + i, mesh.name, metres, hook.mayMoveMetres));
+                throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres));
             }
             // As it was where it has no direction any more.
             const glm::dvec3 direction(normal);

@@ -28,8 +28,8 @@ public:
         bool colors = false;   ///< of vertices: others are marked
     };
     /// Takes the scene's lights, cameras, materials and nodes as they are, and its vertices as the hook has them at
-    /// that time. Throws InputError where one is nowhere or farther from its place than the hook may move it, unless
-    /// those are marked, gpu::ShaderError where the hook is faulty; then all is as it was.
+    /// that time. Throws InputError where the hook is faulty, and where a vertex is nowhere or farther from its place
+    /// than the hook may move it, unless those are marked; then all is as it was.
     Changed update(double timeSeconds, Excess excess, shader::ProgramLibrary& programs);
     /// To be called after vertices of the scene itself were changed.
     void takeMeshes();

@@ -8,7 +8,7 @@
 namespace tessera::engine {
 
 /// What a hook's hookSurface() makes of surfaces at a time, by point: its own text, in a compute shader, and no bounds.
-/// Throws gpu::ShaderError where the hook is faulty.
+/// Throws InputError where the hook is faulty.
 std::vector<scenes::HookedSurface> hookedSurfaces(const scenes::Hook& hook, double timeSeconds,
                                                   std::span<const scenes::HookPoint> points,
                                                   shader::ProgramLibrary& programs);

@@ -13,6 +13,7 @@
 #include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
+#include "scenes/Hook.h"
 
 namespace tessera::engine {
 
@@ -30,6 +31,12 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
     return result;
 }
 
+/// Looks at every text of a hook as loading its scene did: an edit may have made it break its promises.
+shader::SourceTree checkingHooks(shader::SourceTree shaders) {
+    shaders.checkHooks(scenes::requireHook);
+    return shaders;
+}
+
 } // namespace
 
 struct Renderer::Drawn {
@@ -45,8 +52,8 @@ struct Renderer::Drawn {
 Renderer::Renderer(gpu::Context& context, const scenes::Scene& scene, shader::SourceTree shaders)
     : context_(context),
       hooked_(scene.hook && scene.hook->movesVertices ? std::make_unique<HookedScene>(scene) : nullptr),
-      shown_(hooked_ ? hooked_->scene() : scene), bounds_(frame::surfaceBounds(shown_)), programs_(std::move(shaders)),
-      uvAtlases_(shown_) {}
+      shown_(hooked_ ? hooked_->scene() : scene), bounds_(frame::surfaceBounds(shown_)),
+      programs_(checkingHooks(std::move(shaders))), uvAtlases_(shown_) {}
 
 Renderer::~Renderer() = default;
 

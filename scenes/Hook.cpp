@@ -1,7 +1,6 @@
 #include "scenes/Hook.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,28 +10,47 @@
 namespace tessera::scenes {
 namespace {
 
-/// A word that no hook may have outside of comments, and why.
+/// What no hook may have outside of comments, and why.
+enum class Refused { Word, Beginning, Directive };
 struct RefusedWord {
+    Refused what; ///< the word, all words that begin so, or the word behind a #
     std::string_view word, why;
 };
+constexpr std::string_view kDiffersBetweenPixels = "differences between pixels differ between passes; take it out";
 constexpr RefusedWord kRefusedWords[] = {
-    {"include", "a hook is one file, and shader files of the program are no part of it; take the #include out"},
-    {"version", "the program gives the version of GLSL; take it out"},
-    {"extension", "the program gives extensions; take it out"},
-    {"line", "the program numbers lines, so that messages name the right one; take it out"},
-    {"pragma", "the program gives pragmas; take it out"},
-    {"discard", "a hook makes no holes, which passes that store depth alone would not have; use an alpha mask"},
-    {"gl_FragDepth", "a hook moves no depth, which other passes would not move; take it out"},
-    {"layout", "a hook binds nothing; take it out, and declare numbers as parameters of the scene"},
-    {"uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
-    {"buffer", "a hook binds nothing; take it out"},
-    {"dFdx", "differences between pixels differ between passes; take it out"},
-    {"dFdy", "differences between pixels differ between passes; take it out"},
-    {"fwidth", "differences between pixels differ between passes; take it out"},
+    {Refused::Directive, "include",
+     "a hook is one file, and shader files of the program are no part of it; take the #include out"},
+    {Refused::Directive, "version", "the program gives the version of GLSL; take it out"},
+    {Refused::Directive, "extension", "the program gives extensions; take it out"},
+    {Refused::Directive, "line", "the program numbers lines, so that messages name the right one; take it out"},
+    {Refused::Directive, "pragma", "the program gives pragmas; take it out"},
+    {Refused::Word, "discard",
+     "a hook makes no holes, which passes that store depth alone would not have; use an alpha mask"},
+    {Refused::Word, "gl_FragDepth", "a hook moves no depth, which other passes would not move; take it out"},
+    {Refused::Beginning, "gl_", "what OpenGL says of a pixel or a vertex differs between passes; use the inputs"},
+    {Refused::Word, "layout", "a hook binds nothing; take it out, and declare numbers as parameters of the scene"},
+    {Refused::Word, "uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
+    {Refused::Word, "buffer", "a hook binds nothing; take it out"},
+    // With Fine and Coarse behind them as well.
+    {Refused::Beginning, "dFdx", kDiffersBetweenPixels},
+    {Refused::Beginning, "dFdy", kDiffersBetweenPixels},
+    {Refused::Beginning, "fwidth", kDiffersBetweenPixels},
+    {Refused::Beginning, "interpolateAt", kDiffersBetweenPixels},
 };
-/// Of those, the ones that are so as directives alone.
-constexpr std::string_view kDirectives[] = {"include", "version", "extension", "line", "pragma"};
 
+bool isRefused(const RefusedWord& refused, std::string_view word, bool isDirective) {
+    switch (refused.what) {
+    case Refused::Word:
+        return word == refused.word;
+    case Refused::Beginning:
+        return word.starts_with(refused.word);
+    case Refused::Directive:
+        return word == refused.word && isDirective;
+    }
+    return false;
+}
+
+constexpr unsigned char kLastOfAscii = 0x7f;
 constexpr std::string_view kSurfaceFunction = "hookSurface", kVertexFunction = "hookVertex";
 
 bool isLetter(char c) {
@@ -118,8 +136,18 @@ std::optional<HookFault> hookFault(std::string_view text) {
     for (std::size_t i = 0; i < code.size();) {
         const char c = code[i];
         if (c == '\0') return HookFault{line, "a zero byte is no text; give a file of GLSL"};
-        if (c == '\\')
+        // Within comments as well, whose ends they may hide.
+        const std::string_view rest = text.substr(i);
+        if (rest.starts_with('\r') && !rest.starts_with("\r\n"))
+            return HookFault{line, "a carriage return alone ends a line for some drivers only; save the file with the "
+                                   "line ends of Unix or Windows"};
+        const bool endsLine = rest.starts_with("\\\n") || rest.starts_with("\\\r\n");
+        if (c == '\\' || endsLine)
             return HookFault{line, "a backslash joins lines, so that messages name the wrong one; take it out"};
+        if (static_cast<unsigned char>(c) > kLastOfAscii)
+            return HookFault{line, "outside of comments GLSL has the letters of ASCII alone; take others out, and the "
+                                   "byte order mark that some editors begin a file with"};
+        if (code.compare(i, 2, "##") == 0) return HookFault{line, "## makes words that nothing checks; write them out"};
         if (!isOfWord(c)) {
             if (c == '\n') ++line;
             if (c != ' ' && c != '\t' && c != '\r') before = c;
@@ -129,11 +157,9 @@ std::optional<HookFault> hookFault(std::string_view text) {
         std::size_t end = i;
         while (end < code.size() && isOfWord(code[end])) ++end;
         const std::string_view word = std::string_view(code).substr(i, end - i);
-        for (const RefusedWord& refused : kRefusedWords) {
-            const bool isDirective = std::ranges::find(kDirectives, refused.word) != std::end(kDirectives);
-            if (word == refused.word && (!isDirective || before == '#'))
+        for (const RefusedWord& refused : kRefusedWords)
+            if (isRefused(refused, word, before == '#'))
                 return HookFault{line, fmt::format("{}: {}", word, refused.why)};
-        }
         before = code[end - 1];
         i = end;
     }
@@ -142,6 +168,11 @@ std::optional<HookFault> hookFault(std::string_view text) {
         return HookFault{1, "it defines neither hookSurface nor hookVertex; write void hookSurface(inout HookedSurface "
                             "surface, HookInputs inputs)"};
     return std::nullopt;
+}
+
+void requireHook(const std::string& file, std::string_view text) {
+    if (const std::optional<HookFault> fault = hookFault(text))
+        throw InputError(fmt::format("{}:{}: {}", file, fault->line, fault->why));
 }
 
 } // namespace tessera::scenes

@@ -81,5 +81,7 @@ struct HookFault {
 /// The first of what would break the promises that other passes and techniques rely on; none where there is none. A
 /// driver finds what is no GLSL.
 std::optional<HookFault> hookFault(std::string_view text);
+/// Throws InputError with the file's name, the line and the remedy where there is one.
+void requireHook(const std::string& file, std::string_view text);
 
 } // namespace tessera::scenes

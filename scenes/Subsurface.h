@@ -92,6 +92,7 @@ const DiffusionProfile& profileOf(const Subsurface& subsurface);
 
 // A millionth of a metre to a thousand kilometres: beyond any model.
 inline constexpr double kLeastScaleMetres = 1e-6, kMostScaleMetres = 1e6;
+inline constexpr double kMostBodyRadiusMetres = 1e6; // shadow rays begin as far away
 inline constexpr double kMostAbsorption = 1e6;
 inline constexpr double kMostVariance = 1e12; // a kilometre wide
 
@@ -101,7 +102,8 @@ inline constexpr std::tuple kSubsurfaceFields{
     Field{"scaleMetres", &Subsurface::scaleMetres, "the scale of its subsurface", kLeastScaleMetres, kMostScaleMetres},
     Field{"wrap", &Subsurface::wrap, "the wrap of its subsurface", 0.0, 1.0},
     Field{"wrapTint", &Subsurface::wrapTint, "the tint of its subsurface's wrap", 0.0, 1.0},
-    Field{"bodyRadiusMetres", &Subsurface::bodyRadiusMetres, "the body's radius of its subsurface", 0.0, kAnyNumber},
+    Field{"bodyRadiusMetres", &Subsurface::bodyRadiusMetres, "the body's radius of its subsurface", 0.0,
+          kMostBodyRadiusMetres},
     Field{"absorptionPerMillimetre", &Subsurface::absorptionPerMillimetre, "the absorption of its subsurface", 0.0,
           kMostAbsorption},
     Field{"preScatterShare", &Subsurface::preScatterShare, "the share of albedo before its subsurface", 0.0, 1.0},

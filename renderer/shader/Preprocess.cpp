@@ -118,13 +118,16 @@ private:
             throw InputError(fmt::format("{}: the scene's hook is not there any more; bring it back, or load the scene "
                                          "again",
                                          hookFile_));
-        result_.text +=
-            "#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
+        std::string text;
+        for (const std::string& line : files_[*hook].lines) text += line + '\n';
+        tree_.requireHook(hookFile_, text); // an editor may have saved it since the scene was loaded
+        // The driver finds a name of a parameter that means something else in GLSL.
+        result_.files.push_back(hookFile_ + " (its parameters)");
+        result_.text += "#if HOOKED\n" + lineDirective(1, result_.files.size() - 1);
+        result_.text += "layout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
         std::istringstream parameters(hookParameters_);
         for (std::string name; parameters >> name;) result_.text += fmt::format("    float {};\n", name);
-        result_.text += "} hook;\n" + lineDirective(1, *hook);
-        for (const std::string& line : files_[*hook].lines) result_.text += line + '\n';
-        result_.text += "#endif\n";
+        result_.text += "} hook;\n" + lineDirective(1, *hook) + text + "#endif\n";
     }
 
     struct Place {

@@ -28,7 +28,7 @@ inline constexpr std::string_view kHookInterface = "lib/material/hook_interface.
 /// be mapped back.
 struct ExpandedSource {
     std::string text;
-    std::vector<std::string> files; ///< paths below shaders/, the entry first; a hook's is absolute
+    std::vector<std::string> files; ///< paths below shaders/, the entry first; those of a hook and its block absolute
 };
 
 /// Resolves #include "path" (relative to shaders/ or to the folder that holds shaders/, as C++ sees shared headers,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -34,6 +35,32 @@ bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedSta
     });
 }
 
+/// The file of the hook that a program is made with; empty: it has none.
+std::string hookOf(const ProgramDesc& desc) {
+    const auto found = std::ranges::find(desc.defines, kHookFile, &Defines::value_type::first);
+    return found == desc.defines.end() ? "" : found->second;
+}
+
+constexpr const char* kHookFunctions[] = {"hookSurface", "hookVertex"}; // lib/material/hook_interface.glsl
+constexpr const char* kHookSignatures =
+    "write void hookSurface(inout HookedSurface surface, HookInputs inputs), void hookVertex(inout vec3 positionOS, "
+    "inout vec3 normalOS, vec2 uv) or both, each once and outside of conditionals";
+
+/// What is wrong with the hook of a program whose mapped log tells a fault; empty where that is the program's own.
+std::string hookProblem(const ProgramDesc& desc, const std::string& log) {
+    const std::string hook = hookOf(desc);
+    if (hook.empty()) return "";
+    std::string errors; // without warnings, most of which are about the program's own files
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
+    const auto holds = [&errors](const std::string& word) { return errors.find(word) != std::string::npos; };
+    const bool names = holds(hook);
+    if (!names && std::ranges::none_of(kHookFunctions, holds)) return "";
+    return fmt::format("{}: the driver refuses this hook: {}{}{}", hook, errors, names ? "" : "\n",
+                       names ? "" : kHookSignatures);
+}
+
 /// A build under way, with the data that maps its errors to source lines.
 struct Build {
     ProgramDesc desc;
@@ -51,6 +78,10 @@ struct Build {
             for (gpu::ShaderError::StageLog& log : logs)
                 for (const ExpandedStage& stage : stages)
                     if (stage.stage == log.stage) log.text = errorsFirst(mapLog(log.text, stage.source.files));
+            std::string all = error.linkLog();
+            for (const gpu::ShaderError::StageLog& log : logs) all += (all.empty() ? "" : "\n") + log.text;
+            while (all.ends_with('\n')) all.pop_back();
+            if (const std::string problem = hookProblem(desc, all); !problem.empty()) throw InputError(problem);
             throw gpu::ShaderError(error.program(), std::move(logs), error.linkLog());
         }
     }
@@ -114,6 +145,8 @@ Reloading ProgramLibrary::reload() {
             ++result.programs;
         } catch (const gpu::ShaderError& error) {
             result.faults.push_back({error.log(), error.program()});
+        } catch (const InputError& error) { // its hook is faulty
+            result.faults.push_back({error.what(), label(entry->desc)});
         }
     }
     return result;

@@ -30,7 +30,8 @@ public:
     explicit ProgramLibrary(SourceTree tree = SourceTree());
 
     /// Compiles at the first request. The reference holds as long as the library, also across reload(). Throws
-    /// gpu::ShaderError whose log lines name file and line, or InputError when a source is missing.
+    /// gpu::ShaderError whose log lines name file and line, or InputError when a source is missing or the hook of the
+    /// program's scene is faulty.
     const gpu::Program& get(const ProgramDesc& desc) override;
     /// Issues all that are missing before collecting the first, so that drivers that can compile in parallel do. Throws
     /// as get(), after every good one has been kept.

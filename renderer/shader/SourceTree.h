@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tessera::shader {
 
@@ -23,6 +25,13 @@ public:
     bool isEmbedded() const { return folder_.empty(); }
     /// "embedded shaders" or the folder, for messages.
     std::string describe() const;
+    /// Has the text of every hook looked at before a program takes it: `check` gets its file and its text, and throws
+    /// InputError where it does what no hook may do.
+    using CheckHook = std::function<void(const std::string& file, std::string_view text)>;
+    void checkHooks(CheckHook check) { checkHook_ = std::move(check); }
+    void requireHook(const std::string& file, std::string_view text) const {
+        if (checkHook_) checkHook_(file, text);
+    }
     /// When a file of the folder last changed, so that a viewer knows when to reload; none for embedded files.
     std::optional<std::filesystem::file_time_type> newestChange() const;
 
@@ -30,6 +39,7 @@ private:
     struct Embedded {};
     explicit SourceTree(Embedded) {}
     std::filesystem::path folder_; ///< empty: embedded
+    CheckHook checkHook_;
 };
 
 } // namespace tessera::shader

@@ -68,8 +68,7 @@ void readFile(const std::filesystem::path& file, LoadLedger& ledger, Hook& hook)
         throw InputError(fmt::format("{}: has {} bytes, and a hook has at most {}; give a shorter one", file.string(),
                                      bytes.size(), kMostHookBytes));
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (const std::optional<HookFault> fault = hookFault(text))
-        throw InputError(fmt::format("{}:{}: {}", file.string(), fault->line, fault->why));
+    requireHook(file.string(), text);
     const HookFunctions functions = hookFunctions(text);
     hook.changesSurfaces = functions.surface;
     hook.movesVertices = functions.vertex;

@@ -151,8 +151,8 @@ TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {
     const scenes::Scene faulty = hooked(test::evenScene(), "{\n    surface.color = undeclaredName;\n}\n");
     try {
         drawn(faulty, smallSettings());
-        FAIL() << "expected a ShaderError";
-    } catch (const gpu::ShaderError& error) {
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr(faulty.hook->file + ":3: error"));
     }
     EXPECT_NO_THROW(drawn(test::evenScene(), smallSettings()));
@@ -180,6 +180,11 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     const std::vector<shader::ShaderFault> faults = renderer.programs().reload().faults;
     ASSERT_FALSE(faults.empty());
     EXPECT_THAT(faults.front().text, HasSubstr(scene.hook->file + ":2: error"));
+    EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
+    folder.write(name, std::string(test::kSurfaceHeader).append("{ discard; }\n")); // which a driver takes
+    const std::vector<shader::ShaderFault> holes = renderer.programs().reload().faults;
+    ASSERT_FALSE(holes.empty());
+    EXPECT_THAT(holes.front().text, HasSubstr(scene.hook->file + ":2: discard: a hook makes no holes"));
     EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
     folder.write(name, std::string(test::kSurfaceHeader).append("{ surface.color = vec3(0.0); }\n"));
     EXPECT_TRUE(renderer.programs().reload().faults.empty());

@@ -55,5 +55,46 @@ TEST_F(HookedSquare, whatItHasNotIsRefusedByName) {
                 {"room: has no hook whose parameter 'red'"});
 }
 
+TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
+    const std::string signature = "void hookSurface(inout HookedSurface surface, HookInputs inputs)";
+    const std::string refused = "/shine.glsl: the driver refuses this hook: ";
+    folder_.write("shine.glsl", signature + "\n{\n    surface.emission = undeclaredName;\n}\n");
+    expectError(kBadInput, command({}), {refused, "/shine.glsl:3: "});
+    EXPECT_THAT(run(command({})).err, testing::Not(testing::HasSubstr("warning")));
+    // What follows is found where a program is linked, without a file.
+    for (const std::string& nothing :
+         Words{"#if 0\n" + signature + " {}\n#endif\n", signature + ";\n", "void hookSurface(int a) {}\n"}) {
+        folder_.write("shine.glsl", nothing);
+        expectError(kBadInput, command({}), {refused, "write " + signature, "outside of conditionals"});
+    }
+}
+
+TEST_F(HookedSquare, aParameterWhoseNameMeansSomethingElseInGlslIsTheHooksFault) {
+    std::string square = text("square.json");
+    square.replace(square.find("\"red\""), 5, "\"mat3\"");
+    folder_.write("square.json", square);
+    folder_.write("shine.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n");
+    expectError(kBadInput, command({}), {"/shine.glsl (its parameters):4: "});
+}
+
+TEST_F(HookedSquare, loopsThatTheDriverGivesUpAreNamedWherePixelsAreNoNumbers) {
+    const std::string light = R"("lights": [{"type": "directional", "direction": [0, 0, -1], "castsShadow": true}], )";
+    std::string square = text("square.json");
+    square.insert(square.find("\"cameras\""), light);
+    square.replace(square.find("[0, 0, 0]"), 9, "[1, 1, 1]");
+    folder_.write("square.json", square);
+    const auto said = [&](const std::string& iterations) {
+        folder_.write("shine.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs)\n{\n"
+                                    "    float sum = 0.0;\n    for (int i = 0; i < " +
+                                        iterations +
+                                        "; ++i) sum += 1e-6 * abs(inputs.positionOS.x);\n"
+                                        "    surface.emission = vec3(sum);\n}\n");
+        return run(command({"--technique", "forward"})).err; // its shadow rays need iterations too
+    };
+    EXPECT_THAT(said("100000"), testing::ContainsRegex("of its pixels are infinite or no numbers; .*, or a loop of its "
+                                                       "hook takes more than the [0-9]+ iterations"));
+    EXPECT_EQ(said("1000"), "");
+}
+
 } // namespace
 } // namespace tessera::test

@@ -212,6 +212,14 @@ TEST_F(FrameSequences, shardsWriteTheirOwnFilesAndNothingIsToBeMerged) {
     EXPECT_THAT(runGood(command({"--frames", "1", "-o", "g_%d.exr", "--shard", "2/2"})), MatchesRegex(summary(0, 0)));
 }
 
+TEST_F(FrameSequences, namesThatCannotBeAreFoundBeforeTheFirstFrame) {
+    // That of frame 9 has 255 bytes, the most that file systems hold.
+    const std::string name = std::string(250, 'f') + "%d.png";
+    expectError(1, command({"--frames", "9:10", "-o", name}), {"10.png: File name too long; give a shorter one"});
+    fs::create_symlink("/dev/null", path("f_frames.png.txt"));
+    expectError(2, command({"--frames", "2", "-o", "f_%d.png"}), {"f_frames.png.txt: is no file that can record"});
+}
+
 TEST_F(FrameSequences, theJournalIsAnOutputToo) {
     folder_.write("f_frames.png.txt/keep", "");
     expectError(1, command({"--frames", "2", "-o", "f_%d.png"}), {"f_frames.png.txt", "folder"});

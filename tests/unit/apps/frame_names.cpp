@@ -77,11 +77,14 @@ TEST(FrameRange, whatIsNoRangeIsRefused) {
     for (const char* text : {"", "x", "1.5", ":", "1:", ":3", "1:2:", "1:2:3:4", "1-3", " 3", "3 ", "99999999999"})
         EXPECT_THAT(wordsOfRefusal([&] { frameRangeNamed(text); }),
                     HasSubstr("--frames '" + std::string(text) + "' is not a whole number"));
-    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("0"); }), HasSubstr("--frames 0 is less than one picture"));
+    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("0"); }),
+                HasSubstr("--frames 0 is less than one picture; give 1 or more"));
+    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("2147483648"); }), HasSubstr("no number is above 2147483647"));
     EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("-1:2"); }), HasSubstr("--frames -1:2: frames are counted from 0"));
     EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("5:4"); }), HasSubstr("--frames 5:4 ends before it begins"));
     for (const char* text : {"0:4:0", "0:4:-1"})
-        EXPECT_THAT(wordsOfRefusal([&] { frameRangeNamed(text); }), HasSubstr("the step is less than 1"));
+        EXPECT_THAT(wordsOfRefusal([&] { frameRangeNamed(text); }),
+                    HasSubstr("the step is less than 1; give 1 or more"));
 }
 
 TEST(Shard, everyPieceBelongsToExactlyOne) {

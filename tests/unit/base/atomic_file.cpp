@@ -59,6 +59,14 @@ TEST(AtomicFile, theMessageNamesThePathTheReasonAndTheRemedy) {
     EXPECT_EQ(folder.entries(), 0u);
 }
 
+TEST(AtomicFile, aNameThatTheFileSystemCannotHoldIsFoundBeforeTheWork) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file(std::string(300, 'a'));
+    EXPECT_EQ(errorOf<std::runtime_error>([&] { requireWritable(path); }),
+              "cannot write " + path + ": File name too long; give a shorter one");
+    EXPECT_EQ(folder.entries(), 0u);
+}
+
 TEST(AtomicFile, aPipeIsNotReplacedByAFile) {
     const TemporaryFolder folder;
     const std::string path = folder.file("pipe");

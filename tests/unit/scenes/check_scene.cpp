@@ -139,6 +139,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"wrap of its subsurface must", [](Scene& s) { s.materials[0].subsurface.wrap = 1.5f; }},
         {"tint of its subsurface's wrap", [](Scene& s) { s.materials[0].subsurface.wrapTint.y = kNaN; }},
         {"body's radius", [](Scene& s) { s.materials[0].subsurface.bodyRadiusMetres = -1.0f; }},
+        {"body's radius", [](Scene& s) { s.materials[0].subsurface.bodyRadiusMetres = 2e6f; }},
         {"absorption of its subsurface",
          [](Scene& s) { s.materials[0].subsurface.absorptionPerMillimetre.x = kInfinity; }},
         {"share of albedo before", [](Scene& s) { s.materials[0].subsurface.preScatterShare = -0.5f; }},

@@ -13,9 +13,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::string_view kGood = "// discard, and #include \"x\"\n/* uniform\n layout */\n"
-                                   "float line(float version) { return version; }\n"
-                                   "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n";
+constexpr std::string_view kGood =
+    "// discard, and #include \"x\"\n/* uniform\n layout */\n"
+    "float line(float version) { return version; } // C:\\caf\xc3\xa9\\gl_FragCoord ## x\n"
+    "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n";
 
 TEST(Hook, commentsAndNamesLikeThoseOfDirectivesAreNoFaults) {
     EXPECT_FALSE(hookFault(kGood).has_value());
@@ -58,13 +59,30 @@ TEST(Hook, whatWouldBreakOtherPassesIsRefusedWithItsLine) {
                  {"uniform float u;", "uniform: a hook binds nothing"},
                  {"layout(binding = 0) buffer B { float b; };", "layout: a hook binds nothing"},
                  {"float d(float x) { return dFdx(x); }", "dFdx: differences between pixels"},
-                 {"#define JOINED \\", "a backslash joins lines"}};
+                 {"float d(float x) { return dFdyFine(x); }", "dFdyFine: differences between pixels"},
+                 {"float d(float x) { return fwidthCoarse(x); }", "fwidthCoarse: differences between pixels"},
+                 {"float d(float x) { return interpolateAtCentroid(x); }", "interpolateAtCentroid: differences"},
+                 {"float place() { return gl_FragCoord.x; }", "gl_FragCoord: what OpenGL says of a pixel"},
+                 {"void hole() { gl_SampleMask[0] = 0; }", "gl_SampleMask: what OpenGL says of a pixel"},
+                 {"#define J(a, b) a##b", "## makes words that nothing checks"},
+                 {"float \xc3\xa9 = 1.0;", "outside of comments GLSL has the letters of ASCII alone"},
+                 {"#define JOINED \\", "a backslash joins lines"},
+                 {"/* *\\", "a backslash joins lines"},
+                 {"// so is this \\\r", "a backslash joins lines"},
+                 {"// some drivers go on\rhere", "a carriage return alone ends a line for some"}};
     for (const auto& tried : cases) {
         const std::optional<HookFault> fault = hookFault(std::string(kGood).append(tried.line).append("\n"));
         ASSERT_TRUE(fault.has_value()) << tried.line;
         EXPECT_EQ(fault->line, 6u) << tried.line;
         EXPECT_THAT(fault->why, HasSubstr(tried.why));
     }
+    std::string windows(kGood);
+    for (std::size_t i = 0; (i = windows.find('\n', i)) != std::string::npos; i += 2) windows.insert(i, "\r");
+    EXPECT_FALSE(hookFault(windows).has_value());
+    const std::optional<HookFault> marked = hookFault(std::string("\xef\xbb\xbf").append(kGood));
+    ASSERT_TRUE(marked.has_value());
+    EXPECT_EQ(marked->line, 1u);
+    EXPECT_THAT(marked->why, HasSubstr("byte order mark"));
     const std::optional<HookFault> none = hookFault("// void hookSurface()\n");
     ASSERT_TRUE(none.has_value());
     EXPECT_EQ(none->line, 1u);

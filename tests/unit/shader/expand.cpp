@@ -190,16 +190,37 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
     folder.write("lib/material/hook_interface.glsl", "void hookSurface();\n");
     folder.write("other.frag", "void main() {}\n");
     const ExpandedSource source = expanded("main.frag", defines);
-    EXPECT_EQ(source.text,
-              "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\n#line 1000001 1\nvoid hookSurface();\n#line 2 0\n"
-              "void main() {}\n#if HOOKED\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n"
-              "    float timeSeconds;\n    float speed;\n    float height;\n} hook;\n#line 2000001 2\n"
-              "void hookSurface() {}\n#endif\n");
-    EXPECT_THAT(source.files, ElementsAre("main.frag", "lib/material/hook_interface.glsl", hook));
+    EXPECT_EQ(
+        source.text,
+        "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\n#line 1000001 1\nvoid hookSurface();\n#line 2 0\n"
+        "void main() {}\n#if HOOKED\n#line 3000001 3\nlayout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n"
+        "    float timeSeconds;\n    float speed;\n    float height;\n} hook;\n#line 2000001 2\n"
+        "void hookSurface() {}\n#endif\n");
+    EXPECT_THAT(source.files,
+                ElementsAre("main.frag", "lib/material/hook_interface.glsl", hook, hook + " (its parameters)"));
     EXPECT_EQ(mapLog("0:2000001(1): error: x", source.files), hook + ":1: error: x");
+    EXPECT_EQ(mapLog("0:3000004(1): error: x", source.files), hook + " (its parameters):4: error: x");
     EXPECT_EQ(expanded("other.frag", defines).text,
               "#version 450 core\n#define HOOK_HASH 7u\n#line 1 0\nvoid main() {}\n");
     EXPECT_THAT(expanded("main.frag", {{"HOOK_HASH", "7u"}}).text, Not(HasSubstr("HookBlock")));
+}
+
+TEST_F(Expand, theTextOfAHookIsLookedAtBeforeAProgramTakesIt) {
+    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
+    folder.write("lib/material/hook_interface.glsl", "\n");
+    const std::string hook = folder.write("tint.glsl", "void hookSurface()\r\n{}").string();
+    SourceTree tree(folder.path());
+    tree.checkHooks([&](const std::string& file, std::string_view seen) {
+        EXPECT_EQ(seen, "void hookSurface()\n{}\n");
+        throw InputError(file + ": not this one");
+    });
+    try {
+        expand(tree, "main.frag", {{"HOOK_FILE", hook}});
+        FAIL() << "expected an InputError";
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), hook + ": not this one");
+    }
+    EXPECT_NO_THROW(expand(tree, "main.frag", {}));
 }
 
 TEST_F(Expand, aHookThatIsNotThereIsNamed) {
