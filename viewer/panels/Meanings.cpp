@@ -101,7 +101,7 @@ constexpr Meaning kMeanings[] = {
     {"Speed", "Of time in the scene"},
     // Compare
     {"Compare", "One picture, two beside each other, or their difference (X)"},
-    {"Panels change", "The side that panels and keys are about (Z)"},
+    {"Active side", "The side whose technique, view and options the panels and keys set (Z)"},
     {"Divider", "Where the left picture ends; or drag it"},
     {"Amplified", "How many times the difference is as bright as it is"},
     {"Bit-equal", "Pixels whose numbers are the same to the last bit"},
