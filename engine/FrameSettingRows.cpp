@@ -221,7 +221,7 @@ std::vector<Setting> frameSettings() {
          .flag = "--time",
          .key = "time",
          .type = "SECONDS",
-         .help = "Moves animated lights and the clip that plays to this time",
+         .help = "Time in seconds of lights that move, of the clip that plays and of the hook",
          .panel = SettingPanel::None,
          .sameCost = true,
          .isShared = true,
