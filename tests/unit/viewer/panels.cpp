@@ -345,6 +345,14 @@ TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     EXPECT_EQ(pixelAt(*state.pinnedPlace, {800, 400}), glm::ivec2(600, 300));
 }
 
+TEST(StatusLine, tellsLongTimesOfPicturesInSeconds) {
+    EXPECT_EQ(pictureTimeText(0.4), "0 ms");
+    EXPECT_EQ(pictureTimeText(54.4), "54 ms");
+    EXPECT_EQ(pictureTimeText(9999.4), "9999 ms");
+    EXPECT_EQ(pictureTimeText(9999.6), "10 s");
+    EXPECT_EQ(pictureTimeText(175557.2), "176 s");
+}
+
 TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
     State state;
     Facts facts;
