@@ -176,7 +176,9 @@ Request resolve(const FrameOptions& options, std::stop_token stop) {
 
 namespace {
 
+/// Of a setting of scattering that was said. `--subsurface none` asks for the surface alone, which every scene has.
 std::string whyNoScattering(const engine::Setting& setting, const Request& request) {
+    if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
     const scenes::SubsurfaceRequest any = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
     if (std::ranges::none_of(request.scene.materials, [&](const scenes::Material& material) {
             return scenes::subsurfaceOf(material, any) != scenes::SubsurfaceMethod::None;

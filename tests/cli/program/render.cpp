@@ -245,6 +245,7 @@ TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
         "a scene file\n";
     EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--diffusion-texels", "64"}),
               "tessera: warning: --subsurface" + none + "tessera: warning: --diffusion-texels" + none);
+    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "none"}), "") << "asks for what there is";
     EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--view", "normal"}), "")
         << "the same options serve all views";
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none"}), "");
