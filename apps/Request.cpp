@@ -179,10 +179,7 @@ namespace {
 /// Of a setting of scattering that was said. `--subsurface none` asks for the surface alone, which every scene has.
 std::string whyNoScattering(const engine::Setting& setting, const Request& request) {
     if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
-    const scenes::SubsurfaceRequest any = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-    if (std::ranges::none_of(request.scene.materials, [&](const scenes::Material& material) {
-            return scenes::subsurfaceOf(material, any) != scenes::SubsurfaceMethod::None;
-        }))
+    if (!scenes::anyScatters(request.scene))
         return "No material has subsurface scattering; give one the key 'subsurface' in a scene file";
     if (setting.key != "subsurface" && !scenes::anySpreads(request.scene, request.settings.subsurface))
         return "Light spreads over no surface that is drawn";

@@ -324,6 +324,18 @@ TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
     EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
 }
 
+TEST_F(Panels, subsurfaceScatteringSaysWhereNoMaterialHasAny) {
+    for (const auto method : {scenes::SubsurfaceMethod::None, scenes::SubsurfaceMethod::Wrap}) {
+        scenes::Scene scene = scenes::loadScene("room");
+        scene.materials[0].subsurface.method = method;
+        State state;
+        state.open =
+            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        const std::string text = textOf([&] { skinPanel(state); });
+        EXPECT_EQ(text.find("No material has") != std::string::npos, method == scenes::SubsurfaceMethod::None) << text;
+    }
+}
+
 TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     State state;
     state.compare = Compare::Split;
