@@ -121,7 +121,7 @@ Comparison comparisonOf(const ComparisonOptions& options, const Request& request
 
 void warnOfComparison(const ComparisonOptions& options, const Request& request, const Comparison& comparison) {
     const frame::PreparedView prepared = preparedForward(request, comparison);
-    for (const std::string& unheeded : unheededShadows(options.frame, request, prepared)) spdlog::warn("{}", unheeded);
+    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared)) spdlog::warn("{}", unheeded);
     if (const std::string missing =
             engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);
         !missing.empty())

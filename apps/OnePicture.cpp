@@ -60,6 +60,10 @@ std::vector<std::string> unheededByReference(const FrameOptions& options) {
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" && options.said(setting.key))
             messages.push_back(fmt::format("{} changes nothing. The reference follows rays of its own", setting.flag));
+        else if (setting.panel == engine::SettingPanel::Skin && setting.key != "subsurface" &&
+                 options.said(setting.key))
+            messages.push_back(
+                fmt::format("{} changes nothing. The reference integrates over the surface", setting.flag));
     return messages;
 }
 

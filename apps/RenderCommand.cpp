@@ -196,7 +196,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
         const std::vector<std::string> own =
-            unheededShadows(frame, request, engine::prepareView(request.scene, request.technique, one));
+            unheededSettings(frame, request, engine::prepareView(request.scene, request.technique, one));
         if (!unheeded) unheeded = own;
         std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
         progress.advance();

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
+#include "scenes/InUse.h"
 #include "scenes/Pose.h"
 #include "scenes/RigLinks.h"
 #include "validation/bench/ShadowKey.h"
@@ -173,10 +174,29 @@ Request resolve(const FrameOptions& options, std::stop_token stop) {
     return request;
 }
 
-std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
-                                         const frame::PreparedView& prepared) {
+namespace {
+
+/// Of a setting of scattering that was said. `--subsurface none` asks for the surface alone, which every scene has.
+std::string whyNoScattering(const engine::Setting& setting, const Request& request) {
+    if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
+    if (!scenes::anyScatters(request.scene))
+        return "No material has subsurface scattering; give one the key 'subsurface' in a scene file";
+    if (setting.key != "subsurface" && !scenes::anySpreads(request.scene, request.settings.subsurface))
+        return "Light spreads over no surface that is drawn";
+    return {};
+}
+
+} // namespace
+
+std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
+                                          const frame::PreparedView& prepared) {
     std::vector<std::string> messages;
     if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (setting.panel != engine::SettingPanel::Skin || !options.said(setting.key)) continue;
+        if (const std::string why = whyNoScattering(setting, request); !why.empty())
+            messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
+    }
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
             continue;

@@ -69,9 +69,10 @@ void warnOfScene(const scenes::Scene& scene);
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
-/// Which settings of shadows were said and change nothing of a picture, and why: a sentence or two each.
-std::vector<std::string> unheededShadows(const FrameOptions& options, const Request& request,
-                                         const frame::PreparedView& prepared);
+/// Which settings of shadows and of subsurface scattering were said and change nothing of a picture, and why: a
+/// sentence or two each.
+std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
+                                          const frame::PreparedView& prepared);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

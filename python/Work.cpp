@@ -94,7 +94,7 @@ Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, 
     warnAbout(name, renderer.unseenSpread());
     warnAbout(name, app::faultOf(request.scene, request.settings.view, frame.radiance, shadows.cut));
     warnAbout(name, shadows.missing);
-    for (const std::string& text : app::unheededShadows(
+    for (const std::string& text : app::unheededSettings(
              options, request, engine::prepareView(request.scene, request.technique, request.settings)))
         spdlog::warn("{}", text);
     Rendered rendered;

@@ -11,14 +11,14 @@ class LoadLedger;
 /// Of a scene that addDefaultLight() lights.
 inline constexpr const char* kDefaultLightWarning =
     "the scene has no light: lit by the built-in environment 'studio'; --environment chooses another, "
-    "--no-default-light none";
+    "--no-default-light leaves it dark";
 
 /// Name of a supplied camera.
 inline constexpr const char* kDefaultName = "default";
 
 /// Of a scene that addDefaultCamera() gives one.
 inline constexpr const char* kDefaultCameraWarning =
-    "the scene has no camera: looking at its whole through the camera 'default'";
+    "the scene has no camera: the supplied one, 'default', shows all of it";
 
 /// A scene without a camera gets one of 45 degrees that sees all of it (framingOf()) in a picture of an aspect, width
 /// over height, else of that which its options ask for, else of 16:9; a warning says so. Its near plane does not depend

@@ -40,6 +40,12 @@ std::vector<const Mesh*> meshesInUse(const Scene& scene) {
     return chosen(scene.meshes, inUse(scene).meshes);
 }
 
+bool anyScatters(const Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const Material& material) {
+        return subsurfaceOf(material, SubsurfaceMethod::TextureSpaceDiffusion) != SubsurfaceMethod::None;
+    });
+}
+
 bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request) {
     return isDrawn(scene, instance) &&
            infoOf(subsurfaceOf(scene.materials[std::size_t(instance.material)], request)).spreads;

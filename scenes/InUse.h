@@ -24,6 +24,9 @@ std::vector<const Material*> materialsInUse(const Scene& scene);
 /// The meshes in use, in the scene's order.
 std::vector<const Mesh*> meshesInUse(const Scene& scene);
 
+/// Whether any material has subsurface scattering, of which a request may choose another method.
+bool anyScatters(const Scene& scene);
+
 /// Whether light spreads over what an instance draws.
 bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request);
 /// Whether it does over any.

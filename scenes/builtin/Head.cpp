@@ -38,10 +38,14 @@ int addBust(Scene& scene, const BustKind& kind) {
     return material;
 }
 
-/// The scan of TESSERA_ASSETS, or else the bust. Returns its material.
+/// The scan of TESSERA_ASSETS, of plain stone where the bust is of polished marble, or else the bust. Returns its
+/// material.
 int addHead(Scene& scene, const BustKind& kind, const LoadOptions& options, LoadLedger& ledger) {
     const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
-    return scan ? addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres, ledger) : addBust(scene, kind);
+    if (!scan) return addBust(scene, kind);
+    const bool isStone = kind.paint == BustPaint::PolishedMarble;
+    return addHeadScan(scene, *scan, kPlinthTopY, kBustHeightMetres,
+                       isStone ? ScanPaint(glm::vec3(kPolishedMarble)) : std::nullopt, ledger);
 }
 
 void addSurroundings(Scene& scene) {

@@ -19,16 +19,18 @@ std::optional<std::filesystem::path> headScanFolder() {
 }
 
 int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
-                LoadLedger& ledger) {
+                const ScanPaint& paint, LoadLedger& ledger) {
     Scene scan = importObj(folder / "head.obj", ledger);
     const Box3 boundsWS = worldBounds(scan);
     if (boundsWS.empty() || boundsWS.max.y <= boundsWS.min.y) {
         throw InputError((folder / "head.obj").string() + ": holds no surface; get the model again");
     }
-    Material skin = microfacet("head", glm::vec3(1.0f), 1.4f, 0.35f);
+    Material skin = microfacet("head", paint.value_or(glm::vec3(1.0f)), 1.4f, 0.35f);
     skin.normalMapSpace = NormalMapSpace::Object;
-    skin.texture(TextureSlot::BaseColor).image = addImage(scene, readImage(folder / "albedo_2k.jpg", ledger));
-    skin.texture(TextureSlot::SpecularColor).image = addImage(scene, readImage(folder / "specular_2k.jpg", ledger));
+    if (!paint) {
+        skin.texture(TextureSlot::BaseColor).image = addImage(scene, readImage(folder / "albedo_2k.jpg", ledger));
+        skin.texture(TextureSlot::SpecularColor).image = addImage(scene, readImage(folder / "specular_2k.jpg", ledger));
+    }
     skin.texture(TextureSlot::Normal).image = addImage(scene, readImage(folder / "normal_object_2k.jpg", ledger));
     const int material = addMaterial(scene, skin);
 

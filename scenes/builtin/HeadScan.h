@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <optional>
 
+#include <glm/glm.hpp>
+
 #include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 
@@ -10,9 +12,13 @@ namespace tessera::scenes::builtin {
 /// The folder LeePerrySmith below the one the environment variable TESSERA_ASSETS names, if it holds head.obj.
 std::optional<std::filesystem::path> headScanFolder();
 
-/// Adds the scanned head (Infinite Realities, CC BY 3.0) with its albedo, specular and object-space normal map,
-/// standing on `bottomY` and `heightMetres` high. Throws InputError naming the file that is missing or broken.
+/// What the scanned head is drawn with: its albedo and specular maps, or one linear colour instead of both.
+using ScanPaint = std::optional<glm::vec3>;
+
+/// Adds the scanned head (Infinite Realities, CC BY 3.0) with its object-space normal map, painted, standing on
+/// `bottomY` and `heightMetres` high. Returns its material. Throws InputError naming the file that is missing or
+/// broken.
 int addHeadScan(Scene& scene, const std::filesystem::path& folder, double bottomY, double heightMetres,
-                LoadLedger& ledger);
+                const ScanPaint& paint, LoadLedger& ledger);
 
 } // namespace tessera::scenes::builtin

@@ -313,7 +313,7 @@ esac
         self.picture("black", 0.01, 1)
         self.picture("small", 0.5, 4)
         self.picture("large", 0.5)
-        camera = "the scene has no camera: looking at its whole through the camera 'default'"
+        camera = "the scene has no camera: the supplied one, 'default', shows all of it"
         cases = [
             ("lit", "", [camera]),
             ("black", "Box: black: luminance 0.0100, spans 0.750\n", [camera]),

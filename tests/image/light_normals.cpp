@@ -1,6 +1,7 @@
 // Light culling by normals: lights behind all surfaces of a cell are left out, and the picture stays the same.
 #include <fmt/format.h>
 
+#include "scenes/AreaLight.h"
 #include "scenes/Load.h"
 #include "tests/support/CullingScenes.h"
 #include "tests/support/GlContext.h"
@@ -126,6 +127,25 @@ TEST_F(LightNormals, aCoatIsLitFromBehindTheSurfaceBelowIt) {
     settings.culling.normals = culling::NormalTest::On;
     renderer.draw(Technique::ClusteredDeferred, settings);
     EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
+}
+
+/// They shine into half of space, which lists and the oracle both know.
+TEST_F(LightNormals, listsOfFlatLightsWithOneSideLackNone) {
+    scenes::Scene scene = latticeLitBy(200);
+    test::Random random(5);
+    for (scenes::Light& light : scene.lights) {
+        light.type = scenes::LightType::Rectangle;
+        light.falloff = scenes::Falloff::InverseSquare;
+        light.rangeMetres = 3.0f;
+        light.widthMetres = 0.3f;
+        light.heightMetres = 0.2f;
+        light.directionWS = random.direction();
+        light.alongWS = scenes::usualAlong(light.directionWS);
+    }
+    engine::Renderer renderer(context(), scene);
+    const NormalMethod& of = kByNormals[2];
+    const Visited visited = expectSame(renderer, of.technique, normalSettings({160, 90}, of.method, 8));
+    EXPECT_LT(visited.byNormals, visited.byReach);
 }
 
 TEST_F(LightNormals, theOracleNoticesALitLightThatAListLacks) {

@@ -61,7 +61,7 @@ void requireNoneSpreads(const scenes::Scene& scene, const scenes::SubsurfaceRequ
         const scenes::Material& material = scene.materials[std::size_t(place)];
         if (infoOf(scenes::subsurfaceOf(material, subsurface)).spreads)
             throw InputError(fmt::format("{}: the reference knows no light that spreads below '{}', which the hook "
-                                         "changes; give --subsurface wrap or none",
+                                         "changes; give --subsurface depth_map, wrap or none",
                                          scene.name, material.name));
     }
 }

@@ -30,6 +30,7 @@ struct TrueLight {
     double dimSquared = 0.0;     ///< of an area light that a tolerance ends: the squared distance from that ball
     bool isDimmed = false;       ///< whether it is one
     bool isCone = false;
+    bool hasFront = false; ///< shines from one side of a flat surface, into the half of space before it
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
 };
@@ -40,6 +41,7 @@ struct EndlessLight {
     glm::dvec4 placeWS{0.0};    ///< homogeneous: its position, or with w = 0 the direction that it comes from
     double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
     bool isCone = false;
+    bool hasFront = false; ///< shines from one side of a flat surface, into the half of space before it
     glm::dvec3 directionWS{0.0};
     double cosOuter = -1.0;
 };
@@ -71,12 +73,13 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const bool isCone = reach == scenes::LightReach::Cone;
         if (isCone && !(light.outerConeRadians > 0.0f)) continue;
         const bool isArea = scenes::infoOf(light.type).isArea;
+        const bool hasFront = isFlat && !light.isTwoSided;
         if (isArea && !scenes::hasSurface(light)) continue;
         if (reachesEverywhere(light, settings.rangeTolerance)) {
             const bool isFar = reach == scenes::LightReach::Everywhere;
             lights.everywhere.push_back(
                 {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0),
-                 scenes::surfaceReachMetres(light), isCone, light.directionWS,
+                 scenes::surfaceReachMetres(light), isCone, hasFront, light.directionWS,
                  std::cos(double(light.outerConeRadians))});
             continue;
         }
@@ -96,6 +99,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         if (plain.isDimmed)
             plain.dimSquared = plain.brightest * scenes::largestSeenArea(light) / settings.rangeTolerance;
         plain.isCone = isCone;
+        plain.hasFront = hasFront;
         plain.directionWS = light.directionWS;
         plain.cosOuter = std::cos(double(light.outerConeRadians));
         lights.finite.push_back(plain);
@@ -103,9 +107,11 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
     return lights;
 }
 
-/// Whether a point lies in a light's cone; everywhere where it has none. `toLight` is of any length.
+/// Whether a point lies in a light's cone or before its front; everywhere where it has neither. `toLight` is of any
+/// length.
 template <class Light>
-bool isInCone(const Light& light, const glm::dvec3& toLight) {
+bool shinesTo(const Light& light, const glm::dvec3& toLight) {
+    if (light.hasFront) return glm::dot(-toLight, light.directionWS) > 0.0;
     return !light.isCone || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
 }
 
@@ -116,17 +122,16 @@ bool isInFront(const Light& light, const glm::dvec3& normal, const glm::dvec3& t
 }
 
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
+    if (!shinesTo(light, light.positionWS - positionWS)) return false;
     // The falloff itself, not the radius that solves it, is held against the tolerance.
     const double distance = std::sqrt(squaredDistance);
     if (light.isDimmed) {
         const double fromSurface = distance - light.surfaceMetres;
         return !(fromSurface > 0.0) || fromSurface * fromSurface < light.dimSquared;
     }
-    if (light.fallsOffByABC ? !(light.brightest > light.attenuation.x + light.attenuation.y * distance +
-                                                      light.attenuation.z * squaredDistance)
-                            : !(squaredDistance < light.squaredRange))
-        return false;
-    return isInCone(light, light.positionWS - positionWS);
+    return light.fallsOffByABC ? light.brightest > light.attenuation.x + light.attenuation.y * distance +
+                                                       light.attenuation.z * squaredDistance
+                               : squaredDistance < light.squaredRange;
 }
 
 /// The counts of some rows of pixels.
@@ -197,7 +202,7 @@ private:
         std::uint64_t everywhere = 0;
         for (const EndlessLight& light : lights_.everywhere) {
             const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
-            if (isInFront(light, normal, toLight) && isInCone(light, toLight)) ++figures.everywhereLit;
+            if (isInFront(light, normal, toLight) && shinesTo(light, toLight)) ++figures.everywhereLit;
             if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
                 ++everywhere;
             else

@@ -10,17 +10,18 @@
 /// only the layout of the lists (shaders/shared/light_lists.h), which it reads as the GPU had them.
 namespace tessera::validation {
 
-/// Counts over a frame's surfaces of one layer. A light is needed at a pixel that it reaches: closer than its range and
-/// inside its outer cone, with colour and intensity. Lights that reach everywhere are needed at every covered pixel;
-/// they are counted apart, since there is nothing to cull. A pair is missed if it was needed and not visited; where
-/// lists leave out lights behind surfaces, if it was needed and lit.
+/// Counts over a frame's surfaces of one layer. A light is needed at a pixel that it reaches: closer than its range,
+/// inside its outer cone, and before its surface where that is flat and shines from one side, with colour and
+/// intensity. Lights that reach everywhere are needed at every covered pixel; they are counted apart, since there is
+/// nothing to cull. A pair is missed if it was needed and not visited; where lists leave out lights behind surfaces, if
+/// it was needed and lit.
 struct LightOracleFigures {
     std::uint64_t covered = 0;        ///< pixels that show a surface
     std::uint64_t needed = 0;         ///< pairs of a covered pixel and a light that reaches it
     std::uint64_t neededLit = 0;      ///< those whose light lies in front of the surface, n.l > 0
     std::uint64_t evaluated = 0;      ///< pairs that the frame's pixels visited
     std::uint64_t everywhere = 0;     ///< pairs of a covered pixel and a light that reaches everywhere, all visited
-    std::uint64_t everywhereLit = 0;  ///< those whose light lies in front of the surface, which its cone holds
+    std::uint64_t everywhereLit = 0;  ///< those whose light lies in front of the surface, to which it shines
     std::uint64_t falseNegatives = 0; ///< pairs missed, see above; must be 0
     std::uint64_t evaluatedP99 = 0, evaluatedMax = 0; ///< lights visited by a covered pixel, those everywhere included
     std::size_t entries = 0, cells = 0, listBytes = 0;

@@ -16,8 +16,8 @@ void compareRows(State& state) {
     const std::size_t now = std::size_t(state.compare);
     if (const auto chosen = choose("Compare", kCompare[now].name, kCompare, now)) state.compare = Compare(*chosen);
     if (state.compare == Compare::Off) return;
-    row("Panels change");
-    constexpr const char* kMeaning = "Which side the panels and keys set technique, view and options of (Z)";
+    row("Active side");
+    constexpr const char* kMeaning = "Panels and keys set the technique, view and options of this side (Z)";
     ImGui::RadioButton("left", &state.activeSide, 0);
     tip(kMeaning);
     ImGui::SameLine();

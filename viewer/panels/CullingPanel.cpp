@@ -43,7 +43,6 @@ void cullingPanel(State& state, const Facts& facts) {
     }
     fact("Lists", fmt::format("{} entries, {}", figures.entries, graph::readableBytes(figures.listBytes)));
     fact("Missed", fmt::format("{}", figures.falseNegatives));
-    tip("Lights that a pixel needed and did not visit: must be 0");
 }
 
 } // namespace tessera::viewer

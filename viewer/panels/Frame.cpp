@@ -1,6 +1,7 @@
 #include "viewer/panels/Frame.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -116,7 +117,7 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     if (state.compare == Compare::Off && left)
         parts.push_back(lookName(*left, state.open ? &state.open->scene().lights : nullptr));
     if (facts.scale > 0.0) {
-        parts.push_back(fmt::format("{:.0f} ms", facts.ms));
+        parts.push_back(pictureTimeText(facts.ms));
         if (facts.picturesPerSecond) parts.push_back(fmt::format("{:.0f} frames/s", *facts.picturesPerSecond));
         parts.push_back(fmt::format("scale {:.3g}", facts.scale));
         parts.push_back(fmt::format("{}x{}", facts.sizePixels.x, facts.sizePixels.y));
@@ -217,6 +218,11 @@ PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
 
 glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth) {
     return pictureSize + glm::ivec2(panelWidth, kStatusHeight);
+}
+
+std::string pictureTimeText(double ms) {
+    constexpr double kLongMs = 10'000.0;
+    return std::round(ms) < kLongMs ? fmt::format("{:.0f} ms", ms) : fmt::format("{:.0f} s", ms / 1000.0);
 }
 
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {

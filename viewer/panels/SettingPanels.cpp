@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/ShadowRows.h"
@@ -152,6 +153,8 @@ void shadowsPanel(State& state, const Facts& facts) {
 
 void skinPanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::Skin);
+    if (state.open && !scenes::anyScatters(state.open->scene()))
+        paragraph("No material has subsurface scattering; the panel Materials gives it to one.");
 }
 
 void viewPanel(State& state) {

@@ -259,12 +259,11 @@ glm::dvec3 marble(const glm::dvec3& pointBU, double heightBU) {
 
 /// White stone with grey veins, as it comes from the quarry.
 glm::dvec3 polishedMarble(const glm::dvec3& pointBU) {
-    constexpr glm::dvec3 kStone(0.80, 0.785, 0.755);
     constexpr glm::dvec3 kVein(0.30, 0.315, 0.34);
     const double cloud = fractalNoise(1.3 * pointBU, 4, 23);
     const double broad = std::exp(-std::pow(9.0 * fractalNoise(0.8 * pointBU + 0.5 * cloud, 4, 29), 2.0));
     const double thin = std::exp(-std::pow(22.0 * fractalNoise(1.9 * pointBU + 0.4 * cloud, 3, 31), 2.0));
-    glm::dvec3 color = kStone * (1.0 + 0.08 * cloud);
+    glm::dvec3 color = kPolishedMarble * (1.0 + 0.08 * cloud);
     color = glm::mix(color, kVein, 0.55 * broad);
     return glm::mix(color, kVein, 0.35 * thin);
 }

@@ -14,6 +14,9 @@ struct Bust {
 /// What the bust is made of.
 enum class BustPaint { WeatheredMarble, PolishedMarble, Skin };
 
+/// Linear colour of polished marble between its veins.
+inline constexpr glm::dvec3 kPolishedMarble(0.80, 0.785, 0.755);
+
 /// The bust standing on y = 0, `heightMetres` high, its front towards +Z, with maps of `mapTexels` squared.
 Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint);
 

@@ -234,6 +234,27 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
 }
 
+TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
+    const auto said = [&](const std::string& scene, const Words& more) {
+        Words words{"render", scene, "--size", "16x9", "-o", "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    const std::string none =
+        " changes nothing. No material has subsurface scattering; give one the key 'subsurface' in "
+        "a scene file\n";
+    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--diffusion-texels", "64"}),
+              "tessera: warning: --subsurface" + none + "tessera: warning: --diffusion-texels" + none);
+    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "none"}), "") << "asks for what there is";
+    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--view", "normal"}), "")
+        << "the same options serve all views";
+    EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none"}), "");
+    EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none", "--diffusion-half", "on"}),
+              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface that is drawn\n");
+    EXPECT_THAT(said("diffusion_truth", {"--diffusion-texels", "64", "--technique", "reference"}),
+                testing::HasSubstr("--diffusion-texels changes nothing. The reference integrates over the surface\n"));
+}
+
 TEST_F(Render, whereShadowsTakeTooManyIterationsTheyAreNamedAsTheCause) {
     std::string lights;
     for (int i = 0; i < 128; ++i)

@@ -108,11 +108,25 @@ TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
                                                       {AnimatedOwner::Material, "a material"},
                                                       {AnimatedOwner::Texture, "a material's texture"},
                                                       {AnimatedOwner::Camera, "a camera"}};
-    Rows rows;
-    for (const scenes::AnimatedPropertyInfo& info : scenes::animatedProperties())
-        rows.push_back({code(info.path), owners.at(info.owner),
-                        info.width > 0 ? std::to_string(info.width) : "one a morph target"});
-    expectTable("docs/animation.md", {"path", "of", "numbers"}, rows);
+    constexpr std::string_view kExtensions = "extensions/";
+    Rows rows; // one for each owner and extension, whose properties stand together in the table of the program
+    for (const scenes::AnimatedPropertyInfo& info : scenes::animatedProperties()) {
+        std::string_view path = info.path;
+        std::string extension;
+        if (path.starts_with(kExtensions)) {
+            path.remove_prefix(kExtensions.size());
+            extension = code(path.substr(0, path.find('/')));
+            path.remove_prefix(path.find('/') + 1);
+        }
+        const std::string cell =
+            fmt::format("{} ({})", code(path), info.width > 0 ? std::to_string(info.width) : "one a morph target");
+        const std::string& owner = owners.at(info.owner);
+        if (rows.empty() || rows.back()[0] != owner || rows.back()[1] != extension)
+            rows.push_back({owner, extension, cell});
+        else
+            rows.back()[2] += ", " + cell;
+    }
+    expectTable("docs/animation.md", {"of", "extension", "paths, and how many numbers each has"}, rows);
 }
 
 TEST(Documentation, everyMemberWithKeyframesHasARow) {

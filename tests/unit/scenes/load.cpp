@@ -8,6 +8,9 @@
 
 #include "base/Error.h"
 #include "scenes/Limits.h"
+#include "scenes/builtin/bust/Bust.h"
+#include "tests/support/AssetsFolder.h"
+#include "tests/unit/scenes/PictureBytes.h"
 #include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
@@ -188,6 +191,27 @@ TEST(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
     // Both stand on the plinth and reach equally high; single precision of half a metre.
     EXPECT_EQ(scan.cameras.size(), bust.cameras.size());
     EXPECT_NEAR(worldBounds(scan).max.y, worldBounds(bust).max.y, 1e-6);
+}
+
+TEST(LoadScene, aScannedHeadOfMarbleHasTheColourOfStoneAndNotOfSkin) {
+    const test::TempFolder folder;
+    folder.write("LeePerrySmith/head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    const std::string picture = test::bytesOfSeed("picture/small.jpg");
+    for (const char* name : {"albedo_2k.jpg", "specular_2k.jpg", "normal_object_2k.jpg"})
+        folder.write(std::string("LeePerrySmith/") + name, picture);
+    const tessera::test::AssetsFolder assets(folder.path().c_str());
+    const auto headOf = [](const char* name) {
+        const Scene scene = loadScene(name);
+        return *std::ranges::find(scene.materials, "head", &Material::name);
+    };
+    const Material skin = headOf("head_skin"), marble = headOf("head_marble");
+    for (const TextureSlot slot : {TextureSlot::BaseColor, TextureSlot::SpecularColor}) {
+        EXPECT_NE(skin.texture(slot).image, kNone);
+        EXPECT_EQ(marble.texture(slot).image, kNone);
+    }
+    EXPECT_NE(marble.texture(TextureSlot::Normal).image, kNone);
+    EXPECT_EQ(glm::vec3(skin.baseColor), glm::vec3(1.0f)) << "times the texture";
+    EXPECT_EQ(glm::vec3(marble.baseColor), glm::vec3(builtin::kPolishedMarble));
 }
 
 } // namespace

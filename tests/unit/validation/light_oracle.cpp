@@ -186,6 +186,36 @@ TEST_F(LightOracle, anAreaLightIsNeededUpToItsRangeOrToWhereItCanCauseTheToleran
     EXPECT_EQ(needed(panel), 0u);
 }
 
+TEST_F(LightOracle, aFlatLightIsNeededBeforeItsSurfaceAloneUnlessItShinesFromBothSides) {
+    // The surface is 2 m from its middle, along -z.
+    scenes::Light panel = lightAt({0.0, 0.0, -3.0}, 5.0f);
+    panel.type = scenes::LightType::Rectangle;
+    panel.widthMetres = panel.heightMetres = 1.0f;
+    for (const float rangeMetres : {5.0f, scenes::kInfinity}) {
+        panel.rangeMetres = rangeMetres;
+        settings_.rangeTolerance = 1e-3; // ends those without a range
+        panel.isTwoSided = false;
+        panel.directionWS = {0.0, 0.0, -1.0};
+        EXPECT_EQ(needed(panel), 1u);
+        panel.directionWS = {0.6, 0.0, -0.8};
+        EXPECT_EQ(needed(panel), 1u);
+        panel.directionWS = {1.0, 0.0, 0.0};
+        EXPECT_EQ(needed(panel), 0u) << "in its plane";
+        panel.directionWS = {0.6, 0.0, 0.8};
+        EXPECT_EQ(needed(panel), 0u) << "behind it";
+        panel.isTwoSided = true;
+        EXPECT_EQ(needed(panel), 1u);
+    }
+    settings_.rangeTolerance = 0.0;
+    for (const double towards : {-1.0, 1.0}) {
+        panel.isTwoSided = false;
+        panel.directionWS = {0.0, 0.0, towards};
+        scene_.lights = {panel};
+        EXPECT_EQ(judge().everywhere, 1u);
+        EXPECT_EQ(judge().everywhereLit, towards < 0.0 ? 1u : 0u);
+    }
+}
+
 TEST_F(LightOracle, anAreaLightIsLitWhereAnyPartOfItMayBeInFrontOfTheSurface) {
     scenes::Light ball = lightAt({0.0, 0.0, -6.0}, 5.0f); // its middle is a metre behind
     ball.type = scenes::LightType::Sphere;

@@ -324,6 +324,18 @@ TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
     EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
 }
 
+TEST_F(Panels, subsurfaceScatteringSaysWhereNoMaterialHasAny) {
+    for (const auto method : {scenes::SubsurfaceMethod::None, scenes::SubsurfaceMethod::Wrap}) {
+        scenes::Scene scene = scenes::loadScene("room");
+        scene.materials[0].subsurface.method = method;
+        State state;
+        state.open =
+            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        const std::string text = textOf([&] { skinPanel(state); });
+        EXPECT_EQ(text.find("No material has") != std::string::npos, method == scenes::SubsurfaceMethod::None) << text;
+    }
+}
+
 TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     State state;
     state.compare = Compare::Split;
@@ -343,6 +355,14 @@ TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     EXPECT_TRUE(state.inspects);
     ASSERT_TRUE(state.pinnedPlace);
     EXPECT_EQ(pixelAt(*state.pinnedPlace, {800, 400}), glm::ivec2(600, 300));
+}
+
+TEST(StatusLine, tellsLongTimesOfPicturesInSeconds) {
+    EXPECT_EQ(pictureTimeText(0.4), "0 ms");
+    EXPECT_EQ(pictureTimeText(54.4), "54 ms");
+    EXPECT_EQ(pictureTimeText(9999.4), "9999 ms");
+    EXPECT_EQ(pictureTimeText(9999.6), "10 s");
+    EXPECT_EQ(pictureTimeText(175557.2), "176 s");
 }
 
 TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
