@@ -212,7 +212,7 @@ private:
         }
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
-        const std::vector<InputEvent> events = window_.input().takeFrame();
+        const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
         learnLetters();

@@ -129,6 +129,7 @@ bool pathField(FileDialog& dialog) {
                                                                : "name or path; Tab completes, arrows choose";
     const bool isEntered =
         ImGui::InputTextWithHint("##path", hint, buffer.data(), buffer.size(), flags, heedKey, &dialog);
+    dialog.noteKeyboard(ImGui::IsItemActive());
     dialog.type(buffer.data());
     return isEntered;
 }
@@ -170,7 +171,11 @@ void fileDialog(State& state, float scale) {
     ImGui::SetNextWindowSize({std::min(kWidth * scale, display.x), std::min(kHeight * scale, display.y)});
     const ImGuiWindowFlags flags =
         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-    if (!ImGui::BeginPopupModal(title, nullptr, flags)) return;
+    if (state.files && state.question) state.files->leaveKeyboard();
+    if (!ImGui::BeginPopupModal(title, nullptr, flags)) {
+        if (state.files) state.files->noteKeyboard(false);
+        return;
+    }
     if (!isAsked) {
         ImGui::CloseCurrentPopup();
     } else {

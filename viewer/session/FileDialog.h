@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,6 +43,22 @@ public:
     /// The file that the text names is there, and is not written over unless accept() says so.
     bool asksToReplace() const { return asksToReplace_; }
 
+    /// Whether keys are to wait for the dialog's field. It has the keyboard some frames after the dialog opens, and
+    /// again some after Enter or a click; a key that came in between would be lost. They wait for kMostWaits frames at
+    /// most, as something else may have the keyboard.
+    bool keysWait() const { return !hasKeyboard_ && waits_ < kMostWaits; }
+    /// In each frame: whether the field has the keyboard.
+    void noteKeyboard(bool hasKeyboard) {
+        hasKeyboard_ = hasKeyboard;
+        waits_ = hasKeyboard ? 0 : std::min(waits_ + 1, kMostWaits);
+    }
+    /// Something else goes before it, and it begins anew then.
+    void leaveKeyboard() {
+        hasKeyboard_ = false;
+        waits_ = 0;
+    }
+    static constexpr int kMostWaits = 10; ///< frames; the field takes up to 4
+
     void type(const std::string& text);
     /// Chooses the entry so many lines on, from the first or the last where none is.
     void step(int lines);
@@ -72,6 +89,8 @@ private:
     bool isChosenByHand_ = false; ///< and goes before the text
     bool isMoved_ = false;        ///< takeMoved()
     bool asksToReplace_ = false;
+    bool hasKeyboard_ = false;
+    int waits_ = 0; ///< frames since the field lost the keyboard
 };
 
 /// The user's own folder; none where the environment names none.

@@ -129,6 +129,8 @@ struct State {
     }
     /// The picture and its keys wait.
     bool isAsking() const { return question || files; }
+    /// Keys are for the field of the dialog, which does not have the keyboard yet.
+    bool keysWait() const { return files && !question && files->keysWait(); }
     /// The selected light, and those that are selected with it.
     std::set<int> allSelectedLights() const;
     bool isLightSelected(int index) const;
