@@ -111,6 +111,7 @@ struct State {
     std::vector<Loupe> loupes;             ///< of this frame
     std::string dragText;                  ///< what the drag in progress sets, for the user
     bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
+    bool showsMaterial = false;            ///< a panel shows the selected material
     bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame
     std::string command;                   ///< that renders the picture, on request
     Timings timings;

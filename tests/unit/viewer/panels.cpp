@@ -127,6 +127,23 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     }
 }
 
+TEST_F(Panels, aMaterialIsShownWhereItsPanelIsOpenAndOneIsSelected) {
+    State state = test::unusualScene();
+    const auto isShown = [&] {
+        for (int i = 0; i < 3; ++i) frame([&] { drawInterface(state, {}, area(state), 1.0f); });
+        return state.showsMaterial;
+    };
+    state.selectedMaterial = 0;
+    EXPECT_FALSE(isShown()) << "the panel is folded at first";
+    state.sections["Materials"] = true;
+    EXPECT_TRUE(isShown());
+    state.showsPanel = false;
+    EXPECT_FALSE(isShown());
+    state.showsPanel = true;
+    state.selectedMaterial = scenes::kNone;
+    EXPECT_FALSE(isShown());
+}
+
 TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     State state;
     state.wantsPlan = true; // the graph was shown the frame before
