@@ -5,8 +5,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "viewer/session/FieldLetters.h"
 
 namespace tessera::viewer {
 
@@ -60,6 +63,9 @@ public:
     static constexpr int kMostWaits = 10; ///< frames; the field takes up to 4
 
     void type(const std::string& text);
+    /// The text as a field of the interface holds it, and what is typed there.
+    std::string inField() { return letters_.inField(text_); }
+    void typeInField(std::string_view held) { type(letters_.fromField(held)); }
     /// Chooses the entry so many lines on, from the first or the last where none is.
     void step(int lines);
     void choose(std::size_t entry);
@@ -84,6 +90,7 @@ private:
     bool isBuiltin_ = false;                      ///< the built-in scenes in its place
     std::optional<std::filesystem::path> listed_; ///< `folder_`, and what the text goes on to
     std::string text_, reason_, fault_;
+    FieldLetters letters_; ///< of names that it showed
     std::vector<FileEntry> entries_;
     std::optional<std::size_t> chosen_;
     bool isChosenByHand_ = false; ///< and goes before the text

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <utility>
@@ -283,6 +284,36 @@ TEST_F(Panels, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem)
     EXPECT_EQ(state.requests.saveAs, file);
     EXPECT_GT(most, 1) << "keys before the field listens are not what is tested";
     EXPECT_LT(most, FileDialog::kMostWaits) << "they were let go before it listened";
+}
+
+TEST_F(Panels, theDialogOfFilesKeepsItsButtonsInViewWhateverItSays) {
+    ImGui::GetIO().DisplaySize = {800.0f, 600.0f};
+    State state;
+    std::filesystem::path folder = "/";
+    for (int i = 0; i < 30; ++i) folder /= std::string(100, char('a' + i % 26));
+    state.files.emplace(FileDialog::Purpose::Save, folder, "absent/one.png", "the folder before is full");
+    const auto overflow = [&] {
+        for (int i = 0; i < 4; ++i) frame([&] { fileDialog(state, 1.0f); });
+        return ImGui::FindWindowByName("Save as###files")->ScrollMax.y;
+    };
+    EXPECT_FALSE(state.files->fault().empty());
+    EXPECT_EQ(overflow(), 0.0f) << "of a folder that is not there";
+    EXPECT_FALSE(state.files->accept());
+    EXPECT_EQ(overflow(), 0.0f) << "of a name below one";
+    state.files.emplace(FileDialog::Purpose::Save, "/tmp", "one.png");
+    EXPECT_EQ(overflow(), 0.0f);
+}
+
+TEST_F(Panels, aNameIsALabelOfOneLineWithAllItsSigns) {
+    EXPECT_EQ(labelOf("plain name.glb"), "plain name.glb");
+    EXPECT_EQ(labelOf("a##b###c"), "a# #b# # #c");
+    EXPECT_EQ(labelOf("two\nlines"), "two; lines");
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.lights[0].name = "lamp##hidden";
+    State state;
+    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    const std::string text = textOf([&] { lightsPanel(state); });
+    EXPECT_NE(text.find("hidden"), std::string::npos) << text;
 }
 
 TEST_F(Panels, keysDoNotWaitForAFieldThatNeverListens) {
