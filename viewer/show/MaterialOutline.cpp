@@ -17,6 +17,23 @@ std::vector<std::uint8_t> instancesOf(const scenes::Scene& scene, int material) 
     return haveIt;
 }
 
+/// Frames free nothing that they have no use for while one lives: light that is spread, and shadow maps, are for the
+/// pictures that follow, however many outlines were found in between.
+class KeepsUnused {
+public:
+    explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend), before_(backend.mostIdleFrames()) {
+        constexpr int kAnyFrames = 1 << 20;
+        backend_.setMostIdleFrames(kAnyFrames);
+    }
+    ~KeepsUnused() { backend_.setMostIdleFrames(before_); }
+    KeepsUnused(const KeepsUnused&) = delete;
+    KeepsUnused& operator=(const KeepsUnused&) = delete;
+
+private:
+    gpu::GraphBackend& backend_;
+    int before_;
+};
+
 } // namespace
 
 std::optional<MaterialOutline::Sight> MaterialOutline::sightOf(const State& state, const Screen& screen,
@@ -73,6 +90,7 @@ void MaterialOutline::find(Facts& facts, Screen& screen, Look look, const Sight&
     settings.idsOfNearest = true;
     settings.display = false;
     {
+        const KeepsUnused keeps(screen.renderer()->backend());
         const gpu::BandedDrawing banded(givesUp);
         screen.renderer()->draw(engine::Technique::Forward, settings);
     }
