@@ -11,7 +11,9 @@ shader::ProgramDesc IdsPass::program(const frame::FrameSpec& spec, Surfaces surf
 }
 
 IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
-    const bool blends = spec.features[frame::Feature::Blend];
+    const bool hasTransparent = spec.features[frame::Feature::Blend];
+    const bool blends = hasTransparent && !spec.settings.idsOfNearest;
+    const bool covers = hasTransparent && spec.settings.idsOfNearest;
     return graph.addPass<Outputs>(
         "ids",
         [&](graph::PassBuilder& pass, Outputs& out) {
@@ -22,7 +24,7 @@ IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
             out.depth =
                 pass.create("depth", spec.renderTarget(graph::Format::Depth32Float), graph::Access::DepthAttachment);
         },
-        [blends](const Outputs& out, const graph::PassContext& context) {
+        [blends, covers](const Outputs& out, const graph::PassContext& context) {
             context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f));
             gpu::clearDepth(0.0f);
@@ -31,6 +33,7 @@ IdsPass::Outputs IdsPass::add(graph::Graph& graph, const frame::FrameSpec& spec,
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.depthWrite = true;
             out.read.surfaces.draw(context, Surfaces::Opaque, state);
+            if (covers) out.read.surfaces.draw(context, Surfaces::Transparent, state);
             if (!blends) return;
             gpu::useProgram(context.program(1));
             state.depthWrite = false;

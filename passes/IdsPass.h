@@ -7,7 +7,8 @@ namespace tessera::passes {
 /// Reads   the scene
 /// Writes  ids RGBA32F: R 1 + the opaque surface's mesh instance in document order, 0 without one; G its triangle in
 ///         the mesh; B the sum over transparent surfaces before it of a number below 2^16 each; A the coverage. Depth
-///         D32F of opaque surfaces. Both are of FrameSpec::samples
+///         D32F of opaque surfaces. Both are of FrameSpec::samples. With FrameSettings::idsOfNearest transparent
+///         surfaces count as opaque, and B is 0
 /// Space   lighting space, through the vertex function that every pass shares
 struct IdsPass {
     using Surfaces = frame::SurfaceHandles::Kind;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -162,6 +163,18 @@ void forEachPlayed(const Rig& rig, const auto& use) {
         if (isPlayed[i] && rig.numbers[i].element != kNone) use(rig.numbers[i]);
 }
 
+/// Calls `use` with what of a material has a number at rest: the material, or its use of a texture.
+void usePartOf(auto& material, const RestNumber& rest, const auto& use) {
+    if (rest.slot == TextureSlot::Count)
+        use(material);
+    else
+        use(material.texture(rest.slot).transform);
+}
+
+bool isOf(const RestNumber& rest, std::size_t material) {
+    return isOfMaterial(infoOf(rest.property).owner) && rest.element == int(material);
+}
+
 } // namespace
 
 Pose poseAt(const Rig& rig, double timeSeconds) {
@@ -243,13 +256,49 @@ std::vector<Material> restingMaterials(const Scene& scene) {
     std::vector<Material> materials = scene.materials;
     forEachPlayed(scene.rig, [&](const RestNumber& rest) {
         if (!isOfMaterial(infoOf(rest.property).owner)) return;
-        Material& material = materials[std::size_t(rest.element)];
-        if (rest.slot == TextureSlot::Count)
-            setRest(material, rest);
-        else
-            setRest(material.texture(rest.slot).transform, rest);
+        usePartOf(materials[std::size_t(rest.element)], rest, [&](auto& part) { setRest(part, rest); });
     });
     return materials;
+}
+
+Material restingMaterial(const Scene& scene, std::size_t index) {
+    Material material = scene.materials[index];
+    forEachPlayed(scene.rig, [&](const RestNumber& rest) {
+        if (isOf(rest, index)) usePartOf(material, rest, [&](auto& part) { setRest(part, rest); });
+    });
+    return material;
+}
+
+Material editedAtRest(const Scene& scene, std::size_t index, Material edited) {
+    forEachPlayed(scene.rig, [&](const RestNumber& rest) {
+        if (!isOf(rest, index)) return;
+        glm::dvec4 posed{0.0};
+        const AnimatedMember& member = infoOf(rest.property).member;
+        usePartOf(scene.materials[index], rest, [&](const auto& part) { posed = numberOf(part, member); });
+        usePartOf(edited, rest, [&](auto& part) {
+            if (numberOf(part, member) == posed) setRest(part, rest);
+        });
+    });
+    return edited;
+}
+
+void replaceMaterial(Scene& scene, std::size_t index, Material resting, double timeSeconds) {
+    scene.materials[index] = std::move(resting);
+    bool isPosed = false;
+    for (RestNumber& rest : scene.rig.numbers) {
+        if (!isOf(rest, index)) continue;
+        isPosed = true;
+        usePartOf(scene.materials[index], rest,
+                  [&](auto& part) { rest.number = numberOf(part, infoOf(rest.property).member); });
+    }
+    if (!isPosed) return;
+    const Pose pose = poseAt(scene.rig, timeSeconds);
+    for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
+        const RestNumber& rest = scene.rig.numbers[i];
+        if (!isOf(rest, index) || !pose.numbers[i]) continue;
+        usePartOf(scene.materials[index], rest,
+                  [&](auto& part) { setPosed(part, infoOf(rest.property), *pose.numbers[i]); });
+    }
 }
 
 bool hasPoses(const Scene& scene) {

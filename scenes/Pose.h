@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,15 @@ void takeRest(Scene& scene);
 
 /// The scene's materials, with the numbers at rest in place of those that clips which play change.
 std::vector<Material> restingMaterials(const Scene& scene);
+
+/// The same of one of them.
+Material restingMaterial(const Scene& scene, std::size_t index);
+/// What an edit of a posed material makes of it at rest: a number that a clip which plays changes stays at rest where
+/// the edit leaves it alone.
+Material editedAtRest(const Scene& scene, std::size_t index, Material edited);
+/// Puts a material at rest in the place of another: its numbers are those at rest from now on. The scene shows it as it
+/// is at a time of the clips that play.
+void replaceMaterial(Scene& scene, std::size_t index, Material resting, double timeSeconds);
 
 /// Whether a pose changes anything of the scene.
 bool hasPoses(const Scene& scene);

@@ -24,6 +24,7 @@
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
 #include "viewer/show/Inspector.h"
+#include "viewer/show/MaterialOutline.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/show/PictureDrawing.h"
 #include "viewer/window/Gui.h"
@@ -83,7 +84,8 @@ private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
     bool awaitsRest() const {
-        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest();
+        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest() ||
+               outline_.awaitsRest();
     }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
@@ -212,7 +214,7 @@ private:
         }
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
-        const std::vector<InputEvent> events = window_.input().takeFrame();
+        const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
         learnLetters();
@@ -246,6 +248,19 @@ private:
             pulse_.another();
             if (facts_.inspection && facts_.inspection->isSurfaceKnown)
                 log_.line(fmt::format("inspected {}", fmt::join(inspectionLines(*facts_.inspection), "; ")));
+        });
+        attempt([this, drew] {
+            const bool isAtRest = !drew && drawing_.isSettled() && now() >= pulse_.restAt;
+            if (outline_.update(facts_, state_, screen_, drawing_.wanted().looks[0], isAtRest, [this] {
+                    window_.poll();
+                    return window_.shouldClose() || window_.hasActivity() || notedEnd() != 0;
+                })) {
+                pulse_.another();
+                if (facts_.materialOutline) {
+                    const auto material = std::size_t(facts_.materialOutline->material);
+                    log_.line("outlined " + state_.open->scene().materials[material].name);
+                }
+            }
         });
         show();
         drawing_.setDescribed(!drew);
@@ -420,6 +435,7 @@ private:
     Saver saver_;
     Measurements measurements_;
     Inspector inspector_;
+    MaterialOutline outline_;
     Document document_; ///< last: its threads end before what they wake
 };
 

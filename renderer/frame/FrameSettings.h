@@ -152,6 +152,7 @@ struct FrameSettings {
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;
     DebugView view = DebugView::Final;
+    bool idsOfNearest = false; ///< the view ids tells transparent surfaces as if they were opaque: for outlines
     TextureFilter filter = TextureFilter::Hardware;
     LightingSpace space = LightingSpace::World;
     bool prune = true;

@@ -54,7 +54,7 @@ TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIn
         viewer.click(kPictureCorner + glm::ivec2(home.sizePixels.x / 2, y));
         EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10") << y;
     }
-    EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
+    EXPECT_LT(differingShare(after(viewer, [&] { viewer.key("Home"); }), home), 0.01) << "but for the outline";
 }
 
 TEST_F(ViewerCameras, aPictureAtRestIsNotDrawnAgain) {

@@ -303,7 +303,14 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     viewer.pause(0.5);
     constexpr int kMetallicRow = 4;
     const glm::ivec2 most = inRow(viewer, Section::Materials, kMetallicRow, 286);
-    const Shot metal = after(viewer, [&] { viewer.click(most); });
+    const std::size_t edited = viewer.mark();
+    viewer.click(most);
+    viewer.waitFor("outlined metalness 0/4, roughness 4/10", edited);
+    const Shot outlined = pictureIn(viewer, viewer.waitForWhole(edited));
+    toggle(viewer, Section::Materials); // takes the outline away
+    const Shot metal = pictureIn(viewer, outlined.sizePixels);
+    EXPECT_GT(differingShare(outlined, metal), 0.0005) << "the sphere has no outline";
+    EXPECT_LT(differingShare(outlined, metal), 0.01) << "more than an outline";
     const double share = differingShare(metal, before, 4);
     EXPECT_GT(share, 0.005) << "nothing became metal";
     EXPECT_LT(share, 0.03) << "more than the one sphere changed";

@@ -129,11 +129,7 @@ TEST_F(ViewerFiles, aSceneAndAPictureAreSavedUnderNamesOfTheUsersChoice) {
     viewer.key("Return");
     viewer.pause(0.5);
     EXPECT_EQ(shell("cat kept/taken.png"), "not a picture") << "Enter twice is no answer";
-    // The field takes keys again some frames after Enter; a busy machine draws few.
-    for (int i = 0; i < 5 && shell("cat kept/taken.png") == "not a picture"; ++i) {
-        viewer.key("ctrl+Return");
-        viewer.pause(2.0);
-    }
+    viewer.key("ctrl+Return");
     viewer.waitFor("saved ", mark);
     EXPECT_TRUE(readShot(folder_.path() / "kept" / "taken.png") == shown);
     viewer.key("Escape");

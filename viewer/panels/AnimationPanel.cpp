@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,8 +24,9 @@ void clipRow(State& state) {
     const scenes::Rig& rig = state.open->scene().rig;
     if (rig.clips.empty()) return;
     std::vector<std::string> names{std::string(scenes::kNoClip)};
+    std::unordered_set<std::string> known(names.begin(), names.end()); // there may be thousands
     for (std::size_t i = 0; i < rig.clips.size(); ++i)
-        if (std::string name = calledBy(rig, i); std::ranges::find(names, name) == names.end())
+        if (std::string name = calledBy(rig, i); known.insert(name).second)
             names.push_back(std::move(name)); // all clips of a name play together
     std::vector<std::string> playing;
     for (const int clip : rig.playing) playing.push_back(calledBy(rig, std::size_t(clip)));

@@ -3,10 +3,13 @@
 #include <array>
 #include <cfloat>
 #include <cstring>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "base/OneLine.h"
+#include "base/Utf8.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 
@@ -15,19 +18,31 @@ namespace {
 
 using Purpose = FileDialog::Purpose;
 
-constexpr std::size_t kLongestPath = 4096; ///< bytes, the most that Linux takes
+constexpr std::size_t kLongestPath = 4096;            ///< bytes, the most that Linux takes
+constexpr std::size_t kFieldBytes = 3 * kLongestPath; ///< FieldLetters makes three of one
+constexpr std::size_t kShownBytes = 200;              ///< of a path or a fault: three lines of the dialog at most
+
+/// The end of a long text, which says more of a path than its beginning.
+std::string endOf(const std::string& text) {
+    const std::string line = oneLine(text, text.max_size());
+    if (line.size() <= kShownBytes) return line;
+    std::size_t begin = line.size() - kShownBytes;
+    while (begin < line.size() && letterBytes(std::string_view(line).substr(begin)) == 0) ++begin;
+    return "... " + line.substr(begin);
+}
 
 /// Up, Down and Tab in the field.
 int heedKey(ImGuiInputTextCallbackData* data) {
     FileDialog& dialog = *static_cast<FileDialog*>(data->UserData);
-    dialog.type({data->Buf, std::size_t(data->BufTextLen)});
+    dialog.typeInField({data->Buf, std::size_t(data->BufTextLen)});
     if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
         dialog.step(data->EventKey == ImGuiKey_UpArrow ? -1 : 1);
     } else {
         dialog.complete();
-        if (dialog.text().size() >= kLongestPath) return 0;
+        const std::string completed = dialog.inField();
+        if (completed.size() >= kFieldBytes) return 0;
         data->DeleteChars(0, data->BufTextLen);
-        data->InsertChars(0, dialog.text().c_str());
+        data->InsertChars(0, completed.c_str());
     }
     return 0;
 }
@@ -72,8 +87,10 @@ void placeRow(const State& state, FileDialog& dialog) {
     if (!isOpen) return;
     closeOnEscape();
     for (const std::string& folder : recent) {
-        if (ImGui::Selectable(folder.c_str())) dialog.goTo(folder);
+        ImGui::PushID(folder.c_str());
+        if (ImGui::Selectable(labelOf(folder).c_str())) dialog.goTo(folder);
         tip("A folder of a scene that was opened lately");
+        ImGui::PopID();
     }
     ImGui::EndCombo();
 }
@@ -96,7 +113,7 @@ bool entryRows(FileDialog& dialog, float height) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             const FileEntry& entry = entries[std::size_t(i)];
             const bool isChosen = dialog.chosen() == std::size_t(i);
-            const std::string name = entry.name + (entry.isFolder ? "/" : "");
+            const std::string name = labelOf(entry.name + (entry.isFolder ? "/" : ""));
             ImGui::PushID(i);
             if (ImGui::Selectable(name.c_str(), isChosen, ImGuiSelectableFlags_AllowDoubleClick)) {
                 clicked = std::size_t(i);
@@ -116,9 +133,9 @@ bool entryRows(FileDialog& dialog, float height) {
 
 /// The field of the path. Whether Enter was pressed in it.
 bool pathField(FileDialog& dialog) {
-    std::array<char, kLongestPath> buffer{};
-    const std::string& text = dialog.text();
-    std::memcpy(buffer.data(), text.data(), std::min(text.size(), kLongestPath - 1));
+    std::array<char, kFieldBytes> buffer{};
+    const std::string text = dialog.inField();
+    std::memcpy(buffer.data(), text.data(), std::min(text.size(), kFieldBytes - 1));
     const bool isFree = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::IsAnyItemActive() &&
                         !ImGui::IsMouseDown(ImGuiMouseButton_Left);
     if (isFree) ImGui::SetKeyboardFocusHere();
@@ -129,7 +146,8 @@ bool pathField(FileDialog& dialog) {
                                                                : "name or path; Tab completes, arrows choose";
     const bool isEntered =
         ImGui::InputTextWithHint("##path", hint, buffer.data(), buffer.size(), flags, heedKey, &dialog);
-    dialog.type(buffer.data());
+    dialog.noteKeyboard(ImGui::IsItemActive());
+    dialog.typeInField(buffer.data());
     return isEntered;
 }
 
@@ -170,19 +188,26 @@ void fileDialog(State& state, float scale) {
     ImGui::SetNextWindowSize({std::min(kWidth * scale, display.x), std::min(kHeight * scale, display.y)});
     const ImGuiWindowFlags flags =
         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-    if (!ImGui::BeginPopupModal(title, nullptr, flags)) return;
+    if (state.files && state.question) state.files->leaveKeyboard();
+    if (!ImGui::BeginPopupModal(title, nullptr, flags)) {
+        if (state.files) state.files->noteKeyboard(false);
+        return;
+    }
     if (!isAsked) {
         ImGui::CloseCurrentPopup();
     } else {
         FileDialog& dialog = *state.files;
-        if (!dialog.reason().empty()) errorParagraph(dialog.reason());
+        if (!dialog.reason().empty()) errorParagraph(endOf(dialog.reason()));
         placeRow(state, dialog);
-        paragraph(dialog.folder() ? dialog.folder()->string() : std::string("Built-in scenes"));
-        const float line = ImGui::GetFrameHeightWithSpacing();
-        const float below = 2.0f * line + 2.0f * ImGui::GetTextLineHeightWithSpacing();
+        paragraph(dialog.folder() ? endOf(dialog.folder()->string()) : std::string("Built-in scenes"));
+        const std::string fault = endOf(dialog.fault());
+        const float line = ImGui::GetFrameHeightWithSpacing(), spacing = ImGui::GetStyle().ItemSpacing.y;
+        const float faultHeight =
+            ImGui::CalcTextSize(fault.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x).y;
+        const float below = 2.0f * line + std::max(2.0f * ImGui::GetTextLineHeight(), faultHeight) + 2.0f * spacing;
         const bool isAccepted = entryRows(dialog, std::max(ImGui::GetContentRegionAvail().y - below, 3.0f * line));
         const bool isEntered = pathField(dialog);
-        if (!dialog.fault().empty()) errorParagraph(dialog.fault());
+        if (!dialog.fault().empty()) errorParagraph(endOf(dialog.fault()));
         answerButtons(state, isEntered || isAccepted);
     }
     ImGui::EndPopup();

@@ -228,10 +228,11 @@ std::string pictureTimeText(double ms) {
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
     const float height = ImGui::GetIO().DisplaySize.y;
     state.loupes.clear();
-    state.wantsPlan = false; // unless a panel that is seen says so
+    state.wantsPlan = state.showsMaterial = false; // unless a panel that is seen says so
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);
+        drawMaterialOutline(state, facts, area);
         drawMarkers(state, area, scale);
         drawHandles(state, area);
         drawDivider(state, area, scale); // which is taken before a handle

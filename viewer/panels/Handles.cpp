@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -52,6 +53,9 @@ public:
         list_.AddLine(at(from), at(to), kUnderInk, kUnderWidth * area_.scale);
         list_.AddLine(at(from), at(to), kFigureInk, kLineWidth * area_.scale);
     }
+    /// First of all, so that none lies on another's ink.
+    void underContour(const std::vector<ImVec2>& points) { contour(points, kUnderInk, kUnderWidth); }
+    void inkContour(const std::vector<ImVec2>& points) { contour(points, kFigureInk, kLineWidth); }
     /// Square, or round where it turns the light.
     void handle(const LightHandle& handle, bool isPointed) {
         const ImVec2 place = at(handle.place);
@@ -76,9 +80,13 @@ public:
         }
     }
 
-private:
     ImVec2 at(const glm::dvec2& place) const {
         return {area_.corner.x + float(place.x), area_.corner.y + float(place.y)};
+    }
+
+private:
+    void contour(const std::vector<ImVec2>& points, ImU32 ink, float width) {
+        list_.AddPolyline(points.data(), int(points.size()), ink, ImDrawFlags_None, width * area_.scale);
     }
 
     const PictureArea& area_;
@@ -120,6 +128,20 @@ void drawHandles(const State& state, const PictureArea& area) {
     const std::optional<LightHandle> pointed = pointedHandle(state, area, *figure);
     for (const LightHandle& handle : figure->handles) ink.handle(handle, pointed && pointed->number == handle.number);
     if (pointed) ImGui::SetMouseCursor(cursorOf(pointerShapeOf(*pointed)));
+}
+
+void drawMaterialOutline(const State& state, const Facts& facts, const PictureArea& area) {
+    if (!state.showsMaterial || !facts.materialOutline || facts.materialOutline->material != state.selectedMaterial)
+        return;
+    PictureInk ink(area);
+    const glm::dvec2 scale = glm::dvec2(area.size) / glm::dvec2(facts.materialOutline->sizePixels);
+    std::vector<std::vector<ImVec2>> lines;
+    for (const Contour& contour : facts.materialOutline->contours) {
+        std::vector<ImVec2>& points = lines.emplace_back();
+        for (const glm::vec2& place : contour) points.push_back(ink.at(glm::dvec2(place) * scale));
+    }
+    for (const std::vector<ImVec2>& points : lines) ink.underContour(points);
+    for (const std::vector<ImVec2>& points : lines) ink.inkContour(points);
 }
 
 void drawDragText(const State& state, const PictureArea& area) {

@@ -49,7 +49,7 @@ void tableRow(State& state, int index, bool isScrolledTo) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
-    const std::string name = lightLabel(lights, std::size_t(index));
+    const std::string name = labelOf(lightLabel(lights, std::size_t(index)));
     if (ImGui::Selectable(name.c_str(), state.isLightSelected(index))) selectLight(state, index, choosingNow());
     tip("Ctrl and a click selects several, Shift and a click all between");
     if (isScrolledTo && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();

@@ -186,6 +186,7 @@ void materialsPanel(State& state) {
     if (state.selectedMaterial == scenes::kNone)
         return paragraph(materials.empty() ? "This scene has no materials."
                                            : "Click a surface in the picture to edit its material.");
+    state.showsMaterial = true;
     const auto index = std::size_t(state.selectedMaterial);
     Material edited = materials[index];
     if (materialRows(edited)) state.open->changeMaterial(index, std::move(edited), widgetGesture());

@@ -20,12 +20,12 @@ std::string shortName(const std::string& source) {
 void sceneList(State& state) {
     row("Scene");
     const std::string shown = state.open ? shortName(state.open->source()) : "none";
-    if (!ImGui::BeginCombo("##Scene", shown.c_str(), ImGuiComboFlags_HeightLargest)) return;
+    if (!ImGui::BeginCombo("##Scene", labelOf(shown).c_str(), ImGuiComboFlags_HeightLargest)) return;
     closeOnEscape();
     const auto entry = [&](const std::string& source, std::string_view meaning) {
         const bool isOpen = state.open && identityOf(state.open->source()) == identityOf(source);
         ImGui::PushID(source.c_str());
-        if (ImGui::Selectable(shortName(source).c_str(), isOpen)) state.requests.open = source;
+        if (ImGui::Selectable(labelOf(shortName(source)).c_str(), isOpen)) state.requests.open = source;
         tip(meaning);
         ImGui::PopID();
     };

@@ -29,7 +29,7 @@ void tableRow(State& state, const engine::DrawnShadows& shadows, std::size_t row
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(int(row)); // names may be equal
-    const std::string name = lightLabel(lights, std::size_t(light.sceneIndex));
+    const std::string name = labelOf(lightLabel(lights, std::size_t(light.sceneIndex)));
     if (ImGui::Selectable(name.c_str(), light.sceneIndex == state.selectedLight, ImGuiSelectableFlags_SpanAllColumns))
         state.selectedLight = light.sceneIndex;
     if (shadows.hasMaps && light.sideTexels < light.wantedTexels)

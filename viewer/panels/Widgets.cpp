@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "base/OneLine.h"
 #include "viewer/panels/Meanings.h"
 
 namespace tessera::viewer {
@@ -90,8 +91,7 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
                                   std::string_view meaning) {
     std::optional<std::size_t> result;
     row(label, meaning.empty() ? meaningOf(label) : meaning);
-    if (!ImGui::BeginCombo(idOf(label).c_str(), std::string(shown).c_str(), ImGuiComboFlags_HeightLargest))
-        return result;
+    if (!ImGui::BeginCombo(idOf(label).c_str(), labelOf(shown).c_str(), ImGuiComboFlags_HeightLargest)) return result;
     closeOnEscape();
     ImGuiListClipper clipper;
     clipper.Begin(int(count));
@@ -101,7 +101,7 @@ std::optional<std::size_t> choose(const char* label, std::string_view shown, std
             const auto i = std::size_t(row);
             const Choice choice = choiceAt(i);
             ImGui::PushID(row); // names may be equal
-            if (ImGui::Selectable(std::string(choice.name).c_str(), i == chosen,
+            if (ImGui::Selectable(labelOf(choice.name).c_str(), i == chosen,
                                   choice.isPossible ? 0 : ImGuiSelectableFlags_Disabled))
                 result = i;
             if (i == chosen) ImGui::SetItemDefaultFocus();
@@ -143,6 +143,15 @@ bool dragVector(const char* label, glm::dvec3& value, float speed, double most) 
         return ImGui::DragScalarN(idOf(label).c_str(), ImGuiDataType_Double, &edited.x, 3, speed, nullptr, nullptr,
                                   "%.3f");
     });
+}
+
+std::string labelOf(std::string_view name) {
+    std::string label;
+    for (const char sign : oneLine(name)) {
+        if (sign == '#' && label.ends_with('#')) label += ' ';
+        label += sign;
+    }
+    return label;
 }
 
 void closeOnEscape() {

@@ -61,6 +61,10 @@ bool colorRow(const char* label, glm::vec3& color, float most = 1.0f);
 /// A square of a linear colour: swatchOfColor().
 void colorSwatch(const glm::vec3& linear, float sidePixels);
 
+/// A name of a file, or in one, as the label of a widget: on one line, and with all of its signs; Dear ImGui would hide
+/// two "#" and what follows.
+std::string labelOf(std::string_view name);
+
 /// Lets Esc close the list that is being drawn.
 void closeOnEscape();
 

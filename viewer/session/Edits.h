@@ -24,7 +24,7 @@ struct LightsEdit {
 
 struct MaterialEdit {
     std::size_t index = 0;
-    scenes::Material other;
+    scenes::Material other; ///< with numbers at rest that clips change
 };
 
 /// A parameter of the scene's hook.

@@ -2,11 +2,13 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/Renderer.h"
 #include "renderer/graph/Plan.h"
 #include "validation/culling/LightOracle.h"
 #include "validation/figures/ErrorFigures.h"
+#include "viewer/edit/Contour.h"
 #include "viewer/session/Inspection.h"
 #include "viewer/session/Look.h"
 
@@ -48,6 +50,13 @@ struct Facts {
     };
     std::array<std::optional<MostCount>, 2> mostCounts;
     std::optional<Inspection> inspection;
+    /// Where the picture shows the selected material.
+    struct MaterialContours {
+        int material = scenes::kNone;
+        glm::ivec2 sizePixels{0}; ///< of the picture that they are in
+        std::vector<Contour> contours;
+    };
+    std::optional<MaterialContours> materialOutline;
     std::optional<validation::ErrorFigures> figures; ///< of the left picture against the right
     bool figuresAreOld = false;                      ///< newer ones are on their way
 };

@@ -75,18 +75,30 @@ std::string savedEndings() {
     return fmt::format("{}", fmt::join(endings, ", "));
 }
 
-/// Without files whose names begin with a dot, unless asked for; throws filesystem_error.
+/// Without files whose names begin with a dot, unless asked for; throws filesystem_error. A folder may hold a hundred
+/// thousand, and is read with every letter that is typed.
 std::vector<FileEntry> entriesOf(const Path& folder, const std::string& begin, FileDialog::Purpose purpose) {
-    std::vector<FileEntry> entries;
+    struct Found {
+        FileEntry entry;
+        std::string folded;
+    };
+    std::vector<Found> all;
     for (const std::filesystem::directory_entry& found : std::filesystem::directory_iterator(folder)) {
-        const std::string name = found.path().filename().string();
+        std::string name = found.path().filename().string();
         if (!beginsWith(name, begin) || (name.starts_with('.') && begin.empty())) continue;
-        const bool isFolder = isFolderAt(found.path());
-        if (isFolder || isOffered(found.path(), purpose)) entries.push_back({name, isFolder});
+        std::error_code error;
+        const bool isFolder = found.is_directory(error); // the system has said it already, but of links
+        if (!isFolder && !isOffered(found.path(), purpose)) continue;
+        std::string small = folded(name);
+        all.push_back({{std::move(name), isFolder}, std::move(small)});
     }
-    std::ranges::sort(entries, {}, [](const FileEntry& entry) {
-        return std::tuple(!entry.isFolder, folded(entry.name), entry.name);
+    std::ranges::sort(all, [](const Found& a, const Found& b) {
+        return std::tuple(!a.entry.isFolder, std::string_view(a.folded), std::string_view(a.entry.name)) <
+               std::tuple(!b.entry.isFolder, std::string_view(b.folded), std::string_view(b.entry.name));
     });
+    std::vector<FileEntry> entries;
+    entries.reserve(all.size());
+    for (Found& found : all) entries.push_back(std::move(found.entry));
     return entries;
 }
 

@@ -1,11 +1,15 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "viewer/session/FieldLetters.h"
 
 namespace tessera::viewer {
 
@@ -42,7 +46,26 @@ public:
     /// The file that the text names is there, and is not written over unless accept() says so.
     bool asksToReplace() const { return asksToReplace_; }
 
+    /// Whether keys are to wait for the dialog's field. It has the keyboard some frames after the dialog opens, and
+    /// again some after Enter or a click; a key that came in between would be lost. They wait for kMostWaits frames at
+    /// most, as something else may have the keyboard.
+    bool keysWait() const { return !hasKeyboard_ && waits_ < kMostWaits; }
+    /// In each frame: whether the field has the keyboard.
+    void noteKeyboard(bool hasKeyboard) {
+        hasKeyboard_ = hasKeyboard;
+        waits_ = hasKeyboard ? 0 : std::min(waits_ + 1, kMostWaits);
+    }
+    /// Something else goes before it, and it begins anew then.
+    void leaveKeyboard() {
+        hasKeyboard_ = false;
+        waits_ = 0;
+    }
+    static constexpr int kMostWaits = 10; ///< frames; the field takes up to 4
+
     void type(const std::string& text);
+    /// The text as a field of the interface holds it, and what is typed there.
+    std::string inField() { return letters_.inField(text_); }
+    void typeInField(std::string_view held) { type(letters_.fromField(held)); }
     /// Chooses the entry so many lines on, from the first or the last where none is.
     void step(int lines);
     void choose(std::size_t entry);
@@ -67,11 +90,14 @@ private:
     bool isBuiltin_ = false;                      ///< the built-in scenes in its place
     std::optional<std::filesystem::path> listed_; ///< `folder_`, and what the text goes on to
     std::string text_, reason_, fault_;
+    FieldLetters letters_; ///< of names that it showed
     std::vector<FileEntry> entries_;
     std::optional<std::size_t> chosen_;
     bool isChosenByHand_ = false; ///< and goes before the text
     bool isMoved_ = false;        ///< takeMoved()
     bool asksToReplace_ = false;
+    bool hasKeyboard_ = false;
+    int waits_ = 0; ///< frames since the field lost the keyboard
 };
 
 /// The user's own folder; none where the environment names none.

@@ -196,9 +196,11 @@ void OpenScene::changeLight(std::size_t index, scenes::Light changed, Gesture ge
 void OpenScene::changeMaterial(std::size_t index, scenes::Material changed, Gesture gesture) {
     const scenes::Material& now = scene_.materials[index];
     if (changed == now) return;
-    MaterialEdit edit{index, std::move(changed)};
+    const scenes::Material resting = scenes::restingMaterial(scene_, index);
+    MaterialEdit edit{index, scenes::editedAtRest(scene_, index, std::move(changed))};
+    if (edit.other == resting) return;
     const Edit* const begun = history_.continued(edit, gesture);
-    const scenes::Material& before = begun != nullptr ? std::get<MaterialEdit>(*begun).other : now;
+    const scenes::Material& before = begun != nullptr ? std::get<MaterialEdit>(*begun).other : resting;
     std::string what = changeText(before, edit.other, now.name.empty() ? fmt::format("{}", index) : now.name);
     apply(std::move(what), std::move(edit), gesture);
 }
@@ -278,7 +280,9 @@ void OpenScene::exchange(LightsEdit& edit) {
 }
 
 void OpenScene::exchange(MaterialEdit& edit) {
-    std::swap(scene_.materials[edit.index], edit.other);
+    scenes::Material before = scenes::restingMaterial(scene_, edit.index);
+    scenes::replaceMaterial(scene_, edit.index, std::move(edit.other), shownSeconds_);
+    edit.other = std::move(before);
     ++materialRevision_;
 }
 

@@ -111,6 +111,7 @@ struct State {
     std::vector<Loupe> loupes;             ///< of this frame
     std::string dragText;                  ///< what the drag in progress sets, for the user
     bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
+    bool showsMaterial = false;            ///< a panel shows the selected material
     bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame
     std::string command;                   ///< that renders the picture, on request
     Timings timings;
@@ -129,6 +130,8 @@ struct State {
     }
     /// The picture and its keys wait.
     bool isAsking() const { return question || files; }
+    /// Keys are for the field of the dialog, which does not have the keyboard yet.
+    bool keysWait() const { return files && !question && files->keysWait(); }
     /// The selected light, and those that are selected with it.
     std::set<int> allSelectedLights() const;
     bool isLightSelected(int index) const;

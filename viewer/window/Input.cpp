@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <GLFW/glfw3.h>
+
 namespace tessera::viewer {
 namespace {
 
@@ -9,11 +11,46 @@ bool isSwitch(const InputEvent& event) {
     return event.kind == InputEvent::Kind::Button || event.kind == InputEvent::Kind::Key;
 }
 
+/// Whether it is the press of a key, or what that writes.
+bool isKeyPress(const InputEvent& event) {
+    return (event.kind == InputEvent::Kind::Key && event.down) || event.kind == InputEvent::Kind::Character;
+}
+
+/// Shift, Ctrl, Alt and Super.
+bool isModifier(const InputEvent& event) {
+    return event.kind == InputEvent::Kind::Key && event.code >= GLFW_KEY_LEFT_SHIFT &&
+           event.code <= GLFW_KEY_RIGHT_SUPER;
+}
+
+/// Whether it means something else while a modifier is held.
+bool heedsModifiers(const InputEvent& event) {
+    switch (event.kind) {
+    case InputEvent::Kind::Key:
+        return event.down && !isModifier(event);
+    case InputEvent::Kind::Button:
+    case InputEvent::Kind::Scroll:
+    case InputEvent::Kind::Character:
+        return true;
+    case InputEvent::Kind::Move:
+    case InputEvent::Kind::Focus:
+        break;
+    }
+    return false;
+}
+
+/// Whether it is the press of a key that edits text but writes none, such as Enter, Tab or an arrow.
+bool isEditingKey(const InputEvent& event) {
+    return event.kind == InputEvent::Kind::Key && event.down &&
+           ((event.code >= GLFW_KEY_ESCAPE && event.code < GLFW_KEY_KP_0) || event.code == GLFW_KEY_KP_ENTER);
+}
+
 /// Whether one frame can hold `next` after `taken`.
 bool fits(const std::vector<InputEvent>& taken, const InputEvent& next) {
     const auto any = [&](auto&& conflicts) { return std::any_of(taken.begin(), taken.end(), conflicts); };
     if (next.kind == InputEvent::Kind::Move || next.kind == InputEvent::Kind::Scroll)
         return !any([](const InputEvent& event) { return event.kind == InputEvent::Kind::Button; });
+    if (isModifier(next) && any(heedsModifiers)) return false;
+    if (next.kind == InputEvent::Kind::Character) return !any(isEditingKey);
     if (isSwitch(next))
         return !any([&](const InputEvent& event) { return event.kind == next.kind && event.code == next.code; });
     return true;
@@ -39,9 +76,9 @@ bool InputQueue::isUrgent() const {
     });
 }
 
-std::vector<InputEvent> InputQueue::takeFrame() {
+std::vector<InputEvent> InputQueue::takeFrame(bool keysWait) {
     std::vector<InputEvent> taken;
-    while (!events_.empty() && fits(taken, events_.front())) {
+    while (!events_.empty() && !(keysWait && isKeyPress(events_.front())) && fits(taken, events_.front())) {
         taken.push_back(events_.front());
         events_.pop_front();
     }

@@ -26,9 +26,11 @@ class InputQueue {
 public:
     void push(const InputEvent& event);
     /// The events of the next frame: as many as one frame of a user interface can tell apart. It sees a pointer in one
-    /// place and a button or key either down or up, so the events end before one that would undo what another of them
-    /// did, and before the pointer moves on from where a button changed.
-    std::vector<InputEvent> takeFrame();
+    /// place, a button or key either down or up, Shift and Ctrl held throughout or not at all, and text before other
+    /// keys. So the events end before one that would undo what another of them did, before the pointer moves on from
+    /// where a button changed, before Shift or Ctrl change after something that heeds them, and before text that was
+    /// typed after a key such as Enter. With `keysWait` they also end before the first press of a key.
+    std::vector<InputEvent> takeFrame(bool keysWait = false);
     bool empty() const { return events_.empty(); }
     /// Whether a button, a wheel or a key that was not held down already waits.
     bool isUrgent() const;

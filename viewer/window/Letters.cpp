@@ -35,7 +35,12 @@ std::uint32_t letterOf(std::string_view text, std::size_t bytes) {
 } // namespace
 
 void Letters::note(std::string_view text) {
-    while (!text.empty()) {
+    while (true) {
+        // Names of a hundred thousand files are noted in every frame, and most have none.
+        const auto beyond =
+            std::ranges::find_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0x80u) != 0; });
+        text.remove_prefix(std::size_t(beyond - text.begin()));
+        if (text.empty()) return;
         const std::size_t bytes = letterBytes(text);
         if (bytes > 1) {
             const std::uint32_t letter = letterOf(text, bytes);

@@ -37,9 +37,9 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
-                     filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                     shadowMaps, subsurface, diffusion, environment, refraction, culling, lightOn, snapPixels,
-                     texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
+                     idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
+                     shadowSamples, shadowMaps, subsurface, diffusion, environment, refraction, culling, lightOn,
+                     snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
@@ -50,8 +50,8 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                                     gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
                                     backdrop, refraction, method, tilePixels, builder, normals, lightOn, exposureEV,
                                     toneMap),
-                         std::tuple(wholePixels, samplesGiven, eyeOffsetWS, snapPixels, texturesAStage, softwareBackend,
-                                    display, lanes));
+                         std::tuple(wholePixels, samplesGiven, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
+                                    softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
         return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};

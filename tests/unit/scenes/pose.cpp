@@ -304,6 +304,38 @@ TEST(Poses, numbersThatNoPlayingClipChangesAreFreeAndOthersComeBackToRest) {
     EXPECT_EQ(scene.materials[0].metallic, 0.125f);
 }
 
+TEST(Poses, aMaterialIsEditedAtRestAndKeepsGoingWithTheClip) {
+    Scene scene = riggedScene();
+    scene.rig.numbers.push_back({AnimatedProperty::Metallic, 0});
+    scene.rig.numbers.push_back({AnimatedProperty::TextureOffset, 0, {}, TextureSlot::BaseColor});
+    Clip& clip = scene.rig.clips[0];
+    clip.samplers.push_back({Interpolation::Linear, 1, {0.0f, 1.0f}, {0.5f, 1.0f}});
+    clip.samplers.push_back({Interpolation::Linear, 2, {0.0f, 1.0f}, {0.0f, 0.0f, 2.0f, 4.0f}});
+    clip.channels.push_back({AnimatedProperty::Metallic, 1, 3});
+    clip.channels.push_back({AnimatedProperty::TextureOffset, 2, 4});
+    scene.materials[0].metallic = 0.125f;
+    takeRest(scene);
+    const Material before = scene.materials[0];
+    poseScene(scene, 1.0);
+    EXPECT_EQ(restingMaterial(scene, 0), before);
+    Material edited = scene.materials[0];
+    edited.baseColor.x = 0.25f;
+    const Material resting = editedAtRest(scene, 0, edited);
+    EXPECT_EQ(resting.baseColor.x, 0.25f);
+    EXPECT_EQ(resting.metallic, 0.125f) << "the edit left it alone";
+    EXPECT_EQ(resting.texture(TextureSlot::BaseColor).transform, before.texture(TextureSlot::BaseColor).transform);
+    edited.metallic = 0.75f;
+    EXPECT_EQ(editedAtRest(scene, 0, edited).metallic, 0.75f);
+    replaceMaterial(scene, 0, editedAtRest(scene, 0, edited), 0.5);
+    EXPECT_EQ(scene.materials[0].metallic, 0.75f) << "halfway between 0.5 and 1, of the clip";
+    EXPECT_EQ(scene.materials[0].texture(TextureSlot::BaseColor).transform.offset, glm::vec2(1.0f, 2.0f));
+    playClip(scene, "none");
+    Material wanted = before;
+    wanted.baseColor.x = 0.25f;
+    wanted.metallic = 0.75f;
+    EXPECT_EQ(scene.materials[0], wanted);
+}
+
 TEST(Poses, anIncludedRigMovesBelowItsRoot) {
     Scene whole = riggedScene();
     glm::dmat4 worldFromPart(1.0);

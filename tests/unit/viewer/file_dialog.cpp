@@ -179,6 +179,38 @@ TEST_F(Files, aNameGoesAlongIntoFoldersThatAreChosen) {
     EXPECT_EQ(dialog.accept(true), at("maps/x.exr"));
 }
 
+TEST_F(Files, namesOfAnyBytesGoThroughTheFieldUnchanged) {
+    const std::string smile = "\xf0\x9f\x98\x80.png", lines = "two\nlines.glb", bytes = "\xff\xfe.glb";
+    for (const std::string& name : {smile, lines, bytes}) folder_.write(name, "");
+    FileDialog dialog = open();
+    for (const std::string& name : {lines, bytes}) {
+        dialog.type(name.substr(0, 1));
+        dialog.complete();
+        EXPECT_EQ(dialog.text(), name);
+        const std::string held = dialog.inField();
+        EXPECT_EQ(held.find('\n'), std::string::npos);
+        EXPECT_EQ(held.find('\xff'), std::string::npos);
+        dialog.typeInField(held);
+        EXPECT_EQ(dialog.accept(), at(name));
+    }
+    FileDialog saving = save(smile);
+    EXPECT_EQ(saving.accept(), std::nullopt);
+    saving.typeInField(saving.inField()); // as in each frame
+    EXPECT_TRUE(saving.asksToReplace());
+    EXPECT_EQ(saving.accept(true), at(smile));
+}
+
+TEST_F(Files, linksToFoldersAreFoldersAndNothingIsWhatHasGoneSince) {
+    std::filesystem::create_directory_symlink(folder_.path() / "models", folder_.path() / "away");
+    FileDialog dialog = open();
+    EXPECT_EQ(fileNamesOf(dialog)[1], "away/");
+    dialog.choose(1);
+    std::filesystem::remove(folder_.path() / "away");
+    EXPECT_EQ(dialog.accept(), std::nullopt);
+    EXPECT_EQ(dialog.fault(), at("away") + " cannot be read: No such file or directory");
+    EXPECT_EQ(fileNamesOf(dialog), FileNames{"../"});
+}
+
 TEST(RecentFolders, areThoseOfFilesEachOnce) {
     EXPECT_EQ(foldersOf(FileNames{"/a/b.glb", "/c/d.json", "/a/e.obj"}), (FileNames{"/a", "/c"}));
 }

@@ -111,6 +111,26 @@ TEST_F(Handles, noPointerIsThePlainOneWhateverTheWay) {
     }
 }
 
+TEST_F(Handles, theSelectedMaterialIsOutlinedWhileAPanelShowsIt) {
+    const PictureArea at = area(state_);
+    Facts facts;
+    const auto outline = [&] { return overlaySpan([&] { drawMaterialOutline(state_, facts, at); }); };
+    state_.selectedMaterial = 1;
+    state_.showsMaterial = true;
+    EXPECT_FALSE(outline()) << "it is not found yet";
+    // Of a picture of half the size.
+    facts.materialOutline = {1, glm::ivec2(at.size) / 2, {{{10.0f, 20.0f}, {60.0f, 20.0f}, {60.0f, 40.0f}}}};
+    const auto drawn = outline();
+    ASSERT_TRUE(drawn);
+    EXPECT_NEAR(drawn->first, at.corner.x + 20.0f, 4.0f);
+    EXPECT_NEAR(drawn->second, at.corner.x + 120.0f, 4.0f);
+    state_.selectedMaterial = 0;
+    EXPECT_FALSE(outline()) << "that is another's";
+    state_.selectedMaterial = 1;
+    state_.showsMaterial = false;
+    EXPECT_FALSE(outline()) << "the panel is folded";
+}
+
 TEST_F(Handles, theValueOfADragStandsBesideThePointerAndInThePicture) {
     const PictureArea at = area(state_);
     const auto text = [&] { return overlaySpan([&] { drawDragText(state_, at); }); };

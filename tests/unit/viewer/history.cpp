@@ -1,12 +1,18 @@
 #include "viewer/session/History.h"
 
+#include <array>
 #include <filesystem>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "scenes/Fingerprint.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneText.h"
+#include "tests/unit/scenes/RiggedScene.h"
+#include "tests/unit/viewer/CameraTest.h"
+#include "viewer/edit/LightLife.h"
 #include "viewer/session/OpenScene.h"
 
 namespace tessera::viewer {
@@ -26,7 +32,47 @@ std::string textOf(const OpenScene& open) {
 /// One of all kinds of edits and jumps, as the window makes them.
 class RandomEdits {
 public:
-    explicit RandomEdits(OpenScene& open) : open_(open) {}
+    explicit RandomEdits(OpenScene& open, std::uint64_t seed = 1) : open_(open), engine_(seed) {}
+
+    /// The same, and more: how lights live, several lights at once, parameters of a hook. Meanwhile clips go on.
+    void editOrPlay() {
+        const Lights& lights = open_.scene().lights;
+        switch (number(8)) {
+        case 0:
+            for (std::size_t i = number(4); i > 1; --i) static_cast<void>(open_.undo());
+            static_cast<void>(open_.showTime(double(share()) * open_.clipSeconds()));
+            return;
+        case 1:
+            return open_.playClip(std::array{"bend", "shine", "none"}[number(3)]);
+        case 2: {
+            constexpr std::size_t kMany = 6;
+            if (lights.size() < kMany)
+                return open_.replaceLights("add", number(lights.size() + 1), 0, {newLight(lights, scenes::Light())});
+            std::vector<std::size_t> deleted;
+            for (std::size_t i = 0; i < lights.size(); ++i)
+                if (number(4) == 0) deleted.push_back(i);
+            if (!deleted.empty()) open_.deleteLights("delete several", deleted);
+            return;
+        }
+        case 3:
+            return open_.changeHookParameter(number(open_.scene().hook->parameters.size()), share());
+        case 4:
+        case 5: {
+            if (lights.empty()) return;
+            const std::size_t index = number(lights.size());
+            scenes::Light light = lights[index];
+            changeLife(light);
+            return open_.changeLight(index, std::move(light));
+        }
+        case 6: {
+            scenes::Material material = open_.scene().materials[0];
+            (number(2) == 0 ? material.metallic : material.perceptualRoughness) = share();
+            return open_.changeMaterial(0, material);
+        }
+        default:
+            return edit();
+        }
+    }
 
     void edit() {
         const Lights& lights = open_.scene().lights;
@@ -78,6 +124,51 @@ private:
         }
         open_.endGesture();
     }
+    void changeLife(scenes::Light& light) {
+        const scenes::LightTypeInfo& type = scenes::infoOf(light.type);
+        const scenes::LightKeyedInfo& info = scenes::keyedMembers()[number(scenes::keyedMembers().size())];
+        const double timeSeconds = 4.0 * double(share());
+        const glm::dvec3 value(0.1 + double(share()), double(share()), double(share()));
+        const scenes::LightKeys* const keys = keysOf(light, info.member);
+        const std::size_t key = keys != nullptr ? number(keys->timesSeconds.size()) : 0;
+        const bool hasPath = light.animation && light.animation->kind == scenes::LightAnimationKind::Path;
+        switch (number(12)) {
+        case 0:
+            return chooseType(light, scenes::lightTypes()[number(scenes::lightTypes().size())].type, 10.0);
+        case 1:
+        case 2:
+            if (info.isOf(type)) addKey(light, info.member, timeSeconds);
+            return;
+        case 3:
+            if (keys != nullptr) removeKey(light, info.member, key);
+            return;
+        case 4:
+            if (keys != nullptr) moveKey(light, info.member, key, timeSeconds);
+            return;
+        case 5:
+            if (keys != nullptr) setKey(light, info.member, key, value);
+            return;
+        case 6:
+            if (keys != nullptr) setInterpolation(light, info.member, scenes::Interpolation(number(3)));
+            return;
+        case 7:
+            if (type.hasPosition())
+                chooseWay(light, scenes::LightAnimationKind(number(4)), timeSeconds, 0.5 + double(share()));
+            return;
+        case 8:
+            if (hasPath) addPathPoint(light, number(light.animation->pointsWS.size()));
+            return;
+        case 9:
+            if (hasPath) removePathPoint(light, number(light.animation->pointsWS.size()));
+            return;
+        case 10:
+            return turnLight(light, value);
+        default:
+            light.intensity = 10.0f * share();
+            light.radiusMetres = share();
+            return letFlicker(light, !light.flicker, 0);
+        }
+    }
     void settle() {
         open_.rig().advance(10.0, 400.0);
         open_.applyRig();
@@ -86,7 +177,7 @@ private:
     float share() { return float(engine_() >> 11) * 0x1p-53f; }
 
     OpenScene& open_;
-    std::mt19937_64 engine_{1};
+    std::mt19937_64 engine_;
 };
 
 TEST(History, aThousandUndoneEditsLeaveTheSavedSceneByteForByteAndRedoneOnesTheEdited) {
@@ -133,6 +224,54 @@ TEST(History, editsUndoneInAnyOrderWithNewOnesLeadBackToo) {
     }
     EXPECT_EQ(textOf(*open), saved);
     EXPECT_FALSE(open->isEdited());
+}
+
+/// A model of two clips, of which "shine" changes its material and both carry a light, with a hook of two parameters.
+scenes::Scene livelyScene() {
+    scenes::Scene scene = scenes::riggedScene();
+    scene.rig.cameras.clear();
+    scene.cameras = {test::perspective({0, 0, 9}, {0, 0, 0}), test::perspective({0, 9, 9}, {0, 0, 0})};
+    scene.rig.numbers.push_back({scenes::AnimatedProperty::Metallic, 0});
+    scenes::Clip& shine = scene.rig.clips.emplace_back();
+    shine.name = "shine";
+    shine.samplers = {{scenes::Interpolation::Linear, 1, {0.0f, 2.0f}, {0.5f, 1.0f}},
+                      {scenes::Interpolation::Linear, 3, {0.0f, 1.0f}, {1, 0, 0, 3, 0, 0}}};
+    shine.channels = {{scenes::AnimatedProperty::Metallic, 1, 0}, {scenes::AnimatedProperty::Translation, 0, 1}};
+    scene.materials[0].metallic = 0.125f;
+    scene.lights.emplace_back().type = scenes::LightType::Rectangle;
+    scene.hook.emplace().parameters = {{"strength", 0.5f, 0.0f, 1.0f}, {"speed", 1.0f, 0.0f, 1.0f}};
+    scenes::takeRest(scene);
+    return scene;
+}
+
+TEST(History, aThousandEditsOfALivelySceneAreUndoneAndRedoneWhateverPlaysMeanwhile) {
+    for (const std::uint64_t seed : {11u, 12u, 13u, 14u}) {
+        SCOPED_TRACE(seed);
+        OpenScene open("lively.gltf", {}, livelyScene(), {});
+        const auto fingerprint = [&open] { // at the beginning of a clip
+            open.playClip("bend");
+            return scenes::fingerprint(open.scene());
+        };
+        const std::uint64_t saved = fingerprint();
+        const Lights lights = open.scene().lights;
+        const std::vector<scenes::Material> materials = open.scene().materials;
+        RandomEdits random(open, seed);
+        for (int i = 0; i < 1000; ++i) random.editOrPlay();
+        const std::uint64_t edited = fingerprint();
+        EXPECT_GT(open.history().undoable(), 200u);
+        EXPECT_NE(edited, saved);
+        const auto stepAll = [&](const Edit* (OpenScene::*step)()) {
+            for (int i = 0; (open.*step)() != nullptr; ++i)
+                if (i % 7 == 0) static_cast<void>(open.showTime(0.125 * double(i % 8)));
+        };
+        stepAll(&OpenScene::undo);
+        EXPECT_FALSE(open.isEdited());
+        EXPECT_EQ(fingerprint(), saved);
+        EXPECT_TRUE(open.scene().lights == lights);
+        EXPECT_TRUE(open.scene().materials == materials);
+        stepAll(&OpenScene::redo);
+        EXPECT_EQ(fingerprint(), edited);
+    }
 }
 
 TEST(History, oneDragIsOneStepAndTheNextAnother) {

@@ -81,5 +81,48 @@ TEST(InputQueue, differentKeysShareAFrame) {
     EXPECT_EQ(queue.takeFrame().size(), 1u);
 }
 
+// GLFW's
+constexpr int kEnterKey = 257, kControlKey = 341;
+
+TEST(InputQueue, textBehindEnterReachesTheNextFrameAndTextBeforeItTheSame) {
+    InputQueue queue;
+    queue.push(at(Kind::Key, 0.0f, 65));
+    queue.push(at(Kind::Character, 0.0f, 'a'));
+    queue.push(at(Kind::Key, 0.0f, kEnterKey));
+    queue.push(at(Kind::Key, 0.0f, 66));
+    queue.push(at(Kind::Character, 0.0f, 'b'));
+    EXPECT_EQ(queue.takeFrame().size(), 4u);
+    EXPECT_EQ(queue.takeFrame().front().code, 'b');
+}
+
+TEST(InputQueue, aModifierChangesInAFrameOnlyBeforeWhatHeedsIt) {
+    for (const InputEvent& heeds : {at(Kind::Key, 0.0f, kEnterKey), at(Kind::Button, 0.0f), at(Kind::Scroll, 0.0f),
+                                    at(Kind::Character, 0.0f, 'a')}) {
+        InputQueue queue;
+        queue.push(at(Kind::Key, 0.0f, kControlKey));
+        queue.push(heeds);
+        EXPECT_EQ(queue.takeFrame().size(), 2u);
+        queue.push(heeds);
+        queue.push(at(Kind::Key, 0.0f, kControlKey, false));
+        EXPECT_EQ(queue.takeFrame().size(), 1u) << "Ctrl is still held";
+        EXPECT_EQ(queue.takeFrame().front().code, kControlKey);
+    }
+    InputQueue releases;
+    releases.push(at(Kind::Key, 0.0f, kEnterKey, false));
+    releases.push(at(Kind::Key, 0.0f, kControlKey, false));
+    EXPECT_EQ(releases.takeFrame().size(), 2u);
+}
+
+TEST(InputQueue, keysThatWaitKeepTheirOrderAndWhatCameBeforeThemDoesNot) {
+    InputQueue queue;
+    queue.push(at(Kind::Key, 1.0f, kControlKey, false)); // of a press that did not wait
+    queue.push(at(Kind::Character, 1.0f, 'a'));
+    queue.push(at(Kind::Key, 1.0f, kEnterKey));
+    queue.push(at(Kind::Move, 2.0f));
+    EXPECT_EQ(queue.takeFrame(true).size(), 1u);
+    EXPECT_TRUE(queue.takeFrame(true).empty());
+    EXPECT_EQ(queue.takeFrame().size(), 3u);
+}
+
 } // namespace
 } // namespace tessera::viewer

@@ -414,6 +414,64 @@ TEST(OpenScene, anotherClipBeginsAndNoneLeavesTheSceneByItself) {
     EXPECT_TRUE(open.showTime(0.5)) << "the clip before still plays";
 }
 
+/// riggedAndSeen() with a clip "shine", which raises the metallic number of the material from 0.5 to 1; by itself it is
+/// 0.125.
+scenes::Scene riggedAndShining() {
+    scenes::Scene scene = riggedAndSeen();
+    scene.rig.numbers.push_back({scenes::AnimatedProperty::Metallic, 0});
+    scenes::Clip& shine = scene.rig.clips.emplace_back();
+    shine.name = "shine";
+    shine.samplers.push_back({scenes::Interpolation::Linear, 1, {0.0f, 1.0f}, {0.5f, 1.0f}});
+    shine.channels.push_back({scenes::AnimatedProperty::Metallic, 1, 0});
+    scene.materials[0].metallic = 0.125f;
+    scenes::takeRest(scene);
+    return scene;
+}
+
+TEST(OpenScene, anEditOfAMaterialHoldsNothingOfTheClipThatPlaysMeanwhile) {
+    const scenes::Scene scene = riggedAndShining();
+    OpenScene open("rigged.gltf", {}, scene, {});
+    const auto material = [&] { return open.scene().materials[0]; };
+    open.playClip("shine");
+    open.showTime(1.0);
+    scenes::Material edited = material();
+    EXPECT_EQ(edited.metallic, 1.0f);
+    edited.baseColor.x = 0.25f;
+    open.changeMaterial(0, edited);
+    EXPECT_EQ(material(), edited);
+    open.showTime(0.5);
+    EXPECT_EQ(material().metallic, 0.75f);
+    open.playClip("none");
+    EXPECT_EQ(material().metallic, 0.125f);
+    EXPECT_EQ(material().baseColor.x, 0.25f);
+    open.undo();
+    EXPECT_EQ(material(), scene.materials[0]);
+    open.playClip("shine");
+    open.showTime(1.0);
+    open.redo();
+    EXPECT_EQ(material(), edited);
+    EXPECT_EQ(scenes::restingMaterials(open.scene())[0].metallic, 0.125f) << "what is saved";
+}
+
+TEST(OpenScene, aNumberThatIsEditedWhileItsClipStandsIsThereAgainAfterTheClip) {
+    const scenes::Scene scene = riggedAndShining();
+    OpenScene open("rigged.gltf", {}, scene, {});
+    const auto metallic = [&] { return open.scene().materials[0].metallic; };
+    scenes::Material edited = scene.materials[0];
+    edited.metallic = 0.25f;
+    open.changeMaterial(0, edited);
+    open.playClip("shine");
+    open.showTime(1.0);
+    EXPECT_EQ(metallic(), 1.0f);
+    EXPECT_EQ(scenes::restingMaterials(open.scene())[0].metallic, 0.25f) << "what is saved";
+    open.undo();
+    EXPECT_EQ(metallic(), 1.0f);
+    open.playClip("none");
+    EXPECT_EQ(metallic(), 0.125f);
+    open.redo();
+    EXPECT_EQ(metallic(), 0.25f);
+}
+
 TEST(OpenScene, aRefusedPoseLeavesTheOneBefore) {
     scenes::Scene scene = riggedAndSeen();
     scenes::Clip& clip = scene.rig.clips[0];

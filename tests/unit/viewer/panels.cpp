@@ -1,7 +1,10 @@
 // The panels, laid out without a window.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,6 +20,7 @@
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Inspection.h"
 #include "viewer/session/SceneEdits.h"
+#include "viewer/window/Input.h"
 
 namespace tessera::viewer {
 namespace {
@@ -124,6 +128,23 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     }
 }
 
+TEST_F(Panels, aMaterialIsShownWhereItsPanelIsOpenAndOneIsSelected) {
+    State state = test::unusualScene();
+    const auto isShown = [&] {
+        for (int i = 0; i < 3; ++i) frame([&] { drawInterface(state, {}, area(state), 1.0f); });
+        return state.showsMaterial;
+    };
+    state.selectedMaterial = 0;
+    EXPECT_FALSE(isShown()) << "the panel is folded at first";
+    state.sections["Materials"] = true;
+    EXPECT_TRUE(isShown());
+    state.showsPanel = false;
+    EXPECT_FALSE(isShown());
+    state.showsPanel = true;
+    state.selectedMaterial = scenes::kNone;
+    EXPECT_FALSE(isShown());
+}
+
 TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     State state;
     state.wantsPlan = true; // the graph was shown the frame before
@@ -221,6 +242,93 @@ TEST_F(Panels, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
     EXPECT_FALSE(isOpen());
     EXPECT_FALSE(state.files);
     EXPECT_EQ(state.requests.chosen, file);
+}
+
+/// Keys in the order of the presses, each released at once; Ctrl is held for those that say so.
+void pressAll(InputQueue& queue, std::span<const bool> withControl, int key, int control) {
+    const auto push = [&](int code, bool isDown) {
+        InputEvent event;
+        event.kind = InputEvent::Kind::Key;
+        event.code = code;
+        event.down = isDown;
+        queue.push(event);
+    };
+    for (const bool isHeld : withControl) {
+        if (isHeld) push(control, true);
+        push(key, true);
+        push(key, false);
+        if (isHeld) push(control, false);
+    }
+}
+
+TEST_F(Panels, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem) {
+    const tessera::test::TempFolder folder;
+    const std::string file = folder.write("taken.png", "").string();
+    constexpr int kEnter = 257, kControl = 341; // GLFW's
+    constexpr std::array kPresses{false, false, true};
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    State state;
+    InputQueue queue;
+    state.files.emplace(FileDialog::Purpose::Save, folder.path(), "taken.png");
+    pressAll(queue, kPresses, kEnter, kControl); // before the dialog is there
+    int most = 0;                                // frames that keys waited
+    for (int i = 0, waited = 0; i < 100 && state.files; ++i) {
+        waited = state.keysWait() ? waited + 1 : 0;
+        most = std::max(most, waited);
+        for (const InputEvent& event : queue.takeFrame(state.keysWait())) io.KeysDown[event.code] = event.down;
+        io.KeyCtrl = io.KeysDown[kControl];
+        frame([&] { fileDialog(state, 1.0f); });
+    }
+    EXPECT_FALSE(state.files) << "Enter asks, once more is no answer, and Ctrl+Enter replaces";
+    EXPECT_EQ(state.requests.saveAs, file);
+    EXPECT_GT(most, 1) << "keys before the field listens are not what is tested";
+    EXPECT_LT(most, FileDialog::kMostWaits) << "they were let go before it listened";
+}
+
+TEST_F(Panels, theDialogOfFilesKeepsItsButtonsInViewWhateverItSays) {
+    ImGui::GetIO().DisplaySize = {800.0f, 600.0f};
+    State state;
+    std::filesystem::path folder = "/";
+    for (int i = 0; i < 30; ++i) folder /= std::string(100, char('a' + i % 26));
+    state.files.emplace(FileDialog::Purpose::Save, folder, "absent/one.png", "the folder before is full");
+    const auto overflow = [&] {
+        for (int i = 0; i < 4; ++i) frame([&] { fileDialog(state, 1.0f); });
+        return ImGui::FindWindowByName("Save as###files")->ScrollMax.y;
+    };
+    EXPECT_FALSE(state.files->fault().empty());
+    EXPECT_EQ(overflow(), 0.0f) << "of a folder that is not there";
+    EXPECT_FALSE(state.files->accept());
+    EXPECT_EQ(overflow(), 0.0f) << "of a name below one";
+    state.files.emplace(FileDialog::Purpose::Save, "/tmp", "one.png");
+    EXPECT_EQ(overflow(), 0.0f);
+}
+
+TEST_F(Panels, aNameIsALabelOfOneLineWithAllItsSigns) {
+    EXPECT_EQ(labelOf("plain name.glb"), "plain name.glb");
+    EXPECT_EQ(labelOf("a##b###c"), "a# #b# # #c");
+    EXPECT_EQ(labelOf("two\nlines"), "two; lines");
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.lights[0].name = "lamp##hidden";
+    State state;
+    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    const std::string text = textOf([&] { lightsPanel(state); });
+    EXPECT_NE(text.find("hidden"), std::string::npos) << text;
+}
+
+TEST_F(Panels, keysDoNotWaitForAFieldThatNeverListens) {
+    State state;
+    EXPECT_FALSE(state.keysWait());
+    state.files.emplace(FileDialog::Purpose::Open, "/");
+    EXPECT_TRUE(state.keysWait());
+    ImGui::GetIO().MouseDown[0] = true; // something is held all the time
+    for (int i = 0; i < FileDialog::kMostWaits; ++i) frame([&] { fileDialog(state, 1.0f); });
+    EXPECT_FALSE(state.keysWait());
+    state.question = Question{};
+    EXPECT_FALSE(state.keysWait()) << "keys are answers";
+    frame([&] { fileDialog(state, 1.0f); });
+    state.question.reset();
+    EXPECT_TRUE(state.keysWait()) << "the dialog is back";
 }
 
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {

@@ -1,0 +1,84 @@
+#include "viewer/edit/Contour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace tessera::viewer {
+namespace {
+
+/// A picture of the pixels that a test holds to be inside.
+template <typename IsInside>
+std::vector<Contour> contoursWhere(glm::ivec2 size, const IsInside& isInside) {
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) pixels.push_back(isInside(x, y) ? 1 : 0);
+    return contoursOf(pixels, size);
+}
+
+TEST(Contours, aRectangleHasItsFourCorners) {
+    const auto contours = contoursWhere({20, 10}, [](int x, int y) { return x >= 3 && x < 12 && y >= 2 && y < 7; });
+    ASSERT_EQ(contours.size(), 1u);
+    const Contour& contour = contours[0];
+    EXPECT_EQ(contour.size(), 5u);
+    EXPECT_EQ(contour.front(), contour.back());
+    for (const glm::vec2& corner : {glm::vec2(3, 2), glm::vec2(12, 2), glm::vec2(12, 7), glm::vec2(3, 7)})
+        EXPECT_EQ(std::ranges::count(Contour(contour.begin() + 1, contour.end()), corner), 1);
+}
+
+TEST(Contours, aDiscIsRoundToWithinAPixelAndHasFewPoints) {
+    const glm::vec2 middle(60.0f, 50.0f);
+    const auto contours =
+        contoursWhere({120, 100}, [&](int x, int y) { return glm::distance(glm::vec2(x, y) + 0.5f, middle) < 40.0f; });
+    ASSERT_EQ(contours.size(), 1u);
+    EXPECT_LT(contours[0].size(), 60u);
+    EXPECT_GT(contours[0].size(), 12u);
+    for (const glm::vec2& place : contours[0]) EXPECT_NEAR(glm::distance(place, middle), 40.0f, 1.0f);
+}
+
+TEST(Contours, thePicturesOwnSidesAreNone) {
+    EXPECT_TRUE(contoursWhere({8, 6}, [](int, int) { return true; }).empty());
+    EXPECT_TRUE(contoursWhere({8, 6}, [](int, int) { return false; }).empty());
+    EXPECT_TRUE(contoursWhere({1, 1}, [](int, int) { return true; }).empty());
+    const auto half = contoursWhere({8, 6}, [](int x, int) { return x < 3; });
+    ASSERT_EQ(half.size(), 1u);
+    ASSERT_EQ(half[0].size(), 2u) << "a line from side to side";
+    EXPECT_EQ(half[0].front().x, 3.0f);
+    EXPECT_EQ(half[0].back().x, 3.0f);
+    EXPECT_EQ(std::abs(half[0].back().y - half[0].front().y), 6.0f);
+    const auto corner = contoursWhere({8, 6}, [](int x, int y) { return x < 3 && y < 2; });
+    ASSERT_EQ(corner.size(), 1u);
+    EXPECT_EQ(corner[0].size(), 3u);
+}
+
+TEST(Contours, holesAndPixelsThatTouchAtACornerHaveTheirOwn) {
+    const auto ring = contoursWhere({20, 20}, [](int x, int y) {
+        const bool isHole = x >= 8 && x < 12 && y >= 8 && y < 12;
+        return x >= 2 && x < 18 && y >= 2 && y < 18 && !isHole;
+    });
+    ASSERT_EQ(ring.size(), 2u);
+    EXPECT_GT(glm::distance(ring[0][0], ring[0][1]), glm::distance(ring[1][0], ring[1][1])) << "the longest first";
+    const auto touching = contoursWhere({20, 20}, [](int x, int y) {
+        return (x >= 2 && x < 10 && y >= 2 && y < 10) || (x >= 10 && x < 18 && y >= 10 && y < 18);
+    });
+    std::size_t points = 0;
+    for (const Contour& contour : touching) points += contour.size();
+    EXPECT_GE(points, 9u);
+    EXPECT_LE(points, 10u);
+}
+
+TEST(Contours, ofTooManyTheLongestStay) {
+    const auto contours = contoursWhere({600, 600}, [](int x, int y) {
+        const bool isLarge = x >= 100 && x < 500 && y >= 100 && y < 500;
+        return isLarge || (!(x >= 98 && x < 502 && y >= 98 && y < 502) && x % 3 == 1 && y % 3 == 1);
+    });
+    std::size_t points = 0;
+    for (const Contour& contour : contours) points += contour.size();
+    EXPECT_LE(points, kMostContourPoints);
+    EXPECT_GT(points, kMostContourPoints / 2);
+    EXPECT_EQ(glm::distance(contours.at(0)[0], contours.at(0)[1]), 400.0f);
+}
+
+} // namespace
+} // namespace tessera::viewer

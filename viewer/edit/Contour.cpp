@@ -1,0 +1,140 @@
+#include "viewer/edit/Contour.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace tessera::viewer {
+namespace {
+
+constexpr float kSmoothPixels = 0.75f; ///< the steps of an edge that slants are as wide
+
+/// Ways along the sides of pixels from one of their corners, each with the inside at its right.
+constexpr std::array<glm::ivec2, 4> kWays{glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)};
+
+/// The sides of pixels that a contour has, as ways that leave their corners.
+class Sides {
+public:
+    Sides(std::span<const std::uint8_t> isInside, glm::ivec2 sizePixels)
+        : size_(sizePixels + 1), leaving_(std::size_t(size_.x) * std::size_t(size_.y)), entering_(leaving_.size()) {
+        const auto at = [&](int x, int y) {
+            return isInside[std::size_t(y) * std::size_t(sizePixels.x) + std::size_t(x)];
+        };
+        for (int y = 0; y < sizePixels.y; ++y)
+            for (int x = 0; x < sizePixels.x; ++x) {
+                if (!at(x, y)) continue;
+                if (y > 0 && !at(x, y - 1)) add({x, y}, 0);
+                if (x + 1 < sizePixels.x && !at(x + 1, y)) add({x + 1, y}, 1);
+                if (y + 1 < sizePixels.y && !at(x, y + 1)) add({x + 1, y + 1}, 2);
+                if (x > 0 && !at(x - 1, y)) add({x, y + 1}, 3);
+            }
+    }
+    /// First the contours that the picture's sides cut off, from their beginnings, then closed ones.
+    std::vector<Contour> takeAll() {
+        std::vector<Contour> contours;
+        for (const bool isCut : {true, false})
+            for (int y = 0; y < size_.y; ++y)
+                for (int x = 0; x < size_.x; ++x)
+                    while (ways({x, y}) != 0 && (!isCut || std::popcount(ways({x, y})) > entering_[indexOf({x, y})]))
+                        contours.push_back(take({x, y}));
+        return contours;
+    }
+
+private:
+    std::size_t indexOf(glm::ivec2 corner) const {
+        return std::size_t(corner.y) * std::size_t(size_.x) + std::size_t(corner.x);
+    }
+    std::uint8_t& ways(glm::ivec2 corner) { return leaving_[indexOf(corner)]; }
+    void add(glm::ivec2 from, std::size_t way) {
+        ways(from) |= std::uint8_t(1u << way);
+        ++entering_[indexOf(from + kWays[way])];
+    }
+    /// The contour that leaves a corner, as far as it goes; its straight parts are lines.
+    Contour take(glm::ivec2 corner) {
+        Contour contour{glm::vec2(corner)};
+        int latest = -1;
+        while (ways(corner) != 0) {
+            const int way = std::countr_zero(ways(corner));
+            ways(corner) &= std::uint8_t(~(1u << way));
+            corner += kWays[std::size_t(way)];
+            --entering_[indexOf(corner)];
+            if (way == latest)
+                contour.back() = glm::vec2(corner);
+            else
+                contour.emplace_back(corner);
+            latest = way;
+        }
+        return contour;
+    }
+
+    glm::ivec2 size_; ///< in corners
+    std::vector<std::uint8_t> leaving_, entering_;
+};
+
+float distanceToLine(const glm::vec2& point, const glm::vec2& begin, const glm::vec2& end) {
+    const glm::vec2 along = end - begin;
+    const float square = glm::dot(along, along);
+    const float share = square > 0.0f ? std::clamp(glm::dot(point - begin, along) / square, 0.0f, 1.0f) : 0.0f;
+    return glm::distance(point, begin + share * along);
+}
+
+/// Leaves out points that lie near to the line between those that stay.
+/// Source: Douglas and Peucker 1973, "Algorithms for the reduction of the number of points required to represent a
+/// digitized line or its caricature".
+Contour smoothed(const Contour& contour) {
+    std::vector<std::uint8_t> stays(contour.size(), 0);
+    stays.front() = stays.back() = 1;
+    std::vector<std::pair<std::size_t, std::size_t>> parts{{0, contour.size() - 1}};
+    while (!parts.empty()) {
+        const auto [first, last] = parts.back();
+        parts.pop_back();
+        float farthest = kSmoothPixels;
+        std::size_t found = first;
+        for (std::size_t i = first + 1; i < last; ++i) {
+            const float distance = distanceToLine(contour[i], contour[first], contour[last]);
+            if (distance > farthest) {
+                farthest = distance;
+                found = i;
+            }
+        }
+        if (found == first) continue;
+        stays[found] = 1;
+        parts.emplace_back(first, found);
+        parts.emplace_back(found, last);
+    }
+    Contour result;
+    for (std::size_t i = 0; i < contour.size(); ++i)
+        if (stays[i] != 0) result.push_back(contour[i]);
+    return result;
+}
+
+float lengthOf(const Contour& contour) {
+    float length = 0.0f;
+    for (std::size_t i = 1; i < contour.size(); ++i) length += glm::distance(contour[i - 1], contour[i]);
+    return length;
+}
+
+} // namespace
+
+std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ivec2 sizePixels) {
+    assert(isInside.size() == std::size_t(sizePixels.x) * std::size_t(sizePixels.y));
+    std::vector<std::pair<float, Contour>> found;
+    for (Contour& contour : Sides(isInside, sizePixels).takeAll()) {
+        const float length = lengthOf(contour);
+        found.emplace_back(length, std::move(contour));
+    }
+    std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& entry) { return entry.first; });
+    std::vector<Contour> contours;
+    std::size_t points = 0;
+    for (const auto& [length, contour] : found) {
+        Contour smooth = smoothed(contour);
+        points += smooth.size();
+        if (points > kMostContourPoints) break;
+        if (smooth.size() > 1) contours.push_back(std::move(smooth));
+    }
+    return contours;
+}
+
+} // namespace tessera::viewer

@@ -1,0 +1,107 @@
+#include "viewer/show/MaterialOutline.h"
+
+#include <utility>
+#include <vector>
+
+#include "renderer/gpu/Bands.h"
+#include "renderer/graph/Execute.h"
+
+namespace tessera::viewer {
+namespace {
+
+/// By mesh instance in document order: whether it has the material.
+std::vector<std::uint8_t> instancesOf(const scenes::Scene& scene, int material) {
+    std::vector<std::uint8_t> haveIt;
+    for (const scenes::Node& node : scene.nodes)
+        for (const scenes::MeshInstance& instance : node.instances) haveIt.push_back(instance.material == material);
+    return haveIt;
+}
+
+/// Frames free nothing that they have no use for while one lives: light that is spread, and shadow maps, are for the
+/// pictures that follow, however many outlines were found in between.
+class KeepsUnused {
+public:
+    explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend), before_(backend.mostIdleFrames()) {
+        constexpr int kAnyFrames = 1 << 20;
+        backend_.setMostIdleFrames(kAnyFrames);
+    }
+    ~KeepsUnused() { backend_.setMostIdleFrames(before_); }
+    KeepsUnused(const KeepsUnused&) = delete;
+    KeepsUnused& operator=(const KeepsUnused&) = delete;
+
+private:
+    gpu::GraphBackend& backend_;
+    int before_;
+};
+
+} // namespace
+
+std::optional<MaterialOutline::Sight> MaterialOutline::sightOf(const State& state, const Screen& screen,
+                                                               const Look& look) {
+    if (!state.open || !state.showsMaterial || !screen.picture(0).isThere()) return std::nullopt;
+    const scenes::Scene& scene = state.open->scene();
+    if (state.selectedMaterial < 0 || std::size_t(state.selectedMaterial) >= scene.materials.size())
+        return std::nullopt;
+    return Sight{state.open.get(),
+                 state.selectedMaterial,
+                 look.settings.sizePixels,
+                 scene.cameras[std::size_t(state.open->camera())],
+                 state.open->geometryRevision(),
+                 scene.hook ? look.settings.timeSeconds : 0.0};
+}
+
+bool MaterialOutline::update(Facts& facts, const State& state, Screen& screen, const Look& look, bool isAtRest,
+                             const std::function<bool()>& givesUp) {
+    awaitsRest_ = false;
+    const std::optional<Sight> sight = sightOf(state, screen, look);
+    bool isChanged = false;
+    if (sight != found_) {
+        found_.reset();
+        isChanged = std::exchange(facts.materialOutline, std::nullopt).has_value();
+    }
+    if (!sight || (found_ && materialRevision_ == state.open->materialRevision())) return isChanged;
+    awaitsRest_ = true;
+    if (!isAtRest) return isChanged;
+    const std::uint64_t revision = state.open->materialRevision();
+    try {
+        find(facts, screen, look, *sight, givesUp);
+    } catch (const graph::Interrupted&) {
+        return isChanged;
+    } catch (...) {
+        found_ = sight;
+        materialRevision_ = revision;
+        awaitsRest_ = false;
+        throw;
+    }
+    found_ = sight;
+    materialRevision_ = revision;
+    awaitsRest_ = false;
+    return true;
+}
+
+void MaterialOutline::find(Facts& facts, Screen& screen, Look look, const Sight& sight,
+                           const std::function<bool()>& givesUp) {
+    frame::FrameSettings& settings = look.settings;
+    settings.sizePixels = sight.sizePixels;
+    settings.wholePixels.reset();
+    settings.samples = 1;
+    settings.samplesGiven.reset();
+    settings.view = frame::DebugView::Ids;
+    settings.idsOfNearest = true;
+    settings.display = false;
+    {
+        const KeepsUnused keeps(screen.renderer()->backend());
+        const gpu::BandedDrawing banded(givesUp);
+        screen.renderer()->draw(engine::Technique::Forward, settings);
+    }
+    const engine::RenderedFrame ids = screen.renderer()->download();
+    const std::vector<std::uint8_t> haveIt = instancesOf(sight.open->scene(), sight.material);
+    std::vector<std::uint8_t> isInside(ids.radiance.size() / 4);
+    for (std::size_t pixel = 0; pixel < isInside.size(); ++pixel) {
+        const auto instance = std::size_t(ids.radiance[4 * pixel]); // counted from 1
+        isInside[pixel] = instance > 0 && instance <= haveIt.size() && haveIt[instance - 1] != 0;
+    }
+    facts.materialOutline = {sight.material, sight.sizePixels, contoursOf(isInside, sight.sizePixels)};
+}
+
+} // namespace tessera::viewer
