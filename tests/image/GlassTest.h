@@ -102,6 +102,7 @@ inline scenes::Scene fewWithGlass() {
     scene.materials.back().attenuationColor = {0.9f, 0.4f, 0.2f};
     scene.materials.back().dispersion = 1.0f;
     scene.materials.push_back(clearGlass());
+    scene.materials.back().perceptualRoughness = 0.4f;
     for (const int material : {1, 2}) {
         scenes::Node& node = scene.nodes.emplace_back(scene.nodes[0]);
         node.instances[0].material = material;

@@ -2,6 +2,9 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
+#if HAS_PASSING_LOBES
+#include "lib/reflectance/lobes.glsl"
+#endif
 #if HAS_VOLUME && (HAS_SCENE_BEHIND || HAS_BACK_FACES)
 #include "lib/lighting/scene_behind.glsl"
 #endif
@@ -9,13 +12,27 @@
 #include "lib/maths/random.glsl"
 #endif
 
+// What the surface's lobe reflects of even light: a mirror by Fresnel's factor, a rough one by the table. Nothing where
+// the shading normal points away from the viewer, so that all of it passes.
+vec3 reflectedEvenly(SeenSurface seen)
+{
+    if (!(seen.nv > 0.0)) return vec3(0.0);
+    precise vec3 mirrored = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
+#if HAS_PASSING_LOBES
+    float alpha = lobeAlpha(seen.surface), ofMirror = mirrorShare(alpha);
+    vec4 lobe = lobeTexel(seen.nv, alpha, LOBE_LAYER_GGX);
+    precise vec3 scattered = seen.f0 * lobe.r + seen.fresnelRise * lobe.g;
+    precise vec3 blended = scattered * (1.0 - ofMirror) + mirrored * ofMirror;
+    return blended;
+#else
+    return mirrored;
+#endif
+}
+
 // By channel, of a radiance from behind: what the surface and its layers do not reflect, tinted.
 vec3 passedShare(SeenSurface seen)
 {
-    // Where the shading normal points away from the viewer nothing is reflected, so that all of it passes.
-    precise vec3 reflected = vec3(0.0);
-    if (seen.nv > 0.0) reflected = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
-    precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflected, vec3(0.0));
+    precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflectedEvenly(seen), vec3(0.0));
 #if HAS_SHEEN
     if (strongestSheen(seen.surface) > 0.0) share *= viewerShareUnderSheen(seen);
 #endif
