@@ -403,7 +403,37 @@ TEST_F(GlassBehind, bentOnceShowsWhereTheRayMeetsTheWall) {
     }
 }
 
-/// The same seen through a lens, with a far plane and without, and moved aside by a far side.
+/// A body that is thicker than the room before the wall: rays meet the wall inside, and not where they would leave the
+/// body behind it.
+TEST_F(GlassBehind, withAFarSideBehindTheWallShowsWhereTheRayMeetsTheWallInside) {
+    constexpr double kIor = 1.5;
+    const double bend = std::tan(kGlassTiltRadians - std::asin(std::sin(kGlassTiltRadians) / kIor));
+    Material deep = bareGlass(kIor);
+    deep.thicknessMetres = 8.0f;
+    const frame::FrameSettings settings = seeing(Refraction::TwoSides);
+    const Scene covered = coveredByGlass(rampWall(), deep, kGlassTiltRadians);
+    const std::vector<float> plain = drawn(rampWall(), settings), shown = drawn(covered, settings);
+    const std::vector<float> truth = validation::referencePicture(
+                                         covered, settings, [] {}, validation::Leeway::None)
+                                         .picture.rgba;
+    int met = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x), above = -begin * std::tan(kGlassTiltRadians) + kBehindWallMetres;
+            const double place = begin - above * bend;
+            if (place < -1.0 + kBehindPixelMetres) continue;
+            ++met;
+            const glm::dvec3 wanted = evenlyAt(plain, place, y);
+            const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 0.05 * step[c] + 1e-5) << "at " << x << ", " << y;
+                ASSERT_NEAR(at(truth, x, y)[c], wanted[c], 1e-4) << "reference, at " << x << ", " << y;
+            }
+        }
+    EXPECT_GT(met, kBehindPixels * kBehindPixels / 3);
+}
+
+/// Bent once, or moved aside by a far side, seen through a lens, with a far plane and without.
 TEST_F(GlassBehind, throughALensShowsWhereTheRayMeetsTheWall) {
     constexpr double kIor = 1.5, kThicknessMetres = 0.4, kEyeMetres = 3.0, kFovYRadians = 0.5;
     const double half = std::tan(0.5 * kFovYRadians), wallHalf = half * (kEyeMetres + kBehindWallMetres);

@@ -139,14 +139,23 @@ void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint&
 BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
                                bool showsScene, std::uint32_t seed) const {
     const double depthMetres = entry.depthMetres;
+    const auto meetsAny = [&](const Ray& inside, double metres) {
+        const Seen seen = sight_.ahead(inside);
+        return (seen.opaque && seen.opaque->depthMetres <= metres) || (seen.light && seen.light->depthMetres <= metres);
+    };
     const auto along = [&](double ior, std::optional<double>& wayMetres) {
         const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
         if (!bent) return glm::dvec3(0.0);
         glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
         if (settings_.farSide == FarSide::Parallel) {
             // By the angle inside. The product holds its cosine to 1e-3.
-            originRWS += point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3) * *bent;
-            direction = -toViewer;
+            const double toFarSideMetres = point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3);
+            // What stands inside, or under the far side itself, is met there.
+            const double upTo = toFarSideMetres * (1.0 + 1e-6);
+            if (!showsScene || !meetsAny(bentRay(ray, depthMetres, originRWS, *bent), upTo)) {
+                originRWS += toFarSideMetres * *bent;
+                direction = -toViewer;
+            }
         }
         if (settings_.farSide == FarSide::BackFaces) {
             const Ray inside = bentRay(ray, depthMetres, originRWS, *bent);

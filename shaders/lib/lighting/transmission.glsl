@@ -147,14 +147,18 @@ vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
 }
 #endif
 
-// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside;
-// or through the far side that is drawn where it meets any; else as it was bent.
+// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside,
+// unless it meets a surface before; or through the far side that is drawn where it meets any; else as it was bent.
 BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float ior)
 {
 #if HAS_PARALLEL_SIDES
     // Beyond the critical angle of an index below 1 rays run along the surface, without end.
     precise float cosine = max(abs(dot(bent, surface.normalLS)), 1e-3);
     precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
+#if HAS_SCENE_BEHIND
+    ScreenRay inside = screenRayTo(viewpoint.positionLS, vec4(farSide, 1.0));
+    if (screenHit(kOpaqueLayer, inside, viewpoint.depth).isMet) return BentRay(viewpoint.positionLS, bent, -1.0);
+#endif
     return BentRay(farSide, -viewpoint.toViewerLS, -1.0);
 #else
 #if HAS_BACK_FACES
