@@ -73,6 +73,7 @@ struct ViewWiring {
     std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
     std::optional<graph::BufferHandle> seenLights;     ///< where area lights are: shared::SeenLightTexels
     std::optional<graph::BufferHandle> seenPictures;   ///< where some of those have any
+    std::optional<TextureHandle> passingLobes;         ///< what lobes leave of light that passes, where some are rough
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
@@ -93,7 +94,8 @@ struct ViewWiring {
         seenLights = lights.seenLights;
         if (lights.environment) addEnvironment(frame.scene.environment, *lights.environment);
         lighting.lobes.lobes = frame.scene.lobes.lobes;
-        if (spec.usesLobeTable()) lighting.lobes.table = frame.scene.lobes.table;
+        if (spec.lightsByLobeTable()) lighting.lobes.table = frame.scene.lobes.table;
+        if (spec.passesByLobes) passingLobes = frame.scene.lobes.table;
         if (spec.usesLobeShapes()) lighting.lobes.shapes = frame.scene.lobes.shapes;
         if (spec.features[frame::Feature::LightPictures]) lighting.lightPictures = frame.scene.lightPictures;
         if (spec.showsLightPictures) seenPictures = frame.scene.lightPictures;
@@ -300,6 +302,7 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     if (!wiring.blends()) return {opaque.radiance, opaque.depth};
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
     ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}, {}};
+    if (wiring.passingLobes) inputs.lighting.lobes.table = wiring.passingLobes;
     if (wiring.spec.showsBehindBodies)
         inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance}).behind;
     if (wiring.spec.drawsFarSides)

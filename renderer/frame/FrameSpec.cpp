@@ -103,6 +103,15 @@ void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
         }));
 }
 
+/// Decides whether what passes through surfaces is what lobes leave, and not mirrors alone. A hook may make any surface
+/// rough.
+void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
+    const auto mayPass = [](const scenes::Material* material) { return mayPassByLobe(*material); };
+    spec.passesByLobes =
+        spec.settings.view == DebugView::Final && spec.features[Feature::Transmission] &&
+        (!spec.settings.prune || spec.hook.has_value() || std::ranges::any_of(scenes::materialsInUse(scene), mayPass));
+}
+
 /// Why bodies of glass show no surfaces, where they show none.
 std::string whyNothingBehindBodies(const scenes::Scene& scene, const FrameSpec& spec) {
     if (!spec.features[Feature::Transmission] || !spec.features[Feature::Volume])
@@ -185,6 +194,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     // It says how shadows are found, so it is not kept where it is not asked for.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     decideRefraction(scene, spec);
+    decidePassing(scene, spec);
     if (sampledTextures(spec) > std::size_t(settings.texturesAStage))
         leaveOutTextures(spec, settings.prune ? surfaces : materialFeatures(scene, settings.subsurface));
     // A channel that is looked at is stored, and not as a number or beside one.
@@ -223,7 +233,7 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;
-    spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = false;
+    spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = spec.passesByLobes = false;
     const auto spreadOver = [&](int border) {
         return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                            texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
@@ -251,6 +261,7 @@ Defines frameDefines(const FrameSpec& spec) {
     }
     defines.emplace_back("HAS_SCENE_BEHIND", spec.showsBehindBodies ? "1" : "0");
     defines.emplace_back("HAS_BLURRED_SCENE_BEHIND", spec.blursBehindBodies ? "1" : "0");
+    defines.emplace_back("HAS_PASSING_LOBES", spec.passesByLobes ? "1" : "0");
     const bool areParallel = infoOf(spec.settings.refraction).farSide == RefractionInfo::FarSide::Parallel;
     defines.emplace_back("HAS_PARALLEL_SIDES", areParallel ? "1" : "0");
     defines.emplace_back("HAS_BACK_FACES", spec.drawsFarSides ? "1" : "0");
@@ -317,6 +328,10 @@ bool FrameSpec::usesEnvironmentMap() const {
 }
 
 bool FrameSpec::usesLobeTable() const {
+    return lightsByLobeTable() || passesByLobes;
+}
+
+bool FrameSpec::lightsByLobeTable() const {
     return features.areaLights() ||
            (features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes()));
 }

@@ -37,6 +37,9 @@ bool varies(const scenes::Material& material) {
 /// more, since the layout `slim` keeps alphas there in steps of 8 %.
 constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
 
+/// Half of the least alpha, so that rounding in shaders never finds more.
+constexpr double kSurelyMirrorAlpha = 0.5 * ALPHA_MIN;
+
 /// By how much light that passes is spread less than light that is reflected: factor of alpha.
 /// setPassing() of shaders/lib/material/material.glsl.
 double passingScale(float ior) {
@@ -131,13 +134,18 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
 } // namespace
 
 bool mayBlurBehind(const scenes::Material& material) {
-    // Half of the least alpha, so that rounding in shaders never finds more.
-    constexpr double kSharpest = 0.5 * ALPHA_MIN;
     if (!scenes::hasBody(material)) return false;
     const auto isTextured = [&](scenes::TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
     if (isTextured(scenes::TextureSlot::MetallicRoughness) || isTextured(scenes::TextureSlot::Ior)) return true;
     const auto roughness = double(material.perceptualRoughness);
-    return roughness * roughness * passingScale(material.ior) > kSharpest;
+    return roughness * roughness * passingScale(material.ior) > kSurelyMirrorAlpha;
+}
+
+bool mayPassByLobe(const scenes::Material& material) {
+    if (!scenes::isTransmissive(material)) return false;
+    const auto roughness = double(material.perceptualRoughness);
+    return roughness * roughness > kSurelyMirrorAlpha || scenes::isAnisotropic(material) ||
+           material.texture(scenes::TextureSlot::MetallicRoughness).image != scenes::kNone;
 }
 
 bool canMask(const scenes::Material& material) {

@@ -10,6 +10,9 @@ bool canMask(const scenes::Material& material);
 /// Whether the material has a body that may spread the light on its way through, so that what is behind is blurred.
 bool mayBlurBehind(const scenes::Material& material);
 
+/// Whether light passes through the material and its lobe may be broader than a mirror.
+bool mayPassByLobe(const scenes::Material& material);
+
 /// The features of the materials in use. packLights adds those of visible lights and their shadows, makeFrameSpec those
 /// of the camera.
 FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface = {});

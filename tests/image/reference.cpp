@@ -165,7 +165,7 @@ void Reference::expectAreaLitScenesAsNearAsShapes() {
         settings.environment.light = frame::EnvironmentLight::Sampled;
         settings.environment.samples = 256;
         // What else glass shows depends on the picture
-        // (GlassSlow.mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind).
+        // (GlassBehindSlow.mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind).
         settings.refraction = frame::Refraction::Environment;
         const validation::ComparePair pair = compared(scenes::loadScene(bars.scene, options), settings, false).front();
         const validation::ErrorFigures& figures = pair.figures;

@@ -85,11 +85,8 @@ void setTransmission(const Hit& hit, const Textures& textures, SurfacePoint& poi
     const double distance = double(material.attenuationDistanceMetres);
     point.bodyMetres = thickness;
     if (point.hasBody) point.dispersion = double(material.dispersion);
-    if (thickness > 0.0 && distance > 0.0)
-        for (int c = 0; c < 3; ++c) {
-            const double absorptionPerMetre = -std::log(double(material.attenuationColor[c])) / distance;
-            point.leftByBody[c] = std::exp(-absorptionPerMetre * thickness);
-        }
+    if (point.hasBody && distance > 0.0)
+        for (int c = 0; c < 3; ++c) point.bodyPerMetre[c] = -std::log(double(material.attenuationColor[c])) / distance;
     // A roughness is scaled before it is squared, as the Khronos sample viewer does. An index of 0 stands for infinity.
     const double bending = point.ior == 0.0 ? 1.0 : std::clamp(2.0 * (point.ior - 1.0), 0.0, 1.0);
     point.passingAlpha = squaredRoughness(point.roughness * bending);

@@ -40,7 +40,7 @@ struct SurfacePoint {
     double filmThicknessNm = 0.0;     ///< nanometres
     double transmission = 0.0;        ///< 0..1, KHR_materials_transmission
     bool hasBody = false;             ///< that bends and absorbs what passes, KHR_materials_volume
-    glm::dvec3 leftByBody{1.0};       ///< of what passes, by channel
+    glm::dvec3 bodyPerMetre{0.0};     ///< absorption of what passes, by channel, in the scene's metres
     double dispersion = 0.0;          ///< 20 over the Abbe number, KHR_materials_dispersion
     double passingAlpha = 1.0;        ///< of GGX, by which a body spreads it
     double bodyMetres = 0.0;          ///< how thick it is

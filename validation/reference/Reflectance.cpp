@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "validation/reference/EvenLight.h"
 #include "validation/reference/Film.h"
 #include "validation/reference/Lobes.h"
 #include "validation/reference/Microfacet.h"
@@ -279,10 +280,15 @@ glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     if (strongest > 0.0)
         share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
     if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
-    // A normal that points away from the viewer reflects nothing.
-    const glm::dvec3 reflected = cosView > 0.0 ? fresnelOf(point, cosView, cosView) : glm::dvec3(0.0);
-    return share * point.passingColor.value_or(point.color) * point.leftByBody *
-           glm::max(1.0 - reflected, glm::dvec3(0.0));
+    return share * point.passingColor.value_or(point.color) *
+           glm::max(1.0 - reflectedOfEvenLight(point, toViewer), glm::dvec3(0.0));
+}
+
+glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres) {
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c)
+        if (wayMetres[c] > 0.0) left[c] = std::exp(-point.bodyPerMetre[c] * wayMetres[c]); // which may have no bound
+    return left;
 }
 
 std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer, double ior) {

@@ -60,8 +60,11 @@ SurfacePoint withoutMirrors(const SurfacePoint& point);
 /// normal at which it meets it from below.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
-/// What shows through a surface that transmits of a radiance behind it, by channel.
+/// What shows through a surface that transmits of a radiance behind it, by channel, before what its body absorbs.
 glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer);
+
+/// What a body leaves of light that goes so far through it, in metres, by channel. Beer's law.
+glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres);
 
 /// Along which the light came, unit, that leaves a body towards the viewer; nothing where none gets out. By Snell's law
 /// for an index of refraction, 0 of which stands for infinity.

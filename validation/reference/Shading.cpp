@@ -127,29 +127,41 @@ void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint&
     const glm::dvec3 share = transmitted(point, toViewer);
     const bool showsScene = settings_.bodiesShowScene && !sight_.objects().opaque().empty();
     if (!point.hasBody || (!showsScene && !surroundings_.showsThroughBodies())) {
-        lit.passed = share;
+        lit.passed = share * leftByBody(point, glm::dvec3(point.bodyMetres));
         return;
     }
     if (!memo.throughBody) memo.throughBody = throughBody(point, shown.ray, hit, toViewer, showsScene, shown.seed);
-    lit.radiance += share * *memo.throughBody;
+    glm::dvec3 wayMetres;
+    for (int c = 0; c < 3; ++c) wayMetres[c] = memo.throughBody->wayMetres[c].value_or(point.bodyMetres);
+    lit.radiance += share * leftByBody(point, wayMetres) * memo.throughBody->radiance;
 }
 
-glm::dvec3 Shading::throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
-                                bool showsScene, std::uint32_t seed) const {
+BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
+                               bool showsScene, std::uint32_t seed) const {
     const double depthMetres = entry.depthMetres;
-    const auto along = [&](double ior) {
+    const auto meetsAny = [&](const Ray& inside, double metres) {
+        const Seen seen = sight_.ahead(inside);
+        return (seen.opaque && seen.opaque->depthMetres <= metres) || (seen.light && seen.light->depthMetres <= metres);
+    };
+    const auto along = [&](double ior, std::optional<double>& wayMetres) {
         const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
         if (!bent) return glm::dvec3(0.0);
         glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
         if (settings_.farSide == FarSide::Parallel) {
             // By the angle inside. The product holds its cosine to 1e-3.
-            originRWS += point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3) * *bent;
-            direction = -toViewer;
+            const double toFarSideMetres = point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3);
+            // What stands inside, or under the far side itself, is met there.
+            const double upTo = toFarSideMetres * (1.0 + 1e-6);
+            if (!showsScene || !meetsAny(bentRay(ray, depthMetres, originRWS, *bent), upTo)) {
+                originRWS += toFarSideMetres * *bent;
+                direction = -toViewer;
+            }
         }
         if (settings_.farSide == FarSide::BackFaces) {
             const Ray inside = bentRay(ray, depthMetres, originRWS, *bent);
             if (std::optional<Hit> leaving = sight_.farSideAhead(inside, *entry.object)) {
                 leaving->toViewer = glm::dvec3(0.0); // who sees its back
+                wayMetres = leaving->depthMetres;
                 originRWS = inside.at(leaving->depthMetres);
                 direction = leavingDirection(*bent, normalAt(*leaving, sight_.textures()), ior);
             }
@@ -158,8 +170,14 @@ glm::dvec3 Shading::throughBody(const SurfacePoint& point, const Ray& ray, const
         return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
     };
     const glm::dvec3 iors = iorsOf(point);
-    if (iors.r == iors.b) return along(iors.g);
-    return {along(iors.r).r, along(iors.g).g, along(iors.b).b};
+    BodyLight found;
+    if (iors.r != iors.b) {
+        for (int c = 0; c < 3; ++c) found.radiance[c] = along(iors[c], found.wayMetres[c])[c];
+        return found;
+    }
+    found.radiance = along(iors.g, found.wayMetres[1]);
+    found.wayMetres[0] = found.wayMetres[2] = found.wayMetres[1];
+    return found;
 }
 
 /// Opaque surfaces and lights around a direction, and what is seen between them: the environment that lights the

@@ -9,6 +9,13 @@
 
 namespace tessera::reference {
 
+/// What a body shows.
+struct BodyLight {
+    glm::dvec3 radiance{0.0}; ///< behind it, where its rays go
+    /// By channel, inside the body, where it is known where they leave it.
+    std::optional<double> wayMetres[3];
+};
+
 /// What was found of the light of a surface: nudges and shadows change less than it takes to find it again.
 struct SurfaceMemo {
     std::vector<std::optional<Occlusion::Answer>> shadows; ///< by light
@@ -16,7 +23,7 @@ struct SurfaceMemo {
     std::vector<std::optional<Estimate>> areaLights; ///< nothing hidden
     std::optional<Diffusion::Answer> spread;
     std::optional<Estimate> surroundings;
-    std::optional<glm::dvec3> throughBody;
+    std::optional<BodyLight> throughBody;
 };
 
 /// What a ray sees, with what was found of its light.
@@ -55,8 +62,8 @@ private:
     SurfacePoint nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const;
     void addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                     SurfaceMemo& memo, Lit& lit) const;
-    glm::dvec3 throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
-                           bool showsScene, std::uint32_t seed) const;
+    BodyLight throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
+                          bool showsScene, std::uint32_t seed) const;
     glm::dvec3 sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction,
                            double alpha, std::uint32_t seed) const;
     glm::dvec3 passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,

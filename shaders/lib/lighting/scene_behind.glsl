@@ -82,11 +82,11 @@ float shareInside(float from, float towards, float share)
     return share > 0.0 && towards < 0.0 ? min(share, crossing) : share;
 }
 
-// `towards` is the point at infinity that the ray goes to. In homogeneous coordinates it is a point like others.
-ScreenRay screenRay(vec3 originLS, vec3 directionLS)
+// To a point in homogeneous coordinates, which may be one at infinity.
+ScreenRay screenRayTo(vec3 originLS, vec4 endLS)
 {
     precise vec4 from = view.clipFromLS * vec4(originLS, 1.0);
-    precise vec4 towards = view.clipFromLS * vec4(directionLS, 0.0);
+    precise vec4 towards = view.clipFromLS * endLS;
     ScreenRay ray = ScreenRay(vec3(0.0), vec3(0.0), false);
     precise vec3 lowFrom = vec3(from.w + from.x, from.w + from.y, from.z);
     precise vec3 highFrom = vec3(from.w - from.x, from.w - from.y, from.w - from.z);
@@ -109,6 +109,11 @@ ScreenRay screenRay(vec3 originLS, vec3 directionLS)
     ray.way = end - begin;
     ray.isSeen = true;
     return ray;
+}
+
+ScreenRay screenRay(vec3 originLS, vec3 directionLS)
+{
+    return screenRayTo(originLS, vec4(directionLS, 0.0));
 }
 
 // Whether the surface of the pixel in which a ray is found behind it is met there, and not passed behind its edge.

@@ -2,6 +2,9 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
+#if HAS_PASSING_LOBES
+#include "lib/reflectance/lobes.glsl"
+#endif
 #if HAS_VOLUME && (HAS_SCENE_BEHIND || HAS_BACK_FACES)
 #include "lib/lighting/scene_behind.glsl"
 #endif
@@ -9,13 +12,27 @@
 #include "lib/maths/random.glsl"
 #endif
 
+// What the surface's lobe reflects of even light: a mirror by Fresnel's factor, a rough one by the table. Nothing where
+// the shading normal points away from the viewer, so that all of it passes.
+vec3 reflectedEvenly(SeenSurface seen)
+{
+    if (!(seen.nv > 0.0)) return vec3(0.0);
+    precise vec3 mirrored = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
+#if HAS_PASSING_LOBES
+    float alpha = lobeAlpha(seen.surface), ofMirror = mirrorShare(alpha);
+    vec4 lobe = lobeTexel(seen.nv, alpha, LOBE_LAYER_GGX);
+    precise vec3 scattered = seen.f0 * lobe.r + seen.fresnelRise * lobe.g;
+    precise vec3 blended = scattered * (1.0 - ofMirror) + mirrored * ofMirror;
+    return blended;
+#else
+    return mirrored;
+#endif
+}
+
 // By channel, of a radiance from behind: what the surface and its layers do not reflect, tinted.
 vec3 passedShare(SeenSurface seen)
 {
-    // Where the shading normal points away from the viewer nothing is reflected, so that all of it passes.
-    precise vec3 reflected = vec3(0.0);
-    if (seen.nv > 0.0) reflected = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
-    precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflected, vec3(0.0));
+    precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflectedEvenly(seen), vec3(0.0));
 #if HAS_SHEEN
     if (strongestSheen(seen.surface) > 0.0) share *= viewerShareUnderSheen(seen);
 #endif
@@ -84,7 +101,8 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 // Where a ray that was bent at the surface goes on, and along which direction.
 struct BentRay {
     vec3 originLS;
-    vec3 directionLS; // unit
+    vec3 directionLS;   // unit
+    float insideMetres; // its way through the body, below 0 where that is as long as the body is thick
 };
 
 #if HAS_BACK_FACES
@@ -104,6 +122,16 @@ vec3 farSideNormal(ScreenHit hit)
     return safeNormalize(sum, texelFetch(farSides, hit.pixel, 0).xyz);
 }
 
+// What the body leaves of white light after so long a way, by Beer's law.
+vec3 leftAfter(float metres)
+{
+    // In place of nearly nothing its logarithm is given. 1 leaves all of it, to the last bit.
+    vec3 left = material.attenuation.rgb;
+    precise vec3 logarithm = mix(left, log(max(left, vec3(1e-30))), greaterThan(left, vec3(0.0)));
+    precise vec3 found = exp(logarithm * (metres / material.transmission.z));
+    return mix(found, vec3(1.0), equal(left, vec3(1.0)));
+}
+
 // Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
 // then leaves unbent.
 vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
@@ -119,35 +147,47 @@ vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
 }
 #endif
 
-// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside;
-// or through the far side that is drawn where it meets any; else as it was bent.
+// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside,
+// unless it meets a surface before; or through the far side that is drawn where it meets any; else as it was bent.
 BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float ior)
 {
 #if HAS_PARALLEL_SIDES
     // Beyond the critical angle of an index below 1 rays run along the surface, without end.
     precise float cosine = max(abs(dot(bent, surface.normalLS)), 1e-3);
     precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
-    return BentRay(farSide, -viewpoint.toViewerLS);
+#if HAS_SCENE_BEHIND
+    ScreenRay inside = screenRayTo(viewpoint.positionLS, vec4(farSide, 1.0));
+    if (screenHit(kOpaqueLayer, inside, viewpoint.depth).isMet) return BentRay(viewpoint.positionLS, bent, -1.0);
+#endif
+    return BentRay(farSide, -viewpoint.toViewerLS, -1.0);
 #else
 #if HAS_BACK_FACES
     ScreenHit hit = screenHit(kFarLayer, screenRay(viewpoint.positionLS, bent), viewpoint.depth);
     if (hit.isMet) {
         vec3 normal = farSideNormal(hit);
         vec3 outward = dot(normal, bent) < 0.0 ? -normal : normal;
-        return BentRay(viewpointFromDepth(hit.place.xy, hit.place.z).positionLS, leavingDirection(bent, outward, ior));
+        vec3 leavesLS = viewpointFromDepth(hit.place.xy, hit.place.z).positionLS;
+        precise float insideMetres = length(leavesLS - viewpoint.positionLS);
+        return BentRay(leavesLS, leavingDirection(bent, outward, ior), insideMetres);
     }
 #endif
-    return BentRay(viewpoint.positionLS, bent);
+    return BentRay(viewpoint.positionLS, bent, -1.0);
 #endif
 }
 
-// What a body shows of light that it bends by an index of refraction and keeps by channel: surfaces that the picture holds,
-// and beyond them the environment, or the background where none lights the scene. Black where all is reflected.
-vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, float ior, vec2 pixel)
+// What a body shows of light that it bends by an index of refraction, of which its surface keeps `share`, by channel:
+// surfaces that the picture holds, and beyond them the environment, or the background where none lights the scene. Black
+// where all is reflected.
+vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float ior, vec2 pixel)
 {
     vec3 bent = refractedDirection(surface.normalLS, viewpoint.toViewerLS, ior);
     if (bent == vec3(0.0)) return vec3(0.0);
     BentRay ray = rayThroughBody(surface, viewpoint, bent, ior);
+    vec3 left = surface.leftByBody;
+#if HAS_BACK_FACES
+    if (ray.insideMetres >= 0.0) left = leftAfter(ray.insideMetres);
+#endif
+    precise vec3 kept = share * left;
 #if HAS_SCENE_BEHIND
     vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, surface.passingAlpha);
     precise vec3 shown = kept * met.rgb;
@@ -168,13 +208,13 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, float ior
 }
 
 // The same of a body whose colours may bend apart. One loop, so that a program holds the way of a ray once.
-vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, vec2 pixel)
+vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, vec2 pixel)
 {
 #if HAS_DISPERSION
     bool bendsApart = material.attenuation.a > 0.0;
     vec3 iors = bendsApart ? iorByChannel(surface.passingIor) : vec3(surface.passingIor), light = vec3(0.0);
     for (int c = 0; c < (bendsApart ? 3 : 1); ++c) {
-        vec3 own = lightThroughBody(surface, viewpoint, kept, iors[c], pixel);
+        vec3 own = lightThroughBody(surface, viewpoint, share, iors[c], pixel);
         if (bendsApart)
             light[c] = own[c];
         else
@@ -182,7 +222,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 kept, vec2 pixe
     }
     return light;
 #else
-    return lightThroughBody(surface, viewpoint, kept, surface.passingIor, pixel);
+    return lightThroughBody(surface, viewpoint, share, surface.passingIor, pixel);
 #endif
 }
 #endif
@@ -196,12 +236,11 @@ struct ThroughSurface {
 ThroughSurface lightThrough(Surface surface, Viewpoint viewpoint, vec2 pixel)
 {
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
-    ThroughSurface through = ThroughSurface(vec3(0.0), passedShare(seen));
+    vec3 share = passedShare(seen);
 #if BODIES_BEND
-    if (material.transmission.z > 0.0) {
-        through.radiance = lightThroughBody(surface, viewpoint, through.kept, pixel);
-        through.kept = vec3(0.0);
-    }
+    if (material.transmission.z > 0.0)
+        return ThroughSurface(lightThroughBody(surface, viewpoint, share, pixel), vec3(0.0));
 #endif
-    return through;
+    precise vec3 kept = share * surface.leftByBody;
+    return ThroughSurface(vec3(0.0), kept);
 }

@@ -29,11 +29,12 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
 #endif
     left = max(left, vec3(0.0)); // what is given as a logarithm is nothing
     precise float share = transmission * (1.0 - metallic);
-    precise vec3 passing = baseColor * left * share;
+    precise vec3 passing = baseColor * share;
     precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;
     precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
     surface.transmission = transmission;
     surface.passing = passing;
+    surface.leftByBody = left;
     surface.passingIor = ior;
     surface.passingAlpha = alpha;
     surface.bodyMetres = bodyMetres;

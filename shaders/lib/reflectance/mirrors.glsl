@@ -11,7 +11,6 @@ vec3 mirrorDirection(vec3 normal, vec3 toViewer)
     return mirrored;
 }
 
-#if HAS_MIRRORS
 // How much of a lobe is a mirror: all of one of the least alpha, nothing from that of the first filtered level on.
 float mirrorShare(float alpha)
 {
@@ -20,6 +19,7 @@ float mirrorShare(float alpha)
     return share;
 }
 
+#if HAS_MIRRORS
 // Whether the surface's lobe is one.
 bool isMirror(SeenSurface seen)
 {

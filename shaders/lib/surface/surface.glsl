@@ -57,7 +57,8 @@ struct Surface {
 #endif
 #if HAS_PASSING_LIGHT
     float transmission; // 0..1, share of what enters that passes
-    vec3 passing;       // what is left of white light that passes, before what the surface and its layers reflect
+    vec3 passing;       // of white light that passes, before what the surface and its layers reflect and its body absorbs
+    vec3 leftByBody;    // what a body leaves of white light that goes as far as it is thick
     float passingIor;   // index of refraction below the surface
     float passingAlpha; // GGX alpha that light is spread by on its way through a body, >= ALPHA_MIN
     float bodyMetres;   // how thick the body below the surface is; 0 where there is none
@@ -137,6 +138,7 @@ void setNeutralLobes(inout Surface surface)
 #if HAS_PASSING_LIGHT
     surface.transmission = 0.0;
     surface.passing = vec3(0.0);
+    surface.leftByBody = vec3(1.0);
     surface.passingIor = 1.0;
     surface.passingAlpha = ALPHA_MIN;
     surface.bodyMetres = 0.0;

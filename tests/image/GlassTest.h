@@ -1,0 +1,131 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "tests/image/EnvironmentTest.h"
+
+/// Light that passes through surfaces: what its tests have in common.
+namespace tessera::test {
+
+inline constexpr double kGlassRounding = 2e-6; ///< relative, of a few operations in fp32
+
+inline scenes::Material clearGlass() {
+    scenes::Material glass;
+    glass.name = "clear glass";
+    glass.metallic = 0.0f;
+    glass.perceptualRoughness = 0.0f;
+    glass.transmission = 1.0f;
+    return glass;
+}
+
+/// Without a reflection.
+inline scenes::Material bareGlass(double ior, double roughness = 0.0) {
+    scenes::Material glass = clearGlass();
+    glass.specularFactor = 0.0f;
+    glass.ior = float(ior);
+    glass.perceptualRoughness = float(roughness);
+    glass.thicknessMetres = 0.1f;
+    return glass;
+}
+
+inline constexpr int kBentPixels = 48, kBentWidth = 256, kBentHeight = 128;
+inline constexpr double kBentTiltRadians = 0.6; ///< of the plane, about x
+
+/// Smooth in all directions.
+inline double bentSky(int x, int y) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    return 1.0 +
+           0.5 * std::sin(3.0 * kTurn * (x + 0.5) / kBentWidth) * std::sin(0.5 * kTurn * (y + 0.5) / kBentHeight) +
+           0.4 * std::cos(2.0 * kTurn * (y + 0.5) / kBentHeight);
+}
+
+inline double bentSkyAlong(const glm::dvec3& direction) {
+    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kBentWidth, kBentHeight) - 0.5;
+    const glm::dvec2 corner = glm::floor(place), share = place - corner;
+    const auto at = [&](int i, int j) {
+        return bentSky((int(corner.x) + i + kBentWidth) % kBentWidth,
+                       std::clamp(int(corner.y) + j, 0, kBentHeight - 1));
+    };
+    return std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
+}
+
+/// A plane through the origin that fills the picture, seen from z = 3 through a wide lens.
+inline scenes::Scene bentPlane(const scenes::Material& material, double tiltRadians = kBentTiltRadians) {
+    scenes::Scene scene = quadScene(material);
+    const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
+    glm::dmat4& placed = scene.nodes[0].parentFromNode;
+    placed = glm::dmat4(1.0);
+    placed[0] = {90.0, 0.0, 0.0, 0.0};
+    placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * 90.0;
+    placed[2] = {0.0, sine, cosine, 0.0};
+    scene.cameras[0].fovYRadians = 1.6;
+    scene.cameras[0].nearMetres = 0.1;
+    scene.cameras[0].farMetres = 1000.0;
+    scene.environment = environmentOf(kBentWidth, kBentHeight, [](int x, int y) { return glm::dvec3(bentSky(x, y)); });
+    return scene;
+}
+
+inline glm::dvec3 bentNormal(double tiltRadians) {
+    return {0.0, std::sin(tiltRadians), std::cos(tiltRadians)};
+}
+
+inline const glm::dvec3 kBentNormal = bentNormal(kBentTiltRadians);
+
+inline glm::dvec3 toViewerOfBent(int x, int y) {
+    const double half = std::tan(0.8) / kBentPixels;
+    return -glm::normalize(
+        glm::dvec3((2.0 * x + 1.0 - kBentPixels) * half, (kBentPixels - 1.0 - 2.0 * y) * half, -1.0));
+}
+
+/// Snell's law by angles; nothing where all is reflected. An index of 0 is one without bound.
+inline std::optional<glm::dvec3> bentDirection(const glm::dvec3& toViewer, double ior,
+                                               const glm::dvec3& normal = kBentNormal) {
+    if (ior == 0.0) return -normal;
+    const double angle = std::acos(glm::dot(normal, toViewer)), bentSine = std::sin(angle) / ior;
+    if (bentSine > 1.0) return std::nullopt;
+    const glm::dvec3 along = glm::normalize(toViewer - std::cos(angle) * normal);
+    return -std::cos(std::asin(bentSine)) * normal - bentSine * along;
+}
+
+/// A body and a sheet before a surface, in the light of a lamp.
+inline scenes::Scene fewWithGlass() {
+    scenes::Material matte;
+    matte.metallic = 0.0f;
+    matte.baseColor = {0.6f, 0.4f, 0.2f, 1.0f};
+    scenes::Scene scene = quadScene(matte);
+    scene.lights = {pointLight({0.3, 0.4, 2.0}, 9.0f)};
+    scene.materials.push_back(bareGlass(1.5, 0.2));
+    scene.materials.back().attenuationDistanceMetres = 0.2f;
+    scene.materials.back().attenuationColor = {0.9f, 0.4f, 0.2f};
+    scene.materials.back().dispersion = 1.0f;
+    scene.materials.push_back(clearGlass());
+    scene.materials.back().perceptualRoughness = 0.4f;
+    for (const int material : {1, 2}) {
+        scenes::Node& node = scene.nodes.emplace_back(scene.nodes[0]);
+        node.instances[0].material = material;
+        node.parentFromNode[0] *= 0.4;
+        node.parentFromNode[1] *= 0.4;
+        node.parentFromNode[3] = {0.6 * material - 0.9, 0.1 * material, 0.5 * material, 1.0};
+    }
+    return scene;
+}
+
+class GlassTest : public EnvironmentTest {
+protected:
+    static frame::FrameSettings ofSide(int side, frame::EnvironmentLight light = frame::EnvironmentLight::SplitSum) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {side, side};
+        settings.environment.light = light;
+        settings.environment.samples = 16;
+        return settings;
+    }
+    std::vector<float> drawn(const scenes::Scene& scene, const frame::FrameSettings& settings,
+                             engine::Technique technique = engine::Technique::Deferred) {
+        return engine::Renderer(context(), scene).render(technique, settings).radiance;
+    }
+};
+
+} // namespace tessera::test
