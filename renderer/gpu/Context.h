@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "renderer/gpu/Capabilities.h"
@@ -8,6 +10,9 @@
 namespace tessera::gpu {
 
 class DebugLog;
+struct LinkedProgram;
+/// By name and sources.
+using KeptPrograms = std::map<std::string, std::shared_ptr<const LinkedProgram>>;
 
 /// Auto: EGL first, then a hidden window; the other way round when a visible window is asked for.
 enum class ContextKind { Auto, Window, Egl };
@@ -40,6 +45,13 @@ public:
     /// The calling thread's context, or null.
     static Context* current();
 
+    /// From now on programs of one name and the very same sources are compiled once, whoever asks for them, and kept:
+    /// for tests, whose renderers come and go. They have no state in which they could differ.
+    void keepPrograms() { keptPrograms_.emplace(); }
+    /// Ends that; to be called while the context is current, and before it dies.
+    void forgetPrograms() { keptPrograms_.reset(); }
+    KeptPrograms* keptPrograms() { return keptPrograms_ ? &*keptPrograms_ : nullptr; } ///< null: keeps none
+
     /// Shows the window's back buffer; headless contexts do nothing.
     virtual void swapBuffers() {}
     /// The GLFWwindow* behind a windowed context, for input and user interfaces; null when headless.
@@ -63,6 +75,7 @@ private:
     LoadFunction load_;
     std::unique_ptr<DebugLog> debugLog_;
     std::uint32_t emptyVertexArray_ = 0;
+    std::optional<KeptPrograms> keptPrograms_;
 };
 
 } // namespace tessera::gpu

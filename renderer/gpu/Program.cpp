@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
+#include "renderer/gpu/Context.h"
 #include "renderer/gpu/Debug.h"
 #include "shaders/shared/slots.h"
 
@@ -91,6 +92,14 @@ std::string ShaderError::log() const {
 
 PendingProgram::PendingProgram(std::string label, std::span<const StageSource> stages) : label_(std::move(label)) {
     throwIfFailed(fmt::format("before compiling '{}'", label_));
+    if (const KeptPrograms* kept = Context::current()->keptPrograms()) {
+        key_ = label_;
+        for (const StageSource& stage : stages) key_ += fmt::format("\n{}\n{}", stageName(stage.stage), stage.source);
+        if (const auto found = kept->find(key_); found != kept->end()) {
+            kept_ = found->second;
+            return;
+        }
+    }
     id_ = Id(glCreateProgram());
     labelObject(LabelKind::Program, id_.value(), label_);
     for (const StageSource& stage : stages) {
@@ -113,6 +122,7 @@ PendingProgram::~PendingProgram() {
 }
 
 Program PendingProgram::finish() {
+    if (kept_) return Program(label_, kept_);
     std::vector<ShaderError::StageLog> faults;
     for (const PendingShader& shader : shaders_) {
         GLint compiled = GL_FALSE;
@@ -125,7 +135,8 @@ Program PendingProgram::finish() {
     if (!linked) throw ShaderError(label_, {}, linkLog(id_.value()));
     for (const PendingShader& shader : shaders_) glDetachShader(id_.value(), shader.id.value());
     throwIfFailed(fmt::format("building '{}'", label_));
-    Program program(label_, std::move(id_));
+    const auto linkedProgram = std::make_shared<const LinkedProgram>(std::move(id_));
+    Program program(label_, linkedProgram);
     for (const PendingShader& shader : shaders_) {
         const int sampled = program.sampledTextures(shader.stage);
         GLint offered = 0;
@@ -138,38 +149,38 @@ Program PendingProgram::finish() {
                           fmt::format("its {} shader samples {} textures, and this driver offers {}",
                                       stageName(shader.stage), sampled, offered));
     }
+    if (KeptPrograms* kept = Context::current()->keptPrograms(); kept && !key_.empty())
+        kept->emplace(key_, linkedProgram);
     return program;
 }
 
 Program::Program(std::string label, std::span<const StageSource> stages)
     : Program(PendingProgram(std::move(label), stages).finish()) {}
 
-Program::Program(std::string label, Id id) : label_(std::move(label)), id_(std::move(id)) {
+LinkedProgram::LinkedProgram(Id linked) : id(std::move(linked)) {
     GLint blocks = 0;
-    glGetProgramInterfaceiv(id_.value(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
+    glGetProgramInterfaceiv(id.value(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
     for (GLint block = 0; block < blocks; ++block) {
         constexpr std::array<GLenum, 2> kAsked{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
         std::array<GLint, 2> values{};
-        glGetProgramResourceiv(id_.value(), GL_UNIFORM_BLOCK, GLuint(block), GLsizei(kAsked.size()), kAsked.data(),
+        glGetProgramResourceiv(id.value(), GL_UNIFORM_BLOCK, GLuint(block), GLsizei(kAsked.size()), kAsked.data(),
                                GLsizei(values.size()), nullptr, values.data());
-        uniformBlockBytes_[std::uint32_t(values[0])] = std::size_t(values[1]);
+        uniformBlockBytes[std::uint32_t(values[0])] = std::size_t(values[1]);
     }
 }
 
 std::size_t Program::uniformBlockBytes(std::uint32_t slot) const {
-    const auto found = uniformBlockBytes_.find(slot);
-    return found == uniformBlockBytes_.end() ? 0 : found->second;
+    const auto found = linked_->uniformBlockBytes.find(slot);
+    return found == linked_->uniformBlockBytes.end() ? 0 : found->second;
 }
 
-Program::~Program() {
-    const std::uint32_t id = id_.value();
-    if (id == 0) return;
+LinkedProgram::~LinkedProgram() {
     // A deleted program that is current lives on until another one is; code that restores the program that was current
     // before, as Dear ImGui does, would name a program that is no more.
     GLint current = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &current);
-    if (std::uint32_t(current) == id) glUseProgram(0);
-    glDeleteProgram(id);
+    if (std::uint32_t(current) == id.value()) glUseProgram(0);
+    glDeleteProgram(id.value());
 }
 
 } // namespace tessera::gpu

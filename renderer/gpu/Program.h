@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -50,12 +51,21 @@ struct BlockMember {
     std::size_t topArrayStride = 0; ///< bytes between elements of the outermost array of a storage block; 0: no array
 };
 
+/// What the driver has linked, and asked about it once.
+struct LinkedProgram {
+    explicit LinkedProgram(Id linked);
+    ~LinkedProgram();
+    LinkedProgram(const LinkedProgram&) = delete;
+    LinkedProgram& operator=(const LinkedProgram&) = delete;
+    Id id;
+    std::map<std::uint32_t, std::size_t> uniformBlockBytes; ///< by slot
+};
+
 class Program {
 public:
-    /// Compiles and links. Throws ShaderError with the driver's logs, or where a stage samples more textures than
-    /// the driver offers one.
+    /// Compiles and links, unless the context keeps one of this name and these sources (Context::keepPrograms()).
+    /// Throws ShaderError with the driver's logs, or where a stage samples more textures than the driver offers one.
     Program(std::string label, std::span<const StageSource> stages);
-    ~Program();
     Program(Program&&) noexcept = default;
     Program& operator=(Program&&) noexcept = default;
 
@@ -71,15 +81,15 @@ public:
     /// GL_BUFFER_DATA_SIZE of the active uniform block at a slot, bytes; 0 when there is none.
     std::size_t uniformBlockBytes(std::uint32_t slot) const;
 
-    std::uint32_t id() const { return id_.value(); }
+    std::uint32_t id() const { return linked_ ? linked_->id.value() : 0; } ///< 0 of one that was moved
     const std::string& label() const { return label_; }
 
 private:
     friend class PendingProgram;
-    Program(std::string label, Id id);
+    Program(std::string label, std::shared_ptr<const LinkedProgram> linked)
+        : label_(std::move(label)), linked_(std::move(linked)) {}
     std::string label_;
-    Id id_;
-    std::map<std::uint32_t, std::size_t> uniformBlockBytes_; ///< by slot
+    std::shared_ptr<const LinkedProgram> linked_; ///< others of the same sources may have it too
 };
 
 /// A program on its way: the constructor only issues the work, so that a driver with KHR_parallel_shader_compile builds
@@ -99,6 +109,8 @@ private:
         Id id;
     };
     std::string label_;
+    std::string key_; ///< of the context's kept programs; empty where it keeps none
+    std::shared_ptr<const LinkedProgram> kept_;
     std::vector<PendingShader> shaders_;
     Id id_;
 };

@@ -11,6 +11,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 #include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
@@ -68,9 +69,10 @@ protected:
         return verdict;
     }
 
+    /// All models of a folder, or every fourth by name.
     void sweep(const std::filesystem::path& folder, Light light) {
         std::size_t drawn = 0, refused = 0, empty = 0;
-        for (const std::filesystem::path& model : modelsBelow(folder)) {
+        for (const std::filesystem::path& model : test::everyNth(modelsBelow(folder), 4)) {
             const std::string name = std::filesystem::relative(model, folder).string();
             SCOPED_TRACE(name);
             const Verdict verdict = judge(model, name, light);
@@ -141,13 +143,25 @@ private:
     }
 };
 
-TEST_F(Models, everyPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
-    const std::filesystem::path folder = "/usr/share/assimp/models"; // Debian's assimp-testmodels
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
-    sweep(folder, Light::Sun);
+using ModelsSlow = Models;
+
+constexpr const char* kPackagedModels = "/usr/share/assimp/models"; ///< Debian's assimp-testmodels
+
+TEST_F(Models, everyFourthPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
+    if (!std::filesystem::exists(kPackagedModels)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    sweep(kPackagedModels, Light::Sun);
+}
+TEST_F(ModelsSlow, everyPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
+    if (!std::filesystem::exists(kPackagedModels)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    sweep(kPackagedModels, Light::Sun);
 }
 
-TEST_F(Models, everyModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
+TEST_F(Models, everyFourthModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
+    const char* folder = std::getenv("TESSERA_ASSETS");
+    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    sweep(folder, Light::Studio);
+}
+TEST_F(ModelsSlow, everyModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
     const char* folder = std::getenv("TESSERA_ASSETS");
     if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
     sweep(folder, Light::Studio);

@@ -10,15 +10,23 @@
 
 namespace tessera::test {
 
-/// The one context of a test program, made at its first use and given back before the program ends.
+/// The one context of a test program, made at its first use and given back before the program ends. It keeps its
+/// programs: compiling them is most of what small pictures cost, and tests that draw with a renderer of their own share
+/// them.
 class GlEnvironment final : public testing::Environment {
 public:
     static gpu::Context& context() {
-        if (!instance()) instance() = gpu::Context::create();
+        if (!instance()) {
+            instance() = gpu::Context::create();
+            instance()->keepPrograms();
+        }
         instance()->makeCurrent();
         return *instance();
     }
-    void TearDown() override { instance().reset(); }
+    void TearDown() override {
+        if (instance()) context().forgetPrograms();
+        instance().reset();
+    }
 
 private:
     static std::unique_ptr<gpu::Context>& instance() {

@@ -223,6 +223,21 @@ Scene builtinForSweep(const BuiltinScene& builtin, LoadOptions options) {
     return loadScene(std::string(builtin.name), options);
 }
 
+std::vector<BuiltinScene> builtinsForSweep() {
+    constexpr std::string_view kOfMostFeatures[] = {"models", "head_skin", "glass"};
+    std::vector<BuiltinScene> taken;
+    for (const BuiltinScene& builtin : builtinScenes())
+        if (isWholeSweep() || std::ranges::find(kOfMostFeatures, builtin.name) != std::end(kOfMostFeatures))
+            taken.push_back(builtin);
+    return taken;
+}
+
+std::span<const frame::Feature> featuresThatNoBuiltinForSweepHas() {
+    static constexpr frame::Feature kMissing[] = {frame::featureOf(TextureSlot::MetallicRoughness),
+                                                  frame::featureOf(LightType::Sphere)};
+    return kMissing;
+}
+
 Mesh quad() {
     Mesh mesh;
     mesh.name = "quad";

@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <span>
+#include <vector>
 
+#include "renderer/frame/Features.h"
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Load.h"
 #include "scenes/Scene.h"
@@ -36,6 +39,12 @@ frame::DiffusionSettings coarseDiffusion();
 /// The same for sweeps whose subject is not the number of lights: a built-in scene, of 256 lights or more only 100
 /// unless the sweep is a whole one (Sweep.h).
 scenes::Scene builtinForSweep(const scenes::BuiltinScene& builtin, scenes::LoadOptions options = {});
+
+/// The built-in scenes that a sweep goes through: all in a whole one, else three. Of all threes theirs leave out the
+/// fewest of the features that some built-in scene has, and everythingScene() and the suites of lights have those.
+std::vector<scenes::BuiltinScene> builtinsForSweep();
+/// The features that those three lack; tests/unit/engine/sweep_scenes.cpp proves that there is no other.
+std::span<const frame::Feature> featuresThatNoBuiltinForSweepHas();
 
 /// 2 x 2 m in the plane z = 0 facing +z, its picture upright: u grows along x, v (down) along -y.
 scenes::Mesh quad();

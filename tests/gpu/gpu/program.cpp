@@ -100,5 +100,28 @@ void main() {
     EXPECT_EQ(program.samplerUnit("nothing"), -1);
 }
 
+TEST_F(ProgramTest, oneOfTheSameNameAndSourcesIsCompiledOnceWhereItsContextKeepsThem) {
+    const std::vector<StageSource> sources = computeStage("void main() {}"), others = computeStage("void main() { }");
+    std::uint32_t first = 0;
+    {
+        const Program program("kept", sources);
+        first = program.id();
+    }
+    EXPECT_EQ(Program("kept", sources).id(), first);
+    EXPECT_NE(Program("kept", others).id(), first);
+    EXPECT_NE(Program("of another name", sources).id(), first);
+    {
+        const auto plain = Context::create({.kind = ContextKind::Egl});
+        const Program one("kept", sources), two("kept", sources);
+        EXPECT_NE(one.id(), two.id()) << "nobody asked this context to keep them";
+        plain->keepPrograms();
+        const Program three("kept", sources);
+        EXPECT_EQ(Program("kept", sources).id(), three.id());
+        plain->forgetPrograms();
+        EXPECT_NE(Program("kept", sources).id(), three.id());
+    }
+    context().makeCurrent();
+}
+
 } // namespace
 } // namespace tessera::gpu

@@ -252,14 +252,14 @@ private:
     shader::SourceTree tree_ = shader::SourceTree::embedded();
 };
 
-/// Every program, or every fourth of those in turn unless the sweep is whole.
+/// Every program, or every twelfth of those in turn unless the sweep is whole.
 void expectValidPrograms() {
     const std::map<std::string, shader::ProgramDesc> programs = requestedPrograms();
     ASSERT_FALSE(programs.empty());
     std::vector<const shader::ProgramDesc*> work;
     std::size_t turn = 0;
     for (const auto& [key, desc] : programs)
-        if (test::isWholeSweep() || turn++ % 4 == 0) work.push_back(&desc);
+        if (test::isWholeSweep() || turn++ % 12 == 0) work.push_back(&desc);
     std::vector<ReferenceCompiler::Verdict> verdicts(work.size());
     const ReferenceCompiler compiler;
     tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t i) { verdicts[i] = compiler.judge(*work[i]); });
