@@ -33,7 +33,7 @@ std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& fold
 constexpr const char* kSunName = "sun of the test";
 
 /// Where a model brings no light: a studio, whose programs take long to compile, or a lamp along the view.
-enum class Light { Studio, Sun };
+enum class LitBy { Studio, Sun };
 
 void addSun(scenes::Scene& scene) {
     scenes::Light& sun = scene.lights.emplace_back();
@@ -59,7 +59,7 @@ enum class Verdict { Drawn, DrawsNothing, Refused, Wrong };
 class Models : public test::GlTest {
 protected:
     /// Loads and draws one model and prints its line.
-    Verdict judge(const std::filesystem::path& model, const std::string& shownName, Light light) {
+    Verdict judge(const std::filesystem::path& model, const std::string& shownName, LitBy light) {
         const auto start = std::chrono::steady_clock::now();
         std::size_t triangles = 0;
         std::string why;
@@ -70,7 +70,7 @@ protected:
     }
 
     /// All models of a folder, or every fourth by name.
-    void sweep(const std::filesystem::path& folder, Light light) {
+    void sweep(const std::filesystem::path& folder, LitBy light) {
         std::size_t drawn = 0, refused = 0, empty = 0;
         for (const std::filesystem::path& model : test::everyNth(modelsBelow(folder), 4)) {
             const std::string name = std::filesystem::relative(model, folder).string();
@@ -85,12 +85,12 @@ protected:
     }
 
 private:
-    Verdict tryModel(const std::filesystem::path& model, Light light, std::size_t& triangles, std::string& why) {
+    Verdict tryModel(const std::filesystem::path& model, LitBy light, std::size_t& triangles, std::string& why) {
         try {
             scenes::LoadOptions options;
-            options.defaultLight = light == Light::Studio;
+            options.defaultLight = light == LitBy::Studio;
             scenes::Scene scene = scenes::loadScene(model.string(), options);
-            if (light == Light::Sun && scene.lights.empty()) addSun(scene);
+            if (light == LitBy::Sun && scene.lights.empty()) addSun(scene);
             triangles = scenes::triangleCount(scene);
             if (triangles == 0) {
                 why = "draws nothing: no triangles";
@@ -149,22 +149,22 @@ constexpr const char* kPackagedModels = "/usr/share/assimp/models"; ///< Debian'
 
 TEST_F(Models, everyFourthPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
     if (!std::filesystem::exists(kPackagedModels)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
-    sweep(kPackagedModels, Light::Sun);
+    sweep(kPackagedModels, LitBy::Sun);
 }
 TEST_F(ModelsSlow, everyPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) {
     if (!std::filesystem::exists(kPackagedModels)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
-    sweep(kPackagedModels, Light::Sun);
+    sweep(kPackagedModels, LitBy::Sun);
 }
 
 TEST_F(Models, everyFourthModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
     const char* folder = std::getenv("TESSERA_ASSETS");
     if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder, Light::Studio);
+    sweep(folder, LitBy::Studio);
 }
 TEST_F(ModelsSlow, everyModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
     const char* folder = std::getenv("TESSERA_ASSETS");
     if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder, Light::Studio);
+    sweep(folder, LitBy::Studio);
 }
 
 } // namespace

@@ -143,9 +143,9 @@ TEST(GlassTable, thePrismShowsThreeFacesAndOneOfThemMirrorsALampOfTheStudio) {
                 const glm::dvec3 toEye = glm::normalize(eyeWS - placeWS);
                 const double cosine = glm::dot(normalWS, toEye);
                 if (cosine <= 0.0) continue;
-                constexpr double kShare = 2.0 / (kPlaces * (kPlaces + 1));
-                area += kShare * glm::length(triangle.areaWS()) * cosine;
-                light += kShare * mirrored(2.0 * cosine * normalWS - toEye);
+                constexpr double kShareOfPlace = 2.0 / (kPlaces * (kPlaces + 1));
+                area += kShareOfPlace * glm::length(triangle.areaWS()) * cosine;
+                light += kShareOfPlace * mirrored(2.0 * cosine * normalWS - toEye);
             }
         whole += area;
         const auto same = [&](const Seen& face) { return glm::dot(face.normalWS, normalWS) > 0.999; };

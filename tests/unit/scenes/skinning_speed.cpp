@@ -28,7 +28,7 @@ double secondsTaken(const Action& action) {
 }
 
 TEST(SkinningSpeedSlow, aMillionVerticesOfFourJointsAreSkinnedAtAShareOfTheCopySpeed) {
-    test::Random random(1);
+    tessera::test::Random random(1);
     Shape shape;
     shape.influences = kInfluencesOfEach;
     for (std::size_t vertex = 0; vertex < kSkinnedVertices; ++vertex) {
