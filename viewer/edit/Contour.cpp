@@ -9,7 +9,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kSmoothPixels = 0.75f; ///< the steps of an edge that slants are as wide
+constexpr float kSmoothPixels = 1.0f; ///< as high as the steps of an edge that slants
 
 /// Ways along the sides of pixels from one of their corners, each with the inside at its right.
 constexpr std::array<glm::ivec2, 4> kWays{glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)};
