@@ -5,6 +5,7 @@
 #include "renderer/frame/CameraView.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/environment.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::validation {
@@ -55,6 +56,7 @@ shader::ProgramDesc LowerBoundLighting::program(const frame::FrameSpec& spec, co
 LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const frame::FrameSpec& spec)
     : programs_(programs), spec_(withoutShadows(spec)), view_("lower bound view", sizeof(shared::ViewConstants)),
       constants_("lower bound lighting", sizeof(shared::LightingConstants), gpu::BufferUse::Dynamic),
+      environment_("lower bound environment", sizeof(shared::EnvironmentConstants)),
       lights_("lower bound lights", LIGHT_UNIFORM_LIGHTS * sizeof(shared::LightTexels), gpu::BufferUse::Dynamic),
       shapes_("lower bound light shapes", kMostShapeBytes, gpu::BufferUse::Dynamic),
       texels_("lower bound light texels", frame::lightBytes(spec_.features, LIGHT_UNIFORM_LIGHTS),
@@ -65,6 +67,8 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
     view_.uploadValue(
         frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
             .constants);
+    // Of a frame that is not pruned or has an environment: it is black, and its directions are directions.
+    environment_.uploadValue(shared::EnvironmentConstants{glm::mat4(1.0f), glm::vec4(0.0f)});
     setLights({});
 }
 
@@ -81,6 +85,7 @@ void LowerBoundLighting::setLights(const frame::PackedLights& lights) {
 void LowerBoundLighting::bindConstants() const {
     gpu::bindUniformBuffer(UNIFORM_VIEW, view_);
     gpu::bindUniformBuffer(UNIFORM_LIGHTING, constants_);
+    gpu::bindUniformBuffer(UNIFORM_ENVIRONMENT, environment_);
 }
 
 void LowerBoundLighting::bindLights(const LightStoreInfo& store) const {

@@ -47,7 +47,7 @@ public:
 private:
     shader::ProgramLibrary& programs_;
     frame::FrameSpec spec_;
-    gpu::Buffer view_, constants_;
+    gpu::Buffer view_, constants_, environment_;
     gpu::Buffer lights_, shapes_,
         texels_; ///< the same lights for every store; those of the product's are in one buffer
     gpu::Texture radiance_;
