@@ -235,7 +235,7 @@ class Sources:
 
 
 def isShader(mutant):
-    return mutant.path.startswith("shaders/lib/")
+    return mutant.path.startswith("shaders/") and not mutant.path.endswith(".h")  # C++ includes those alone
 
 
 def replaceLine(file, mutant):
