@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "scenes/Direction.h"
 #include "scenes/Transform.h"
 
@@ -49,6 +52,10 @@ double sideOf(const glm::dmat4x3& matrix) {
 /// Whether more vertices are mirrored than not, each by what it follows.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
     const double ofOwn = sideOf(matrices.ofOwn);
+    std::vector<double> ofJoints;
+    ofJoints.reserve(matrices.fromBind.size());
+    for (const glm::dmat4x3& fromBind : matrices.fromBind) ofJoints.push_back(sideOf(fromBind));
+    if (std::ranges::none_of(ofJoints, [](double side) { return side <= 0.0; }) && ofOwn > 0.0) return false;
     const std::size_t vertices = shape.rest.positionsOS.size();
     double sum = 0.0;
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -56,7 +63,7 @@ bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
         for (std::size_t i = v * shape.influences; i < (v + 1) * shape.influences; ++i) {
             const double weight = double(shape.weights[i]);
             if (weight == 0.0) continue;
-            sides += weight * sideOf(matrices.fromBind[shape.joints[i]]);
+            sides += weight * ofJoints[shape.joints[i]];
             weights += weight;
         }
         sum += weights > 0.0 ? sides / weights : ofOwn;
@@ -86,9 +93,7 @@ glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const Ver
     const glm::dvec3 mirror(mirrors ? -1.0 : 1.0, 1.0, 1.0);
 
     std::vector<glm::dvec3> positions(vertices);
-    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
-    bool isFinite = true;
-    for (std::size_t v = 0; v < vertices; ++v) {
+    const auto deformVertex = [&](std::size_t v) {
         glm::dvec3 position = morphed<glm::dvec3>(
             rest.positionsOS[v], morphs, v, [](const MorphTarget& t) -> const auto& { return t.positionsOS; });
         glm::dvec3 normal(rest.normalsOS[v]), tangent(0.0);
@@ -107,14 +112,23 @@ glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const Ver
             tangent = glm::dmat3(moved) * tangent;
         }
         positions[v] = position;
-        least = glm::min(least, position);
-        most = glm::max(most, position);
-        isFinite = isFinite && std::isfinite(position.x + position.y + position.z);
         // Where a singular matrix or targets leave no direction, that of rest is as good as any.
         mesh.normalsOS[v] = directionOf(normal).value_or(glm::dvec3(rest.normalsOS[v]));
         if (!rest.tangentsOS.empty())
             mesh.tangentsOS[v] =
                 glm::vec4(directionOf(tangent).value_or(glm::dvec3(rest.tangentsOS[v])), rest.tangentsOS[v].w);
+    };
+    constexpr std::size_t kVerticesOfATask = 4096;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vertices, kVerticesOfATask),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t v = range.begin(); v < range.end(); ++v) deformVertex(v);
+                      });
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    bool isFinite = true;
+    for (const glm::dvec3& position : positions) {
+        least = glm::min(least, position);
+        most = glm::max(most, position);
+        isFinite = isFinite && std::isfinite(position.x + position.y + position.z);
     }
     const glm::dvec3 middle = matrices != nullptr && vertices > 0 ? 0.5 * least + 0.5 * most : glm::dvec3(0.0);
     for (std::size_t v = 0; v < vertices; ++v) mesh.positionsOS[v] = glm::vec3(positions[v] - middle);

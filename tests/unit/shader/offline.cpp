@@ -270,9 +270,10 @@ void expectValidPrograms() {
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
     // Every texture of a material, lights, the entries of light lists and casters, the two tables of lobes, and the
-    // environment's map as it is and as it is filtered, are in one of them.
+    // environment's map as it is and as it is filtered, and what stands behind glass, sharp and blurred, with its
+    // depths, are in one of them.
     if (test::isWholeSweep()) {
-        EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 3 + 2 + 2);
+        EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 3 + 2 + 2 + 3);
     }
 }
 
