@@ -52,10 +52,13 @@ double sideOf(const glm::dmat4x3& matrix) {
 /// Whether more vertices are mirrored than not, each by what it follows.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
     const double ofOwn = sideOf(matrices.ofOwn);
+    // Of all joints once, unless the mesh names fewer than its skin has.
     std::vector<double> ofJoints;
-    ofJoints.reserve(matrices.fromBind.size());
-    for (const glm::dmat4x3& fromBind : matrices.fromBind) ofJoints.push_back(sideOf(fromBind));
-    if (std::ranges::none_of(ofJoints, [](double side) { return side <= 0.0; }) && ofOwn > 0.0) return false;
+    if (matrices.fromBind.size() <= shape.joints.size()) {
+        ofJoints.reserve(matrices.fromBind.size());
+        for (const glm::dmat4x3& fromBind : matrices.fromBind) ofJoints.push_back(sideOf(fromBind));
+        if (ofOwn > 0.0 && std::ranges::all_of(ofJoints, [](double side) { return side > 0.0; })) return false;
+    }
     const std::size_t vertices = shape.rest.positionsOS.size();
     double sum = 0.0;
     for (std::size_t v = 0; v < vertices; ++v) {
@@ -63,7 +66,8 @@ bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
         for (std::size_t i = v * shape.influences; i < (v + 1) * shape.influences; ++i) {
             const double weight = double(shape.weights[i]);
             if (weight == 0.0) continue;
-            sides += weight * ofJoints[shape.joints[i]];
+            const std::uint32_t joint = shape.joints[i];
+            sides += weight * (ofJoints.empty() ? sideOf(matrices.fromBind[joint]) : ofJoints[joint]);
             weights += weight;
         }
         sum += weights > 0.0 ? sides / weights : ofOwn;
