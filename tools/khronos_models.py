@@ -58,7 +58,7 @@ EXTENSIONS = {
     "KHR_materials_transmission": (APPROXIMATE, "glass casts no shadow and no caustics, and sorts as whole meshes"),
     "KHR_materials_unlit": (RIGHT, ""),
     "KHR_materials_variants": (RIGHT, "the first one"),
-    "KHR_materials_volume": (APPROXIMATE, "bodies bend the environment's light, and do not show what lies behind them"),
+    "KHR_materials_volume": (APPROXIMATE, "bodies show opaque surfaces as the camera sees them, and no glass behind them"),
     "KHR_mesh_quantization": (RIGHT, ""),
     "KHR_texture_basisu": (RIGHT, "shown with the plain pictures beside it"),
     "KHR_texture_transform": (RIGHT, ""),
@@ -71,7 +71,7 @@ EXPECTED = ("the scene has no light: ", NO_CAMERA)
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
 MOST_SECONDS = 900  # that a picture may take
-BLACK = 0.02  # mean luminance after exposure, which is 1 without options: a tenth of the studio's walls
+BLACK = 0.02  # mean luminance after exposure, which is 1 without options: a fifth of the studio's brightest walls
 LEAST_SPAN = 0.55  # of the picture's width or height, by what the supplied camera is to frame
 MOMENTS = 4  # after the first, at which a model that moves is looked at
 BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"

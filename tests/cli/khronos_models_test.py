@@ -119,7 +119,7 @@ class KhronosModels(unittest.TestCase):
         self.assertEqual([name for name in names if name not in tool.EXTENSIONS], [])
 
     def test_status_follows_from_extensions_and_what_is_said(self):
-        volume = "bodies bend the environment's light, and do not show what lies behind them"
+        volume = "bodies show opaque surfaces as the camera sees them, and no glass behind them"
         light = "the scene has no light: lit by the built-in environment 'studio'"
         cases = [
             ([], 0, [light], ("right", "")),
@@ -295,7 +295,7 @@ esac
         self.assertEqual(len(log), 2)
         self.assertRegex(log[0], r"^render .*/Box\.gltf -o .*/model\.exr --size 8x4$")
         table = (self.folder / "out/table.md").read_text()
-        self.assertIn("| Box | approximate | 0.5 | 100 % | cut | its own | bodies bend", table)
+        self.assertIn("| Box | approximate | 0.5 | 100 % | cut | its own | bodies show", table)
         self.assertIn("; something is left out |", table)
         self.assertIn("| Old | refused |  |  |  |  | is glTF 1.0 |", table)
         self.assertIn(f"{table}\n2 models: 0 right, 1 approximate, 1 refused, ", document.read_text())
