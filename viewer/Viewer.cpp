@@ -32,7 +32,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder is looked at
+constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder and a hook are looked at
 constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
 constexpr double kNoticeSeconds = 6.0;
 constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
@@ -109,7 +109,7 @@ private:
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (isVisible() && document_.isLoading()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
-        if (screen_.renderer() && !screen_.renderer()->programs().tree().isEmbedded()) atMost(kShaderPeriodSeconds);
+        if (screen_.renderer() && screen_.renderer()->programs().watchesFiles()) atMost(kShaderPeriodSeconds);
         if (document_.hasEdits()) atMost(kEndPeriodSeconds);
         if (const auto keepAt = document_.keepAt()) atMost(std::max(*keepAt - now(), 0.0));
         return seconds;
@@ -190,6 +190,7 @@ private:
                 state_.notice = {"Shaders reloaded: nothing has changed in them", false};
         }
         screen_.forget();
+        outline_.forget();
         drawing_.resume();
         pulse_.settle();
     }

@@ -48,7 +48,7 @@ void GraphBackend::allocate(std::span<const graph::ResourceDesc> allocations) {
     physical_.clear();
     for (const auto& pooled : pool_) {
         pooled->taken = false;
-        ++pooled->idleFrames;
+        if (countsIdleFrames_) ++pooled->idleFrames;
     }
     for (const graph::ResourceDesc& desc : allocations) physical_.push_back(&take(desc));
     const auto dropped = std::erase_if(
@@ -160,7 +160,8 @@ void GraphBackend::endFrame(graph::Barrier barrier) {
     memoryBarrier(barrier);
     throwIfFailed("at the end of the frame");
     // Only now: the frame may have been declared with what they hold.
-    for (auto& [name, kept] : persistent_) ++kept.idleFrames;
+    if (countsIdleFrames_)
+        for (auto& [name, kept] : persistent_) ++kept.idleFrames;
     const auto dropped =
         std::erase_if(persistent_, [this](const auto& named) { return named.second.idleFrames > mostIdleFrames_ + 1; });
     if (dropped > 0) framebuffers_.collect();

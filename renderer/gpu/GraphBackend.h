@@ -41,6 +41,8 @@ public:
     /// this is at least their number.
     void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
     int mostIdleFrames() const { return mostIdleFrames_; }
+    /// Off: frames from now on are not counted as idle ones of what they do not use.
+    void setCountsIdleFrames(bool on) { countsIdleFrames_ = on; }
 
     /// Begins a frame: the contents of the previous frame's allocations may be overwritten from now on.
     void allocate(std::span<const graph::ResourceDesc> allocations) override;
@@ -102,6 +104,7 @@ private:
     std::vector<PassKey> frame_; ///< passes of the frame, in order
     std::map<std::string, int, std::less<>> runsOfName_;
     int mostIdleFrames_ = 3; ///< two or three techniques that alternate in a viewer keep theirs
+    bool countsIdleFrames_ = true;
     bool profiling_ = false;
     bool isSoftware_ = false;
     std::unique_ptr<DebugGroup> group_; ///< of the open pass

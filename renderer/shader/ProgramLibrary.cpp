@@ -160,12 +160,16 @@ bool ProgramLibrary::sourcesChanged() {
     return isNew;
 }
 
+bool ProgramLibrary::watchesFiles() const {
+    return !tree_.isEmbedded() ||
+           std::ranges::any_of(entries_, [](const auto& keyed) { return !hookOf(keyed.second->desc).empty(); });
+}
+
 std::optional<std::filesystem::file_time_type> ProgramLibrary::newestChange() const {
     std::optional<std::filesystem::file_time_type> newest = tree_.newestChange();
     std::set<std::string> hooks;
     for (const auto& [key, entry] : entries_)
-        for (const auto& [name, value] : entry->desc.defines)
-            if (name == kHookFile) hooks.insert(value);
+        if (std::string hook = hookOf(entry->desc); !hook.empty()) hooks.insert(std::move(hook));
     for (const std::string& hook : hooks) {
         std::error_code error; // gone while an editor saves it: asked again next time
         const auto time = std::filesystem::last_write_time(hook, error);

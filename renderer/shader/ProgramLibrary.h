@@ -42,6 +42,8 @@ public:
     /// True once after a file of the source folder changed, or a hook of a program;
     /// embedded sources never do. Also once after the first hook has come.
     bool sourcesChanged();
+    /// Whether there is a source folder or a hook: what sourcesChanged() looks at.
+    bool watchesFiles() const;
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }

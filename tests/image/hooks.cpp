@@ -170,6 +170,7 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     const scenes::Scene scene = hooked(test::evenScene(), "{\n}\n");
     engine::Renderer renderer(context(), scene);
     const std::vector<float> before = renderer.render(Technique::Deferred, smallSettings()).radiance;
+    EXPECT_TRUE(renderer.programs().watchesFiles()) << "a viewer at rest looks whether it has changed";
     renderer.programs().sourcesChanged();
     EXPECT_FALSE(renderer.programs().sourcesChanged());
     const std::string name = std::filesystem::path(scene.hook->file).filename().string();

@@ -1,4 +1,4 @@
-// Shaders are read again when their files change; a mistake is shown while the last good picture stays.
+// Shaders and hooks are read again when their files change; a mistake is shown while the last good picture stays.
 #include <fstream>
 #include <sstream>
 
@@ -69,6 +69,37 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
     EXPECT_GT(differingShare(swapped, good, 4), 0.3);
     const glm::ivec2 somewhere(size.x / 2, size.y / 2);
     EXPECT_EQ(swapped.at(somewhere), glm::ivec3(good.at(somewhere).z, good.at(somewhere).y, good.at(somewhere).x));
+}
+
+class ViewerHooks : public ViewerTest {};
+
+TEST_F(ViewerHooks, anEditedHookIsReadWhileNothingElseHappensAndTheOutlineFollowsWhatItMoves) {
+    const auto writeHook = [&](const std::string& metres) {
+        folder_.write("lift.glsl", "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)\n{\n"
+                                   "    positionOS.y += " +
+                                       metres + ";\n}\n");
+    };
+    writeHook("0.0");
+    folder_.write("card.obj", "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    folder_.write("card.json", R"({"tessera": 1, "include": [{"file": "card.obj"}],
+        "materials": [{"name": "paint", "model": "single_color", "color": [0.402, 0.1, 0.3]}],
+        "overrides": [{"node": "card", "material": "paint"}],
+        "hook": {"file": "lift.glsl", "mayMoveMetres": 0.5},
+        "cameras": [{"name": "front", "position": [0, 0, 8], "target": [0, 0, 0], "fovYDegrees": 30}]})");
+    DrivenViewer viewer = open({"card.json"});
+    const glm::ivec2 size = viewer.waitForWhole(0), upper(size.x, size.y / 2); // the lower part has the message
+    std::size_t mark = viewer.mark();
+    viewer.click(kMiddle);
+    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
+    viewer.waitFor("outlined paint", mark);
+    viewer.pause(2.0); // the first hook that comes counts as a change
+    const Shot low = pictureIn(viewer, upper);
+    mark = viewer.mark();
+    writeHook("0.4");
+    viewer.waitFor("shaders reloaded", mark);
+    viewer.waitFor("outlined paint", mark);
+    viewer.pause(0.5);
+    EXPECT_GT(differingShare(pictureIn(viewer, upper), low), 0.02) << "the card has not moved";
 }
 
 } // namespace

@@ -17,43 +17,45 @@ std::vector<std::uint8_t> instancesOf(const scenes::Scene& scene, int material) 
     return haveIt;
 }
 
-/// Frames free nothing that they have no use for while one lives: light that is spread, and shadow maps, are for the
+/// While one lives, frames make nothing older that they do not use: light that is spread, and shadow maps, are for the
 /// pictures that follow, however many outlines were found in between.
 class KeepsUnused {
 public:
-    explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend), before_(backend.mostIdleFrames()) {
-        constexpr int kAnyFrames = 1 << 20;
-        backend_.setMostIdleFrames(kAnyFrames);
-    }
-    ~KeepsUnused() { backend_.setMostIdleFrames(before_); }
+    explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend) { backend_.setCountsIdleFrames(false); }
+    ~KeepsUnused() { backend_.setCountsIdleFrames(true); }
     KeepsUnused(const KeepsUnused&) = delete;
     KeepsUnused& operator=(const KeepsUnused&) = delete;
 
 private:
     gpu::GraphBackend& backend_;
-    int before_;
 };
+
+/// Whether pictures of a view show the scene's surfaces, as frames of the view ids do. While a hook moves vertices too
+/// far, only the view that marks them has frames.
+bool showsSurfaces(frame::DebugView view) {
+    return view != frame::DebugView::ShadowAtlas && view != frame::DebugView::MovedTooFar;
+}
 
 } // namespace
 
-std::optional<MaterialOutline::Sight> MaterialOutline::sightOf(const State& state, const Screen& screen,
-                                                               const Look& look) {
-    if (!state.open || !state.showsMaterial || !screen.picture(0).isThere()) return std::nullopt;
+std::optional<MaterialOutline::Sight> MaterialOutline::sightOf(const State& state, const Look& look) {
+    if (!state.open || !state.showsMaterial || !showsSurfaces(look.settings.view)) return std::nullopt;
     const scenes::Scene& scene = state.open->scene();
     if (state.selectedMaterial < 0 || std::size_t(state.selectedMaterial) >= scene.materials.size())
         return std::nullopt;
-    return Sight{state.open.get(),
-                 state.selectedMaterial,
-                 look.settings.sizePixels,
-                 scene.cameras[std::size_t(state.open->camera())],
-                 state.open->geometryRevision(),
-                 scene.hook ? look.settings.timeSeconds : 0.0};
+    Sight sight{state.open.get(), state.selectedMaterial, look.settings.sizePixels,
+                scene.cameras[std::size_t(state.open->camera())], state.open->geometryRevision()};
+    if (scene.hook) {
+        sight.timeSeconds = look.settings.timeSeconds;
+        sight.hookParameters = scene.hook->parameters;
+    }
+    return sight;
 }
 
 bool MaterialOutline::update(Facts& facts, const State& state, Screen& screen, const Look& look, bool isAtRest,
                              const std::function<bool()>& givesUp) {
     awaitsRest_ = false;
-    const std::optional<Sight> sight = sightOf(state, screen, look);
+    const std::optional<Sight> sight = screen.picture(0).isThere() ? sightOf(state, look) : std::nullopt;
     bool isChanged = false;
     if (sight != found_) {
         found_.reset();

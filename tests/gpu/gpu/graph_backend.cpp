@@ -189,6 +189,29 @@ TEST_F(GraphBackendTest, anAllocationIsFreedOneFrameAfterTheMostThatItMayBeIdle)
     }
 }
 
+TEST_F(GraphBackendTest, framesThatAreNotCountedMakeNothingOlder) {
+    const std::vector<graph::ResourceDesc> shape{graph::BufferDesc{16}};
+    backend.allocate(shape);
+    backend.persistentBuffer("kept", {32});
+    const std::size_t bytes = backend.poolBytes();
+    backend.setCountsIdleFrames(false);
+    for (int frame = 0; frame < 10; ++frame) {
+        backend.allocate({});
+        backend.endFrame({});
+    }
+    backend.setCountsIdleFrames(true);
+    for (int frame = 0; frame < backend.mostIdleFrames(); ++frame) {
+        backend.allocate({});
+        backend.endFrame({});
+    }
+    EXPECT_EQ(backend.poolBytes(), bytes);
+    for (int frame = 0; frame < 2; ++frame) {
+        backend.allocate({});
+        backend.endFrame({});
+    }
+    EXPECT_EQ(backend.poolBytes(), 0u);
+}
+
 TEST_F(GraphBackendTest, aGrowingBufferIsReplacedSeldomAndOnlyWhereItIsTooSmall) {
     const auto marked = [&](std::size_t bytes) {
         return backend.growingBuffer("list", 1, bytes).downloadAs<std::uint32_t>(1).front() == 7u;

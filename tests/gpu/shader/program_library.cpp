@@ -143,7 +143,10 @@ TEST_F(ProgramLibraryTest, aChangeOfAFileIsReportedOnce) {
     std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
     EXPECT_TRUE(library.sourcesChanged());
     EXPECT_FALSE(library.sourcesChanged());
-    EXPECT_FALSE(ProgramLibrary(SourceTree::embedded()).sourcesChanged());
+    EXPECT_TRUE(library.watchesFiles());
+    ProgramLibrary embedded{SourceTree::embedded()};
+    EXPECT_FALSE(embedded.sourcesChanged());
+    EXPECT_FALSE(embedded.watchesFiles());
 }
 
 } // namespace
