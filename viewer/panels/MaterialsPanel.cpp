@@ -28,7 +28,7 @@ bool transmissionRows(Material& material) {
     if (material.transmission == 0.0f) return changed;
     changed |= logarithmicSlider("Thickness", material.thicknessMetres, 0.0f, kMostThicknessShown,
                                  material.thicknessMetres == 0.0f ? "a sheet" : "%.3g m");
-    tip("Of the body below the surface; a sheet bends no light");
+    tip("Thickness of the body below the surface; a sheet bends no light");
     if (material.thicknessMetres == 0.0f) return changed;
     changed |= logarithmicSlider("Absorbs in", material.attenuationDistanceMetres, 0.0f, kMostThicknessShown,
                                  material.attenuationDistanceMetres == 0.0f ? "never" : "%.3g m");
@@ -46,7 +46,7 @@ bool iridescenceRows(Material& material) {
     tip("Thickness of the film in nanometres");
     if (material.texture(scenes::TextureSlot::IridescenceThickness).image == scenes::kNone) return changed;
     changed |= slider("Least nm", material.iridescenceLeastThicknessNm, 0.0f, kMostFilmThicknessShown, "%.0f");
-    tip("The same where the texture is 0");
+    tip("Thickness of the film where the texture is 0, in nanometres");
     return changed;
 }
 
@@ -112,7 +112,7 @@ bool subsurfaceRows(scenes::Subsurface& subsurface) {
         changed |= colorRow("Wrap tint", subsurface.wrapTint);
         changed |= logarithmicSlider("Body radius", subsurface.bodyRadiusMetres, 0.0f, kMostScaleShown,
                                      subsurface.bodyRadiusMetres == 0.0f ? "automatic" : "%.3g m");
-        tip("Of the body that light goes round, so that it does not shadow itself");
+        tip("Radius of the body that light reaches around, so that it does not shadow itself");
     }
     if (method.passes) {
         changed |= colorRow("Absorbs / mm", subsurface.absorptionPerMillimetre, kMostAbsorptionShown);
@@ -122,7 +122,7 @@ bool subsurfaceRows(scenes::Subsurface& subsurface) {
     if (method.spreads) {
         changed |= profileRow(subsurface);
         changed |= slider("Albedo before", subsurface.preScatterShare, 0.0f, 1.0f);
-        tip("How much of the colour takes part before light spreads, which blurs it; the rest stays sharp");
+        tip("What acts before light spreads is blurred with it; the rest stays sharp");
     }
     return changed;
 }

@@ -59,7 +59,7 @@ constexpr Meaning kMeanings[] = {
     {"Specular", "Strength of reflections off what is not metal"},
     {"F0 tint", "Colour of reflections off what is not metal, seen straight on"},
     {"Anisotropy", "How much highlights are stretched, as on brushed metal"},
-    {"Turned by", "Direction in which highlights are stretched, from the tangent on"},
+    {"Turned by", "Angle between the tangent and the direction in which highlights are stretched"},
     {"Clearcoat", "Strength of a clear layer over the surface, as on a car"},
     {"Coat rough", "Roughness of that layer"},
     {"Sheen", "Colour of fibres that glow at the rim, as on velvet"},
@@ -88,7 +88,7 @@ constexpr Meaning kMeanings[] = {
     {"Normal map", "How deep the texture's bumps are"},
     {"Two sides", "Whether the surface is seen from behind too"},
     // View, environment and camera
-    {"Resolution", "How many pixels are drawn for those of the window"},
+    {"Resolution", "How many pixels are drawn for each of the window"},
     {"Picture scale", "Share of the window's pixels along each side"},
     {"Map", "What surrounds the scene and lights it"},
     {"Camera", "Cameras of the scene; Home goes back to it"},
@@ -141,7 +141,7 @@ constexpr Meaning kMeanings[] = {
     {"Tightness", "How well lists of lights fit"},
     {"Lists", "Memory of the lists of lights"},
     {"Missed", "Lights that a pixel needs and its list lacks: must be 0"},
-    {"Memory", "Of what is kept for shadows"},
+    {"Memory", "Memory of what is kept for shadows"},
     {"Maps", "Shadow maps of the latest frame"},
     {"Atlas", "The texture that holds all shadow maps"},
 };

@@ -154,7 +154,7 @@ void shadowsPanel(State& state, const Facts& facts) {
 void skinPanel(State& state) {
     settingRows(state.active(), engine::SettingPanel::Skin);
     if (state.open && !scenes::anyScatters(state.open->scene()))
-        paragraph("No material has subsurface scattering; the panel Materials gives it to one.");
+        paragraph("No material has subsurface scattering. Choose a method for one in the panel Materials.");
 }
 
 void viewPanel(State& state) {
