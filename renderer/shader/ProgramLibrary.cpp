@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -95,6 +94,7 @@ const gpu::Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::string key = desc.key();
     auto found = entries_.find(key);
     if (found == entries_.end()) {
+        noteHook(desc);
         Build build(desc, expandStages(tree_, desc));
         gpu::Program program = build.finish();
         auto entry = std::make_unique<Entry>(Entry{desc, std::move(build.stages), std::move(program)});
@@ -116,6 +116,7 @@ void ProgramLibrary::warm(std::span<const ProgramDesc> descs) {
     for (const ProgramDesc& desc : descs) {
         const std::string key = desc.key();
         if (entries_.contains(key) || builds.contains(key)) continue;
+        noteHook(desc);
         keepGoing([&] { builds.try_emplace(key, desc, expandStages(tree_, desc)); });
     }
     for (auto& [key, build] : builds)
@@ -160,22 +161,18 @@ bool ProgramLibrary::sourcesChanged() {
     return isNew;
 }
 
-bool ProgramLibrary::watchesFiles() const {
-    return !tree_.isEmbedded() ||
-           std::ranges::any_of(entries_, [](const auto& keyed) { return !hookOf(keyed.second->desc).empty(); });
-}
-
 std::optional<std::filesystem::file_time_type> ProgramLibrary::newestChange() const {
     std::optional<std::filesystem::file_time_type> newest = tree_.newestChange();
-    std::set<std::string> hooks;
-    for (const auto& [key, entry] : entries_)
-        if (std::string hook = hookOf(entry->desc); !hook.empty()) hooks.insert(std::move(hook));
-    for (const std::string& hook : hooks) {
+    for (const std::string& hook : hooks_) {
         std::error_code error; // gone while an editor saves it: asked again next time
         const auto time = std::filesystem::last_write_time(hook, error);
         if (!error) newest = std::max(newest.value_or(time), time);
     }
     return newest;
+}
+
+void ProgramLibrary::noteHook(const ProgramDesc& desc) {
+    if (std::string hook = hookOf(desc); !hook.empty()) hooks_.insert(std::move(hook));
 }
 
 } // namespace tessera::shader

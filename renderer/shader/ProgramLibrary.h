@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,18 +40,19 @@ public:
     /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
     /// form.
     Reloading reload();
-    /// True once after a file of the source folder changed, or a hook of a program;
-    /// embedded sources never do. Also once after the first hook has come.
+    /// True once after a file of the source folder changed, or a hook of a program that was asked for, faulty ones
+    /// too; embedded sources never do. Also once after the first hook has come.
     bool sourcesChanged();
     /// Whether there is a source folder or a hook: what sourcesChanged() looks at.
-    bool watchesFiles() const;
+    bool watchesFiles() const { return !tree_.isEmbedded() || !hooks_.empty(); }
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }
 
 private:
-    /// Of the source folder and of the programs' hooks.
+    /// Of the source folder and of all hooks.
     std::optional<std::filesystem::file_time_type> newestChange() const;
+    void noteHook(const ProgramDesc& desc);
 
     struct Entry {
         ProgramDesc desc;
@@ -59,6 +61,7 @@ private:
     };
     SourceTree tree_;
     std::optional<std::filesystem::file_time_type> newestChange_;
+    std::set<std::string> hooks_;                           ///< files, of programs that were asked for
     std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
 };
 

@@ -158,6 +158,22 @@ TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {
     EXPECT_NO_THROW(drawn(test::evenScene(), smallSettings()));
 }
 
+TEST_F(Hooks, theMendingOfOneThatIsFaultyFromTheBeginningIsSeen) {
+    const scenes::Scene scene = hooked(test::evenScene(), "{\n    surface.color = undeclaredName;\n}\n");
+    engine::Renderer renderer(context(), scene);
+    EXPECT_THROW(renderer.render(Technique::Deferred, smallSettings()), InputError);
+    EXPECT_TRUE(renderer.programs().watchesFiles());
+    renderer.programs().sourcesChanged();
+    EXPECT_FALSE(renderer.programs().sourcesChanged());
+    folder.write(std::filesystem::path(scene.hook->file).filename().string(),
+                 std::string(test::kSurfaceHeader).append("{ surface.color = vec3(0.0); }\n"));
+    const auto time = std::filesystem::last_write_time(scene.hook->file) + std::chrono::hours(1);
+    std::filesystem::last_write_time(scene.hook->file, time);
+    EXPECT_TRUE(renderer.programs().sourcesChanged());
+    EXPECT_TRUE(renderer.programs().reload().faults.empty());
+    EXPECT_NO_THROW(renderer.render(Technique::Deferred, smallSettings()));
+}
+
 TEST_F(Hooks, whatTheyDefineChangesNothingBeforeThem) {
     const scenes::Scene scene = test::evenScene();
     const std::vector<float> before = drawn(scene, smallSettings());
