@@ -80,17 +80,17 @@ float distanceToLine(const glm::vec2& point, const glm::vec2& begin, const glm::
     return glm::distance(point, begin + share * along);
 }
 
-/// Leaves out points that lie near to the line between those that stay.
+/// Leaves out points that lie within so many pixels of the line between those that stay.
 /// Source: Douglas and Peucker 1973, "Algorithms for the reduction of the number of points required to represent a
 /// digitized line or its caricature".
-Contour smoothed(const Contour& contour) {
+Contour smoothed(const Contour& contour, float pixels) {
     std::vector<std::uint8_t> stays(contour.size(), 0);
     stays.front() = stays.back() = 1;
     std::vector<std::pair<std::size_t, std::size_t>> parts{{0, contour.size() - 1}};
     while (!parts.empty()) {
         const auto [first, last] = parts.back();
         parts.pop_back();
-        float farthest = kSmoothPixels;
+        float farthest = pixels;
         std::size_t found = first;
         for (std::size_t i = first + 1; i < last; ++i) {
             const float distance = distanceToLine(contour[i], contour[first], contour[last]);
@@ -129,7 +129,10 @@ std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ive
     std::vector<Contour> contours;
     std::size_t points = 0;
     for (const auto& [length, contour] : found) {
-        Contour smooth = smoothed(contour);
+        Contour smooth = smoothed(contour, kSmoothPixels);
+        if (contours.empty()) // it stays, as of leaves that all hang together
+            for (float pixels = 2.0f * kSmoothPixels; smooth.size() > kMostContourPoints; pixels *= 2.0f)
+                smooth = smoothed(contour, pixels);
         points += smooth.size();
         if (points > kMostContourPoints) break;
         if (smooth.size() > 1) contours.push_back(std::move(smooth));

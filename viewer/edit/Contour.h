@@ -15,7 +15,8 @@ using Contour = std::vector<glm::vec2>;
 inline constexpr std::size_t kMostContourPoints = 4096;
 
 /// The contours between pixels that are inside and those that are not, rows from the top, smoothed to within a pixel.
-/// The longest of them, up to kMostContourPoints points. The picture's own sides are none.
+/// The longest of them, up to kMostContourPoints points; the very longest is smoothed more where it has more. The
+/// picture's own sides are none.
 std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ivec2 sizePixels);
 
 } // namespace tessera::viewer

@@ -80,5 +80,18 @@ TEST(Contours, ofTooManyTheLongestStay) {
     EXPECT_EQ(glm::distance(contours.at(0)[0], contours.at(0)[1]), 400.0f);
 }
 
+TEST(Contours, theLongestStaysWhateverItsPoints) {
+    constexpr int kTeeth = 2100, kDeep = 8;
+    const auto comb = [](int x, int y) { return y >= 1 && y < 3 + (x / 2 % 2) * kDeep; };
+    const auto contours = contoursWhere({2 * kTeeth, 20}, comb);
+    ASSERT_EQ(contours.size(), 2u) << "above the comb and below it";
+    std::size_t points = 0;
+    for (const Contour& contour : contours) {
+        points += contour.size();
+        EXPECT_EQ(std::abs(contour.back().x - contour.front().x), float(2 * kTeeth));
+    }
+    EXPECT_LE(points, kMostContourPoints);
+}
+
 } // namespace
 } // namespace tessera::viewer
