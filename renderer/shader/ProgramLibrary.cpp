@@ -40,6 +40,13 @@ std::string hookOf(const ProgramDesc& desc) {
     return found == desc.defines.end() ? "" : found->second;
 }
 
+/// When a file last changed; none where it is gone, as while an editor saves it.
+std::optional<std::filesystem::file_time_type> timeOf(const std::string& file) {
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(file, error);
+    return error ? std::nullopt : std::optional(time);
+}
+
 constexpr const char* kHookFunctions[] = {"hookSurface", "hookVertex"}; // lib/material/hook_interface.glsl
 constexpr const char* kHookSignatures =
     "write void hookSurface(inout HookedSurface surface, HookInputs inputs), void hookVertex(inout vec3 positionOS, "
@@ -88,7 +95,7 @@ struct Build {
 
 } // namespace
 
-ProgramLibrary::ProgramLibrary(SourceTree tree) : tree_(std::move(tree)), newestChange_(tree_.newestChange()) {}
+ProgramLibrary::ProgramLibrary(SourceTree tree) : tree_(std::move(tree)), treeChange_(tree_.newestChange()) {}
 
 const gpu::Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::string key = desc.key();
@@ -154,25 +161,20 @@ Reloading ProgramLibrary::reload() {
 }
 
 bool ProgramLibrary::sourcesChanged() {
-    // Programs that were compiled since the last call may have brought their hooks.
-    const auto newest = newestChange();
-    const bool isNew = newest && (!newestChange_ || *newest != *newestChange_);
-    newestChange_ = newest;
+    bool isNew = false;
+    const auto look = [&isNew](std::optional<Time>& seen, const std::optional<Time>& now) {
+        if (!now || now == seen) return;
+        seen = now;
+        isNew = true;
+    };
+    look(treeChange_, tree_.newestChange());
+    for (auto& [file, seen] : hooks_) look(seen, timeOf(file));
     return isNew;
 }
 
-std::optional<std::filesystem::file_time_type> ProgramLibrary::newestChange() const {
-    std::optional<std::filesystem::file_time_type> newest = tree_.newestChange();
-    for (const std::string& hook : hooks_) {
-        std::error_code error; // gone while an editor saves it: asked again next time
-        const auto time = std::filesystem::last_write_time(hook, error);
-        if (!error) newest = std::max(newest.value_or(time), time);
-    }
-    return newest;
-}
-
 void ProgramLibrary::noteHook(const ProgramDesc& desc) {
-    if (std::string hook = hookOf(desc); !hook.empty()) hooks_.insert(std::move(hook));
+    if (const std::string hook = hookOf(desc); !hook.empty() && !hooks_.contains(hook))
+        hooks_.emplace(hook, timeOf(hook));
 }
 
 } // namespace tessera::shader

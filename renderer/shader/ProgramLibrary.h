@@ -3,7 +3,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,7 +40,7 @@ public:
     /// form.
     Reloading reload();
     /// True once after a file of the source folder changed, or a hook of a program that was asked for, faulty ones
-    /// too; embedded sources never do. Also once after the first hook has come.
+    /// too; embedded sources never do.
     bool sourcesChanged();
     /// Whether there is a source folder or a hook: what sourcesChanged() looks at.
     bool watchesFiles() const { return !tree_.isEmbedded() || !hooks_.empty(); }
@@ -50,8 +49,7 @@ public:
     std::size_t size() const { return entries_.size(); }
 
 private:
-    /// Of the source folder and of all hooks.
-    std::optional<std::filesystem::file_time_type> newestChange() const;
+    using Time = std::filesystem::file_time_type;
     void noteHook(const ProgramDesc& desc);
 
     struct Entry {
@@ -60,8 +58,8 @@ private:
         gpu::Program program;
     };
     SourceTree tree_;
-    std::optional<std::filesystem::file_time_type> newestChange_;
-    std::set<std::string> hooks_;                           ///< files, of programs that were asked for
+    std::optional<Time> treeChange_;                        ///< as sourcesChanged() saw it last
+    std::map<std::string, std::optional<Time>> hooks_;      ///< the same of their files; none: it was not there
     std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
 };
 

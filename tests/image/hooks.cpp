@@ -163,8 +163,7 @@ TEST_F(Hooks, theMendingOfOneThatIsFaultyFromTheBeginningIsSeen) {
     engine::Renderer renderer(context(), scene);
     EXPECT_THROW(renderer.render(Technique::Deferred, smallSettings()), InputError);
     EXPECT_TRUE(renderer.programs().watchesFiles());
-    renderer.programs().sourcesChanged();
-    EXPECT_FALSE(renderer.programs().sourcesChanged());
+    EXPECT_FALSE(renderer.programs().sourcesChanged()) << "that it came is no change";
     folder.write(std::filesystem::path(scene.hook->file).filename().string(),
                  std::string(test::kSurfaceHeader).append("{ surface.color = vec3(0.0); }\n"));
     const auto time = std::filesystem::last_write_time(scene.hook->file) + std::chrono::hours(1);
@@ -187,8 +186,7 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     engine::Renderer renderer(context(), scene);
     const std::vector<float> before = renderer.render(Technique::Deferred, smallSettings()).radiance;
     EXPECT_TRUE(renderer.programs().watchesFiles()) << "a viewer at rest looks whether it has changed";
-    renderer.programs().sourcesChanged();
-    EXPECT_FALSE(renderer.programs().sourcesChanged());
+    EXPECT_FALSE(renderer.programs().sourcesChanged()) << "that it came is no change";
     const std::string name = std::filesystem::path(scene.hook->file).filename().string();
     folder.write(name, std::string(test::kSurfaceHeader).append("{ surface.color = vec3(0.0) }\n"));
     const auto time = std::filesystem::last_write_time(scene.hook->file) + std::chrono::hours(1);

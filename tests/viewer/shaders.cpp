@@ -92,7 +92,7 @@ TEST_F(ViewerHooks, anEditedHookIsReadWhileNothingElseHappensAndTheOutlineFollow
     viewer.click(kMiddle);
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
     viewer.waitFor("outlined paint", mark);
-    viewer.pause(2.0); // the first hook that comes counts as a change
+    viewer.pause(1.0);
     const Shot low = pictureIn(viewer, upper);
     mark = viewer.mark();
     writeHook("0.4");
