@@ -94,6 +94,19 @@ TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
 }
 
+TEST_F(BenchStoring, aSceneWhoseNameIsNotUtf8IsKeptAndResumed) {
+    const std::string out = folder("out");
+    BenchPlan plan = madeUpPlan(1);
+    RunIdentity identity = madeUpIdentity();
+    plan.groups[0].scene = "caf\xe9.gltf";
+    identity.settings = "--environment caf\xe9.hdr";
+    GroupState state = finished(0);
+    state.group.scene = plan.groups[0].scene;
+    { BenchStore(out, identity, plan, EarlierRun::Keep).keep(0, state); }
+    EXPECT_TRUE(BenchStore(out, identity, plan, EarlierRun::Resume).load(0).isDone);
+    EXPECT_EQ(recordIn(out).groups.at(0).scene, "caf\xef\xbf\xbd.gltf") << "U+FFFD stands for what is none";
+}
+
 TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
     const std::string a = finishedShard("a", 1, 2, 2);
     BenchPlan changed = madeUpPlan(2);
