@@ -259,6 +259,13 @@ class Errors(Folder):
         record = tessera.bench(os.fsdecode(name), matrix={"technique": ["forward"]}, frames=1, size=(48, 27))
         self.assertTrue(record["complete"])
 
+    def testAFolderOfTheCacheMayHaveANameThatIsNoUtf8(self):
+        says = "import tessera; tessera.render('lamps', lights=1, size=(16, 9))"
+        result = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, timeout=300,
+                                env={**os.environ, "XDG_CACHE_HOME": os.fsdecode(b"/dev/null/\xff")})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(r"UserWarning: /dev/null/\xff/tessera/lobes-", result.stderr)
+
     def testWhereAContextCannotBeMadeAnotherKindMayBeChosen(self):
         says = textwrap.dedent("""
             import tessera
