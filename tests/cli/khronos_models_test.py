@@ -118,12 +118,21 @@ class KhronosModels(unittest.TestCase):
         del document["accessors"][0]["max"]
         self.assertEqual(tool.times_of(document), [0.0])
 
-    def test_every_extension_that_is_read_has_a_row(self):
+    def extensions_that_are_read(self):
         source = (REPOSITORY / "scenes/import/GltfDocument.cpp").read_text()
         table = re.search(r"kSupportedExtensions\[\] = \{(.*?)\};", source, re.S).group(1)
         names = re.findall(r'"(\w+)"', table)
         self.assertGreater(len(names), 15)
-        self.assertEqual([name for name in names if name not in tool.EXTENSIONS], [])
+        return names
+
+    def test_every_extension_that_is_read_has_a_row(self):
+        self.assertEqual([name for name in self.extensions_that_are_read() if name not in tool.EXTENSIONS], [])
+
+    def test_the_document_of_the_format_names_the_extensions_that_are_read(self):
+        text = (REPOSITORY / "docs/scene-format.md").read_text(encoding="utf-8")
+        words = re.findall(r"`((?:KHR|EXT)?_\w+)`", text.split("\n## glTF\n")[1].split("\n## ")[0])
+        named = {word if word[0] != "_" else "KHR_materials" + word for word in words}
+        self.assertEqual(sorted(named), sorted(self.extensions_that_are_read()))
 
     def test_status_follows_from_extensions_and_what_is_said(self):
         volume = "bodies bend the environment's light, and do not show what lies behind them"
