@@ -239,7 +239,7 @@ std::optional<double> uniformScale(const glm::dmat4& matrix) {
 using SharedScale = std::optional<double>;
 
 /// Adds a use. One of scale 0 is not seen, and does not count.
-void share(std::map<int, SharedScale>& scales, int index, const SharedScale& use) {
+void addUse(std::map<int, SharedScale>& scales, int index, const SharedScale& use) {
     if (use == 0.0) return;
     const auto [entry, isNew] = scales.try_emplace(index, use);
     SharedScale& shared = entry->second;
@@ -257,15 +257,15 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
         if (!placed.isDrawn || node.mesh == kNone) continue;
         const auto instanced = instancing.find(placed.node);
         if (instanced == instancing.end())
-            share(ofMeshes, node.mesh, node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0);
+            addUse(ofMeshes, node.mesh, node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0);
         else
             for (const glm::dmat4& transform : instanced->second)
-                share(ofMeshes, node.mesh, uniformScale(placed.worldFromNode * transform));
+                addUse(ofMeshes, node.mesh, uniformScale(placed.worldFromNode * transform));
     }
     // Once for each mesh: all nodes of a file may show the same one, of many primitives.
     for (const auto& [mesh, scale] : ofMeshes)
         for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
-            share(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);
+            addUse(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);
     return ofMaterials;
 }
 
