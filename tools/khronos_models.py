@@ -35,6 +35,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import zlib
 
@@ -477,20 +478,21 @@ def main(arguments):
         parser.error(f"{options.expect} holds no table in which a model is drawn")
     options.output.mkdir(parents=True, exist_ok=True)
     rows, records, pictures = [], [], []
-    for number, (name, path) in enumerate(models.items(), 1):
-        start = time.monotonic()
-        row, rgb, said = look_at(name, options.program, path, options.output / "model.exr", options.size)
-        row = row._replace(is_expected=name in expected)
-        seconds = time.monotonic() - start
-        figures = ["", "", "", ""]
-        if row.figures:
-            figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
-            figures.append("supplied" if row.figures.is_framed else "its own")
-        rows.append(row)
-        records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
-        pictures.append((name, rgb))
-        told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
-        print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
+    with tempfile.TemporaryDirectory(prefix=".models-", dir=options.output) as own:
+        for number, (name, path) in enumerate(models.items(), 1):
+            start = time.monotonic()
+            row, rgb, said = look_at(name, options.program, path, pathlib.Path(own) / "model.exr", options.size)
+            row = row._replace(is_expected=name in expected)
+            seconds = time.monotonic() - start
+            figures = ["", "", "", ""]
+            if row.figures:
+                figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
+                figures.append("supplied" if row.figures.is_framed else "its own")
+            rows.append(row)
+            records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
+            pictures.append((name, rgb))
+            told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
+            print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
     write(options.output / "sheet.png", png_of(*sheet_of(pictures, options.size)))
     totals = totals_of(rows)
     table = table_of(rows)

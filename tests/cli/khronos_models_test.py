@@ -305,6 +305,8 @@ esac
         self.show("lit", "Box: something is left out")
         document = self.folder / "document.md"
         document.write_text(f"{tool.BEGIN}\n{tool.END}\n")
+        (self.folder / "out").mkdir()
+        (self.folder / "out/model.exr").write_text("someone's")
         code, failed = self.run_tool(*program, "--document", str(document))
         self.assertEqual((code, failed), (0, ""))
         log = (self.folder / "log").read_text().splitlines()
@@ -320,7 +322,9 @@ esac
         self.assertEqual((rows[0]["camera"], rows[0]["warnings"]), ("its own", "something is left out"))
         self.assertEqual(rows[1]["mean luminance"], "")
         self.assertEqual(pixels_of((self.folder / "out/sheet.png").read_bytes())[:2], (16, 4 + tool.LINE))
-        self.assertFalse((self.folder / "out/model.exr").exists())
+        self.assertEqual((self.folder / "out/model.exr").read_text(), "someone's")
+        names = {"model.exr", "models.csv", "sheet.png", "table.md"}
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir()}, names)
 
     def test_what_the_table_says_is_drawn_must_be(self):
         self.model("Box.gltf")
