@@ -223,9 +223,11 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
     }
 }
 
-/// By which a matrix scales lengths in all directions; nothing where that depends on the direction.
+/// By which a matrix scales lengths in all directions; nothing where that depends on the direction, or leaves double
+/// precision.
 std::optional<double> uniformScale(const glm::dmat4& matrix) {
     const double scale = glm::length(glm::dvec3(matrix[0])), square = scale * scale;
+    if (!std::isfinite(square)) return std::nullopt;
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) {
             const double wanted = i == j ? square : 0.0;
