@@ -500,7 +500,8 @@ def main(arguments):
     names = ("model", "status", "mean luminance", "span", "cut", "camera", "seconds", "warnings")
     write(options.output / "models.csv", csv_of([names, *records]))
     if options.document:
-        write(options.document, with_table(options.document.read_text(encoding="utf-8"), f"{table}\n{totals}.\n"))
+        below = totals.replace("; ", ";\n")
+        write(options.document, with_table(options.document.read_text(encoding="utf-8"), f"{table}\n{below}.\n"))
     print(totals)
     bad = [row for row in rows if faults_of(row)]
     for row in bad:
