@@ -1,6 +1,7 @@
 #include "python/Arguments.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -147,6 +148,13 @@ std::vector<std::string> pathsOf(const py::handle& value, std::string_view calle
 
 std::string nameOrNumberOf(const py::handle& value, std::string_view called) {
     return isNumber(value) ? numberTextOf(value, called) : pathOf(value, called);
+}
+
+py::str fileNameOf(const std::string& name) {
+    auto decoded = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeFSDefaultAndSize(name.data(), static_cast<py::ssize_t>(name.size())));
+    if (!decoded) throw py::error_already_set();
+    return py::str(std::move(decoded));
 }
 
 } // namespace tessera::python

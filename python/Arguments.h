@@ -7,7 +7,7 @@
 
 #include "apps/Request.h"
 
-/// What Python's callers give, as the options of the command line.
+/// What Python's callers give, as the options of the command line; and names of files that they are given.
 namespace tessera::python {
 
 /// Adds keywords to the options; None says nothing. Throws TypeError, as Python does, for a word that is no keyword of
@@ -22,5 +22,8 @@ std::string pathOf(const pybind11::handle& value, std::string_view called);
 std::vector<std::string> pathsOf(const pybind11::handle& value, std::string_view called);
 /// A camera of the scene or a clip: a name, or a number counted from 0. Throws TypeError.
 std::string nameOrNumberOf(const pybind11::handle& value, std::string_view called);
+
+/// A name of a file, or one that may come from there, as os.fsdecode() gives it: it may hold bytes that are no UTF-8.
+pybind11::str fileNameOf(const std::string& name);
 
 } // namespace tessera::python

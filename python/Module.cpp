@@ -13,6 +13,7 @@
 #include "apps/OutputFolder.h"
 #include "apps/Version.h"
 #include "base/Error.h"
+#include "base/OneLine.h"
 #include "python/Arguments.h"
 #include "python/Log.h"
 #include "python/PictureClass.h"
@@ -236,16 +237,25 @@ load() was given hold for all that is done with it, unless they are said anew.)"
         scene.def_property_readonly(
             name, [member](const PyScene& self) { return self.facts.*member; }, meaning);
     };
-    fact("name", &SceneFacts::name, "Its name, of a file its path.");
+    scene.def_property_readonly(
+        "name", [](const PyScene& self) { return fileNameOf(self.facts.name); },
+        "Its name: that of its file, without the ending, unless the file says another.");
     fact("triangles", &SceneFacts::triangles, "How many triangles it draws.");
     fact("lights", &SceneFacts::lights, "How many lights it has.");
     fact("materials", &SceneFacts::materials, "How many materials it has.");
     fact("cameras", &SceneFacts::cameras, "Names of its cameras, in order.");
     fact("notes", &SceneFacts::notes, "What the load did that is good to know.");
-    fact("files", &SceneFacts::files, "The files that it was read from.");
+    scene.def_property_readonly(
+        "files",
+        [](const PyScene& self) {
+            py::list files;
+            for (const std::string& file : self.facts.files) files.append(fileNameOf(file));
+            return files;
+        },
+        "The files that it was read from.");
     scene.def("__repr__", [](const PyScene& self) {
-        return fmt::format("<tessera.Scene {}: {} triangles, {} lights>", self.facts.name, self.facts.triangles,
-                           self.facts.lights);
+        return fmt::format("<tessera.Scene {}: {} triangles, {} lights>", oneLine(self.facts.name),
+                           self.facts.triangles, self.facts.lights);
     });
 }
 

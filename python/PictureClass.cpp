@@ -10,6 +10,7 @@
 
 #include "base/Error.h"
 #include "base/Extension.h"
+#include "base/OneLine.h"
 #include "base/PictureFile.h"
 #include "python/Arguments.h"
 #include "python/Work.h"
@@ -88,7 +89,8 @@ picture as a display does.)")
             "width", [](const Rendered& self) { return self.picture.width; }, "Pixels in a row.")
         .def_property_readonly(
             "height", [](const Rendered& self) { return self.picture.height; }, "Rows.")
-        .def_readonly("scene", &Rendered::scene, "Name of the scene.")
+        .def_property_readonly(
+            "scene", [](const Rendered& self) { return fileNameOf(self.scene); }, "Name of the scene.")
         .def_readonly("technique", &Rendered::technique, "Name of the technique.")
         .def_readonly("view", &Rendered::view, "Name of what is shown: final, or a debug view.")
         .def_property_readonly(
@@ -118,7 +120,7 @@ picture as a display does.)")
             py::arg("dtype") = py::none(), py::arg("copy") = py::none())
         .def("__repr__", [](const Rendered& self) {
             return fmt::format("<tessera.Picture {}x{} of {}, {}, {}>", self.picture.width, self.picture.height,
-                               self.scene, self.technique, self.view);
+                               oneLine(self.scene), self.technique, self.view);
         });
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "apps/FrameOptionText.h"
+#include "base/OneLine.h"
 #include "scenes/Pose.h"
 
 namespace tessera::python {
@@ -111,7 +112,7 @@ SceneFacts factsOf(const app::Request& request) {
     const scenes::Scene& scene = request.scene;
     SceneFacts facts{scene.name, scenes::triangleCount(scene), scene.lights.size(), scene.materials.size(), {}, {}, {}};
     for (const scenes::Camera& camera : scene.cameras) facts.cameras.push_back(camera.name);
-    facts.notes = scene.notes;
+    for (const std::string& note : scene.notes) facts.notes.push_back(oneLine(note)); // as the command line prints them
     facts.files = request.files;
     return facts;
 }

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "apps/Keywords.h"
+#include "base/OneLine.h"
 #include "python/Log.h"
 #include "renderer/frame/EnvironmentCache.h"
 
@@ -20,10 +21,10 @@ namespace {
 /// A key press is answered within this time, where the work has steps; progress is told as often.
 constexpr std::chrono::milliseconds kPause(50);
 
-/// Throws where a filter of warnings makes one an error.
+/// Names of files in them may hold bytes that are no UTF-8. Throws where a filter of warnings makes one an error.
 void warn(const std::vector<std::string>& messages) {
     for (const std::string& message : messages) {
-        const std::string text = app::withKeywords(message);
+        const std::string text = oneLine(app::withKeywords(message));
         if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
     }
 }
@@ -152,7 +153,13 @@ gpu::Context& Worker::context() {
             options.kind = kind_;
             hasContext_ = true;
         }
-        context_ = gpu::Context::create(options);
+        try {
+            context_ = gpu::Context::create(options);
+        } catch (...) { // another kind may do
+            const std::lock_guard lock(mutex_);
+            hasContext_ = false;
+            throw;
+        }
     }
     return *context_;
 }

@@ -71,7 +71,7 @@ public:
 
     /// Made when it is first asked for; on the worker's thread only.
     gpu::Context& context();
-    /// Of which kind; throws std::runtime_error once there is another.
+    /// Of which kind; throws std::runtime_error once there is one of another. Where none could be made, there is none.
     void chooseContext(gpu::ContextKind kind);
 
     /// Ends the thread. Later run()s throw std::runtime_error.

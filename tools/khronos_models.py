@@ -3,6 +3,7 @@
 
 Usage: tools/khronos_models.py FOLDER OUTPUT [--program build/release/apps/tessera] [--size 480x270]
                                [--leave-out PATTERN]... [--document docs/khronos-models.md]
+                               [--expect docs/khronos-models.md]
 
 Of each model one file is shown, as it is without options: lit by the built-in studio, from the supplied camera, or by
 and from what the model brings. One that moves is shown at its begin, and looked at over the length of its first clip.
@@ -15,21 +16,26 @@ OUTPUT receives
 
 With --document the table, and below it the totals, replace what stands between the two markers of that file. A model's
 status follows from the extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1
-where a model crashes, is black or covers nothing, or is too small or cut off in the supplied camera. Only Python's own
-library is needed.
+where a model crashes, is black or covers nothing, or is too small or cut off in the supplied camera, and with --expect
+where one is no longer drawn that the table of that file says is. Only Python's own library is needed.
 """
 import argparse
 import array
 import collections
 import csv
 import fnmatch
+import io
 import itertools
 import json
+import math
+import os
 import pathlib
+import shutil
 import signal
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import zlib
 
@@ -98,6 +104,7 @@ def models_below(folder, left_out=()):
         name = place[-1] if place and place[-1].startswith(stem) else stem
         if name in models:
             name = "/".join((*place, stem))
+        name = name.encode("utf-8", "backslashreplace").decode()  # names of files may be no text
         if not any(fnmatch.fnmatch(name, pattern) for pattern in left_out):
             models[name] = min(files)[1]
     return models
@@ -105,22 +112,20 @@ def models_below(folder, left_out=()):
 
 def document_of(path):
     """The JSON of a model; an empty one where it cannot be read, which the program tells better."""
-    data = path.read_bytes()
     try:
+        data = path.read_bytes()
         if data[:4] == b"glTF":
             data = data[20 : 20 + struct.unpack_from("<I", data, 12)[0]]
         document = json.loads(data)
         return document if isinstance(document, dict) else {}
-    except (ValueError, struct.error):
+    except (OSError, ValueError, RecursionError, struct.error):
         return {}
 
 
 def extensions_of(document):
     """Those that a document says it uses."""
-    try:
-        return sorted(document.get("extensionsUsed", []))
-    except TypeError:
-        return []
+    used = document.get("extensionsUsed")
+    return sorted(used) if isinstance(used, list) and all(isinstance(name, str) for name in used) else []
 
 
 def times_of(document):
@@ -128,8 +133,10 @@ def times_of(document):
     try:
         samplers = document["animations"][0]["samplers"]
         length = max(document["accessors"][sampler["input"]]["max"][0] for sampler in samplers)
-        return [length * step / MOMENTS for step in range(MOMENTS + 1)] if length > 0 else [0.0]
-    except (KeyError, IndexError, TypeError, ValueError):
+        if not 0.0 < length < math.inf:
+            return [0.0]
+        return [length * step / MOMENTS for step in range(MOMENTS + 1)]
+    except (KeyError, IndexError, TypeError, ValueError, OverflowError):
         return [0.0]
 
 
@@ -163,8 +170,8 @@ def status_of(extensions, code, lines):
 # Of what a model covers: mean luminance, the larger share of the picture's sides that it spans, and whether it touches
 # the edge, over all moments but the luminance; and whether the program supplied the camera.
 Figures = collections.namedtuple("Figures", "luminance span is_cut is_framed")
-# figures is None where there is no picture.
-Row = collections.namedtuple("Row", "name status why figures")
+# figures is None where there is no picture; whether it is known that there is one.
+Row = collections.namedtuple("Row", "name status why figures is_expected", defaults=(False,))
 
 
 def percent(share):
@@ -190,6 +197,7 @@ FAULTS = {
     "black": lambda row: is_drawn(row) and not row.figures.luminance >= BLACK,
     f"framed under {percent(LEAST_SPAN)}": lambda row: is_judged(row) and row.figures.span < LEAST_SPAN,
     "cut off": lambda row: is_judged(row) and row.figures.is_cut,
+    "no longer drawn": lambda row: row.is_expected and row.status in (REFUSED, NOTHING),
 }
 
 
@@ -229,6 +237,13 @@ def table_of(rows):
     lines = ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
     lines += ["| " + " | ".join([cell(row.name), row.status, *cells(row), cell(row.why)]) + " |" for row in rows]
     return "\n".join(lines) + "\n"
+
+
+def drawn_in(document):
+    """The names of the models that the table of a document says are drawn."""
+    lines = document.split(BEGIN)[-1].split(END)[0].splitlines()
+    rows = [line.removeprefix("| ").split(" | ") for line in lines if line.startswith("| ")]
+    return {row[0].replace("\\|", "|") for row in rows if len(row) > 1 and row[1] in (RIGHT, APPROXIMATE)}
 
 
 def with_table(document, table):
@@ -375,6 +390,25 @@ def sheet_of(pictures, size, columns=6):
     return whole, rows * (height + LINE), sheet
 
 
+# ---- Files ---------------------------------------------------------------------------------------------------------
+
+
+def write(path, data):
+    """Whole or not at all."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_bytes(data if isinstance(data, bytes) else data.encode())
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def csv_of(rows):
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows(rows)
+    return text.getvalue()
+
+
 # ---- Program -------------------------------------------------------------------------------------------------------
 
 
@@ -430,37 +464,44 @@ def main(arguments):
     parser.add_argument("--size", type=size_in, default=(480, 270))
     parser.add_argument("--leave-out", action="append", default=[], metavar="PATTERN")
     parser.add_argument("--document", type=pathlib.Path)
+    parser.add_argument("--expect", type=pathlib.Path)
     options = parser.parse_args(arguments)
     models = models_below(options.folder, options.leave_out)
     if not models:
         parser.error(f"{options.folder} holds no .gltf or .glb file")
+    if not shutil.which(str(options.program)):
+        parser.error(f"{options.program} is no program; build it with ./run scenes, or name another with --program")
     if options.document:
-        with_table(options.document.read_text(), "")  # before all the work
+        with_table(options.document.read_text(encoding="utf-8"), "")  # before all the work
+    expected = drawn_in(options.expect.read_text(encoding="utf-8")) if options.expect else set()
+    if options.expect and not expected:
+        parser.error(f"{options.expect} holds no table in which a model is drawn")
     options.output.mkdir(parents=True, exist_ok=True)
     rows, records, pictures = [], [], []
-    for number, (name, path) in enumerate(models.items(), 1):
-        start = time.monotonic()
-        row, rgb, said = look_at(name, options.program, path, options.output / "model.exr", options.size)
-        seconds = time.monotonic() - start
-        figures = ["", "", "", ""]
-        if row.figures:
-            figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
-            figures.append("supplied" if row.figures.is_framed else "its own")
-        rows.append(row)
-        records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
-        pictures.append((name, rgb))
-        told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
-        print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
-    (options.output / "sheet.png").write_bytes(png_of(*sheet_of(pictures, options.size)))
+    with tempfile.TemporaryDirectory(prefix=".models-", dir=options.output) as own:
+        for number, (name, path) in enumerate(models.items(), 1):
+            start = time.monotonic()
+            row, rgb, said = look_at(name, options.program, path, pathlib.Path(own) / "model.exr", options.size)
+            row = row._replace(is_expected=name in expected)
+            seconds = time.monotonic() - start
+            figures = ["", "", "", ""]
+            if row.figures:
+                figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
+                figures.append("supplied" if row.figures.is_framed else "its own")
+            rows.append(row)
+            records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
+            pictures.append((name, rgb))
+            told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
+            print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
+    write(options.output / "sheet.png", png_of(*sheet_of(pictures, options.size)))
     totals = totals_of(rows)
     table = table_of(rows)
-    (options.output / "table.md").write_text(table)
-    with open(options.output / "models.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(("model", "status", "mean luminance", "span", "cut", "camera", "seconds", "warnings"))
-        writer.writerows(records)
+    write(options.output / "table.md", table)
+    names = ("model", "status", "mean luminance", "span", "cut", "camera", "seconds", "warnings")
+    write(options.output / "models.csv", csv_of([names, *records]))
     if options.document:
-        options.document.write_text(with_table(options.document.read_text(), f"{table}\n{totals}.\n"))
+        below = totals.replace("; ", ";\n")
+        write(options.document, with_table(options.document.read_text(encoding="utf-8"), f"{table}\n{below}.\n"))
     print(totals)
     bad = [row for row in rows if faults_of(row)]
     for row in bad:

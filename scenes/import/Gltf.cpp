@@ -223,9 +223,11 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
     }
 }
 
-/// By which a matrix scales lengths in all directions; nothing where that depends on the direction.
+/// By which a matrix scales lengths in all directions; nothing where that depends on the direction, or leaves double
+/// precision.
 std::optional<double> uniformScale(const glm::dmat4& matrix) {
     const double scale = glm::length(glm::dvec3(matrix[0])), square = scale * scale;
+    if (!std::isfinite(square)) return std::nullopt;
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) {
             const double wanted = i == j ? square : 0.0;
@@ -235,31 +237,38 @@ std::optional<double> uniformScale(const glm::dmat4& matrix) {
     return scale;
 }
 
+/// By which all uses of a thing scale lengths; nothing where they do not share one scale for all directions.
+using SharedScale = std::optional<double>;
+
+/// Adds a use. One of scale 0 is not seen, and does not count.
+void addUse(std::map<int, SharedScale>& scales, int index, const SharedScale& use) {
+    if (use == 0.0) return;
+    const auto [entry, isNew] = scales.try_emplace(index, use);
+    SharedScale& shared = entry->second;
+    if (!isNew && shared && !(use && std::abs(*use - *shared) <= kSameScale * *shared)) shared.reset();
+}
+
 /// A document states thicknesses in the space of each mesh, the scene in metres of the world. Source:
 /// KHR_materials_volume, "Properties". What a skin moves is taken to be as large as its mesh.
 std::map<int, std::optional<double>> thicknessScales(const Context& context, const std::vector<PlacedNode>& allPlaced,
                                                      const Instancing& instancing) {
     const model::Model& model = context.document.model;
-    std::map<int, std::optional<double>> scales;
+    std::map<int, SharedScale> ofMeshes, ofMaterials;
     for (const PlacedNode& placed : allPlaced) {
         const model::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
         if (!placed.isDrawn || node.mesh == kNone) continue;
-        const auto take = [&](const std::optional<double>& scale) {
-            if (scale == 0.0) return; // nothing is seen
-            for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-                const int material = context.variantMaterial(primitive).value_or(primitive.material);
-                const auto [entry, isNew] = scales.try_emplace(material, scale);
-                std::optional<double>& shared = entry->second;
-                if (!isNew && shared && !(scale && std::abs(*scale - *shared) <= kSameScale * *shared)) shared.reset();
-            }
-        };
         const auto instanced = instancing.find(placed.node);
         if (instanced == instancing.end())
-            take(node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0);
+            addUse(ofMeshes, node.mesh, node.skin == kNone ? uniformScale(placed.worldFromNode) : 1.0);
         else
-            for (const glm::dmat4& transform : instanced->second) take(uniformScale(placed.worldFromNode * transform));
+            for (const glm::dmat4& transform : instanced->second)
+                addUse(ofMeshes, node.mesh, uniformScale(placed.worldFromNode * transform));
     }
-    return scales;
+    // Once for each mesh: all nodes of a file may show the same one, of many primitives.
+    for (const auto& [mesh, scale] : ofMeshes)
+        for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+            addUse(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);
+    return ofMaterials;
 }
 
 /// What clips say of them the rig scales.

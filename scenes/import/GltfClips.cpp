@@ -21,15 +21,6 @@ struct Rivals {
 
 } // namespace
 
-Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes)
-    : context_(context), materials_(materials), sceneNodes_(std::move(sceneNodes)),
-      hasAnimatedWeights_(sceneNodes_.size()) {
-    for (const model::Animation& animation : context.document.model.animations)
-        for (const model::AnimationChannel& channel : animation.channels)
-            if (const auto node = nodeOfWeights(channel); node && *node < hasAnimatedWeights_.size())
-                hasAnimatedWeights_[*node] = true;
-}
-
 int Rigging::restNode(int index) {
     Rig& rig = context_.scene.rig;
     const auto [entry, isNew] = nodes_.try_emplace(index, static_cast<int>(rig.nodes.size()));
@@ -52,9 +43,9 @@ int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot
 std::optional<int> Rigging::morphlessNode(const model::AnimationChannel& channel) const {
     const std::optional<std::size_t> node = nodeOfWeights(channel);
     if (!node || *node >= sceneNodes_.size()) return {};
-    const int index = static_cast<int>(*node);
-    const bool hasTargets = context_.document.model.nodes[*node].mesh != kNone && !restWeights(index).empty();
-    return hasTargets ? std::nullopt : std::optional(index);
+    const int mesh = context_.document.model.nodes[*node].mesh;
+    const bool hasTargets = mesh != kNone && targetCounts_[static_cast<std::size_t>(mesh)] > 0;
+    return hasTargets ? std::nullopt : std::optional(static_cast<int>(*node));
 }
 
 void Rigging::warnOfMorphless() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct Context {
     /// By material of the document: metres of the world a unit of the meshes that show it; none where they do not share
     /// one that is the same in all directions.
     std::map<int, std::optional<double>> thicknessScales = {};
+    std::uint64_t unreadableBytes = 0;                       ///< that pictures took which cannot be read
     std::unordered_set<std::string> warned = {};             ///< the scene's warnings
     std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
     std::unordered_set<std::string> cameraNames = {};

@@ -11,6 +11,10 @@
 namespace tessera::scenes::gltf {
 namespace {
 
+/// Of memory, that pictures which cannot be read take one after the other. Each takes the time of one that can be read,
+/// and any number of them may name one file or one buffer; of those that can be read the ledger bounds the number.
+constexpr std::uint64_t kMostUnreadableBytes = std::uint64_t{1} << 32;
+
 Image decoded(const Context& context, int index) {
     const Document& document = context.document;
     const auto& [name, uri, bufferView] = document.model.images[static_cast<std::size_t>(index)];
@@ -55,6 +59,12 @@ std::optional<Image> readableImage(Context& context, int index, const char* inst
         throw;
     } catch (const InputError& error) {
         if (document.ledger.wishes().isStrict) throw;
+        context.unreadableBytes += document.ledger.usedBytes() - context.buffers.heldBytes() - mark;
+        if (context.unreadableBytes > kMostUnreadableBytes)
+            document.fail(fmt::format("/images/{}", index),
+                          fmt::format("the pictures up to here that cannot be read took {} of memory, and {} at most "
+                                      "are spent on them; mend the model's pictures, or take them out",
+                                      sizeText(context.unreadableBytes), sizeText(kMostUnreadableBytes)));
         document.ledger.settle(mark, context.buffers.heldBytes());
         const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
         context.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);

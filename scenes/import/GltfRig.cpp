@@ -3,12 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "scenes/Pose.h"
+#include "scenes/import/GltfPointers.h"
 
 namespace tessera::scenes::gltf {
+namespace {
+
+bool anyMorphs(const std::vector<float>& weights, std::size_t targets) {
+    const auto counted = std::span(weights).first(std::min(weights.size(), targets));
+    return std::ranges::any_of(counted, [](float weight) { return weight != 0.0f; });
+}
+
+} // namespace
+
+Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes)
+    : context_(context), materials_(materials), sceneNodes_(std::move(sceneNodes)),
+      hasAnimatedWeights_(sceneNodes_.size()) {
+    const model::Model& model = context.document.model;
+    for (const model::Mesh& mesh : model.meshes) {
+        std::size_t targets = 0;
+        for (const model::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+        targetCounts_.push_back(targets);
+        isMorphed_.push_back(anyMorphs(mesh.weights, targets));
+    }
+    for (const model::Animation& animation : model.animations)
+        for (const model::AnimationChannel& channel : animation.channels)
+            if (const auto node = nodeOfWeights(channel); node && *node < hasAnimatedWeights_.size())
+                hasAnimatedWeights_[*node] = true;
+}
 
 // ---- Deformed meshes -----------------------------------------------------------------------------------------------
 
@@ -16,19 +43,20 @@ std::vector<float> Rigging::restWeights(int index) const {
     const model::Model& model = context_.document.model;
     const model::Node& node = model.nodes[static_cast<std::size_t>(index)];
     const model::Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
-    std::size_t targets = 0;
-    for (const model::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
-    std::vector<float> weights = node.weights.empty() ? mesh.weights : node.weights;
-    weights.resize(targets, 0.0f);
+    const std::vector<float>& stated = node.weights.empty() ? mesh.weights : node.weights;
+    const std::size_t targets = targetCounts_[static_cast<std::size_t>(node.mesh)];
+    std::vector<float> weights(targets, 0.0f);
+    std::copy_n(stated.begin(), std::min(stated.size(), targets), weights.begin());
     return weights;
 }
 
+/// Takes no time that grows with the mesh: all nodes of a file may show the same large one.
 Deforms Rigging::deformsOf(int index) const {
     const model::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
-    const std::vector<float> weights = restWeights(index);
-    const bool isMorphed = !weights.empty() && (hasAnimatedWeights_[static_cast<std::size_t>(index)] ||
-                                                std::ranges::any_of(weights, [](float w) { return w != 0.0f; }));
-    return {isMorphed, node.skin != kNone};
+    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const bool isMorphed = node.weights.empty() ? isMorphed_[mesh] : anyMorphs(node.weights, targetCounts_[mesh]);
+    const bool mayMorph = targetCounts_[mesh] > 0 && hasAnimatedWeights_[static_cast<std::size_t>(index)];
+    return {isMorphed || mayMorph, node.skin != kNone};
 }
 
 const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms) {

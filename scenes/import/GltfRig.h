@@ -80,6 +80,8 @@ private:
     Materials& materials_;
     std::vector<int> sceneNodes_;
     std::vector<bool> hasAnimatedWeights_;                                  ///< by node of the document
+    std::vector<std::size_t> targetCounts_;                                 ///< by mesh of the document
+    std::vector<bool> isMorphed_;                                           ///< the same: by its own weights
     std::map<std::pair<int, Deforms>, std::vector<Drawn>> shapes_;          ///< by mesh of the document
     std::map<int, int> skins_;                                              ///< of the rig, by those of the document
     std::map<int, int> weights_, nodes_;                                    ///< of the rig, by nodes of the document

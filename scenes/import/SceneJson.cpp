@@ -178,7 +178,9 @@ private:
         const auto known = lightTextures_.find(file);
         if (known != lightTextures_.end()) return known->second;
         try {
-            return lightTextures_[file] = loadLightTexture(file, ledger_, warnings);
+            const LightTexture texture = loadLightTexture(file, ledger_, warnings);
+            keptBytes_ += texture->map.texels.size();
+            return lightTextures_[file] = texture;
         } catch (const InputError& error) {
             name.fail(error.what());
         }
@@ -380,7 +382,7 @@ private:
     LoadLedger& ledger_;
     std::map<std::pair<std::string, std::string>, Part> parts_; ///< by file and variant
     std::map<std::string, LightTexture> lightTextures_;         ///< by file
-    std::uint64_t keptBytes_ = 0;                               ///< of the scenes in parts_
+    std::uint64_t keptBytes_ = 0;                               ///< of the scenes and pictures in both
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
 };

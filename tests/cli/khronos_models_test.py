@@ -94,8 +94,12 @@ class KhronosModels(unittest.TestCase):
         used = ["KHR_materials_unlit", "EXT_texture_webp"]
         for glb in (False, True):
             self.assertEqual(tool.extensions_of(tool.document_of(self.model("a.glb", used, glb))), sorted(used))
-        for broken in (b"", b"glTF", b"glTF" + bytes(30), b"{", b"[]", b'{"extensionsUsed": [1, "a"]}'):
-            path = self.model("b.gltf")
+        path = self.model("b.gltf")
+        path.unlink()
+        self.assertEqual(tool.document_of(path), {})
+        used = (b'[1, "a"]', b'[["a"], ["b"]]', b'"ab"', b"null")
+        for broken in (b"", b"glTF", b"glTF" + bytes(30), b"{", b"[]", b"[" * 100000,
+                       *(b'{"extensionsUsed": %s}' % names for names in used)):  # fmt: skip
             path.write_bytes(broken)
             self.assertEqual(tool.extensions_of(tool.document_of(path)), [], broken)
             self.assertEqual(tool.times_of(tool.document_of(path)), [0.0], broken)
@@ -108,15 +112,27 @@ class KhronosModels(unittest.TestCase):
         self.assertEqual(tool.times_of(document), [0.0, 1.5, 3.0, 4.5, 6.0])
         document["accessors"][0]["max"] = document["accessors"][1]["max"] = [0.0]
         self.assertEqual(tool.times_of(document), [0.0])
+        for broken in (10**400, float("inf"), float("nan"), "2", [2.0]):
+            document["accessors"][0]["max"] = document["accessors"][1]["max"] = [broken]
+            self.assertEqual(tool.times_of(document), [0.0], broken)
         del document["accessors"][0]["max"]
         self.assertEqual(tool.times_of(document), [0.0])
 
-    def test_every_extension_that_is_read_has_a_row(self):
+    def extensions_that_are_read(self):
         source = (REPOSITORY / "scenes/import/GltfDocument.cpp").read_text()
         table = re.search(r"kSupportedExtensions\[\] = \{(.*?)\};", source, re.S).group(1)
         names = re.findall(r'"(\w+)"', table)
         self.assertGreater(len(names), 15)
-        self.assertEqual([name for name in names if name not in tool.EXTENSIONS], [])
+        return names
+
+    def test_every_extension_that_is_read_has_a_row(self):
+        self.assertEqual([name for name in self.extensions_that_are_read() if name not in tool.EXTENSIONS], [])
+
+    def test_the_document_of_the_format_names_the_extensions_that_are_read(self):
+        text = (REPOSITORY / "docs/scene-format.md").read_text(encoding="utf-8")
+        words = re.findall(r"`((?:KHR|EXT)?_\w+)`", text.split("\n## glTF\n")[1].split("\n## ")[0])
+        named = {word if word[0] != "_" else "KHR_materials" + word for word in words}
+        self.assertEqual(sorted(named), sorted(self.extensions_that_are_read()))
 
     def test_status_follows_from_extensions_and_what_is_said(self):
         volume = "bodies show opaque surfaces as the camera sees them, and no glass behind them"
@@ -229,7 +245,7 @@ class KhronosModels(unittest.TestCase):
         self.assertEqual(
             tool.totals_of(rows),
             "3 models: 1 right, 1 approximate, 0 refused, 0 nothing to draw; "
-            "1 crashed, 1 black, 1 framed under 55 %, 1 cut off",
+            "1 crashed, 1 black, 1 framed under 55 %, 1 cut off, 0 no longer drawn",
         )
 
     def test_the_sheet_shows_pictures_above_their_names(self):
@@ -289,6 +305,8 @@ esac
         self.show("lit", "Box: something is left out")
         document = self.folder / "document.md"
         document.write_text(f"{tool.BEGIN}\n{tool.END}\n")
+        (self.folder / "out").mkdir()
+        (self.folder / "out/model.exr").write_text("someone's")
         code, failed = self.run_tool(*program, "--document", str(document))
         self.assertEqual((code, failed), (0, ""))
         log = (self.folder / "log").read_text().splitlines()
@@ -304,7 +322,53 @@ esac
         self.assertEqual((rows[0]["camera"], rows[0]["warnings"]), ("its own", "something is left out"))
         self.assertEqual(rows[1]["mean luminance"], "")
         self.assertEqual(pixels_of((self.folder / "out/sheet.png").read_bytes())[:2], (16, 4 + tool.LINE))
-        self.assertFalse((self.folder / "out/model.exr").exists())
+        self.assertEqual((self.folder / "out/model.exr").read_text(), "someone's")
+        names = {"model.exr", "models.csv", "sheet.png", "table.md"}
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir()}, names)
+
+    def test_what_the_table_says_is_drawn_must_be(self):
+        self.model("Box.gltf")
+        self.model("Old.gltf")
+        self.picture("lit", 0.5)
+        program = self.program()
+        self.show("lit")
+        document = self.folder / "document.md"
+
+        def run_where(status):
+            figures = tool.Figures(0.5, 0.9, False, True) if status != "refused" else None
+            table = tool.table_of([tool.Row("Box", "right", "", tool.Figures(0.5, 0.9, False, True)),
+                                   tool.Row("Old", status, "", figures), tool.Row("Gone", "right", "", figures)])  # fmt: skip
+            document.write_text(f"# Models\n{tool.BEGIN}\n{table}{tool.END}\n| Box | refused |\n")
+            return self.run_tool(*program, "--expect", str(document))
+
+        self.assertEqual(run_where("refused"), (0, ""))
+        for status in ("right", "approximate"):
+            self.assertEqual(run_where(status), (1, "Old: no longer drawn: is glTF 1.0\n"))
+        self.assertEqual(tool.drawn_in(tool.table_of([tool.Row("A | B", "right", "", None)])), {"A | B"})
+        self.assertIn("WaterBottle", tool.drawn_in((REPOSITORY / "docs/khronos-models.md").read_text(encoding="utf-8")))
+
+    def test_files_are_written_whole_or_not_at_all(self):
+        path = self.folder / "table.md"
+        tool.write(path, "old")
+        with self.assertRaises(UnicodeEncodeError):
+            tool.write(path, "new \udc80")
+        self.assertEqual(path.read_text(), "old")
+        tool.write(path, b"new")
+        self.assertEqual((path.read_text(), list(self.folder.iterdir())), ("new", [path]))
+
+    def test_a_program_that_is_not_there_is_told_before_the_work(self):
+        self.model("Box.gltf")
+        with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as failed:
+            tool.main([str(self.folder / "models"), str(self.folder / "out"), "--program", str(self.folder / "none")])
+        self.assertIn("none is no program; build it with ./run scenes", failed.getvalue())
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_names_that_are_no_text_are_told(self):
+        try:
+            self.model("caf\udce9.gltf")
+        except OSError:
+            self.skipTest("this file system has UTF-8 names alone")
+        self.assertEqual(list(tool.models_below(self.folder / "models")), ["caf\\udce9"])
 
     def test_models_that_are_black_framed_badly_or_crash_fail(self):
         self.model("Box.gltf")

@@ -360,6 +360,30 @@ TEST_F(Environment, extremeMapsGiveFiniteLight) {
     }
 }
 
+TEST_F(EnvironmentPicturesSlow, extremeIndicesAndRoughnessesGiveFiniteLight) {
+    scenes::Scene scene = evenScene();
+    scene.environment = builtinEnvironment("studio");
+    engine::Renderer renderer(context(), scene);
+    for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled})
+        for (const float ior : {1.0f, 1e3f, 1e6f})
+            for (const float roughness : {0.0f, 1.0f}) {
+                for (scenes::Material& material : scene.materials) {
+                    material.ior = ior;
+                    material.perceptualRoughness = material.alpha = material.alphaY = roughness;
+                }
+                renderer.materialsChanged();
+                frame::FrameSettings settings;
+                settings.sizePixels = {32, 32};
+                settings.diffusion = coarseDiffusion();
+                settings.environment.light = light;
+                settings.environment.samples = 16;
+                for (const float value : renderer.render(Technique::Deferred, settings).radiance) {
+                    ASSERT_TRUE(std::isfinite(value)) << ior << ", " << roughness << ", " << infoOf(light).name;
+                    ASSERT_GE(value, 0.0f) << ior << ", " << roughness << ", " << infoOf(light).name;
+                }
+            }
+}
+
 /// A model with textures in the studio, against the same model unlit, and against a shader whose look-ups of filtered
 /// light are constants: what is left of the cost is arithmetic. Light lists are none, so all of it is the environment.
 TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {

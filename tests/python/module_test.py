@@ -9,6 +9,7 @@ The module is the one in the folder that the variable TESSERA_PYTHON_MODULE name
 import ast
 import gc
 import json
+import os
 import pathlib
 import re
 import struct
@@ -240,6 +241,49 @@ class Errors(Folder):
             warnings.simplefilter("error")
             with self.assertRaisesRegex(UserWarning, "sees nothing"):
                 tessera.render("spheres", eye=(0, 0, 1e6), target=(0, 0, 2e6), **SIZE)
+
+    def testFilesMayHaveNamesThatAreNoUtf8(self):
+        name = os.fsencode(self.folder) + b"/caf\xe9.gltf"
+        try:
+            with open(name, "w") as file:
+                json.dump({**movingTriangle(), "extensionsUsed": ["EXT_unknown"]}, file)
+        except OSError:
+            self.skipTest("this file system has UTF-8 names alone")
+        with self.assertWarnsRegex(UserWarning, r"caf\\xe9: .*EXT_unknown"):
+            scene = tessera.load(os.fsdecode(name), **SIZE)
+        self.assertEqual((os.fsencode(scene.name), [os.fsencode(file) for file in scene.files]), (b"caf\xe9", [name]))
+        self.assertIn(r"caf\xe9: 1 triangles", repr(scene))
+        picture = tessera.render(scene)
+        self.assertEqual(os.fsencode(picture.scene), b"caf\xe9")
+        self.assertIn(r"of caf\xe9", repr(picture))
+        record = tessera.bench(os.fsdecode(name), matrix={"technique": ["forward"]}, frames=1, size=(48, 27))
+        self.assertTrue(record["complete"])
+
+    def testAFolderOfTheCacheMayHaveANameThatIsNoUtf8(self):
+        says = "import tessera; tessera.render('lamps', lights=1, size=(16, 9))"
+        result = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, timeout=300,
+                                env={**os.environ, "XDG_CACHE_HOME": os.fsdecode(b"/dev/null/\xff")})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(r"UserWarning: /dev/null/\xff/tessera/lobes-", result.stderr)
+
+    def testWhereAContextCannotBeMadeAnotherKindMayBeChosen(self):
+        says = textwrap.dedent("""
+            import tessera
+            tessera.use_context("window")
+            try:
+                tessera.render("spheres", size=(16, 9))
+            except RuntimeError:
+                tessera.use_context("egl")
+                assert tessera.render("spheres", size=(16, 9)).rgb.max() > 0
+                try:
+                    tessera.use_context("window")
+                except RuntimeError as error:
+                    assert "before the first picture" in str(error), error
+                    print("drawn")
+        """)
+        noDisplay = {key: value for key, value in os.environ.items() if not key.endswith("DISPLAY") and key != "XDG_RUNTIME_DIR"}
+        result = subprocess.run([sys.executable, "-c", says], env=noDisplay, capture_output=True, text=True, timeout=120)
+        self.assertEqual((result.returncode, result.stdout), (0, "drawn\n"), result.stderr)
 
     def testAForkedProcessIsToldWhatToDo(self):
         tessera.render("spheres", **SIZE)

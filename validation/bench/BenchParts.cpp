@@ -69,6 +69,25 @@ void requireRunFields(const Json& run) {
     throw InputError(fmt::format("{} and {} cannot be put together: {}; {}", runs.nameA, runs.nameB, why, runs.remedy));
 }
 
+constexpr std::string_view kRunName = "run.json", kGroupPrefix = "group-", kTemporaryPrefix = ".tessera-";
+
+/// Whether a run has made it, be it one that was cut short.
+bool isPart(const fs::directory_entry& entry) {
+    std::error_code ignored;
+    const std::string name = entry.path().filename().string();
+    return entry.is_regular_file(ignored) &&
+           (name == kRunName || name.starts_with(kGroupPrefix) || name.starts_with(kTemporaryPrefix));
+}
+
+/// Something in the place of a folder of parts that is someone's, if anything is.
+std::optional<fs::path> foreignIn(const fs::path& parts) {
+    std::error_code error;
+    if (!fs::is_directory(parts, error)) return fs::exists(parts, error) ? std::optional(parts) : std::nullopt;
+    for (fs::directory_iterator entry(parts, error), end; !error && entry != end; entry.increment(error))
+        if (!isPart(*entry)) return entry->path();
+    return std::nullopt;
+}
+
 std::vector<std::string> picturesOf(const GroupState& state) {
     std::vector<std::string> files;
     for (const BenchPicture& picture : state.group.pictures)
@@ -84,11 +103,11 @@ fs::path partsOf(const std::string& folder) {
 }
 
 fs::path runFile(const std::string& folder) {
-    return partsOf(folder) / "run.json";
+    return partsOf(folder) / kRunName;
 }
 
 std::string groupStem(std::size_t group) {
-    return fmt::format("group-{:03}", group);
+    return fmt::format("{}{:03}", kGroupPrefix, group);
 }
 
 fs::path groupFile(const std::string& folder, std::size_t group) {
@@ -189,6 +208,10 @@ void requireNoUnfinishedRun(const std::string& folder) {
 }
 
 void clearParts(const std::string& folder) {
+    if (const std::optional<fs::path> foreign = foreignIn(partsOf(folder)))
+        throw InputError(fmt::format("{}: is no file of a bench, and would be lost; move it away, or name another "
+                                     "folder",
+                                     foreign->string()));
     std::error_code error;
     fs::remove_all(partsOf(folder), error);
     if (!error) fs::create_directories(partsOf(folder), error);

@@ -55,7 +55,8 @@ enum class Apart : std::uint8_t { Nothing, Machines };
 /// Throws InputError that names another difference of two runs.
 void requireSameRun(const RunPair& runs, Apart apart = Apart::Nothing);
 
-/// An empty folder for a new run. What it replaces is finished, and bench.json still has it.
+/// An empty folder for a new run. What it replaces is finished, and bench.json still has it. Throws InputError where
+/// something lies there that no run has made.
 void clearParts(const std::string& folder);
 
 } // namespace tessera::validation

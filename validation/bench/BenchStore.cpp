@@ -45,7 +45,9 @@ Json identityJson(const RunIdentity& identity, const BenchPlan& plan) {
 BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan,
                        EarlierRun earlier)
     : folder_(folder), lock_(folder), shard_(identity.shard), shards_(identity.shards) {
-    const Json run = identityJson(identity, plan);
+    // What is kept is compared with what is kept: names of files need not be UTF-8, which JSON is.
+    const std::string text = identityJson(identity, plan).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const Json run = Json::parse(text);
     if (earlier == EarlierRun::Resume && fs::exists(runFile(folder))) {
         const Json kept = runIn(folder);
         const RunPair runs{kept, run, "the run in " + folder, "this one",
@@ -58,7 +60,7 @@ BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, c
     }
     if (earlier != EarlierRun::Replace) requireNoUnfinishedRun(folder);
     clearParts(folder);
-    writeFileAtomically(runFile(folder).string(), run.dump(1) + "\n");
+    writeFileAtomically(runFile(folder).string(), text);
 }
 
 bool BenchStore::isOfShard(std::size_t group) const {

@@ -55,7 +55,8 @@ bool isFileNamed(const std::string& name, int descriptor) {
 /// An open file of that name with the lock on it.
 int lockedFile(const std::string& folder, const std::string& file) {
     for (;;) {
-        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        // Not through a link: what it leads to is someone's, and the lock is written and deleted.
+        const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0) fail(folder, errno);
         if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
             const int error = errno;

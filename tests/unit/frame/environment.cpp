@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "renderer/frame/EnvironmentCache.h"
@@ -259,6 +263,32 @@ TEST(EnvironmentFilter, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     computed = false;
     cachedEnvironment(mapOf(32, 16, [](int x, int) { return x; }), folder.path(), note);
     EXPECT_TRUE(computed);
+}
+
+/// Of the size that people's maps have.
+TEST(EnvironmentFilterSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAgainATwentiethOfASecond) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr double kSlower = 20.0; // sanitizers take several times as long
+#else
+    constexpr double kSlower = 1.0;
+#endif
+    constexpr double kCores = 2.0, kMostSeconds = 5.0, kMostSecondsAgain = 0.05;
+    test::TempFolder folder;
+    const scenes::Image map =
+        mapOf(2048, 1024, [](int x, int y) { return 1.0 + std::sin(0.01 * x) * std::cos(0.03 * y); });
+    const std::clock_t start = std::clock(); // of all threads together: other programs do not count
+    const FilteredEnvironment fresh = cachedEnvironment(map, folder.path());
+    const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / kCores;
+    double secondsAgain = kMostSeconds;
+    for (int round = 0; round < 5; ++round) {
+        const auto began = std::chrono::steady_clock::now();
+        EXPECT_EQ(cachedEnvironment(map, folder.path()).irradiance.corners, fresh.irradiance.corners);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+        secondsAgain = std::min(secondsAgain, took.count());
+    }
+    fmt::print("filtered in {:.2f} s, read again in {:.1f} ms\n", seconds, 1e3 * secondsAgain);
+    EXPECT_LE(seconds, kSlower * kMostSeconds);
+    EXPECT_LE(secondsAgain, kSlower * kMostSecondsAgain);
 }
 
 TEST(EnvironmentFilter, aFolderThatCannotBeWrittenIsToldOnce) {

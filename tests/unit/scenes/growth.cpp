@@ -185,6 +185,26 @@ TEST(Growth, aHundredThousandNodesAndCamerasOfAGltfFileTakeSeconds) {
     EXPECT_LT(secondsOfNodes(100'000), kSeconds);
 }
 
+/// glTF nodes that all show the one mesh.
+double secondsOfNodesThatShow(const std::string& mesh, int count) {
+    const TempFolder folder;
+    const std::filesystem::path file =
+        folder.write("m.gltf", R"({"asset":{"version":"2.0"},"meshes":[)" + mesh + R"(],"nodes":[)" +
+                                   listOf(count, [](int) { return std::string(R"({"mesh":0})"); }) + "]}");
+    return secondsOf([&] { EXPECT_EQ(underLedger(importGltf, file).nodes.size(), static_cast<std::size_t>(count)); });
+}
+
+TEST(Growth, eightyThousandNodesThatShowAMeshOfAsManyPrimitivesTakeSeconds) {
+    constexpr int kCount = 80'000;
+    const std::string points = listOf(kCount, [](int) { return std::string(R"({"attributes":{},"mode":0})"); });
+    EXPECT_LT(secondsOfNodesThatShow(R"({"primitives":[)" + points + "]}", kCount), kSeconds);
+}
+
+TEST(Growth, aHundredThousandNodesThatShowAMeshOfMoreWeightsTakeSeconds) {
+    const std::string zeros = listOf(500'000, [](int) { return std::string("0"); });
+    EXPECT_LT(secondsOfNodesThatShow(R"({"primitives":[],"weights":[)" + zeros + "]}", 100'000), kSeconds);
+}
+
 TEST(Growth, aHundredThousandUnknownExtensionsOfAGltfFileTakeSeconds) {
     const TempFolder folder;
     const std::filesystem::path file =

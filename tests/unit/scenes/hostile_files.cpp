@@ -96,6 +96,27 @@ TEST(Memory, picturesAreChargedFromTheirHeader) {
                 AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
 }
 
+TEST(Memory, aModelOfAnyNumberOfPicturesThatCannotBeReadIsRefusedAfterSomeOfThem) {
+    constexpr int kImages = 20; // each claims 256 MiB, and what it is read from comes on top
+    Builder builder;
+    builder.folder.write("bomb.png", pictureBomb());
+    gltf::test::Json &images = builder.json["images"], &textures = builder.json["textures"];
+    gltf::test::Json &materials = builder.json["materials"], &primitives = builder.json["meshes"][0]["primitives"];
+    const gltf::test::Json primitive = primitives[0];
+    primitives = gltf::test::Json::array();
+    for (int i = 0; i < kImages; ++i) {
+        images.push_back({{"uri", "bomb.png"}});
+        textures.push_back({{"source", i}});
+        materials.push_back({{"emissiveTexture", {{"index", i}}}});
+        primitives.push_back(primitive);
+        primitives.back()["material"] = i;
+    }
+    const std::filesystem::path file = builder.folder.write("m.gltf", builder.json.dump());
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 512 * kMiB); }),
+                HasSubstr("m.gltf: /images/15: the pictures up to here that cannot be read took 4.0 GiB of memory, and "
+                          "4.0 GiB at most are spent on them"));
+}
+
 TEST(Memory, theFilesOfABuiltinSceneAreChargedAndRecordedWithTheLoad) {
     const TempFolder folder;
     const tessera::test::AssetsFolder assets(folder.path().c_str());

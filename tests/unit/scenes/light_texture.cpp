@@ -3,15 +3,18 @@
 
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scenes/Fingerprint.h"
 #include "scenes/LoadLedger.h"
+#include "scenes/import/Importers.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/SceneText.h"
 #include "tests/support/LightPictures.h"
+#include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
@@ -55,6 +58,30 @@ TEST(LightTexture, lightsThatNameAFileShareItsPictureAndTheLedgerCountsItOnce) {
     EXPECT_GE(bytesOf(one) - bytesOf(bare), 2 * sizeof(glm::vec4));
     EXPECT_NE(fingerprint(scene), fingerprint(bare));
     EXPECT_EQ(LightTexture().most(), glm::vec3(1.0f));
+}
+
+TEST(LightTexture, picturesStayChargedWhileALoadKeepsThemThoughABasesLightsAreReplaced) {
+    constexpr int kSide = 512, kParts = 8; // 4 MiB each
+    const test::SceneFolder folder;
+    const std::string picture = glowFile(kSide, kSide, std::vector<float>(3 * kSide * kSide, 1.0f));
+    for (int i = 0; i < kParts; ++i) {
+        folder.write(fmt::format("glow{}.pfm", i), picture);
+        folder.write(fmt::format("base{}.json", i),
+                     glowLights(fmt::format(R"({{"type": "rectangle", "position": [0, 0, 0], "direction": [0, 0, 1],
+                                                "texture": "glow{}.pfm"}})",
+                                            i)));
+        folder.write(fmt::format("part{}.json", i),
+                     fmt::format(R"({{"tessera": 1, "base": {{"file": "base{}.json"}}, "lights": []}})", i));
+    }
+    const std::filesystem::path file =
+        folder.write("parts.json", R"({"tessera": 1, "include": [)" + test::listOf(kParts, [](int i) {
+                                       return fmt::format(R"({{"file": "part{}.json"}})", i);
+                                   }) + "]}");
+    EXPECT_THAT(test::inputErrorOf([&] { underLedger(importSceneJson, file, 24 * kMiB); }), HasSubstr("of memory"));
+    LoadLedger ledger(64 * kMiB);
+    const Scene scene = importSceneJson(file, ledger);
+    EXPECT_EQ(ledger.usedBytes(), bytesOf(scene)) << "which has none of them";
+    EXPECT_LT(bytesOf(scene), kMiB);
 }
 
 TEST(LightTexture, numbersThatAreNoLightAreReplacedAndTold) {

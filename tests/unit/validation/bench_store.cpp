@@ -94,6 +94,19 @@ TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
 }
 
+TEST_F(BenchStoring, aSceneWhoseNameIsNotUtf8IsKeptAndResumed) {
+    const std::string out = folder("out");
+    BenchPlan plan = madeUpPlan(1);
+    RunIdentity identity = madeUpIdentity();
+    plan.groups[0].scene = "caf\xe9.gltf";
+    identity.settings = "--environment caf\xe9.hdr";
+    GroupState state = finished(0);
+    state.group.scene = plan.groups[0].scene;
+    { BenchStore(out, identity, plan, EarlierRun::Keep).keep(0, state); }
+    EXPECT_TRUE(BenchStore(out, identity, plan, EarlierRun::Resume).load(0).isDone);
+    EXPECT_EQ(recordIn(out).groups.at(0).scene, "caf\xef\xbf\xbd.gltf") << "U+FFFD stands for what is none";
+}
+
 TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
     const std::string a = finishedShard("a", 1, 2, 2);
     BenchPlan changed = madeUpPlan(2);
@@ -132,6 +145,46 @@ TEST_F(BenchStoring, aFolderIsNotGivenToTwoRunsAtOnceAndTheHolderIsNamed) {
     // What a killed process leaves behind holds nothing.
     std::ofstream(out + "/bench.lock") << "process 1";
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Resume));
+}
+
+TEST_F(BenchStoring, whatNoRunHasMadeIsNeverDeleted) {
+    const std::string out = folder("out");
+    const fs::path own = folder_.write("out/parts/lamp.json", "mine");
+    const auto isRefused =
+        testing::AllOf(HasSubstr(own.string() + ": is no file of a bench"), HasSubstr("move it away"));
+    for (const EarlierRun earlier : {EarlierRun::Keep, EarlierRun::Resume, EarlierRun::Replace})
+        EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), earlier); }), isRefused);
+    EXPECT_THAT(benchRefusal([&] { mergeRuns({finishedShard("whole", 1, 1, 1)}, out); }), isRefused);
+    EXPECT_EQ(fs::file_size(own), 4u);
+    fs::remove(own);
+    fs::create_directory(fs::path(out) / "parts/group-lamps");
+    EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
+                HasSubstr("parts/group-lamps: is no file"));
+    fs::remove(fs::path(out) / "parts/group-lamps");
+    // What a merge leaves that was cut short goes.
+    for (const char* file : {"group-000.json", "group-000-truth.png", ".tessera-0123456789abcdef.tmp"})
+        folder_.write(std::string("out/parts/") + file, "half");
+    EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep));
+    EXPECT_FALSE(fs::exists(fs::path(out) / "parts/group-000.json"));
+
+    const std::string other = folder("other");
+    const fs::path file = folder_.write("other/parts", "mine");
+    EXPECT_THAT(benchRefusal([&] { BenchStore(other, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
+                HasSubstr(file.string() + ": is no file of a bench"));
+    EXPECT_EQ(fs::file_size(file), 4u);
+}
+
+TEST_F(BenchStoring, aLinkInThePlaceOfTheLockIsNotFollowed) {
+    const std::string out = folder("out");
+    const fs::path own = folder_.write("own", "mine");
+    fs::create_symlink(own, fs::path(out) / "bench.lock");
+    try {
+        BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep);
+        FAIL() << "it was followed";
+    } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cannot lock the folder '" + out + "'"));
+    }
+    EXPECT_EQ(fs::file_size(own), 4u);
 }
 
 TEST_F(BenchStoring, mergedShardsEqualOneRun) {

@@ -110,7 +110,11 @@ TEST(GltfMaterials, aThicknessWithoutOneScaleStaysAsItIsWithAWarning) {
     for (const char* nodes :
          {R"([{"mesh": 0, "scale": [1, 1, 2]}])",
           R"([{"mesh": 0, "matrix": [1,0,0,0, 0.6,0.8,0,0, 0,0,1,0, 0,0,0,1]}])", // sheared
-          R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [2, 2, 2]}])"}) {
+          R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [2, 2, 2]}])",
+          // The square of it is infinite.
+          R"([{"scale": [1e38, 1e38, 1e38], "children": [1]}, {"scale": [1e38, 1e38, 1e38], "children": [2]},
+              {"scale": [1e38, 1e38, 1e38], "children": [3]}, {"scale": [1e38, 1e38, 1e38], "children": [4]},
+              {"mesh": 0, "scale": [1e38, 1e38, 1e38]}])"}) {
         const Scene scene = paneOf(nodes);
         EXPECT_EQ(scene.materials.at(0).thicknessMetres, 0.5f) << nodes;
         EXPECT_TRUE(hasWarning(scene, kNoOneScale)) << nodes;
