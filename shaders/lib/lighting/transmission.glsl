@@ -2,6 +2,7 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
+#include "lib/material/material.glsl"
 #if HAS_PASSING_LOBES
 #include "lib/reflectance/lobes.glsl"
 #endif
@@ -122,16 +123,6 @@ vec3 farSideNormal(ScreenHit hit)
     return safeNormalize(sum, texelFetch(farSides, hit.pixel, 0).xyz);
 }
 
-// What the body leaves of white light after so long a way, by Beer's law.
-vec3 leftAfter(float metres)
-{
-    // In place of nearly nothing its logarithm is given. 1 leaves all of it, to the last bit.
-    vec3 left = material.attenuation.rgb;
-    precise vec3 logarithm = mix(left, log(max(left, vec3(1e-30))), greaterThan(left, vec3(0.0)));
-    precise vec3 found = exp(logarithm * (metres / material.transmission.z));
-    return mix(found, vec3(1.0), equal(left, vec3(1.0)));
-}
-
 // Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
 // then leaves unbent.
 vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
@@ -185,7 +176,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     BentRay ray = rayThroughBody(surface, viewpoint, bent, ior);
     vec3 left = surface.leftByBody;
 #if HAS_BACK_FACES
-    if (ray.insideMetres >= 0.0) left = leftAfter(ray.insideMetres);
+    if (ray.insideMetres >= 0.0) left = leftByBody(ray.insideMetres / material.transmission.z);
 #endif
     precise vec3 kept = share * left;
 #if HAS_SCENE_BEHIND
