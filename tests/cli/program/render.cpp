@@ -250,7 +250,8 @@ TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
         << "the same options serve all views";
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none"}), "");
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none", "--diffusion-half", "on"}),
-              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface that is drawn\n");
+              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface; give --subsurface "
+              "texture_space_diffusion\n");
     EXPECT_THAT(said("diffusion_truth", {"--diffusion-texels", "64", "--technique", "reference"}),
                 testing::HasSubstr("--diffusion-texels changes nothing. The reference integrates over the surface\n"));
 }
