@@ -39,12 +39,15 @@ public:
     /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
     /// form.
     Reloading reload();
-    /// True once after a file of the source folder changed, or a hook of a program;
-    /// embedded sources never do. Also once after the first hook has come.
+    /// True once after a file of the source folder changed, or a hook of a program; embedded sources never do. Also once
+    /// after the first hook has come.
     bool sourcesChanged();
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }
+    /// How many programs reload() has given another form so far. What is kept of their results is out of date when this
+    /// grows.
+    std::size_t reloaded() const { return reloaded_; }
 
 private:
     /// Of the source folder and of the programs' hooks.
@@ -58,6 +61,7 @@ private:
     SourceTree tree_;
     std::optional<std::filesystem::file_time_type> newestChange_;
     std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
+    std::size_t reloaded_ = 0;
 };
 
 } // namespace tessera::shader
