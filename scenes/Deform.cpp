@@ -52,7 +52,7 @@ double sideOf(const glm::dmat4x3& matrix) {
 /// Whether more vertices are mirrored than not, each by what it follows.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
     const double ofOwn = sideOf(matrices.ofOwn);
-    // Of all joints once, unless the mesh names fewer than its skin has.
+    // Once for each joint, unless the skin has more joints than the mesh has influences.
     std::vector<double> ofJoints;
     if (matrices.fromBind.size() <= shape.joints.size()) {
         ofJoints.reserve(matrices.fromBind.size());

@@ -103,7 +103,7 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 struct BentRay {
     vec3 originLS;
     vec3 directionLS;   // unit
-    float insideMetres; // its way through the body, below 0 where that is as long as the body is thick
+    float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
 };
 
 #if HAS_BACK_FACES
