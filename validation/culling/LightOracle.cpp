@@ -20,7 +20,7 @@ namespace {
 
 /// Into which directions a light shines, and from how far around its position.
 struct Shine {
-    double surfaceMetres = 0.0;  ///< of the ball around its position that it shines from
+    double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
     bool isCone = false;
     bool hasFront = false;       ///< shines from one side of a flat surface, into the half of space before it
     glm::dvec3 directionWS{0.0}; ///< along the cone's axis, or away from the front
