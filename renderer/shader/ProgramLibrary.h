@@ -39,8 +39,8 @@ public:
     /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
     /// form.
     Reloading reload();
-    /// True once after a file of the source folder changed, or a hook of a program; embedded sources never do. Also
-    /// once after the first hook has come.
+    /// True once after a file of the source folder changed, or a hook of a program;
+    /// embedded sources never do. Also once after the first hook has come.
     bool sourcesChanged();
 
     const SourceTree& tree() const { return tree_; }
