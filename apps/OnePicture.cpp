@@ -22,12 +22,13 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
         isBlack = isBlack && rgba[pixel] == 0.0f && rgba[pixel + 1] == 0.0f && rgba[pixel + 2] == 0.0f;
     }
     if (bad > 0) {
-        std::string why = "a light is too bright or too near";
-        if (scene.hook)
-            why +=
-                fmt::format(", or a loop of its hook takes more than the {} iterations of a pixel that Mesa's software "
-                            "rasteriser makes",
-                            frame::kMostLoopIterations);
+        const std::string why =
+            scene.hook
+                ? fmt::format("a light is too bright or too near, or a loop of its hook takes more than the {} "
+                              "iterations of a pixel that Mesa's software rasteriser makes; dim or move the light, or "
+                              "shorten the loop",
+                              frame::kMostLoopIterations)
+                : "a light is too bright or too near; dim it or move it away";
         return fmt::format("{} of its pixels are infinite or no numbers; {}", bad, hasNaN && !cut.empty() ? cut : why);
     }
     if (covered > 0)

@@ -181,9 +181,10 @@ std::string whyNoScattering(const engine::Setting& setting, const Request& reque
     if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
     if (!scenes::anyScatters(request.scene))
         return "No material has subsurface scattering; give one the key 'subsurface' in a scene file";
-    if (setting.key != "subsurface" && !scenes::anySpreads(request.scene, request.settings.subsurface))
-        return "Light spreads over no surface that is drawn";
-    return {};
+    if (setting.key == "subsurface" || scenes::anySpreads(request.scene, request.settings.subsurface)) return {};
+    constexpr auto kSpreading = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    if (!scenes::anySpreads(request.scene, kSpreading)) return "No surface that is drawn has subsurface scattering";
+    return fmt::format("Light spreads over no surface; give --subsurface {}", infoOf(kSpreading).name);
 }
 
 } // namespace

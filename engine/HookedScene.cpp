@@ -55,7 +55,7 @@ std::string excessText(const scenes::Hook& hook, const scenes::Mesh& mesh, std::
     const std::string place = fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}'", hook.file,
                                           timeSeconds, vertex, mesh.name);
     if (!std::isfinite(metres))
-        return place + " to where a number is infinite or none; look for a division by 0, a root or a logarithm of "
+        return place + " to a position that is infinite or NaN; look for a division by 0, a root or a logarithm of "
                        "less than 0, or a vector without length that it normalizes";
     return place + fmt::format(" by {:g} m, and mayMoveMetres is {:g}; raise that, or move it less", metres,
                                hook.mayMoveMetres);

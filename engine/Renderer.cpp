@@ -109,6 +109,12 @@ void Renderer::forgetGeometry() {
     for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;
 }
 
+void Renderer::forgetReloaded() {
+    if (std::exchange(reloaded_, programs_.reloaded()) == programs_.reloaded()) return;
+    for (auto& [view, memory] : diffusionMemories_) memory.forget();
+    shadowMemories_.forget();
+}
+
 /// What the view's shadows ask of the scene.
 void Renderer::makeForShadows(const frame::FrameSpec& spec) {
     frame::SceneGpu& scene = *uploaded_.front().scene;
@@ -189,6 +195,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     const bool marks = std::ranges::any_of(
         views, [](const ViewRequest& view) { return view.settings.view == frame::DebugView::MovedTooFar; });
     sceneAt(timeSeconds, marks ? Excess::Mark : Excess::Refuse);
+    forgetReloaded();
     auto drawn =
         std::make_unique<Drawn>([this](const std::string& name, const graph::ResourceDesc& desc,
                                        std::uint64_t revision) { return backend_.holds(name, desc, revision); });

@@ -176,12 +176,15 @@ private:
     void tellSpreadOf(std::vector<frame::DrawnView>& views) const;
 
     void forgetGeometry();
+    /// Light that has spread and shadow maps, where an edit of the hook or of shaders has given programs another form.
+    void forgetReloaded();
 
     gpu::Context& context_;
     std::unique_ptr<HookedScene> hooked_; ///< null where no hook moves vertices
     const scenes::Scene& shown_;
     std::vector<frame::SurfaceBounds> bounds_;
     shader::ProgramLibrary programs_;
+    std::size_t reloaded_ = 0; ///< ProgramLibrary::reloaded() as forgetReloaded() knows it
     gpu::GraphBackend backend_;
     frame::LightListMemory listMemory_;
     frame::ShadowMemories shadowMemories_;

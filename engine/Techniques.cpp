@@ -73,7 +73,7 @@ struct ViewWiring {
     std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
     std::optional<graph::BufferHandle> seenLights;     ///< where area lights are: shared::SeenLightTexels
     std::optional<graph::BufferHandle> seenPictures;   ///< where some of those have any
-    std::optional<TextureHandle> passingLobes;         ///< what lobes leave of light that passes, where some are rough
+    std::optional<TextureHandle> passingLobes;         ///< their table, where surfaces that transmit may be rough
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {

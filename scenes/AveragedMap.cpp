@@ -8,8 +8,7 @@
 #include <vector>
 
 #include <glm/glm.hpp>
-
-#include "scenes/Parallel.h"
+#include <tbb/parallel_for.h>
 
 namespace tessera::scenes {
 namespace {
@@ -46,7 +45,7 @@ Image averagedMap(const Image& map, int mostWidth, int mostHeight) {
     const auto columns = overlaps(map.width, coarse.width, [](double x) { return x; });
     const auto rows =
         overlaps(map.height, coarse.height, [&](double y) { return -std::cos(std::numbers::pi * y / map.height); });
-    parallelFor(coarse.height, [&](int y) {
+    tbb::parallel_for(0, coarse.height, [&](int y) {
         const Overlap& row = rows[std::size_t(y)];
         std::byte* out = coarse.texels.data() + std::size_t(y) * std::size_t(coarse.width) * sizeof(glm::vec4);
         for (int x = 0; x < coarse.width; ++x, out += sizeof(glm::vec4)) {

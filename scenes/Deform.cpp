@@ -52,7 +52,7 @@ double sideOf(const glm::dmat4x3& matrix) {
 /// Whether more vertices are mirrored than not, each by what it follows.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
     const double ofOwn = sideOf(matrices.ofOwn);
-    // Of all joints once, unless the mesh names fewer than its skin has.
+    // Once for each joint, unless the skin has more joints than the mesh has influences.
     std::vector<double> ofJoints;
     if (matrices.fromBind.size() <= shape.joints.size()) {
         ofJoints.reserve(matrices.fromBind.size());
@@ -78,9 +78,7 @@ bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
 void setFlatNormals(Mesh& mesh, const std::vector<glm::dvec3>& positionsOS) {
     for (std::size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
         const std::array<std::uint32_t, 3> at{mesh.indices[corner], mesh.indices[corner + 1], mesh.indices[corner + 2]};
-        const glm::dvec3 a = positionsOS[at[0]];
-        const glm::vec3 normalOS(directionOf(glm::cross(positionsOS[at[1]] - a, positionsOS[at[2]] - a))
-                                     .value_or(glm::dvec3(0.0, 0.0, 1.0)));
+        const glm::vec3 normalOS(normalOfTriangle(positionsOS[at[0]], positionsOS[at[1]], positionsOS[at[2]]));
         for (const std::uint32_t vertex : at) mesh.normalsOS[vertex] = normalOS;
     }
 }

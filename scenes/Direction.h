@@ -17,4 +17,9 @@ inline std::optional<glm::dvec3> directionOf(const glm::dvec3& vector) {
     return glm::normalize(vector / largest);
 }
 
+/// Unit, by the order of the corners; +Z where the triangle has no area.
+inline glm::dvec3 normalOfTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return directionOf(glm::cross(b - a, c - a)).value_or(glm::dvec3(0.0, 0.0, 1.0));
+}
+
 } // namespace tessera::scenes

@@ -110,6 +110,14 @@ void setRest(auto& owner, const RestNumber& rest) {
     setMember(owner, infoOf(rest.property).member, rest.number, [](auto, double value) { return value; });
 }
 
+/// Calls `use` with what of a material has a number at rest: the material, or its use of a texture.
+void usePartOf(auto& material, const RestNumber& rest, const auto& use) {
+    if (rest.slot == TextureSlot::Count)
+        use(material);
+    else
+        use(material.texture(rest.slot).transform);
+}
+
 /// Calls `use` with the part of a scene that a number at rest, of an element that is there, belongs to.
 void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
     const auto element = std::size_t(rest.element);
@@ -117,9 +125,8 @@ void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
     case AnimatedOwner::Light:
         return use(scene.lights[element]);
     case AnimatedOwner::Material:
-        return use(scene.materials[element]);
     case AnimatedOwner::Texture:
-        return use(scene.materials[element].texture(rest.slot).transform);
+        return usePartOf(scene.materials[element], rest, use);
     case AnimatedOwner::Camera:
         return use(scene.cameras[element]);
     case AnimatedOwner::Node:
@@ -161,14 +168,6 @@ void forEachPlayed(const Rig& rig, const auto& use) {
             if (ownsNumbers(infoOf(channel.property).owner)) isPlayed[std::size_t(channel.target)] = true;
     for (std::size_t i = 0; i < isPlayed.size(); ++i)
         if (isPlayed[i] && rig.numbers[i].element != kNone) use(rig.numbers[i]);
-}
-
-/// Calls `use` with what of a material has a number at rest: the material, or its use of a texture.
-void usePartOf(auto& material, const RestNumber& rest, const auto& use) {
-    if (rest.slot == TextureSlot::Count)
-        use(material);
-    else
-        use(material.texture(rest.slot).transform);
 }
 
 bool isOf(const RestNumber& rest, std::size_t material) {

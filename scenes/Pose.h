@@ -28,8 +28,8 @@ Pose poseAt(const Rig& rig, double timeSeconds);
 /// Throws InputError where something then lies too far away or nowhere.
 void applyPose(Scene& scene, const Pose& pose);
 
-/// Makes what the scene says now the numbers at rest of all that clips may change. To be called before a clip is posed:
-/// a scene file may say other numbers than the model that its clips come from.
+/// Takes the scene's present numbers as those at rest, of all that clips may change. To be called before a clip is
+/// posed: a scene file may say other numbers than the model that its clips come from.
 void takeRest(Scene& scene);
 
 /// The scene's materials, with the numbers at rest in place of those that clips which play change.
@@ -40,8 +40,8 @@ Material restingMaterial(const Scene& scene, std::size_t index);
 /// What an edit of a posed material makes of it at rest: a number that a clip which plays changes stays at rest where
 /// the edit leaves it alone.
 Material editedAtRest(const Scene& scene, std::size_t index, Material edited);
-/// Puts a material at rest in the place of another: its numbers are those at rest from now on. The scene shows it as it
-/// is at a time of the clips that play.
+/// Puts a material in the place of another, and takes its numbers as those at rest. The scene then holds it as the
+/// clips that play pose it at that time.
 void replaceMaterial(Scene& scene, std::size_t index, Material resting, double timeSeconds);
 
 /// Whether a pose changes anything of the scene.

@@ -92,7 +92,7 @@ const DiffusionProfile& profileOf(const Subsurface& subsurface);
 
 // A millionth of a metre to a thousand kilometres: beyond any model.
 inline constexpr double kLeastScaleMetres = 1e-6, kMostScaleMetres = 1e6;
-inline constexpr double kMostBodyRadiusMetres = 1e6; // shadow rays begin as far away
+inline constexpr double kMostBodyRadiusMetres = 1e6; // shadow rays begin up to about so far off the surface
 inline constexpr double kMostAbsorption = 1e6;
 inline constexpr double kMostVariance = 1e12; // a kilometre wide
 

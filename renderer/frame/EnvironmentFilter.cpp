@@ -198,8 +198,8 @@ struct Harmonics {
 Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     const std::size_t count = std::size_t(order + 1) * std::size_t(order + 2) / 2;
     Harmonics sum{std::vector<glm::dvec3>(count, glm::dvec3(0.0)), std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
-    std::vector<glm::dvec2> turns(
-        std::size_t(map.width)); // cosine and sine of each column's longitude, and its multiples
+    // By column, cosine and sine of m times its longitude.
+    std::vector<glm::dvec2> turns(std::size_t(map.width));
     for (int row = 0; row < map.height; ++row) {
         const double cosine = 0.5 * (map.cosineOfRow(row) + map.cosineOfRow(row + 1));
         const std::vector<double> p = legendre(order, cosine, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)));

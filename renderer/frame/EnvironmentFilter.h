@@ -17,7 +17,7 @@ glm::dvec3 directionOf(const glm::dvec2& code);
 glm::dvec2 codeOf(const glm::dvec3& direction);
 
 /// Values of all directions at the corners of such a square's side x side cells: side is even, so that the octahedron's
-/// edges run along corners. The square's outer corners are there twice, since two of its edges meet in each.
+/// edges run along corners. A direction on an outer edge is there twice, at mirrored places of it, and -z four times.
 struct DividedOctahedron {
     int side = 0;
     std::vector<glm::vec3> corners; ///< row after row, side + 1 each

@@ -103,8 +103,8 @@ void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
         }));
 }
 
-/// Decides whether what passes through surfaces is what lobes leave, and not mirrors alone. A hook may make any surface
-/// rough.
+/// Decides whether light may pass through rough surfaces, which the table of lobes says how much of they reflect. A
+/// hook may make any surface rough.
 void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
     const auto mayPass = [](const scenes::Material* material) { return mayPassByLobe(*material); };
     spec.passesByLobes =

@@ -42,7 +42,7 @@ struct FrameSpec {
     bool showsBehindBodies = false;                  ///< bodies of glass show opaque surfaces along rays that they bend
     bool blursBehindBodies = false;                  ///< and some of them spread those rays
     bool drawsFarSides = false;                      ///< of bodies, where rays leave them
-    bool passesByLobes = false;                      ///< some of what transmits may be no mirror: its lobe is tabled
+    bool passesByLobes = false;                      ///< some surface that transmits may be rough: LobeTable.h
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;
@@ -68,7 +68,7 @@ struct FrameSpec {
     bool usesEnvironmentSamples() const;
     bool usesFilteredEnvironment() const;
     bool usesLobeTable() const;
-    bool lightsByLobeTable() const; ///< surfaces, with areas or an environment
+    bool lightsByLobeTable() const; ///< surfaces, by area lights or an environment
     bool usesLobeShapes() const;
     bool compensatesLobes() const;
     bool usesLightPictures() const { return features[Feature::LightPictures] || showsLightPictures; }

@@ -82,21 +82,18 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
     return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
-/// Beer's law: what is left after the thickness; in place of less than 1e-30 its natural logarithm, which is below 0,
-/// so that where a texture makes the body thinner the colour is still known. Source: KHR_materials_volume,
-/// "Attenuation".
-glm::vec3 leftByBody(const scenes::Material& material) {
-    glm::vec3 left(1.0f);
-    if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return left;
+/// Beer's law: the natural logarithm of what is left after the thickness, at most 0. Single precision holds it for any
+/// thickness, and keeps its digits where next to all light is left. Source: KHR_materials_volume, "Attenuation".
+glm::vec3 logarithmLeftByBody(const scenes::Material& material) {
+    glm::vec3 logarithm(0.0f);
+    if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return logarithm;
     const double distances = double(material.thicknessMetres) / double(material.attenuationDistanceMetres);
-    constexpr double kLeast = 1e-30, kLeastLogarithm = -1e30; // which single precision holds
+    constexpr double kLeast = -1e30; // which single precision holds; of black the logarithm has no bound
     for (int c = 0; c < 3; ++c) {
-        const auto color = double(material.attenuationColor[c]), share = std::pow(color, distances);
-        left[c] = float(share >= kLeast ? share
-                        : color > 0.0   ? std::max(std::log(color) * distances, kLeastLogarithm)
-                                        : kLeastLogarithm);
+        const auto color = double(material.attenuationColor[c]);
+        logarithm[c] = float(color > 0.0 ? std::max(std::log(color) * distances, kLeast) : kLeast);
     }
-    return left;
+    return logarithm;
 }
 
 /// Half of (n_F - n_C) / (n_d - 1), the inverse of the Abbe number, which is 20 over the dispersion. Source:
@@ -177,7 +174,7 @@ shared::MaterialConstants packMaterial(const scenes::Material& material, std::si
     packed.transmission =
         glm::vec4(scenes::isTransmissive(material) ? material.transmission : 0.0f,
                   material.alphaMode == scenes::AlphaMode::Blend ? 1.0f : 0.0f, material.thicknessMetres, 0.0f);
-    packed.attenuation = glm::vec4(leftByBody(material), halfSpread(material));
+    packed.attenuation = glm::vec4(logarithmLeftByBody(material), halfSpread(material));
     constexpr double kMicrometresPerNanometre = 1e-3;
     packed.film = glm::vec4(scenes::isIridescent(material) ? material.iridescence : 0.0f, material.iridescenceIor,
                             float(kMicrometresPerNanometre * double(material.iridescenceThicknessNm)),

@@ -71,4 +71,8 @@ void ShadowMemories::beginFrame() {
     std::erase_if(ways_, [](Way& way) { return ++way.idleFrames > kMostIdleFrames; });
 }
 
+void ShadowMemories::forget() {
+    for (Way& way : ways_) way.memory->held_ = {};
+}
+
 } // namespace tessera::frame

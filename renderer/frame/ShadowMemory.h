@@ -58,6 +58,8 @@ public:
     /// Valid until it was not asked for in kMostIdleFrames frames.
     ShadowMemory& of(std::size_t view, const FrameSettings& settings);
     void beginFrame();
+    /// All faces are to be drawn again.
+    void forget();
 
     static constexpr int kMostIdleFrames = 16;
 

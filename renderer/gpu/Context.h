@@ -46,7 +46,7 @@ public:
     static Context* current();
 
     /// From now on programs of one name and the very same sources are compiled once, whoever asks for them, and kept:
-    /// for tests, whose renderers come and go. They have no state in which they could differ.
+    /// for tests, whose renderers come and go. All can share one, since programs hold no uniforms of their own.
     void keepPrograms() { keptPrograms_.emplace(); }
     /// Ends that; to be called while the context is current, and before it dies.
     void forgetPrograms() { keptPrograms_.reset(); }

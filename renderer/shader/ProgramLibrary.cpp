@@ -151,6 +151,7 @@ Reloading ProgramLibrary::reload() {
             entry->program = build.finish();
             entry->stages = std::move(build.stages);
             ++result.programs;
+            ++reloaded_;
         } catch (const gpu::ShaderError& error) {
             result.faults.push_back({error.log(), error.program()});
         } catch (const InputError& error) { // its hook is faulty

@@ -47,6 +47,9 @@ public:
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }
+    /// How many programs reload() has given another form so far. What is kept of their results is out of date when this
+    /// grows.
+    std::size_t reloaded() const { return reloaded_; }
 
 private:
     using Time = std::filesystem::file_time_type;
@@ -61,6 +64,7 @@ private:
     std::optional<Time> treeChange_;                        ///< as sourcesChanged() saw it last
     std::map<std::string, std::optional<Time>> hooks_;      ///< the same of their files; none: it was not there
     std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
+    std::size_t reloaded_ = 0;
 };
 
 } // namespace tessera::shader

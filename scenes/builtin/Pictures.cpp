@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "scenes/Parallel.h"
+#include <tbb/parallel_for.h>
 
 namespace tessera::scenes::builtin {
 namespace {
@@ -45,7 +45,7 @@ template <typename Encode>
 Image drawBytes(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& texel,
                 Encode encode) {
     Image image = blank(name, TexelFormat::Rgba8Unorm, width, height);
-    parallelFor(height, [&](int y) {
+    tbb::parallel_for(0, height, [&](int y) {
         std::byte* out = image.texels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 4;
         for (int x = 0; x < width; ++x) {
             const glm::dvec3 value = texel(x, y);
@@ -69,7 +69,7 @@ Image drawValues(const std::string& name, int width, int height, const std::func
 
 Image drawNormals(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& normal) {
     Image image = blank(name, TexelFormat::Rgba16Unorm, width, height);
-    parallelFor(height, [&](int y) {
+    tbb::parallel_for(0, height, [&](int y) {
         std::byte* out = image.texels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 8;
         for (int x = 0; x < width; ++x) {
             const glm::dvec3 n = normal(x, y);
@@ -89,7 +89,7 @@ Image drawRadiance(const std::string& name, int width, int height,
                    const std::function<glm::dvec3(int, int)>& radiance) {
     Image image = blank(name, TexelFormat::Rgba32Float, width, height);
     const std::size_t rowBytes = static_cast<std::size_t>(width) * sizeof(glm::vec4);
-    parallelFor(height, [&](int y) {
+    tbb::parallel_for(0, height, [&](int y) {
         std::byte* out = image.texels.data() + static_cast<std::size_t>(y) * rowBytes;
         for (int x = 0; x < width; ++x, out += sizeof(glm::vec4)) {
             const glm::vec4 texel(glm::vec3(radiance(x, y)), 1.0f);
@@ -102,7 +102,7 @@ Image drawRadiance(const std::string& name, int width, int height,
 Image normalsFromHeights(const std::string& name, int size, double texelMetres,
                          const std::function<double(int, int)>& heightMetres) {
     std::vector<double> heights(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-    parallelFor(size, [&](int y) {
+    tbb::parallel_for(0, size, [&](int y) {
         for (int x = 0; x < size; ++x) {
             heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)] =
                 heightMetres(x, y);

@@ -4,8 +4,9 @@
 #include <numbers>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "scenes/Environment.h"
-#include "scenes/Parallel.h"
 #include "scenes/builtin/Environments.h"
 #include "scenes/builtin/Pictures.h"
 
@@ -81,7 +82,7 @@ class Table {
 public:
     template <typename Function>
     explicit Table(const Function& value) : values_(std::size_t(kSide) * kSide) {
-        parallelFor(kSide, [&](int row) {
+        tbb::parallel_for(0, kSide, [&](int row) {
             for (int column = 0; column < kSide; ++column)
                 values_[std::size_t(row) * kSide + std::size_t(column)] =
                     value(kGroundRadius + heightOf(row / (kSide - 1.0)), -1.0 + 2.0 * column / (kSide - 1.0));

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
+#include <tbb/parallel_for.h>
 
 #include "base/Srgb.h"
-#include "scenes/Parallel.h"
 #include "scenes/RadianceMap.h"
 #include "scenes/import/GltfImages.h"
 #include "scenes/import/StandIn.h"
@@ -234,7 +234,7 @@ Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::st
     map.width = width;
     map.height = width / 2;
     map.texels.resize(std::size_t(map.width) * std::size_t(map.height) * sizeof(glm::vec4));
-    parallelFor(map.height, [&](int y) {
+    tbb::parallel_for(0, map.height, [&](int y) {
         std::byte* out = map.texels.data() + std::size_t(y) * std::size_t(map.width) * sizeof(glm::vec4);
         for (int x = 0; x < map.width; ++x, out += sizeof(glm::vec4)) {
             glm::dvec3 sum(0.0);

@@ -6,21 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Direction.h"
+
 namespace tessera::scenes::gltf {
 namespace {
 
-/// In double, because squares of a float's extremes overflow or vanish in float.
-std::optional<glm::vec3> unit(const glm::dvec3& direction) {
-    const double length = std::sqrt(glm::dot(direction, direction));
-    if (!std::isfinite(length) || length == 0.0) return std::nullopt;
-    return glm::vec3(direction / length);
-}
-
 glm::vec3 faceNormalOS(const Mesh& mesh, std::size_t firstCorner) {
-    const glm::dvec3 a = mesh.positionsOS[mesh.indices[firstCorner]];
-    const glm::dvec3 b = mesh.positionsOS[mesh.indices[firstCorner + 1]];
-    const glm::dvec3 c = mesh.positionsOS[mesh.indices[firstCorner + 2]];
-    return unit(glm::cross(b - a, c - a)).value_or(glm::vec3(0.0f, 0.0f, 1.0f));
+    const auto corner = [&](std::size_t i) { return glm::dvec3(mesh.positionsOS[mesh.indices[firstCorner + i]]); };
+    return glm::vec3(normalOfTriangle(corner(0), corner(1), corner(2)));
 }
 
 template <typename T>
@@ -65,8 +58,8 @@ std::size_t repairNormals(Mesh& mesh) {
     std::vector<bool> isBroken(mesh.normalsOS.size(), false);
     std::size_t brokenCount = 0;
     for (std::size_t i = 0; i < mesh.normalsOS.size(); ++i) {
-        const std::optional<glm::vec3> normalOS = unit(mesh.normalsOS[i]);
-        mesh.normalsOS[i] = normalOS.value_or(glm::vec3(0.0f, 0.0f, 1.0f));
+        const std::optional<glm::dvec3> normalOS = directionOf(mesh.normalsOS[i]);
+        mesh.normalsOS[i] = normalOS.value_or(glm::dvec3(0.0, 0.0, 1.0));
         isBroken[i] = !normalOS;
         brokenCount += normalOS ? 0 : 1;
     }
@@ -80,9 +73,9 @@ std::size_t repairNormals(Mesh& mesh) {
 /// Makes tangents unit length and their w +1 or -1. False when one cannot be.
 bool normalizeTangents(Mesh& mesh) {
     for (glm::vec4& tangentOS : mesh.tangentsOS) {
-        const std::optional<glm::vec3> direction = unit(glm::vec3(tangentOS));
+        const std::optional<glm::dvec3> direction = directionOf(glm::vec3(tangentOS));
         if (!direction || !(std::abs(tangentOS.w) > 0.0f)) return false;
-        tangentOS = glm::vec4(*direction, tangentOS.w > 0.0f ? 1.0f : -1.0f);
+        tangentOS = glm::vec4(glm::vec3(*direction), tangentOS.w > 0.0f ? 1.0f : -1.0f);
     }
     return true;
 }

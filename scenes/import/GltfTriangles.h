@@ -15,9 +15,9 @@ inline constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6; ///< mod
 /// corner twice. Source: glTF 2.0 section 3.7.2.1.
 std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corners);
 
-/// Gives a shape whose vertices are read the normals that it lacks, flat ones, for which vertices are unshared; others
-/// become unit vectors, and so do tangents, or they are left out with a warning. Morph targets keep only what there is
-/// to be changed.
+/// Completes a shape whose vertices have been read. Without normals it becomes flat: each triangle gets vertices of its
+/// own and its normal. Normals and tangents become unit vectors; a normal without direction takes a triangle's, and
+/// where a tangent has none all are left out, each with a warning. Morph targets keep only what they can be added to.
 void finishNormals(Context& context, const std::string& place, Shape& shape);
 
 } // namespace tessera::scenes::gltf

@@ -48,8 +48,8 @@ struct MaterialConstants {
     vec4 clearcoatTurn;              // x y z: of the coat's normal map, as y z w of anisotropy
     vec4 transmission;               // x share of what enters that passes, 0 where the model lets none through; y 1
                                      // where opacity covers, as of alpha-blended ones; z metres of the body below
-    vec4 attenuation;                // rgb what the body leaves of white light, in place of less than 1e-30 its natural
-                                     // logarithm; a half the spread of its indices of refraction over what they are
+    vec4 attenuation;                // rgb natural logarithm of what the body leaves of white light that goes as far as
+                                     // it is thick; a half the spread of its indices of refraction over what they are
                                      // above 1, 0 where all colours bend alike
     vec4 film; // x share, 0 where there is none; y index of refraction; z thickness in micrometres where its texture
                // is 1 or there is none; w where the texture is 0

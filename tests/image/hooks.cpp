@@ -206,6 +206,27 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
 }
 
+/// What enters a surface is kept, but not for a colour that the hook gave before it was edited.
+TEST_F(Hooks, anEditShowsInLightThatHasSpread) {
+    scenes::Material skin;
+    skin.model = scenes::MaterialModel::Lambert;
+    skin.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    scenes::Scene lit = test::quadScene(skin);
+    lit.lights = {test::pointLight({0.3, 0.4, 1.0}, 3.0f)};
+    constexpr std::string_view kBlue = "{\n    surface.color = vec3(0.2, 0.4, 0.8);\n}\n";
+    constexpr std::string_view kRed = "{\n    surface.color = vec3(0.8, 0.4, 0.2);\n}\n";
+    const scenes::Scene scene = hooked(lit, kBlue);
+    engine::Renderer renderer(context(), scene);
+    const std::vector<float> before = renderer.render(Technique::Forward, smallSettings()).radiance;
+    EXPECT_EQ(renderer.render(Technique::Forward, smallSettings()).radiance, before);
+    folder.write(std::filesystem::path(scene.hook->file).filename().string(),
+                 std::string(test::kSurfaceHeader).append(kRed));
+    EXPECT_TRUE(renderer.programs().reload().faults.empty());
+    const std::vector<float> after = renderer.render(Technique::Forward, smallSettings()).radiance;
+    EXPECT_NE(after, before);
+    EXPECT_EQ(after, drawn(hooked(lit, kRed), smallSettings())) << "as a renderer that knows no other";
+}
+
 /// Without steps, whose pixels rounding would decide.
 constexpr std::string_view kSmooth = R"({
     float wave = 0.5 + 0.5 * sin(hook.timeSeconds + 3.0 * inputs.positionOS.x + 2.0 * inputs.uv.y +

@@ -4,6 +4,7 @@
 #include "renderer/frame/ShadowMemory.h"
 #include "scenes/Load.h"
 #include "tests/image/ShadowTest.h"
+#include "tests/support/ShaderMutant.h"
 
 namespace tessera {
 namespace {
@@ -58,6 +59,18 @@ TEST_F(ShadowCache, mapsAreDrawnAgainWhereLightsOrCastersChangeAndNowhereElse) {
     EXPECT_FALSE(drawsMapsRightly(renderer)) << "no maps";
     settings.shadowFilter = ShadowFilter::Hard;
     drawsMapsRightly(renderer); // the atlas may still be there
+    EXPECT_FALSE(drawsMapsRightly(renderer));
+}
+
+TEST_F(ShadowCache, mapsAreDrawnAgainWhereAnEditOfShadersHasMadeAProgramAnew) {
+    const test::ShaderMutant shaders;
+    engine::Renderer renderer(context(), scene, shaders.tree());
+    EXPECT_TRUE(drawsMapsRightly(renderer)) << "the first frame";
+    EXPECT_EQ(renderer.programs().reload().programs, 0u);
+    EXPECT_FALSE(drawsMapsRightly(renderer)) << "nothing has changed";
+    shaders.replace("passes/geometry.vert", "void main()", "void main() /* as it was */");
+    EXPECT_GT(renderer.programs().reload().programs, 0u);
+    EXPECT_TRUE(drawsMapsRightly(renderer));
     EXPECT_FALSE(drawsMapsRightly(renderer));
 }
 

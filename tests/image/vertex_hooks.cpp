@@ -131,7 +131,7 @@ TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
         std::string_view body, says;
     } cases[] = {
         {"{\n    positionOS.y += 2.0;\n}\n", "by 2 m, and mayMoveMetres is 1"},
-        {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "to where a number is infinite or none"}};
+        {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "to a position that is infinite or NaN"}};
     for (const auto& tried : cases) {
         const scenes::Scene scene = moving(test::quadScene({}), tried.body, 1.0);
         try {

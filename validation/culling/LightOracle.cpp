@@ -18,32 +18,43 @@ namespace tessera::validation {
 
 namespace {
 
+/// Into which directions a light shines, and from how far around its position.
+struct Shine {
+    double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
+    bool isCone = false;
+    bool hasFront = false;       ///< shines from one side of a flat surface, into the half of space before it
+    glm::dvec3 directionWS{0.0}; ///< along the cone's axis, or away from the front
+    double cosOuter = -1.0;
+
+    /// Whether a point lies in the cone or before the front; everywhere without either. `toLight` is of any length.
+    bool reaches(const glm::dvec3& toLight) const {
+        if (hasFront) return glm::dot(-toLight, directionWS) > 0.0;
+        return !isCone || glm::dot(-toLight, directionWS) > cosOuter * glm::length(toLight);
+    }
+    /// Whether any place that it may come from is in front of a surface. `normal` is of unit length, or 0.
+    bool isInFront(const glm::dvec3& normal, const glm::dvec3& toLight) const {
+        return glm::dot(normal, toLight) + surfaceMetres * glm::length(normal) > 0.0;
+    }
+};
+
 /// A light as plain numbers; only those that are on and not dark.
 struct TrueLight {
     int sceneLight = 0;
+    Shine shine;
     glm::dvec3 positionWS{0.0};
     double squaredRange = scenes::kInfinity; ///< of falloff inverse_square
     bool fallsOffByABC = false;
     glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
     double brightest = 0.0;      ///< channel of colour x intensity
-    double surfaceMetres = 0.0;  ///< of the ball around its position that it shines from
-    double dimSquared = 0.0;     ///< of an area light that a tolerance ends: the squared distance from that ball
+    double dimSquared = 0.0;     ///< of an area light that a tolerance ends: the squared distance from its ball
     bool isDimmed = false;       ///< whether it is one
-    bool isCone = false;
-    bool hasFront = false; ///< shines from one side of a flat surface, into the half of space before it
-    glm::dvec3 directionWS{0.0};
-    double cosOuter = -1.0;
 };
 
 /// A light that reaches everywhere.
 struct EndlessLight {
     int sceneLight = 0;
-    glm::dvec4 placeWS{0.0};    ///< homogeneous: its position, or with w = 0 the direction that it comes from
-    double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
-    bool isCone = false;
-    bool hasFront = false; ///< shines from one side of a flat surface, into the half of space before it
-    glm::dvec3 directionWS{0.0};
-    double cosOuter = -1.0;
+    Shine shine;
+    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
 };
 
 struct TrueLights {
@@ -73,18 +84,18 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const bool isCone = reach == scenes::LightReach::Cone;
         if (isCone && !(light.outerConeRadians > 0.0f)) continue;
         const bool isArea = scenes::infoOf(light.type).isArea;
-        const bool hasFront = isFlat && !light.isTwoSided;
         if (isArea && !scenes::hasSurface(light)) continue;
+        const Shine shine{scenes::surfaceReachMetres(light), isCone, isFlat && !light.isTwoSided, light.directionWS,
+                          std::cos(double(light.outerConeRadians))};
         if (reachesEverywhere(light, settings.rangeTolerance)) {
             const bool isFar = reach == scenes::LightReach::Everywhere;
             lights.everywhere.push_back(
-                {int(i), isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0),
-                 scenes::surfaceReachMetres(light), isCone, hasFront, light.directionWS,
-                 std::cos(double(light.outerConeRadians))});
+                {int(i), shine, isFar ? glm::dvec4(-light.directionWS, 0.0) : glm::dvec4(light.positionWS, 1.0)});
             continue;
         }
         TrueLight plain;
         plain.sceneLight = int(i);
+        plain.shine = shine;
         plain.positionWS = light.positionWS;
         plain.fallsOffByABC = light.falloff == scenes::Falloff::Attenuation;
         if (plain.fallsOffByABC)
@@ -94,39 +105,20 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         const glm::dvec3 color = most * glm::dvec3(light.color) * double(light.intensity);
         // Colours are held to 1e30 (docs/numerics.md).
         plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
-        plain.surfaceMetres = scenes::surfaceReachMetres(light);
         plain.isDimmed = isArea && std::isinf(light.rangeMetres);
         if (plain.isDimmed)
             plain.dimSquared = plain.brightest * scenes::largestSeenArea(light) / settings.rangeTolerance;
-        plain.isCone = isCone;
-        plain.hasFront = hasFront;
-        plain.directionWS = light.directionWS;
-        plain.cosOuter = std::cos(double(light.outerConeRadians));
         lights.finite.push_back(plain);
     }
     return lights;
 }
 
-/// Whether a point lies in a light's cone or before its front; everywhere where it has neither. `toLight` is of any
-/// length.
-template <class Light>
-bool shinesTo(const Light& light, const glm::dvec3& toLight) {
-    if (light.hasFront) return glm::dot(-toLight, light.directionWS) > 0.0;
-    return !light.isCone || glm::dot(-toLight, light.directionWS) > light.cosOuter * glm::length(toLight);
-}
-
-/// Whether any place that the light may shine from is in front of a surface. `normal` is of unit length, or 0.
-template <class Light>
-bool isInFront(const Light& light, const glm::dvec3& normal, const glm::dvec3& toLight) {
-    return glm::dot(normal, toLight) + light.surfaceMetres * glm::length(normal) > 0.0;
-}
-
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
-    if (!shinesTo(light, light.positionWS - positionWS)) return false;
+    if (!light.shine.reaches(light.positionWS - positionWS)) return false;
     // The falloff itself, not the radius that solves it, is held against the tolerance.
     const double distance = std::sqrt(squaredDistance);
     if (light.isDimmed) {
-        const double fromSurface = distance - light.surfaceMetres;
+        const double fromSurface = distance - light.shine.surfaceMetres;
         return !(fromSurface > 0.0) || fromSurface * fromSurface < light.dimSquared;
     }
     return light.fallsOffByABC ? light.brightest > light.attenuation.x + light.attenuation.y * distance +
@@ -193,7 +185,7 @@ private:
             const double squaredDistance = glm::dot(toLight, toLight);
             if (!reaches(light, positionWS, squaredDistance)) continue;
             ++figures.needed;
-            const bool inFront = isInFront(light, normal, toLight);
+            const bool inFront = light.shine.isInFront(normal, toLight);
             if (inFront) ++figures.neededLit;
             if (byNormals_ && isUnit && !inFront) continue;
             next = std::lower_bound(next, visited.end(), light.sceneLight);
@@ -202,7 +194,7 @@ private:
         std::uint64_t everywhere = 0;
         for (const EndlessLight& light : lights_.everywhere) {
             const glm::dvec3 toLight = glm::dvec3(light.placeWS) - light.placeWS.w * positionWS;
-            if (isInFront(light, normal, toLight) && shinesTo(light, toLight)) ++figures.everywhereLit;
+            if (light.shine.isInFront(normal, toLight) && light.shine.reaches(toLight)) ++figures.everywhereLit;
             if (std::binary_search(visited.begin(), visited.end(), light.sceneLight))
                 ++everywhere;
             else

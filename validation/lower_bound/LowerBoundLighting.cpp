@@ -67,7 +67,8 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
     view_.uploadValue(
         frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
             .constants);
-    // Of a frame that is not pruned or has an environment: it is black, and its directions are directions.
+    // Shaders of a frame that has an environment, or is not pruned, read this block: no radiance, and a rotation, since
+    // a matrix of zeros would make directions NaN.
     environment_.uploadValue(shared::EnvironmentConstants{glm::mat4(1.0f), glm::vec4(0.0f)});
     setLights({});
 }

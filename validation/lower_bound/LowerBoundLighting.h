@@ -48,8 +48,8 @@ private:
     shader::ProgramLibrary& programs_;
     frame::FrameSpec spec_;
     gpu::Buffer view_, constants_, environment_;
-    gpu::Buffer lights_, shapes_,
-        texels_; ///< the same lights for every store; those of the product's are in one buffer
+    /// The same lights for every store; the product's own store has lights and shapes in one buffer.
+    gpu::Buffer lights_, shapes_, texels_;
     gpu::Texture radiance_;
     gpu::Framebuffer framebuffer_;
 };

@@ -9,10 +9,10 @@
 
 namespace tessera::reference {
 
-/// What a body shows.
+/// What a body shows, before it absorbs any of it.
 struct BodyLight {
-    glm::dvec3 radiance{0.0}; ///< behind it, where its rays go
-    /// By channel, inside the body, where it is known where they leave it.
+    glm::dvec3 radiance{0.0}; ///< of what its rays meet, by channel
+    /// By channel, how far the ray goes inside; none where no far side is found: then the body's thickness counts.
     std::optional<double> wayMetres[3];
 };
 

@@ -5,7 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "scenes/Parallel.h"
+#include <tbb/parallel_for.h>
+
 #include "scenes/builtin/Noise.h"
 #include "scenes/builtin/Pictures.h"
 #include "scenes/builtin/Shapes.h"
@@ -110,7 +111,7 @@ struct Skin {
     Skin(int columnCount, int rowCount) : columns(columnCount), rows(rowCount) {
         pointsBU.resize(at(0, rows + 1));
         normals.resize(pointsBU.size());
-        parallelFor(columns, [&](int i) {
+        tbb::parallel_for(0, columns, [&](int i) {
             double along = 0.0;
             for (int j = 0; j <= rows; ++j) {
                 const Ray ray = rayTowardsSkin(static_cast<double>(i) / columns, 1.0 - static_cast<double>(j) / rows);
@@ -201,7 +202,7 @@ struct SkinMap {
         pointsBU.resize(at(0, size));
         normals.resize(pointsBU.size());
         heightsBU.resize(pointsBU.size());
-        parallelFor(size, [&](int y) {
+        tbb::parallel_for(0, size, [&](int y) {
             for (int x = 0; x < size; ++x) {
                 const double u = (x + 0.5) / size;
                 const double v = (y + 0.5) / size;

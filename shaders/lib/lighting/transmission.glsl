@@ -2,6 +2,7 @@
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
+#include "lib/material/material.glsl"
 #if HAS_PASSING_LOBES
 #include "lib/reflectance/lobes.glsl"
 #endif
@@ -102,7 +103,7 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 struct BentRay {
     vec3 originLS;
     vec3 directionLS;   // unit
-    float insideMetres; // its way through the body, below 0 where that is as long as the body is thick
+    float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
 };
 
 #if HAS_BACK_FACES
@@ -120,16 +121,6 @@ vec3 farSideNormal(ScreenHit hit)
         if (side.w > 0.0) sum += weight * side.xyz;
     }
     return safeNormalize(sum, texelFetch(farSides, hit.pixel, 0).xyz);
-}
-
-// What the body leaves of white light after so long a way, by Beer's law.
-vec3 leftAfter(float metres)
-{
-    // In place of nearly nothing its logarithm is given. 1 leaves all of it, to the last bit.
-    vec3 left = material.attenuation.rgb;
-    precise vec3 logarithm = mix(left, log(max(left, vec3(1e-30))), greaterThan(left, vec3(0.0)));
-    precise vec3 found = exp(logarithm * (metres / material.transmission.z));
-    return mix(found, vec3(1.0), equal(left, vec3(1.0)));
 }
 
 // Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
@@ -185,7 +176,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     BentRay ray = rayThroughBody(surface, viewpoint, bent, ior);
     vec3 left = surface.leftByBody;
 #if HAS_BACK_FACES
-    if (ray.insideMetres >= 0.0) left = leftAfter(ray.insideMetres);
+    if (ray.insideMetres >= 0.0) left = leftByBody(ray.insideMetres / material.transmission.z);
 #endif
     precise vec3 kept = share * left;
 #if HAS_SCENE_BEHIND

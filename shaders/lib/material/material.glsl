@@ -7,6 +7,16 @@
 #include "lib/surface/surface.glsl"
 
 #if HAS_PASSING_LIGHT
+// Beer's law: what the body leaves of white light whose way through it is so many times its thickness; all of it, to the
+// last bit, of a colour that the body does not absorb.
+vec3 leftByBody(float thicknesses)
+{
+    if (!(thicknesses > 0.0)) return vec3(1.0);
+    vec3 logarithm = material.attenuation.rgb;
+    precise vec3 left = exp(logarithm * thicknesses);
+    return mix(left, vec3(1.0), equal(logarithm, vec3(0.0)));
+}
+
 // Source: KHR_materials_transmission and _volume. The alpha is that of the Khronos sample viewer, applyIorToRoughness():
 // the less the index of refraction bends light, the less a rough surface spreads it. An index of 0 is one without
 // bound.
@@ -16,25 +26,18 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
 #if HAS_TRANSMISSION_TEXTURE
     transmission *= sampleSlot(transmissionTexture, TEXTURE_SLOT_TRANSMISSION, fragment).r;
 #endif
-    precise vec3 left = material.attenuation.rgb;
-    precise float bodyMetres = material.transmission.z;
+    float thicknesses = 1.0;
 #if HAS_THICKNESS_TEXTURE
-    // Beer's law. 1 leaves the bits as they are.
-    float thickness = sampleSlot(thicknessTexture, TEXTURE_SLOT_THICKNESS, fragment).g;
-    bodyMetres *= thickness;
-    if (!(thickness > 0.0))
-        left = vec3(1.0);
-    else if (thickness != 1.0)
-        left = mix(exp(left * thickness), pow(max(left, vec3(1e-30)), vec3(thickness)), greaterThan(left, vec3(0.0)));
+    thicknesses = sampleSlot(thicknessTexture, TEXTURE_SLOT_THICKNESS, fragment).g;
 #endif
-    left = max(left, vec3(0.0)); // what is given as a logarithm is nothing
+    precise float bodyMetres = material.transmission.z * thicknesses;
     precise float share = transmission * (1.0 - metallic);
     precise vec3 passing = baseColor * share;
     precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;
     precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
     surface.transmission = transmission;
     surface.passing = passing;
-    surface.leftByBody = left;
+    surface.leftByBody = leftByBody(thicknesses);
     surface.passingIor = ior;
     surface.passingAlpha = alpha;
     surface.bodyMetres = bodyMetres;

@@ -57,7 +57,7 @@ struct Surface {
 #endif
 #if HAS_PASSING_LIGHT
     float transmission; // 0..1, share of what enters that passes
-    vec3 passing;       // of white light that passes, before what the surface and its layers reflect and its body absorbs
+    vec3 passing;       // share of white light that passes, before surface and layers reflect and the body absorbs
     vec3 leftByBody;    // what a body leaves of white light that goes as far as it is thick
     float passingIor;   // index of refraction below the surface
     float passingAlpha; // GGX alpha that light is spread by on its way through a body, >= ALPHA_MIN

@@ -165,7 +165,9 @@ TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
                 intensity + "}]}");
         return run({"render", "s.json", "--size", "65x37", "-o", "a.exr"}).err;
     };
-    EXPECT_THAT(said("1e30"), testing::HasSubstr("warning: a.exr: 1 of its pixels are infinite or no numbers"));
+    EXPECT_THAT(said("1e30"),
+                testing::HasSubstr("warning: a.exr: 1 of its pixels are infinite or no numbers; a light is "
+                                   "too bright or too near; dim it or move it away"));
     EXPECT_THAT(said("1e20"), testing::Not(testing::HasSubstr("pixels are infinite")));
 }
 
@@ -250,7 +252,8 @@ TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
         << "the same options serve all views";
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none"}), "");
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none", "--diffusion-half", "on"}),
-              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface that is drawn\n");
+              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface; give --subsurface "
+              "texture_space_diffusion\n");
     EXPECT_THAT(said("diffusion_truth", {"--diffusion-texels", "64", "--technique", "reference"}),
                 testing::HasSubstr("--diffusion-texels changes nothing. The reference integrates over the surface\n"));
 }

@@ -115,6 +115,7 @@ TEST_F(ProgramLibraryTest, reloadingReplacesTheProgramBehindItsReference) {
     EXPECT_EQ(done.programs, 1u);
     EXPECT_EQ(answer(program), 52.0f);
     EXPECT_EQ(library.reload().programs, 0u) << "nothing has changed since";
+    EXPECT_EQ(library.reloaded(), 1u);
 }
 
 TEST_F(ProgramLibraryTest, aBrokenEditKeepsTheLastGoodProgram) {

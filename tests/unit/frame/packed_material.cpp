@@ -82,18 +82,25 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     material.transmission = 0.5f;
     material.thicknessMetres = 3.0f;
     material.attenuationColor = {0.5f, 0.25f, 0.0f};
-    const auto left = [&] { return packMaterial(material).attenuation; };
+    const auto logarithm = [&] { return packMaterial(material).attenuation; };
+    const auto expectTimes = [&](double distances) {
+        EXPECT_FLOAT_EQ(logarithm().x, float(distances * std::log(0.5)));
+        EXPECT_FLOAT_EQ(logarithm().y, float(distances * std::log(0.25)));
+        EXPECT_EQ(logarithm().z, -1e30f) << "of nothing the logarithm has no bound";
+    };
     EXPECT_EQ(packMaterial(material).transmission, glm::vec4(0.5f, 0.0f, 3.0f, 0.0f));
-    EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "without a distance";
-    material.attenuationDistanceMetres = 1.5f; // twice
-    EXPECT_EQ(left(), glm::vec4(0.25f, 0.0625f, -1e30f, 0.0f)) << "of nothing the logarithm has no bound";
-    material.attenuationDistanceMetres = 0.03125f; // 96 times
-    EXPECT_FLOAT_EQ(left().x, float(std::pow(0.5, 96.0)));
-    EXPECT_FLOAT_EQ(left().y, float(96.0 * std::log(0.25))) << "less than 1e-30";
+    EXPECT_EQ(logarithm(), glm::vec4(0.0f)) << "without a distance";
+    material.attenuationDistanceMetres = 1.5f;
+    expectTimes(2.0);
+    material.attenuationDistanceMetres = 0.03125f;
+    expectTimes(96.0);
+    material.thicknessMetres = 0x1p-30f; // absorbs less than a rounding of the light
+    expectTimes(0x1p-25);
+    material.thicknessMetres = 3.0f;
     material.attenuationDistanceMetres = 1e-38f;
-    EXPECT_EQ(left(), glm::vec4(-1e30f, -1e30f, -1e30f, 0.0f));
+    EXPECT_EQ(logarithm(), glm::vec4(-1e30f, -1e30f, -1e30f, 0.0f));
     material.thicknessMetres = 0.0f;
-    EXPECT_EQ(left(), glm::vec4(1.0f, 1.0f, 1.0f, 0.0f)) << "a sheet";
+    EXPECT_EQ(logarithm(), glm::vec4(0.0f)) << "a sheet";
     EXPECT_EQ(packMaterial(material).transmission.z, 0.0f);
     material.alphaMode = scenes::AlphaMode::Blend;
     EXPECT_EQ(packMaterial(material).transmission.y, 1.0f) << "opacity covers";
