@@ -4,6 +4,7 @@
 #include "apps/Outputs.h"
 #include "apps/Planning.h"
 #include "base/Error.h"
+#include "scenes/Defaults.h"
 
 namespace tessera::app {
 
@@ -32,7 +33,10 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     const graph::Plan plan = options.measure ? measured() : planOf(options, request);
     if (!options.json.empty()) outputs.write(options.json, graph::planJson(plan));
     if (!options.dot.empty()) outputs.write(options.dot, graph::planDot(plan));
-    if (!printsJson && !printsDot) fmt::print("{}", graph::planText(plan));
+    if (printsJson || printsDot) return kGood;
+    if (const std::string supplied = scenes::suppliedText(request.scene); !supplied.empty() && !global.quiet)
+        fmt::print("{}\n", supplied);
+    fmt::print("{}", graph::planText(plan));
     return kGood;
 }
 

@@ -24,6 +24,7 @@
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "renderer/shader/SourceTree.h"
+#include "scenes/Defaults.h"
 #include "scenes/Pose.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/pictures/ShownPicture.h"
@@ -218,6 +219,8 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     job.outputs.reads(job.request.files);
     if (const std::string clip = scenes::clipText(job.request.scene); !clip.empty() && !global.quiet)
         fmt::print("{}\n", oneLine(clip));
+    if (const std::string supplied = scenes::suppliedText(job.request.scene); !supplied.empty() && !global.quiet)
+        fmt::print("{}\n", supplied);
     for (const std::string& note : job.request.scene.notes)
         if (!global.quiet) fmt::print("{}\n", oneLine(note));
     if (isReference)

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
+#include "scenes/Defaults.h"
 #include "scenes/InUse.h"
 #include "scenes/Pose.h"
 #include "scenes/RigLinks.h"
@@ -163,6 +164,8 @@ void warnOfScene(const scenes::Scene& scene) {
     for (const std::string& warning : scene.warnings) spdlog::warn("{}", oneLine(scene.name + ": " + warning));
     if (const std::string clip = scenes::clipText(scene); !clip.empty())
         spdlog::info("{}", oneLine(scene.name + ": " + clip));
+    if (const std::string supplied = scenes::suppliedText(scene); !supplied.empty())
+        spdlog::info("{}", oneLine(scene.name + ": " + supplied));
     for (const std::string& note : scene.notes) spdlog::info("{}", oneLine(scene.name + ": " + note));
 }
 

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "apps/FrameOptionText.h"
+#include "apps/Keywords.h"
 #include "base/OneLine.h"
+#include "scenes/Defaults.h"
 #include "scenes/Pose.h"
 
 namespace tessera::python {
@@ -112,6 +114,8 @@ SceneFacts factsOf(const app::Request& request) {
     const scenes::Scene& scene = request.scene;
     SceneFacts facts{scene.name, scenes::triangleCount(scene), scene.lights.size(), scene.materials.size(), {}, {}, {}};
     for (const scenes::Camera& camera : scene.cameras) facts.cameras.push_back(camera.name);
+    if (std::string supplied = scenes::suppliedText(scene); !supplied.empty())
+        facts.notes.push_back(app::withKeywords(supplied));
     for (const std::string& note : scene.notes) facts.notes.push_back(oneLine(note)); // as the command line prints them
     facts.files = request.files;
     return facts;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "scenes/Framing.h"
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
@@ -52,11 +54,7 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
     camera.worldFromCamera = worldFromLookAt(framing.eyeWS, framing.targetWS);
     camera.nearMetres = kNearShare * framing.radiusMetres;
     scene.cameras.push_back(camera);
-    scene.warnings.emplace_back(kDefaultCameraWarning);
-}
-
-bool isCameraSupplied(const Scene& scene) {
-    return std::ranges::find(scene.warnings, kDefaultCameraWarning) != scene.warnings.end();
+    scene.supplied.camera = true;
 }
 
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {
@@ -70,7 +68,23 @@ void addDefaultLight(Scene& scene, LoadLedger& ledger) {
         scene.environment->rotationDegrees = float(std::remainder(-45.0 - longitude, 360.0));
     }
     scene.options.wishes.try_emplace("backdrop", "blurred");
-    scene.warnings.emplace_back(kDefaultLightWarning);
+    scene.supplied.light = true;
+}
+
+std::string suppliedText(const Scene& scene) {
+    const auto& [camera, light] = scene.supplied;
+    std::string lacks, given;
+    if (light) {
+        lacks = "no light";
+        given = fmt::format("lit by the built-in environment '{}' (--environment chooses another, --no-default-light "
+                            "leaves it dark)",
+                            kDefaultEnvironment);
+    }
+    if (camera) {
+        lacks += light ? " and no camera" : "no camera";
+        given += fmt::format("{}seen whole by the supplied camera '{}'", light ? ", " : "", kDefaultName);
+    }
+    return lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
 }
 
 } // namespace tessera::scenes

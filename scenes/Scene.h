@@ -85,6 +85,12 @@ struct SceneOptions {
     bool operator==(const SceneOptions&) const = default;
 };
 
+/// What a scene is given that its file lacks (scenes/Defaults.h).
+struct Supplied {
+    bool camera = false, light = false;
+    bool operator==(const Supplied&) const = default;
+};
+
 struct Scene {
     std::string name;
     std::vector<Image> images;
@@ -98,6 +104,7 @@ struct Scene {
     std::optional<Hook> hook;
     glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
     SceneOptions options;
+    Supplied supplied;
     std::vector<std::string> variants; ///< names that ImportWishes::variant may have, of all models, once each
     std::vector<std::string> notes; ///< what the importer chose, where a reader may want to know, and nothing is lost
     std::vector<std::string> warnings; ///< what the importer left out, each naming the feature

@@ -71,9 +71,7 @@ EXTENSIONS = {
     "KHR_xmp": (RIGHT, "words about the model: left out, and said"),
     "KHR_xmp_json_ld": (RIGHT, "words about the model"),
 }
-# Said of nearly every model, and no fault of the picture.
-NO_CAMERA = "the scene has no camera: "
-EXPECTED = ("the scene has no light: ", NO_CAMERA)
+SUPPLIED_CAMERA = "by the supplied camera"
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
 MOST_SECONDS = 900  # that a picture may take
@@ -157,7 +155,7 @@ def status_of(extensions, code, lines):
     said = [
         (APPROXIMATE, line)
         for line in lines
-        if not any(part in line for part in EXPECTED) and "the extension " not in line
+        if "the extension " not in line
     ]
     reasons += unknown + said
     status = APPROXIMATE if any(each == APPROXIMATE for each, _ in reasons) else RIGHT
@@ -413,15 +411,15 @@ def csv_of(rows):
 
 
 def render(program, path, picture, size, seconds=0.0):
-    """The exit code (None after MOST_SECONDS), and what was said without names of programs and files, of a model at a
-    time."""
+    """Of a model at a time: the exit code (None after MOST_SECONDS), the warnings without names of programs and files, and
+    whether the program supplied the camera."""
     command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}"]
     if seconds > 0.0:
         command += ["--time", f"{seconds:g}"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS)
     except subprocess.TimeoutExpired:
-        return None, []
+        return None, [], False
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
@@ -430,7 +428,7 @@ def render(program, path, picture, size, seconds=0.0):
             line = line.removeprefix(prefix)
         if line:
             lines.append(line)
-    return done.returncode, lines
+    return done.returncode, lines, SUPPLIED_CAMERA in done.stdout
 
 
 def look_at(name, program, path, picture, size):
@@ -439,14 +437,14 @@ def look_at(name, program, path, picture, size):
     shown, said = [], []
     for seconds in times_of(document):
         picture.unlink(missing_ok=True)
-        code, lines = render(program, path, picture, size, seconds)
+        code, lines, is_framed = render(program, path, picture, size, seconds)
         said = said or lines
         if code != 0:
             return Row(name, *status_of(extensions_of(document), code, lines), None), None, lines
         shown.append(read_exr(picture.read_bytes()))
     picture.unlink(missing_ok=True)
     status, why = status_of(extensions_of(document), 0, said)
-    figures = figures_of(shown, any(NO_CAMERA in line for line in said))
+    figures = figures_of(shown, is_framed)
     return Row(name, status, why, figures), shown[0].bytes(), said
 
 

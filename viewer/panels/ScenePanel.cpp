@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
@@ -78,6 +79,7 @@ void scenePanel(State& state) {
     fact("Lights", fmt::format("{}", scene.lights.size()));
     fact("Materials", fmt::format("{}", scene.materials.size()));
     hookRows(*state.open);
+    if (const std::string supplied = scenes::suppliedText(scene); !supplied.empty()) paragraph(supplied);
     for (const std::string& note : scene.notes) paragraph(note);
     for (const std::string& warning : scene.warnings) paragraph(warning);
 }

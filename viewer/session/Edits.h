@@ -36,6 +36,7 @@ struct HookEdit {
 /// An environment with all that belongs to it.
 struct Surrounding {
     std::optional<scenes::Environment> environment;
+    bool isSupplied = false; ///< scenes::Supplied::light
     std::shared_ptr<const frame::FilteredEnvironment> filtered;
     std::vector<std::string> warnings;    ///< all of the scene
     std::vector<std::string> ownWarnings; ///< those of them that the environment brought

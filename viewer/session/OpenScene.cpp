@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Defaults.h"
 #include "scenes/Framing.h"
 #include "scenes/Pose.h"
 #include "scenes/RigLinks.h"
@@ -230,12 +229,11 @@ void OpenScene::deleteLights(std::string what, std::span<const std::size_t> indi
 
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
     const std::string name = std::filesystem::path(chosen.name).filename().string();
-    Surrounding next{std::move(chosen.environment), std::move(chosen.filtered), scene_.warnings,
+    Surrounding next{std::move(chosen.environment), false, std::move(chosen.filtered), scene_.warnings,
                      std::move(chosen.warnings)};
     // What was said of the environment before is over.
     std::erase_if(next.warnings, [&](const std::string& warning) {
-        return warning == scenes::kDefaultLightWarning ||
-               std::ranges::find(environmentWarnings_, warning) != environmentWarnings_.end();
+        return std::ranges::find(environmentWarnings_, warning) != environmentWarnings_.end();
     });
     next.warnings.insert(next.warnings.end(), next.ownWarnings.begin(), next.ownWarnings.end());
     apply(fmt::format("choose environment '{}'", name), EnvironmentEdit{std::move(next)});
@@ -292,6 +290,7 @@ void OpenScene::exchange(HookEdit& edit) {
 
 void OpenScene::exchange(EnvironmentEdit& edit) {
     std::swap(scene_.environment, edit.other.environment);
+    std::swap(scene_.supplied.light, edit.other.isSupplied);
     std::swap(filtered_, edit.other.filtered);
     std::swap(scene_.warnings, edit.other.warnings);
     std::swap(environmentWarnings_, edit.other.ownWarnings);

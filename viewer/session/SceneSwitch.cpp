@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "engine/ChooseView.h"
-#include "scenes/Defaults.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"
 
@@ -40,7 +39,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     state_.loading.clear();
     if (!result->scene) throw std::runtime_error(result->error);
     const FirstLook first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
-    const bool isSupplied = scenes::isCameraSupplied(*result->scene);
+    const bool isSupplied = result->scene->supplied.camera;
     auto scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
                                              std::move(*result->origin), std::move(result->filtered));
     scene->useCamera(first.look.settings.camera);

@@ -107,10 +107,13 @@ TEST_F(Render, frameKOfASequenceIsThePictureAtItsTime) {
 }
 
 TEST_F(Render, quietSilencesWarningsAndNothingElse) {
-    folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    folder_.write("tri.obj", "mtllib none.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     const ProcessResult loud = run({"render", "tri.obj", "--size", "16x9", "-o", "a.png"});
     EXPECT_EQ(loud.exitCode, 0);
-    EXPECT_THAT(loud.err, testing::HasSubstr("tessera: warning: tri: ")) << "the scene has no camera and no light";
+    EXPECT_THAT(loud.err, testing::HasSubstr("tessera: warning: tri: ")) << "the library of materials is missing";
+    EXPECT_THAT(loud.out,
+                testing::StartsWith("no light and no camera in it: lit by the built-in environment 'studio' "))
+        << "and what the scene was given is no warning";
     const std::string first = text("a.png");
     EXPECT_EQ(runGood({"--quiet", "render", "tri.obj", "--size", "16x9", "-o", "a.png"}), "");
     EXPECT_EQ(runGood({"render", "tri.obj", "--size", "16x9", "-o", "b.png", "--quiet"}), "");

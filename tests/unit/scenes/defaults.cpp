@@ -18,7 +18,7 @@ TEST(DefaultCamera, seesTheWholeFromTheSpecifiedDirection) {
     scene.meshes[0].positionsOS[2].z = 3.0f; // else it is flat
     addDefaultCamera(scene);
     ASSERT_EQ(scene.cameras.size(), 1u);
-    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(suppliedText(scene), "no camera in it: seen whole by the supplied camera 'default'");
     const Camera& camera = scene.cameras[0];
     EXPECT_EQ(camera.name, "default");
     EXPECT_DOUBLE_EQ(camera.fovYRadians, std::numbers::pi / 4.0);
@@ -48,7 +48,7 @@ TEST(DefaultCamera, neverReplacesTheAuthors) {
     scene.cameras.emplace_back().name = "eye";
     addDefaultCamera(scene);
     EXPECT_EQ(scene.cameras.size(), 1u);
-    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(suppliedText(scene), "");
 }
 
 Scene litByDefault(Scene scene) {
@@ -63,7 +63,9 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(suppliedText(scene), "no light in it: lit by the built-in environment 'studio' (--environment chooses "
+                                   "another, --no-default-light leaves it dark)");
+    EXPECT_TRUE(scene.warnings.empty());
     Scene sharp = tinyScene();
     sharp.options.wishes["backdrop"] = "sharp";
     EXPECT_EQ(litByDefault(sharp).options.wishes.at("backdrop"), Wish("sharp"));

@@ -152,7 +152,10 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     EXPECT_TRUE(scene.lights.empty());
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
-    EXPECT_GE(scene.warnings.size(), 2u);
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(suppliedText(scene), "no light and no camera in it: lit by the built-in environment 'studio' "
+                                   "(--environment chooses another, --no-default-light leaves it dark), seen whole by "
+                                   "the supplied camera 'default'");
 
     LoadOptions options;
     options.defaultLight = false;

@@ -92,7 +92,8 @@ TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {
 TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     const scenes::LoadOptions load;
     scenes::Scene room = scenes::loadScene("room", load);
-    room.warnings = {"of the file", scenes::kDefaultLightWarning};
+    room.warnings = {"of the file"};
+    room.supplied.light = true;
     OpenScene open("room", load, std::move(room), scenes::SceneOrigin());
     open.takeEnvironment(chosen("studio"));
     EXPECT_TRUE(open.isEdited());
@@ -100,6 +101,10 @@ TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     EXPECT_EQ(open.scene().environment.value().source, "builtin:studio");
     EXPECT_TRUE(open.filteredEnvironment());
     EXPECT_EQ(open.scene().warnings, std::vector<std::string>{"of the file"});
+    EXPECT_FALSE(open.scene().supplied.light) << "another was chosen";
+    open.undo();
+    EXPECT_TRUE(open.scene().supplied.light);
+    open.redo();
     open.takeEnvironment(chosen("none"));
     EXPECT_FALSE(open.scene().environment);
     EXPECT_FALSE(open.filteredEnvironment());
