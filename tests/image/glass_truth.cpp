@@ -185,22 +185,25 @@ TEST_F(GlassTruth, clearInEvenLightShowsThatLightAtGrazingAnglesToo) {
         }
 }
 
-/// What a GGX lobe with height-correlated masking and Schlick's factor reflects of even light. Half vectors are drawn
-/// by their distribution, whose share below a slope s is s^2 / (s^2 + alpha^2).
+/// What a GGX lobe with height-correlated masking and Schlick's factor reflects of even light, to 5e-5. Half vectors
+/// are drawn by their distribution, whose share above a slope s is alpha^2 / (s^2 + alpha^2), and more often the
+/// steeper: those are few, and reflect most at grazing angles.
 double reflectedOfEvenLight(double alpha, double cosView, double straight) {
     constexpr int kSteps = 96;
     const glm::dvec3 toViewer(std::sqrt(1.0 - cosView * cosView), 0.0, cosView);
     double sum = 0.0;
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < kSteps; ++j) {
-            const double below = (i + 0.5) / kSteps, turn = std::numbers::pi * (j + 0.5) / kSteps;
-            const double lean = std::atan(alpha * std::sqrt(below / (1.0 - below)));
+            const double place = (i + 0.5) / kSteps, turn = std::numbers::pi * (j + 0.5) / kSteps;
+            const double above = place * place * place, density = 3.0 * place * place;
+            const double lean = std::atan(alpha * std::sqrt((1.0 - above) / above));
             const glm::dvec3 half(std::sin(lean) * std::cos(turn), std::sin(lean) * std::sin(turn), std::cos(lean));
             const double incidence = glm::dot(half, toViewer), cosLight = 2.0 * incidence * half.z - cosView;
             if (incidence <= 0.0 || cosLight <= 0.0) continue;
             const double fresnel = straight + (1.0 - straight) * std::pow(1.0 - incidence, 5.0);
             // F D G / (4 l v) l over the density D h / (4 (h.v)).
-            sum += fresnel * textbook::correlatedMasking(alpha, cosLight, cosView) * incidence / (cosView * half.z);
+            sum += density * fresnel * textbook::correlatedMasking(alpha, cosLight, cosView) * incidence /
+                   (cosView * half.z);
         }
     return sum / (kSteps * kSteps);
 }
@@ -240,11 +243,18 @@ TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
 
 /// Seen alone, where nothing lights the surface: what passes is all but the integral of the lobe.
 TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
-    constexpr double kLeastCosine = 0.1, kStraight = 0.04;
+    constexpr double kStraight = 0.04;
+    struct Case {
+        double roughness, leastCosine, leeway;
+    };
+    // The table's error between its places is 2e-4. Below an alpha of 0.01 lobes go over into mirrors, which differ
+    // from them by 7e-3 at the most.
+    constexpr Case kCases[] = {{0.05, 0.05, 7e-3}, {0.08, 0.05, 7e-3}, {0.2, 0.1, 4e-4},
+                               {0.3, 0.1, 4e-4},   {0.5, 0.1, 4e-4},   {1.0, 0.1, 4e-4}};
     Scene scene = kSteepGlass.sceneOf(clearGlass());
     scene.background = glm::vec3(1.0f);
     engine::Renderer renderer(context(), scene);
-    for (const double roughness : {0.2, 0.3, 0.5, 1.0}) {
+    for (const auto& [roughness, leastCosine, leeway] : kCases) {
         scene.materials[0].perceptualRoughness = float(roughness);
         renderer.materialsChanged();
         const std::vector<float> shown = renderer.render(Technique::Deferred, ofSide(kGlassPixels)).radiance;
@@ -252,15 +262,14 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
         for (int y = 0; y < kGlassPixels; y += 3)
             for (int x = 0; x < kGlassPixels; x += 3) {
                 const double cosView = glm::dot(kSteepGlass.normal(), kSteepGlass.toViewer(x, y));
-                if (cosView < kLeastCosine) continue;
+                if (cosView < leastCosine) continue;
                 const double wanted = 1.0 - reflectedOfEvenLight(roughness * roughness, cosView, kStraight);
-                // The table's error between its places is 2e-4, the integral's 1e-4.
-                ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], wanted, 4e-4)
+                ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], wanted, leeway)
                     << roughness << ", cosine " << cosView;
                 const double mirrored = kStraight + (1.0 - kStraight) * std::pow(1.0 - cosView, 5.0);
                 unlikeMirror = std::max(unlikeMirror, std::abs(wanted - (1.0 - mirrored)));
             }
-        EXPECT_GT(unlikeMirror, 0.1) << roughness << ": grazing angles are among them";
+        EXPECT_EQ(unlikeMirror > 0.1, roughness >= 0.2) << roughness << ": grazing angles are among them";
     }
 }
 
