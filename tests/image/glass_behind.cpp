@@ -136,7 +136,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     }
 }
 
-/// Where its bodies stand on a table before a lamp's foot and a pane's holder.
+/// By the median error of the pixels that bodies fill; docs/glass.md tells which pixels are farther from it.
 TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
@@ -176,7 +176,7 @@ TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsB
                "behind; relMSE {:.2f} and {:.2f}\n",
                errorsAlone.size(), medianAlone, medianBehind, squaresAlone / count, squaresBehind / count);
     EXPECT_GT(count, 100.0);
-    EXPECT_LT(medianBehind, 0.7 * medianAlone);
+    EXPECT_LT(medianBehind, 0.5 * medianAlone); // measured 0.055 and 0.23
 }
 
 } // namespace
