@@ -114,7 +114,7 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
         Material material = all.materials[number];
         if (!scenes::isTransmissive(material)) continue;
         // For what passes the renderer takes one alpha in place of two, which may be a third off (docs/glass.md). The
-        // material that has two is metal to four fifths, which nothing passes.
+        // material that has two is metal to four fifths, through which nothing passes.
         if (scenes::isAnisotropic(material)) expectAgreement(number, material, 0.05);
         material.anisotropyStrength = 0.0f;
         expectAgreement(number, material, 1e-3);
