@@ -1,7 +1,6 @@
 // Bodies of glass whose rays leave where they meet the back faces of the mesh: closed forms, and the reference.
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 
