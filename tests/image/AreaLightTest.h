@@ -1,8 +1,10 @@
 #pragma once
 #include <glm/glm.hpp>
 
-#include "scenes/Light.h"
+#include "scenes/AreaLight.h"
+#include "scenes/Material.h"
 
+/// Lights and surfaces of tests of area lights.
 namespace tessera::test {
 
 /// 1 m wide and high, or of a radius of 0.3 m, with its width level. A polygon is a square.
@@ -12,11 +14,19 @@ inline scenes::Light areaLight(scenes::LightType type, const glm::dvec3& positio
     light.type = type;
     light.positionWS = positionWS;
     light.directionWS = glm::normalize(directionWS);
-    const glm::dvec3 aside = glm::cross(glm::dvec3(0.0, 1.0, 0.0), light.directionWS);
-    light.alongWS = glm::length(aside) > 1e-3 ? glm::normalize(aside) : glm::dvec3(1.0, 0.0, 0.0);
+    light.alongWS = scenes::usualAlong(light.directionWS);
     light.radiusMetres = type == scenes::LightType::Rectangle ? 0.0f : 0.3f;
     light.intensity = radiance;
     return light;
+}
+
+/// Of both sides of a quad.
+inline scenes::Material twoSidedMetal(double metallic, double perceptualRoughness) {
+    scenes::Material metal;
+    metal.metallic = float(metallic);
+    metal.perceptualRoughness = float(perceptualRoughness);
+    metal.doubleSided = true;
+    return metal;
 }
 
 } // namespace tessera::test

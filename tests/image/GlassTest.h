@@ -1,11 +1,10 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
 
-#include "tests/image/EnvironmentTest.h"
+#include "tests/image/PlaneUnderSky.h"
 
 /// Light that passes through surfaces: what its tests have in common.
 namespace tessera::test {
@@ -31,58 +30,26 @@ inline scenes::Material bareGlass(double ior, double roughness = 0.0) {
     return glass;
 }
 
-inline constexpr int kBentPixels = 48, kBentWidth = 256, kBentHeight = 128;
-inline constexpr double kBentTiltRadians = 0.6; ///< of the plane, about x
+/// Planes of glass; the picture of the steep one reaches grazing angles.
+inline constexpr int kGlassPixels = 48;
+inline constexpr TiltedPlane kTiltedGlass{0.6, 90.0, 1.6, kGlassPixels}, kSteepGlass{1.0, 90.0, 1.6, kGlassPixels};
 
 /// Smooth in all directions.
-inline double bentSky(int x, int y) {
+inline double smoothSky(int x, int y) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
-    return 1.0 +
-           0.5 * std::sin(3.0 * kTurn * (x + 0.5) / kBentWidth) * std::sin(0.5 * kTurn * (y + 0.5) / kBentHeight) +
-           0.4 * std::cos(2.0 * kTurn * (y + 0.5) / kBentHeight);
+    return 1.0 + 0.5 * std::sin(3.0 * kTurn * (x + 0.5) / kSkyWidth) * std::sin(0.5 * kTurn * (y + 0.5) / kSkyHeight) +
+           0.4 * std::cos(2.0 * kTurn * (y + 0.5) / kSkyHeight);
 }
 
-inline double bentSkyAlong(const glm::dvec3& direction) {
-    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kBentWidth, kBentHeight) - 0.5;
-    const glm::dvec2 corner = glm::floor(place), share = place - corner;
-    const auto at = [&](int i, int j) {
-        return bentSky((int(corner.x) + i + kBentWidth) % kBentWidth,
-                       std::clamp(int(corner.y) + j, 0, kBentHeight - 1));
-    };
-    return std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
-}
-
-/// A plane through the origin that fills the picture, seen from z = 3 through a wide lens.
-inline scenes::Scene bentPlane(const scenes::Material& material, double tiltRadians = kBentTiltRadians) {
-    scenes::Scene scene = quadScene(material);
-    const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
-    glm::dmat4& placed = scene.nodes[0].parentFromNode;
-    placed = glm::dmat4(1.0);
-    placed[0] = {90.0, 0.0, 0.0, 0.0};
-    placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * 90.0;
-    placed[2] = {0.0, sine, cosine, 0.0};
-    scene.cameras[0].fovYRadians = 1.6;
-    scene.cameras[0].nearMetres = 0.1;
-    scene.cameras[0].farMetres = 1000.0;
-    scene.environment = environmentOf(kBentWidth, kBentHeight, [](int x, int y) { return glm::dvec3(bentSky(x, y)); });
+inline scenes::Scene glassUnderSky(const scenes::Material& glass, const TiltedPlane& plane = kTiltedGlass) {
+    scenes::Scene scene = plane.sceneOf(glass);
+    scene.environment = skyOf(smoothSky);
     return scene;
-}
-
-inline glm::dvec3 bentNormal(double tiltRadians) {
-    return {0.0, std::sin(tiltRadians), std::cos(tiltRadians)};
-}
-
-inline const glm::dvec3 kBentNormal = bentNormal(kBentTiltRadians);
-
-inline glm::dvec3 toViewerOfBent(int x, int y) {
-    const double half = std::tan(0.8) / kBentPixels;
-    return -glm::normalize(
-        glm::dvec3((2.0 * x + 1.0 - kBentPixels) * half, (kBentPixels - 1.0 - 2.0 * y) * half, -1.0));
 }
 
 /// Snell's law by angles; nothing where all is reflected. An index of 0 is one without bound.
 inline std::optional<glm::dvec3> bentDirection(const glm::dvec3& toViewer, double ior,
-                                               const glm::dvec3& normal = kBentNormal) {
+                                               const glm::dvec3& normal = kTiltedGlass.normal()) {
     if (ior == 0.0) return -normal;
     const double angle = std::acos(glm::dot(normal, toViewer)), bentSine = std::sin(angle) / ior;
     if (bentSine > 1.0) return std::nullopt;

@@ -68,6 +68,13 @@ void ShadowTest::expectParity(engine::Renderer& renderer, const frame::FrameSett
     EXPECT_TRUE(record.ok()) << validation::compareTable(record);
 }
 
+void ShadowTest::expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings) {
+    settings.prune = true;
+    const std::vector<float> pruned = renderer.render(engine::Technique::Deferred, settings).radiance;
+    settings.prune = false;
+    EXPECT_EQ(renderer.render(engine::Technique::Deferred, settings).radiance, pruned);
+}
+
 ShadowReference shadowReference(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     frame::FrameSettings unshadowed = settings;
     unshadowed.shadows = {scenes::ShadowRequest::Kind::None};

@@ -42,6 +42,8 @@ protected:
     /// Expects that all techniques draw what forward does.
     void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings,
                       std::vector<engine::Technique> techniques = {});
+    /// Expects that `deferred` draws the same bits pruned and not.
+    void expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings);
 };
 
 /// Of a picture against the reference: those that are lit where they should be hidden or the reverse.

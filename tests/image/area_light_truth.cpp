@@ -81,12 +81,9 @@ using AreaLightTruthSlow = AreaLightTruth;
 // Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".
 TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
     constexpr double kRelative = 1e-4; // of round outlines; straight ones are within 2e-6
-    const auto sideways = [](LightType type, const glm::dvec3& at, const glm::dvec3& to) {
-        return areaLight(type, at, to, 1.0f);
-    };
     // A parallel rectangle a x b above one of its corners (B-4), four times.
     for (const double height : {0.05, 0.5, 2.0, 50.0}) {
-        scenes::Light light = sideways(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0}, 1.0f);
         light.widthMetres = 2.0f;
         light.heightMetres = 1.0f;
         const double x = 1.0 / height, y = 0.5 / height;
@@ -99,7 +96,7 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
     // half of it is below the horizon where it is let down by half its height.
     for (const double distance : {0.1, 0.5, 3.0})
         for (const double down : {0.0, 1.0}) {
-            scenes::Light light = sideways(LightType::Rectangle, {0.0, distance, 1.0 - down}, {0.0, -1.0, 0.0});
+            scenes::Light light = areaLight(LightType::Rectangle, {0.0, distance, 1.0 - down}, {0.0, -1.0, 0.0}, 1.0f);
             light.widthMetres = 2.0f;
             light.heightMetres = 2.0f;
             const double high = 2.0 - down, x = 1.0 / distance, y = high / distance;
@@ -110,22 +107,23 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
         }
     // A parallel disk above the point (B-13).
     for (const double height : {0.03, 0.3, 3.0, 300.0}) {
-        const scenes::Light light = sideways(LightType::Disk, {0.0, 0.0, height}, {0.0, 0.0, -1.0});
+        const scenes::Light light = areaLight(LightType::Disk, {0.0, 0.0, height}, {0.0, 0.0, -1.0}, 1.0f);
         const double factor = 0.09 / (0.09 + height * height);
         EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative) << "disk at " << height;
     }
     // A sphere that is all above the horizon: (r/d)^2 cos (B-37).
     for (const double angle : {0.0, 0.5, 1.0}) {
         for (const double distance : {0.7, 5.0, 400.0}) {
-            const scenes::Light light = sideways(
-                LightType::Sphere, distance * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)), {0.0, 0.0, -1.0});
+            const scenes::Light light =
+                areaLight(LightType::Sphere, distance * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)),
+                          {0.0, 0.0, -1.0}, 1.0f);
             const double factor = 0.09 / (distance * distance) * std::cos(angle);
             EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative)
                 << "sphere at " << distance << ", " << angle;
         }
     }
     // An endless tube above the surface: r/h, as a strip of its width.
-    scenes::Light tube = sideways(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0});
+    scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
     EXPECT_NEAR(seen(matte(), {tube}) / (pi * 0.3), 1.0, 2e-3) << "tube";
 }
@@ -165,13 +163,10 @@ TEST_F(AreaLightTruth, aPolygonLightsAMatteSurfaceAsLambertSays) {
 }
 
 TEST_F(AreaLightTruth, aSquarePolygonIsTheRectangleOfItsSides) {
-    scenes::Material metal;
-    metal.metallic = 0.5f;
-    metal.doubleSided = true;
     for (const double roughness : {0.2, 0.6})
         for (const glm::dvec3& at :
              {glm::dvec3(-0.5, 0.1, 1.0), glm::dvec3(0.6, 0.0, 0.2), glm::dvec3(-1.0, 2.0, 9.0)}) {
-            metal.perceptualRoughness = float(roughness);
+            const scenes::Material metal = twoSidedMetal(0.5, roughness);
             scenes::Light rectangle = areaLight(LightType::Rectangle, at, -at, 1.0f), polygon = rectangle;
             polygon.type = LightType::Polygon;
             rectangle.widthMetres = 1.5f;
@@ -221,12 +216,9 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
     // E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4.
     constexpr double kCosines[] = {0.1, 0.5, 1.0}, kAlphas[] = {0.05, 0.25, 1.0};
     constexpr double kReflected[3][3] = {{.9113, .9927, .9973}, {.8916, .8572, .9158}, {.7602, .4507, .3069}};
-    scenes::Material white;
-    white.metallic = 1.0f;
-    white.doubleSided = true;
     for (int a = 0; a < 3; ++a)
         for (int m = 0; m < 3; ++m) {
-            white.perceptualRoughness = float(std::sqrt(kAlphas[a]));
+            const scenes::Material white = twoSidedMetal(1.0, std::sqrt(kAlphas[a]));
             const glm::dvec3 toViewer(std::sqrt(1.0 - kCosines[m] * kCosines[m]), 0.0, kCosines[m]);
             EXPECT_NEAR(seen(white, walls, toViewer), kReflected[a][m], 1e-3)
                 << "alpha " << kAlphas[a] << ", cosine " << kCosines[m];
@@ -247,10 +239,7 @@ TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
 
 /// What an environment's light gets back between microfacets is not the lights'.
 TEST_F(AreaLightTruth, lightsAreNotCompensated) {
-    scenes::Material metal;
-    metal.metallic = 1.0f;
-    metal.doubleSided = true;
-    scenes::Scene scene = quadScene(metal);
+    scenes::Scene scene = quadScene(twoSidedMetal(1.0, 1.0));
     scene.lights = {areaLight(LightType::Disk, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
     scene.environment = evenEnvironment(0.0);
     frame::FrameSettings settings;
@@ -263,10 +252,7 @@ TEST_F(AreaLightTruth, lightsAreNotCompensated) {
 
 /// A mirror sees a light all or nothing, wherever its outline is.
 TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
-    scenes::Material mirror;
-    mirror.metallic = 1.0f;
-    mirror.perceptualRoughness = 0.0f;
-    mirror.doubleSided = true;
+    const scenes::Material mirror = twoSidedMetal(1.0, 0.0);
     for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         const scenes::Light light = areaLight(type, {-1.0, 0.0, 1.0}, {1.0, 0.0, -1.0}, 2.0f);
@@ -278,12 +264,9 @@ TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
 
 /// Where outlines are so small that they count as places, nothing jumps.
 TEST_F(AreaLightTruth, lightsGoOverIntoSmallOnesWithoutAStep) {
-    scenes::Material metal;
-    metal.metallic = 1.0f;
-    metal.doubleSided = true;
     for (const double roughness : {0.1, 0.5, 1.0})
         for (const LightType type : kAreaTypes) {
-            metal.perceptualRoughness = float(roughness);
+            const scenes::Material metal = twoSidedMetal(1.0, roughness);
             double before = 0.0;
             for (double distance = 20.0; distance < 3000.0; distance *= 1.07) {
                 const glm::dvec3 at = distance * glm::normalize(glm::dvec3(-0.5, 0.1, 1.0));
@@ -299,12 +282,9 @@ TEST_F(AreaLightTruth, lightsGoOverIntoSmallOnesWithoutAStep) {
 
 TEST_F(AreaLightTruth, extremeSizesAndPlacesGiveFiniteLight) {
     constexpr float kRadiance = 1e6f;
-    scenes::Material metal;
-    metal.metallic = 0.5f;
-    metal.doubleSided = true;
     for (const double roughness : {0.0, 0.3, 1.0})
         for (const glm::dvec3& toViewer : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, 1e-3)}) {
-            metal.perceptualRoughness = float(roughness);
+            const scenes::Material metal = twoSidedMetal(0.5, roughness);
             const double fromEverywhere = seen(metal, {}, toViewer, evenEnvironment(kRadiance));
             for (const LightType type : kAreaTypes)
                 for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f})

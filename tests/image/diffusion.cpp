@@ -70,9 +70,7 @@ TEST_F(Diffusion, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     settings.sizePixels = {160, 90};
     settings.diffusion.sideTexels = 128;
     engine::Renderer renderer(context(), ball);
-    const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
-    settings.prune = false;
-    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+    expectPruningIsUnseen(renderer, settings);
 }
 
 TEST_F(DiffusionSlow, whatSpreadingCosts) {

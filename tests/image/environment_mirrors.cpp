@@ -10,7 +10,7 @@
 
 #include "shaders/shared/environment.h"
 #include "shaders/shared/models.h"
-#include "tests/image/EnvironmentTest.h"
+#include "tests/image/PlaneUnderSky.h"
 #include "validation/reference/Microfacet.h"
 
 namespace tessera {
@@ -30,62 +30,13 @@ protected:
 };
 using EnvironmentMirrorsSlow = EnvironmentMirrors;
 
-constexpr int kMapWidth = 256, kMapHeight = 128, kMirrorPixels = 64;
-constexpr double kPlaneTiltRadians = 0.35; ///< of the mirror, about x
+constexpr int kMirrorPixels = 64;
+constexpr TiltedPlane kMirror{0.35, 50.0, 1.4, kMirrorPixels};
 constexpr double kSunRadiance = 1e5;
 
-/// The texels around a place of a map, and what is interpolated between them.
-struct InMap {
-    double radiance, least, most;
-};
-
-using MapRadiance = std::function<double(int, int)>;
-
-InMap seenIn(const MapRadiance& map, const glm::dvec3& direction) {
-    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kMapWidth, kMapHeight) - 0.5;
-    const glm::dvec2 corner = glm::floor(place), share = place - corner;
-    const auto at = [&](int i, int j) {
-        return map((int(corner.x) + i + kMapWidth) % kMapWidth, std::clamp(int(corner.y) + j, 0, kMapHeight - 1));
-    };
-    InMap seen{};
-    seen.radiance = std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
-    // A texel more on each side, as rounding may move the place across an edge.
-    seen.least = seen.most = seen.radiance;
-    for (int j = -1; j <= 2; ++j)
-        for (int i = -1; i <= 2; ++i) {
-            seen.least = std::min(seen.least, at(i, j));
-            seen.most = std::max(seen.most, at(i, j));
-        }
-    return seen;
-}
-
-/// A plane through the origin, tilted, seen from z = 3 through a wide lens.
-scenes::Scene planeBelowTheSky(const scenes::Material& material) {
-    scenes::Scene scene = quadScene(material);
-    const double cosine = std::cos(kPlaneTiltRadians), sine = std::sin(kPlaneTiltRadians);
-    glm::dmat4& placed = scene.nodes[0].parentFromNode;
-    placed = glm::dmat4(1.0);
-    placed[0] = {50.0, 0.0, 0.0, 0.0};
-    placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * 50.0;
-    placed[2] = {0.0, sine, cosine, 0.0};
-    scene.cameras[0].fovYRadians = 1.4;
-    scene.cameras[0].nearMetres = 0.1;
-    scene.cameras[0].farMetres = 1000.0;
-    return scene;
-}
-
-/// Unit, from the plane towards the viewer; row 0 is at the top.
-glm::dvec3 toViewerOfPixel(int x, int y) {
-    const double half = std::tan(0.7) / kMirrorPixels;
-    return -glm::normalize(
-        glm::dvec3((2.0 * x + 1.0 - kMirrorPixels) * half, (kMirrorPixels - 1.0 - 2.0 * y) * half, -1.0));
-}
-
-const glm::dvec3 kPlaneNormal(0.0, std::sin(kPlaneTiltRadians), std::cos(kPlaneTiltRadians));
-
 glm::dvec3 mirroredByPixel(int x, int y) {
-    const glm::dvec3 toViewer = toViewerOfPixel(x, y);
-    return 2.0 * glm::dot(kPlaneNormal, toViewer) * kPlaneNormal - toViewer;
+    const glm::dvec3 toViewer = kMirror.toViewer(x, y), normal = kMirror.normal();
+    return 2.0 * glm::dot(normal, toViewer) * normal - toViewer;
 }
 
 /// Squares of 8 x 8 texels.
@@ -94,13 +45,9 @@ double squaresAt(int x, int y) {
 }
 
 /// A sun in the texel that the middle of a pixel shows.
-MapRadiance sunShownBy(int pixelX, int pixelY) {
-    const glm::ivec2 sun(scenes::placeInMap(mirroredByPixel(pixelX, pixelY)) * glm::dvec2(kMapWidth, kMapHeight));
+SkyRadiance sunShownBy(int pixelX, int pixelY) {
+    const glm::ivec2 sun(scenes::placeInMap(mirroredByPixel(pixelX, pixelY)) * glm::dvec2(kSkyWidth, kSkyHeight));
     return [sun](int x, int y) { return x == sun.x && y == sun.y ? kSunRadiance : 0.1; };
-}
-
-scenes::Environment environmentShowing(const MapRadiance& map) {
-    return environmentOf(kMapWidth, kMapHeight, [&](int x, int y) { return glm::dvec3(map(x, y)); });
 }
 
 double schlickFactor(double straight, double cosine) {
@@ -160,12 +107,12 @@ constexpr EnvironmentLight kBothLights[] = {EnvironmentLight::SplitSum, Environm
 
 void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
     std::size_t turn = 0;
-    const std::pair<const char*, MapRadiance> maps[] = {{"squares", squaresAt}, {"a sun", sunShownBy(40, 20)}};
+    const std::pair<const char*, SkyRadiance> maps[] = {{"squares", squaresAt}, {"a sun", sunShownBy(40, 20)}};
     for (const MirrorCase& one : mirrorCases()) {
         ++turn;
         for (const auto& [name, map] : maps) {
-            scenes::Scene scene = planeBelowTheSky(one.material);
-            scene.environment = environmentShowing(map);
+            scenes::Scene scene = kMirror.sceneOf(one.material);
+            scene.environment = skyOf(map);
             engine::Renderer renderer(context(), scene);
             for (const EnvironmentLight how : inTurn(kBothLights, turn)) {
                 frame::FrameSettings settings;
@@ -178,10 +125,10 @@ void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
                 for (int y = 0; y < kMirrorPixels; ++y)
                     for (int x = 0; x < kMirrorPixels; ++x) {
                         const float* const pixel = &seen[std::size_t(4 * (y * kMirrorPixels + x))];
-                        const double cosView = glm::dot(kPlaneNormal, toViewerOfPixel(x, y));
+                        const double cosView = glm::dot(kMirror.normal(), kMirror.toViewer(x, y));
                         // Away from where total reflection begins, which steepens what rounding does.
                         if (pixel[3] == 0.0f || cosView < 0.02 || std::abs(cosView * cosView - 0.4375) < 1e-4) continue;
-                        const InMap truth = seenIn(map, mirroredByPixel(x, y));
+                        const SeenSky truth = seenOfSky(map, mirroredByPixel(x, y));
                         const double share = one.reflected(cosView);
                         // Angles in fp32 are good to 1e-5, a thousandth of a texel.
                         const double error = share * (2e-3 * (truth.most - truth.least) + 1e-4 * truth.radiance);
@@ -211,8 +158,8 @@ TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflec
     gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     gloss.exponent = float(kExponent);
     gloss.specularColor = glm::vec3(1e6f);
-    scenes::Scene scene = planeBelowTheSky(gloss);
-    scene.environment = environmentShowing(squaresAt);
+    scenes::Scene scene = kMirror.sceneOf(gloss);
+    scene.environment = skyOf(squaresAt);
     frame::FrameSettings settings;
     settings.sizePixels = {kMirrorPixels, kMirrorPixels};
     engine::Renderer renderer(context(), scene);
@@ -220,9 +167,9 @@ TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflec
     int judged = 0;
     for (int y = 0; y < kMirrorPixels; ++y)
         for (int x = 0; x < kMirrorPixels; ++x) {
-            const double cosView = glm::dot(kPlaneNormal, toViewerOfPixel(x, y));
+            const double cosView = glm::dot(kMirror.normal(), kMirror.toViewer(x, y));
             if (seen[std::size_t(4 * (y * kMirrorPixels + x) + 3)] == 0.0f || cosView < 0.1) continue;
-            const InMap truth = seenIn(squaresAt, mirroredByPixel(x, y));
+            const SeenSky truth = seenOfSky(squaresAt, mirroredByPixel(x, y));
             const double share = 1e6 * 8.0 * std::numbers::pi * cosView / kExponent; // (n.h)^p over 4 n.v dh
             // Of the table half a percent.
             const double error = share * (2e-3 * (truth.most - truth.least) + 5e-3 * truth.radiance);
@@ -239,7 +186,7 @@ void EnvironmentMirrors::expectTheReferencesBall() {
     constexpr int kBallPixels = 40;
     for (const MirrorCase& one : mirrorCases()) {
         scenes::Scene scene = ballUnderSky(one.material);
-        scene.environment = environmentShowing(squaresAt);
+        scene.environment = skyOf(squaresAt);
         scene.environment->rotationDegrees = 30.0f;
         frame::FrameSettings settings;
         settings.sizePixels = {kBallPixels, kBallPixels};
@@ -287,7 +234,7 @@ void EnvironmentMirrors::expectAllTechniquesAlike() {
     scenes::Material& material = scene.materials[0];
     material.metallic = 0.5f;
     material.clearcoat = 0.5f;
-    scene.environment = environmentShowing(sunShownBy(40, 20));
+    scene.environment = skyOf(sunShownBy(40, 20));
     frame::FrameSettings settings;
     settings.sizePixels = {48, 48};
     settings.environment.samples = 4;
@@ -303,14 +250,11 @@ void EnvironmentMirrors::expectAllTechniquesAlike() {
         material.perceptualRoughness = one.roughness;
         material.clearcoatPerceptualRoughness = one.coatRoughness;
         settings.environment.light = one.how;
-        settings.prune = true;
         engine::Renderer renderer(context(), scene);
         expectParity(renderer, settings,
                      one.roughness == 0.0f ? techniquesInTurn(turn++) : std::vector{Technique::Deferred});
         if (!isWholeSweep() && one.how == EnvironmentLight::SplitSum && one.roughness != 0.07f) continue;
-        const std::vector<float> pruned = renderer.render(Technique::Deferred, settings).radiance;
-        settings.prune = false;
-        EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, pruned);
+        expectPruningIsUnseen(renderer, settings);
     }
 }
 TEST_F(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
@@ -325,8 +269,8 @@ TEST_F(EnvironmentMirrors, lightOfTheSplitSumIsContinuousInAlpha) {
     scenes::Material gloss;
     gloss.model = scenes::MaterialModel::Microfacet;
     gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-    scenes::Scene scene = planeBelowTheSky(gloss);
-    scene.environment = environmentShowing(squaresAt);
+    scenes::Scene scene = kMirror.sceneOf(gloss);
+    scene.environment = skyOf(squaresAt);
     frame::FrameSettings settings;
     settings.sizePixels = {kMirrorPixels, kMirrorPixels};
     const auto radiance = [&](double alpha) {
@@ -343,8 +287,8 @@ TEST_F(EnvironmentMirrors, lightOfTheSplitSumIsContinuousInAlpha) {
 }
 
 TEST_F(EnvironmentMirrors, onlyWhatMayBeAMirrorReadsTheMapItself) {
-    scenes::Scene scene = planeBelowTheSky({});
-    scene.environment = environmentShowing(squaresAt);
+    scenes::Scene scene = kMirror.sceneOf({});
+    scene.environment = skyOf(squaresAt);
     frame::FrameSettings settings;
     settings.environment.backdrop = frame::Backdrop::Off;
     const auto readsMap = [&](float roughness) {

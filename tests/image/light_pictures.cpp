@@ -9,8 +9,8 @@
 
 #include "engine/PrepareView.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/AreaLight.h"
 #include "scenes/LookAt.h"
+#include "tests/image/AreaLightTest.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
@@ -24,13 +24,8 @@ using namespace test;
 
 scenes::Light picturedArea(LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS,
                            const scenes::LightTexture& texture) {
-    scenes::Light light;
-    light.type = type;
-    light.positionWS = positionWS;
-    light.directionWS = glm::normalize(directionWS);
-    light.alongWS = scenes::usualAlong(light.directionWS);
+    scenes::Light light = areaLight(type, positionWS, directionWS, 3.0f);
     light.radiusMetres = type == LightType::Disk ? 0.5f : 0.0f;
-    light.intensity = 3.0f;
     light.texture = texture;
     return light;
 }
@@ -122,13 +117,9 @@ TEST_F(LightPictures, aSceneWithoutThemHasNoTraceOfThem) {
 }
 
 TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
-    scenes::Material metal;
-    metal.metallic = 0.5f;
-    metal.perceptualRoughness = 0.4f;
-    metal.doubleSided = true;
     for (const LightType type : kFlatTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
-        scenes::Scene scene = quadScene(metal);
+        scenes::Scene scene = quadScene(twoSidedMetal(0.5, 0.4));
         scene.lights = {picturedArea(type, {0.3, 0.2, 0.8}, {0.1, -0.2, -1.0}, {})};
         const std::vector<float> plain = radianceOf(scene);
         EXPECT_GT(*std::ranges::max_element(plain), 0.1f);

@@ -105,9 +105,7 @@ void Multisampling::expectOptionsAgree() {
     flat.cameras[0].halfHeightMetres = 2.5;
     flat.cameras[0].farMetres = 20.0;
     engine::Renderer flatRenderer(context(), flat);
-    const std::optional<std::size_t> flatTurn =
-        test::isWholeSweep() ? std::optional<std::size_t>() : std::optional<std::size_t>(turn);
-    expectAgreement(flatRenderer, sampled(test::isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]), flatTurn);
+    expectAgreement(flatRenderer, sampled(test::isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]), turn);
 }
 
 TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {

@@ -14,6 +14,8 @@ namespace {
 
 using engine::Technique;
 
+constexpr const char* kHookSamples[] = {"flag", "pulsating_lattice", "head_sick"};
+
 /// At the ends of their parameters.
 class SampleHooks : public test::HookTest {
 protected:
@@ -26,7 +28,7 @@ protected:
 using SampleHooksSlow = SampleHooks;
 
 void SampleHooks::expectWithinMayMoveMetres() {
-    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+    for (const char* name : kHookSamples) {
         SCOPED_TRACE(name);
         scenes::Scene scene = sample(name);
         engine::Renderer renderer(context(), scene);
@@ -48,7 +50,7 @@ TEST_F(SampleHooksSlow, verticesStayWithinMayMoveMetres) {
 
 /// Whatever sines become of a billion.
 TEST_F(SampleHooks, verticesStayWithinMayMoveMetresAfterABillionSeconds) {
-    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+    for (const char* name : kHookSamples) {
         SCOPED_TRACE(name);
         const scenes::Scene scene = sample(name);
         engine::Renderer renderer(context(), scene);
@@ -57,7 +59,7 @@ TEST_F(SampleHooks, verticesStayWithinMayMoveMetresAfterABillionSeconds) {
 }
 
 TEST_F(SampleHooks, everyParameterChangesThePicture) {
-    for (const char* name : {"flag", "pulsating_lattice", "head_sick"}) {
+    for (const char* name : kHookSamples) {
         scenes::Scene scene = sample(name);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = smallSettings();

@@ -76,7 +76,7 @@ scenes::Scene amongSurfaces() {
 class SeenLightTruth : public SeenLightTest {
 protected:
     /// The middle of a picture of 3 x 3 pixels.
-    glm::vec4 middle(const scenes::Scene& scene, engine::Technique technique = engine::Technique::Deferred) {
+    glm::vec4 middle(const scenes::Scene& scene, Technique technique = Technique::Deferred) {
         const std::vector<float> radiance = frame(scene, settingsOfSize({3, 3}), technique).radiance;
         return {radiance[16], radiance[17], radiance[18], radiance[19]};
     }

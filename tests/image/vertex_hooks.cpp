@@ -146,7 +146,7 @@ TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
 
 class MovedTooFar : public VertexHooks {
 protected:
-    /// Colour of the middle of a half of the picture.
+    /// Colour in the middle row, at a share of the picture's width.
     glm::vec3 shown(engine::Renderer& renderer, Technique technique, double share) {
         frame::FrameSettings settings = smallSettings();
         settings.view = frame::DebugView::MovedTooFar;

@@ -30,6 +30,11 @@ double power(int count) {
     return sum;
 }
 
+void expectWithin(const Box3& boundsWS, const Light& light) {
+    EXPECT_TRUE(glm::all(glm::greaterThan(light.positionWS, boundsWS.min))) << light.name;
+    EXPECT_TRUE(glm::all(glm::lessThan(light.positionWS, boundsWS.max))) << light.name;
+}
+
 TEST(Hall, hasItsStatedSizeAndLights) {
     const Scene scene = underLedger(builtin::makeHall, withoutAssets());
     EXPECT_GE(triangleCount(scene), 200000u);
@@ -50,8 +55,7 @@ TEST(Hall, hasItsStatedSizeAndLights) {
         EXPECT_EQ(light.type, LightType::Point);
         EXPECT_GE(light.rangeMetres, 2.0f);
         EXPECT_LE(light.rangeMetres, 5.0f);
-        EXPECT_TRUE(glm::all(glm::greaterThan(light.positionWS, boundsWS.min))) << light.name;
-        EXPECT_TRUE(glm::all(glm::lessThan(light.positionWS, boundsWS.max))) << light.name;
+        expectWithin(boundsWS, light);
     }
 }
 
@@ -86,8 +90,7 @@ TEST(Lamps, areAThousandRectanglesThatEndWithinTheHall) {
         EXPECT_TRUE(hasSurface(light)) << light.name;
         EXPECT_GT(light.rangeMetres, surfaceReachMetres(light)) << light.name << " ends before its own corners";
         EXPECT_LT(light.rangeMetres, 8.0f) << light.name;
-        EXPECT_TRUE(glm::all(glm::greaterThan(light.positionWS, boundsWS.min))) << light.name;
-        EXPECT_TRUE(glm::all(glm::lessThan(light.positionWS, boundsWS.max))) << light.name;
+        expectWithin(boundsWS, light);
         ranges.insert(light.rangeMetres);
     }
     EXPECT_GE(ranges.size(), 5u);
@@ -202,11 +205,10 @@ TEST(Head, generatedBustHasObjectSpaceNormals) {
     EXPECT_EQ(bust->normalMapSpace, NormalMapSpace::Object);
     EXPECT_FLOAT_EQ(bust->ior, 1.4f);
     EXPECT_GE(scene.lights.size(), 3u);
-    for (const Mesh& mesh : scene.meshes) {
-        if (mesh.name != "bust") continue;
-        EXPECT_GE(mesh.indices.size() / 3, 20000u);
-        EXPECT_LE(mesh.indices.size() / 3, 40000u);
-    }
+    const auto mesh = std::ranges::find(scene.meshes, "bust", &Mesh::name);
+    ASSERT_NE(mesh, scene.meshes.end());
+    EXPECT_GE(mesh->indices.size() / 3, 20000u);
+    EXPECT_LE(mesh->indices.size() / 3, 40000u);
 }
 
 TEST(Head, objectSpaceNormalsAgreeWithTheMeshTheyRefine) {

@@ -20,6 +20,13 @@ inline Look lookAt(frame::DebugView view) {
     return look;
 }
 
+/// A window that shows a scene, loaded from `source`.
+inline State stateOf(scenes::Scene scene, const scenes::LoadOptions& load = {}, std::string source = "room") {
+    State state;
+    state.open = std::make_unique<OpenScene>(std::move(source), load, std::move(scene), scenes::SceneOrigin());
+    return state;
+}
+
 /// A scene of all kinds of lights and materials, some of them beyond what the panels would set.
 inline State unusualScene() {
     scenes::LoadOptions load;
@@ -53,9 +60,7 @@ inline State unusualScene() {
         material.alphaMode = scenes::AlphaMode::Mask;
         material.alphaCutoff = 1.5f;
     }
-    State state;
-    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
-    return state;
+    return stateOf(std::move(scene), load);
 }
 
 class PanelTest : public testing::Test {

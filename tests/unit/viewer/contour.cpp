@@ -52,7 +52,7 @@ TEST(Contours, thePicturesOwnSidesAreNone) {
     EXPECT_EQ(corner[0].size(), 3u);
 }
 
-TEST(Contours, holesAndPixelsThatTouchAtACornerHaveTheirOwn) {
+TEST(Contours, holesHaveTheirOwnAndWherePixelsTouchAtACornerNoneOfTheirCornersIsLost) {
     const auto ring = contoursWhere({20, 20}, [](int x, int y) {
         const bool isHole = x >= 8 && x < 12 && y >= 8 && y < 12;
         return x >= 2 && x < 18 && y >= 2 && y < 18 && !isHole;
@@ -62,10 +62,19 @@ TEST(Contours, holesAndPixelsThatTouchAtACornerHaveTheirOwn) {
     const auto touching = contoursWhere({20, 20}, [](int x, int y) {
         return (x >= 2 && x < 10 && y >= 2 && y < 10) || (x >= 10 && x < 18 && y >= 10 && y < 18);
     });
-    std::size_t points = 0;
-    for (const Contour& contour : touching) points += contour.size();
-    EXPECT_GE(points, 9u);
-    EXPECT_LE(points, 10u);
+    // One contour twice through the corner, or two.
+    const auto timesAt = [&](const glm::vec2& corner) {
+        std::ptrdiff_t times = 0;
+        for (const Contour& contour : touching) {
+            EXPECT_EQ(contour.front(), contour.back());
+            times += std::count(contour.begin() + 1, contour.end(), corner);
+        }
+        return times;
+    };
+    EXPECT_EQ(timesAt({10, 10}), 2);
+    for (const glm::vec2& corner :
+         {glm::vec2(2, 2), glm::vec2(10, 2), glm::vec2(2, 10), glm::vec2(18, 10), glm::vec2(18, 18), glm::vec2(10, 18)})
+        EXPECT_EQ(timesAt(corner), 1) << corner.x << ", " << corner.y;
 }
 
 TEST(Contours, ofTooManyTheLongestStay) {

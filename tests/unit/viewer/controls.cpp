@@ -316,23 +316,22 @@ TEST(Controls, theEdgeOfThePanelsIsDraggedWithinBounds) {
         event.position = {x, 200.0f};
         controls.handle(std::span(&event, 1), state, kBeside, {});
     };
-    using Kind = InputEvent::Kind;
-    tell(Kind::Button, 310.0f, true); // in the picture
-    tell(Kind::Move, 400.0f, true);
-    tell(Kind::Button, 400.0f, false);
+    tell(InputEvent::Kind::Button, 310.0f, true); // in the picture
+    tell(InputEvent::Kind::Move, 400.0f, true);
+    tell(InputEvent::Kind::Button, 400.0f, false);
     EXPECT_EQ(state.panelWidth, kUsualPanelWidth);
-    tell(Kind::Button, 301.0f, true);
+    tell(InputEvent::Kind::Button, 301.0f, true);
     EXPECT_TRUE(state.isPanelEdgeHeld);
-    tell(Kind::Move, 420.3f, true);
+    tell(InputEvent::Kind::Move, 420.3f, true);
     EXPECT_EQ(state.panelWidth, 420.0f);
-    tell(Kind::Move, 3.0f, true);
+    tell(InputEvent::Kind::Move, 3.0f, true);
     EXPECT_EQ(state.panelWidth, kLeastPanelWidth);
-    tell(Kind::Move, 2000.0f, true);
+    tell(InputEvent::Kind::Move, 2000.0f, true);
     EXPECT_EQ(state.panelWidth, 800.0f) << "a fifth of the window is left to the picture";
-    tell(Kind::Button, 2000.0f, false);
+    tell(InputEvent::Kind::Button, 2000.0f, false);
     EXPECT_FALSE(state.isPanelEdgeHeld);
     EXPECT_FALSE(state.isDragging);
-    tell(Kind::Move, 500.0f, false);
+    tell(InputEvent::Kind::Move, 500.0f, false);
     EXPECT_EQ(state.panelWidth, 800.0f);
 }
 

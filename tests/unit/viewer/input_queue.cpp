@@ -119,9 +119,15 @@ TEST(InputQueue, keysThatWaitKeepTheirOrderAndWhatCameBeforeThemDoesNot) {
     queue.push(at(Kind::Character, 1.0f, 'a'));
     queue.push(at(Kind::Key, 1.0f, kEnterKey));
     queue.push(at(Kind::Move, 2.0f));
-    EXPECT_EQ(queue.takeFrame(true).size(), 1u);
+    const std::vector<InputEvent> before = queue.takeFrame(true);
+    ASSERT_EQ(before.size(), 1u);
+    EXPECT_EQ(before[0].code, kControlKey);
     EXPECT_TRUE(queue.takeFrame(true).empty());
-    EXPECT_EQ(queue.takeFrame().size(), 3u);
+    const std::vector<InputEvent> waited = queue.takeFrame();
+    ASSERT_EQ(waited.size(), 3u);
+    EXPECT_EQ(waited[0].kind, Kind::Character);
+    EXPECT_EQ(waited[1].code, kEnterKey);
+    EXPECT_EQ(waited[2].kind, Kind::Move);
 }
 
 } // namespace

@@ -76,9 +76,7 @@ TEST_F(Fonts, areAskedForNamesOfTheSceneAndOfFiles) {
     scene.lights.at(0).name = "the light";
     scene.materials.at(0).name = "the material";
     scene.warnings = {"the warning"};
-    State state;
-    state.open =
-        std::make_unique<OpenScene>("/the/file", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    State state = test::stateOf(std::move(scene), {}, "/the/file");
     state.files.emplace(FileDialog::Purpose::Save, "/", "the name");
     std::vector<std::string> texts;
     const TextVisitor note = [&](std::string_view text) { texts.emplace_back(text); };

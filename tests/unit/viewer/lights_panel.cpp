@@ -25,9 +25,7 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
         scenes::Scene scene = scenes::loadScene("room", {});
         scene.lights.assign(1, {});
         scene.lights[0].type = type.type;
-        State state;
-        state.open =
-            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        State state = test::stateOf(std::move(scene));
         state.selectedLight = 0;
         const std::string text = textOf([&] { lightsPanel(state); });
         const auto hasRow = [&](const scenes::LightParameter& parameter) { return isIn(text, parameter.label); };
@@ -51,8 +49,7 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
 TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
     scenes::Scene scene = scenes::loadScene("room", {});
     scene.lights.assign(1, {});
-    State state;
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    State state = test::stateOf(std::move(scene));
     state.selectedLight = 0;
     state.looks[0].settings.timeSeconds = 1.5;
     const auto expectRows = [&](const char* what, const std::vector<const char*>& some,
@@ -88,8 +85,7 @@ TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
     scenes::Scene scene = scenes::loadScene("room", {});
     scene.lights.assign(1, {});
     scene.lights[0].name = "lamp";
-    State state;
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    State state = test::stateOf(std::move(scene));
     const auto draw = [&] { show([&] { lightsPanel(state); }); };
     draw();
     const ImGuiWindow* list = nullptr;

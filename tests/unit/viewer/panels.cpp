@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
-#include "tests/support/TempFolder.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
@@ -20,7 +17,6 @@
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Inspection.h"
 #include "viewer/session/SceneEdits.h"
-#include "viewer/window/Input.h"
 
 namespace tessera::viewer {
 namespace {
@@ -41,8 +37,7 @@ TEST_F(Panels, theVariantsOfModelsAreAListWhereThereAreAny) {
         scenes::Scene scene = scenes::loadScene("room");
         scene.variants = variants;
         scene.notes = {"a note of the importer"};
-        State state;
-        state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
+        State state = test::stateOf(std::move(scene), load);
         const std::string text = textOf([&] { scenePanel(state); });
         EXPECT_NE(text.find("a note of the importer"), std::string::npos) << text;
         EXPECT_FALSE(state.requests.variant) << "nobody chose one";
@@ -84,9 +79,7 @@ TEST_F(Panels, theClipsCameraIsOfferedOnlyWhereAClipMovesIt) {
     for (const bool moves : {false, true}) {
         scenes::Scene scene = scenes::riggedScene();
         if (!moves) scene.rig.cameras.clear();
-        State state;
-        state.open =
-            std::make_unique<OpenScene>("rigged.gltf", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        State state = test::stateOf(std::move(scene));
         const std::string text = textOf([&] { animationPanel(state); });
         EXPECT_EQ(text.find("Follow the clip's camera") != std::string::npos, moves) << text;
         EXPECT_EQ(state.open->followsClipCamera(), moves) << "drawing it changes nothing";
@@ -192,143 +185,15 @@ TEST_F(Panels, oneDragOfAWidgetIsOneStepThatCanBeUndone) {
     EXPECT_FALSE(open.isEdited());
 }
 
-TEST_F(Panels, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
-    State state = test::unusualScene();
-    const auto isOpen = [&] {
-        show([&] { questionDialog(state, 1.0f); });
-        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    };
-    EXPECT_FALSE(isOpen());
-    state.question = Question{Question::About::Opening, "/scenes/lamps.json"};
-    EXPECT_TRUE(isOpen());
-    EXPECT_EQ(questionText(*state.question, "room"),
-              "room has edits that are not saved. Save them before lamps.json is opened?");
-    EXPECT_FALSE(state.requests.answer);
-    state.question.reset();
-    EXPECT_FALSE(isOpen());
-}
-
-TEST_F(Panels, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
-    const tessera::test::TempFolder folder;
-    const std::string file = folder.write("one.glb", "").string();
-    State state;
-    ImGuiIO& io = ImGui::GetIO();
-    constexpr int kEnter = 7; // any number
-    io.KeyMap[ImGuiKey_Enter] = kEnter;
-    const auto isOpen = [&] {
-        show([&] {
-            fileDialog(state, 1.0f);
-            questionDialog(state, 1.0f);
-        });
-        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    };
-    EXPECT_FALSE(isOpen());
-    state.files.emplace(FileDialog::Purpose::Open, folder.path());
-    EXPECT_TRUE(isOpen());
-    EXPECT_TRUE(isOpen());
-    EXPECT_TRUE(io.WantTextInput) << "nobody has to click the field first";
-    io.AddInputCharacter('o');
-    EXPECT_TRUE(isOpen());
-    EXPECT_EQ(state.files->text(), "o");
-    state.question = Question{};
-    EXPECT_TRUE(isOpen());
-    EXPECT_FALSE(io.WantTextInput) << "keys are answers";
-    state.question.reset();
-    EXPECT_TRUE(isOpen());
-    EXPECT_TRUE(isOpen());
-    io.KeysDown[kEnter] = true;
-    isOpen();
-    io.KeysDown[kEnter] = false;
-    EXPECT_FALSE(isOpen());
-    EXPECT_FALSE(state.files);
-    EXPECT_EQ(state.requests.chosen, file);
-}
-
-/// Keys in the order of the presses, each released at once; Ctrl is held for those that say so.
-void pressAll(InputQueue& queue, std::span<const bool> withControl, int key, int control) {
-    const auto push = [&](int code, bool isDown) {
-        InputEvent event;
-        event.kind = InputEvent::Kind::Key;
-        event.code = code;
-        event.down = isDown;
-        queue.push(event);
-    };
-    for (const bool isHeld : withControl) {
-        if (isHeld) push(control, true);
-        push(key, true);
-        push(key, false);
-        if (isHeld) push(control, false);
-    }
-}
-
-TEST_F(Panels, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem) {
-    const tessera::test::TempFolder folder;
-    const std::string file = folder.write("taken.png", "").string();
-    constexpr int kEnter = 257, kControl = 341; // GLFW's
-    constexpr std::array kPresses{false, false, true};
-    ImGuiIO& io = ImGui::GetIO();
-    io.KeyMap[ImGuiKey_Enter] = kEnter;
-    State state;
-    InputQueue queue;
-    state.files.emplace(FileDialog::Purpose::Save, folder.path(), "taken.png");
-    pressAll(queue, kPresses, kEnter, kControl); // before the dialog is there
-    int most = 0;                                // frames that keys waited
-    for (int i = 0, waited = 0; i < 100 && state.files; ++i) {
-        waited = state.keysWait() ? waited + 1 : 0;
-        most = std::max(most, waited);
-        for (const InputEvent& event : queue.takeFrame(state.keysWait())) io.KeysDown[event.code] = event.down;
-        io.KeyCtrl = io.KeysDown[kControl];
-        frame([&] { fileDialog(state, 1.0f); });
-    }
-    EXPECT_FALSE(state.files) << "Enter asks, once more is no answer, and Ctrl+Enter replaces";
-    EXPECT_EQ(state.requests.saveAs, file);
-    EXPECT_GT(most, 1) << "keys before the field listens are not what is tested";
-    EXPECT_LT(most, FileDialog::kMostWaits) << "they were let go before it listened";
-}
-
-TEST_F(Panels, theDialogOfFilesKeepsItsButtonsInViewWhateverItSays) {
-    ImGui::GetIO().DisplaySize = {800.0f, 600.0f};
-    State state;
-    std::filesystem::path folder = "/";
-    for (int i = 0; i < 30; ++i) folder /= std::string(100, char('a' + i % 26));
-    state.files.emplace(FileDialog::Purpose::Save, folder, "absent/one.png", "the folder before is full");
-    const auto overflow = [&] {
-        for (int i = 0; i < 4; ++i) frame([&] { fileDialog(state, 1.0f); });
-        return ImGui::FindWindowByName("Save as###files")->ScrollMax.y;
-    };
-    EXPECT_FALSE(state.files->fault().empty());
-    EXPECT_EQ(overflow(), 0.0f) << "of a folder that is not there";
-    EXPECT_FALSE(state.files->accept());
-    EXPECT_EQ(overflow(), 0.0f) << "of a name below one";
-    state.files.emplace(FileDialog::Purpose::Save, "/tmp", "one.png");
-    EXPECT_EQ(overflow(), 0.0f);
-}
-
 TEST_F(Panels, aNameIsALabelOfOneLineWithAllItsSigns) {
     EXPECT_EQ(labelOf("plain name.glb"), "plain name.glb");
     EXPECT_EQ(labelOf("a##b###c"), "a# #b# # #c");
     EXPECT_EQ(labelOf("two\nlines"), "two; lines");
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights[0].name = "lamp##hidden";
-    State state;
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    State state = test::stateOf(std::move(scene));
     const std::string text = textOf([&] { lightsPanel(state); });
     EXPECT_NE(text.find("hidden"), std::string::npos) << text;
-}
-
-TEST_F(Panels, keysDoNotWaitForAFieldThatNeverListens) {
-    State state;
-    EXPECT_FALSE(state.keysWait());
-    state.files.emplace(FileDialog::Purpose::Open, "/");
-    EXPECT_TRUE(state.keysWait());
-    ImGui::GetIO().MouseDown[0] = true; // something is held all the time
-    for (int i = 0; i < FileDialog::kMostWaits; ++i) frame([&] { fileDialog(state, 1.0f); });
-    EXPECT_FALSE(state.keysWait());
-    state.question = Question{};
-    EXPECT_FALSE(state.keysWait()) << "keys are answers";
-    frame([&] { fileDialog(state, 1.0f); });
-    state.question.reset();
-    EXPECT_TRUE(state.keysWait()) << "the dialog is back";
 }
 
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
@@ -436,9 +301,7 @@ TEST_F(Panels, subsurfaceScatteringSaysWhereNoMaterialHasAny) {
     for (const auto method : {scenes::SubsurfaceMethod::None, scenes::SubsurfaceMethod::Wrap}) {
         scenes::Scene scene = scenes::loadScene("room");
         scene.materials[0].subsurface.method = method;
-        State state;
-        state.open =
-            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        State state = test::stateOf(std::move(scene));
         const std::string text = textOf([&] { skinPanel(state); });
         EXPECT_EQ(text.find("No material has") != std::string::npos, method == scenes::SubsurfaceMethod::None) << text;
     }
@@ -497,13 +360,11 @@ TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
 }
 
 TEST_F(Panels, theSceneHasASliderForEachParameterOfItsHook) {
-    scenes::LoadOptions load;
-    scenes::Scene scene = scenes::loadScene("room", load);
-    State state;
-    state.open = std::make_unique<OpenScene>("room", load, scene, scenes::SceneOrigin());
+    scenes::Scene scene = scenes::loadScene("room");
+    State state = test::stateOf(scene);
     EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::Not(testing::HasSubstr("windStrength")));
     scene.hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
-    state.open = std::make_unique<OpenScene>("room", load, scene, scenes::SceneOrigin());
+    state = test::stateOf(scene);
     EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::HasSubstr("windStrength"));
     EXPECT_FALSE(state.open->isEdited());
 }

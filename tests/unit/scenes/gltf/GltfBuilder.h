@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,10 +126,13 @@ public:
     Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, wishes); }
 
     /// What the import refuses the document with, or "" when it does not.
-    std::string error() const { return errorOf(folder.write("model.gltf", json.dump()), wishes); }
-    static std::string errorOf(const std::filesystem::path& file, const ImportWishes& asked = {}) {
+    std::string error(std::optional<std::uint64_t> limitBytes = {}) const {
+        return errorOf(folder.write("model.gltf", json.dump()), wishes, limitBytes);
+    }
+    static std::string errorOf(const std::filesystem::path& file, const ImportWishes& asked = {},
+                               std::optional<std::uint64_t> limitBytes = {}) {
         try {
-            underLedger(importGltf, file, {}, asked);
+            underLedger(importGltf, file, limitBytes, asked);
         } catch (const InputError& error) {
             return error.what();
         }

@@ -59,7 +59,12 @@ TEST(GltfTextures, transformInsideAnExtensionIsImportedExactly) {
 
 TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsWarnedOf) {
     EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 1})").texCoordSet, 1);
-    EXPECT_EQ(importedUse(R"({"index": 0, "texCoord": 2})").image, kNone);
+    Builder builder;
+    builder.material()["normalTexture"] = Json::parse(R"({"index": 0, "texCoord": 2})");
+    builder.addTexture();
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.materials.at(0).texture(TextureSlot::Normal).image, kNone);
+    EXPECT_TRUE(hasWarning(scene, "uses texture coordinate set 2; only 0 and 1 are supported"));
 }
 
 TEST(GltfTextures, imageIsReadTheSameFromDataUriFileAndBufferView) {

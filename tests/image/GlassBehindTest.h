@@ -1,0 +1,108 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "tests/image/FlatTest.h"
+#include "tests/image/GlassTest.h"
+
+/// What bodies of glass show of what stands behind them: what its tests have in common.
+namespace tessera::test {
+
+inline constexpr int kBehindPixels = 48;                          ///< side of a picture, which spans 2 m
+inline constexpr double kBehindPixelMetres = 2.0 / kBehindPixels; ///< orthographic
+inline constexpr double kBehindWallMetres = 2.0;                  ///< behind z = 0
+inline constexpr double kBehindTiltRadians = 0.5;                 ///< of the glass, about y: its left edge comes nearer
+
+/// Of the metres to either side of x = 0 that two texels are apart, so that what lies between is a ramp of 0 to 1.
+inline scenes::Image rampImage() {
+    const glm::vec4 texels[] = {{0.0f, 0.25f, 1.0f, 1.0f}, {1.0f, 0.75f, 0.0f, 1.0f}};
+    scenes::Image image;
+    image.name = "ramp";
+    image.width = 2;
+    image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const auto* const bytes = reinterpret_cast<const std::byte*>(texels);
+    image.texels.assign(bytes, bytes + sizeof(texels));
+    return image;
+}
+
+inline scenes::Image checkerImage() {
+    return image8([](int x, int y) { return std::array<int, 4>{30 * x + 20, 30 * y + 20, (x + y) % 2 * 200, 255}; });
+}
+
+inline void placeQuad(scenes::Node& node, double z, double halfMetres, double tiltRadians = 0.0) {
+    const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
+    glm::dmat4& placed = node.parentFromNode;
+    placed = glm::dmat4(1.0);
+    placed[0] = glm::dvec4(cosine, 0.0, -sine, 0.0) * halfMetres;
+    placed[1] = glm::dvec4(0.0, 1.0, 0.0, 0.0) * halfMetres;
+    placed[2] = {sine, 0.0, cosine, 0.0};
+    placed[3] = {0.0, 0.0, z, 1.0};
+}
+
+/// A wall that shines by itself, and fills the picture.
+inline scenes::Scene wallScene(scenes::Image image, double halfMetres) {
+    scenes::Scene scene = quadScene(unlit());
+    scene.images = {std::move(image)};
+    scene.materials[0].texture(scenes::TextureSlot::BaseColor) = nearest();
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 1.0;
+    scene.background = {0.125f, 0.375f, 0.625f};
+    placeQuad(scene.nodes[0], -kBehindWallMetres, halfMetres);
+    return scene;
+}
+
+inline scenes::Scene checkedWall() {
+    return wallScene(checkerImage(), 1.5);
+}
+
+/// Its colours change evenly along x.
+inline scenes::Scene rampWall() {
+    scenes::Scene scene = wallScene(rampImage(), 4.0);
+    scenes::Sampler& sampler = scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler;
+    sampler.magnification = sampler.minification = scenes::Filter::Linear;
+    return scene;
+}
+
+/// The scene with a quad of glass before it, wider than the picture.
+inline scenes::Scene coveredByGlass(scenes::Scene scene, const scenes::Material& glass, double tiltRadians = 0.0,
+                                    double halfMetres = 4.0) {
+    scene.materials.push_back(glass);
+    scenes::Node& node = scene.nodes.emplace_back(scene.nodes[0]);
+    node.instances[0].material = int(scene.materials.size()) - 1;
+    placeQuad(node, 0.0, halfMetres, tiltRadians);
+    return scene;
+}
+
+/// With a near and a far side along each other: the way that light is moved aside, by Snell's law.
+inline double asideMetres(double thicknessMetres, double ior, double radians) {
+    const double inside = std::asin(std::sin(radians) / ior);
+    return thicknessMetres * std::sin(radians) * (1.0 - std::cos(radians) / (ior * std::cos(inside)));
+}
+
+/// Orthographic pictures of walls and of what stands before them.
+class GlassBehindTest : public GlassTest {
+protected:
+    static frame::FrameSettings seeing(frame::Refraction refraction, int samples = 1) {
+        frame::FrameSettings settings = ofSide(kBehindPixels);
+        settings.refraction = refraction;
+        settings.samples = samples;
+        settings.filter = frame::TextureFilter::Exact;
+        return settings;
+    }
+    static glm::dvec3 at(const std::vector<float>& picture, int x, int y) {
+        const float* const pixel = &picture[std::size_t(4 * (y * kBehindPixels + x))];
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+    static double metresOf(int pixel) { return (pixel + 0.5) * kBehindPixelMetres - 1.0; }
+    /// Of a picture whose colours change evenly along x.
+    static glm::dvec3 evenlyAt(const std::vector<float>& picture, double metres, int y) {
+        const glm::dvec3 left = at(picture, 0, y), right = at(picture, kBehindPixels - 1, y);
+        const double share = (metres - metresOf(0)) / (metresOf(kBehindPixels - 1) - metresOf(0));
+        return left + share * (right - left);
+    }
+};
+
+} // namespace tessera::test

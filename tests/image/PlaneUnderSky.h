@@ -1,0 +1,71 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tests/image/EnvironmentTest.h"
+
+/// A plane under a sky, and in double precision where each pixel looks and what the sky shows there.
+namespace tessera::test {
+
+/// A plane through the origin, tilted about x, that fills the picture: seen from z = 3 through a wide lens.
+struct TiltedPlane {
+    double tiltRadians, halfSideMetres;
+    double fovYRadians; ///< of the camera
+    int sidePixels;     ///< of the picture
+
+    scenes::Scene sceneOf(const scenes::Material& material) const {
+        scenes::Scene scene = quadScene(material);
+        const double cosine = std::cos(tiltRadians), sine = std::sin(tiltRadians);
+        glm::dmat4& placed = scene.nodes[0].parentFromNode;
+        placed = glm::dmat4(1.0);
+        placed[0] = {halfSideMetres, 0.0, 0.0, 0.0};
+        placed[1] = glm::dvec4(0.0, cosine, -sine, 0.0) * halfSideMetres;
+        placed[2] = {0.0, sine, cosine, 0.0};
+        scene.cameras[0].fovYRadians = fovYRadians;
+        scene.cameras[0].nearMetres = 0.1;
+        scene.cameras[0].farMetres = 1000.0;
+        return scene;
+    }
+    glm::dvec3 normal() const { return {0.0, std::sin(tiltRadians), std::cos(tiltRadians)}; }
+    /// Unit, from the plane towards the viewer, of the middle of a pixel; row 0 is at the top.
+    glm::dvec3 toViewer(int x, int y) const {
+        const double half = std::tan(0.5 * fovYRadians) / sidePixels;
+        return -glm::normalize(
+            glm::dvec3((2.0 * x + 1.0 - sidePixels) * half, (sidePixels - 1.0 - 2.0 * y) * half, -1.0));
+    }
+};
+
+inline constexpr int kSkyWidth = 256, kSkyHeight = 128; ///< texels of its map
+
+/// The radiance of a sky by column and row of its map.
+using SkyRadiance = std::function<double(int, int)>;
+
+inline scenes::Environment skyOf(const SkyRadiance& sky) {
+    return environmentOf(kSkyWidth, kSkyHeight, [&](int x, int y) { return glm::dvec3(sky(x, y)); });
+}
+
+/// What a sky shows in a direction, interpolated between the texels around it, and the extremes of those.
+struct SeenSky {
+    double radiance, least, most;
+};
+
+inline SeenSky seenOfSky(const SkyRadiance& sky, const glm::dvec3& direction) {
+    const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kSkyWidth, kSkyHeight) - 0.5;
+    const glm::dvec2 corner = glm::floor(place), share = place - corner;
+    const auto at = [&](int i, int j) {
+        return sky((int(corner.x) + i + kSkyWidth) % kSkyWidth, std::clamp(int(corner.y) + j, 0, kSkyHeight - 1));
+    };
+    SeenSky seen{};
+    seen.radiance = std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
+    // A texel more on each side, as rounding may move the place across an edge.
+    seen.least = seen.most = seen.radiance;
+    for (int j = -1; j <= 2; ++j)
+        for (int i = -1; i <= 2; ++i) {
+            seen.least = std::min(seen.least, at(i, j));
+            seen.most = std::max(seen.most, at(i, j));
+        }
+    return seen;
+}
+
+} // namespace tessera::test

@@ -1,0 +1,179 @@
+// Bodies of glass whose rays leave where they meet the back faces of the mesh: closed forms, and the reference.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/image/GlassBehindTest.h"
+
+namespace tessera {
+namespace {
+
+using frame::Refraction;
+using scenes::Material;
+using scenes::Scene;
+using namespace test;
+
+class GlassBackFaces : public GlassBehindTest {};
+
+/// The scene with a body whose mesh is closed before it.
+Scene coveredByBody(Scene scene, const Material& glass, scenes::Mesh mesh, double tiltRadians = 0.0) {
+    Scene covered = coveredByGlass(std::move(scene), glass, tiltRadians, 1.0);
+    covered.nodes.back().instances[0].mesh = int(covered.meshes.size());
+    covered.meshes.push_back(std::move(mesh));
+    return covered;
+}
+
+/// By as much as two parallel sides move it that far apart. Where the slab ends is drawn, whatever the thickness says.
+TEST_F(GlassBackFaces, throughTheBackOfASlabIsMovedAsideByTheClosedForm) {
+    constexpr int kMoved = 3;
+    const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+    const std::vector<float> plain = drawn(checkedWall(), settings);
+    for (const auto& [ior, isMirrored] : {std::pair(1.0, false), {1.3, false}, {1.5, false}, {1.5, true}}) {
+        const bool bends = ior > 1.0;
+        const double thickness = bends ? kMoved * kBehindPixelMetres / asideMetres(1.0, ior, kBehindTiltRadians) : 0.5;
+        scenes::Mesh slab;
+        scenes::builtin::appendBox(slab, {-4.0, -4.0, -thickness}, {4.0, 4.0, 0.0});
+        Scene covered = coveredByBody(checkedWall(), bareGlass(ior), slab, kBehindTiltRadians);
+        if (isMirrored) covered.nodes.back().parentFromNode[0] *= -1.0; // left and right are alike
+        const std::vector<float> shown = drawn(covered, settings);
+        if (!bends) {
+            EXPECT_EQ(shown, plain);
+            continue;
+        }
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                const glm::dvec3 behind = x < kMoved ? glm::dvec3(0.125, 0.375, 0.625) : at(plain, x - kMoved, y);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], behind[c], 1e-5)
+                        << ior << (isMirrored ? ", mirrored" : "") << " at " << x << ", " << y;
+            }
+    }
+}
+
+/// Where a ray along -z that meets a ball around the origin so far from its axis meets a plane behind it, from that
+/// axis too. The ray turns by the angle to the normal less that inside, twice.
+double behindBallMetres(double radiusMetres, double ior, double asideMetres, double planeMetres) {
+    const double outside = std::asin(asideMetres / radiusMetres);
+    const double inside = std::asin(asideMetres / (radiusMetres * ior)), turn = 2.0 * (outside - inside);
+    const double leavesAt = 2.0 * inside - outside; // by the angle to -z
+    return radiusMetres * std::sin(leavesAt) - std::tan(turn) * (planeMetres - radiusMetres * std::cos(leavesAt));
+}
+
+/// A ball turns left and right round, as the reference finds through the mesh itself, and the closed form says.
+TEST_F(GlassBackFaces, throughTheBackOfABallIsTurnedRound) {
+    constexpr double kIor = 1.5, kRadiusMetres = 0.7;
+    scenes::Mesh ball;
+    scenes::builtin::appendSphere(ball, {}, kRadiusMetres, 96, 48);
+    const Scene scene = coveredByBody(rampWall(), bareGlass(kIor), ball);
+    const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+    const validation::ReferencePicture truth = validation::referencePicture(
+        scene, settings, [] {}, validation::Leeway::None);
+    const std::vector<float> plain = drawn(rampWall(), settings), shown = drawn(scene, settings);
+    double worst = 0.0;
+    int turned = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            // Where rays meet the wall within the picture.
+            const double across = metresOf(x), up = metresOf(y);
+            if (std::hypot(across, up) > 0.5) continue;
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(at(shown, x, y)[c] - at(truth.picture.rgba, x, y)[c]));
+            const double aside = std::hypot(across, up);
+            const double place = behindBallMetres(kRadiusMetres, kIor, aside, kBehindWallMetres) * across / aside;
+            // The mesh has facets: 2 mm on the wall, of 4 m.
+            ASSERT_NEAR(at(truth.picture.rgba, x, y).r, evenlyAt(plain, place, y).r, 1e-3) << "at " << x << ", " << y;
+            const bool isLeft = at(plain, x, y).r < 0.5, showsLeft = at(shown, x, y).r < 0.5;
+            turned += isLeft != showsLeft ? 1 : -1;
+        }
+    fmt::print("ball: worst error {:.4f} of a ramp from 0 to 1 over 4 m\n", worst);
+    EXPECT_LT(worst, 0.02);
+    EXPECT_GT(turned, 300);
+}
+
+/// Where a body's back is met light is absorbed on its way there, whatever thickness the material has: by the cosine
+/// inside of a slab, as long as the chord of a ball.
+TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
+    constexpr double kDeepMetres = 0.4, kRadiusMetres = 0.7;
+    Material tinted = bareGlass(2.0);
+    tinted.thicknessMetres = 3.0f;
+    tinted.attenuationDistanceMetres = 1.0f;
+    tinted.attenuationColor = {0.25f, 0.5f, 1.0f};
+    tinted.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
+    constexpr double kIors[] = {1.9, 2.0, 2.1};
+    const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+    const auto expectLeft = [&](scenes::Mesh mesh, double tiltRadians, const auto& wayMetres, double leeway,
+                                double truthLeeway) {
+        Scene scene = quadScene(tinted);
+        scene.meshes[0] = std::move(mesh);
+        placeQuad(scene.nodes[0], 0.0, 1.0, tiltRadians);
+        scene.cameras[0].projection = scenes::Projection::Orthographic;
+        scene.cameras[0].halfHeightMetres = 1.0;
+        scene.environment = evenEnvironment(1.0);
+        const std::vector<float> shown = drawn(scene, settings);
+        const std::vector<float> truth = validation::referencePicture(
+                                             scene, settings, [] {}, validation::Leeway::None)
+                                             .picture.rgba;
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                // Farther out rays leave the picture inside the slab, and the ball lets few through.
+                if (std::hypot(metresOf(x), metresOf(y)) > 0.6) continue;
+                for (int c = 0; c < 3; ++c) {
+                    const double way = wayMetres(std::hypot(metresOf(x), metresOf(y)), kIors[c]);
+                    const double wanted = std::pow(double(tinted.attenuationColor[c]), way);
+                    ASSERT_NEAR(at(shown, x, y)[c], wanted, leeway * wanted) << tiltRadians << " at " << x << ", " << y;
+                    ASSERT_NEAR(at(truth, x, y)[c], wanted, truthLeeway * wanted)
+                        << "reference, " << tiltRadians << " at " << x << ", " << y;
+                }
+            }
+    };
+    scenes::Mesh slab, ball;
+    scenes::builtin::appendBox(slab, {-4.0, -4.0, -kDeepMetres}, {4.0, 4.0, 0.0});
+    scenes::builtin::appendSphere(ball, {}, kRadiusMetres, 192, 96);
+    for (const double tiltRadians : {0.0, 0.3, 0.6, 0.9}) {
+        const auto wayMetres = [&](double, double ior) {
+            return kDeepMetres / std::cos(std::asin(std::sin(tiltRadians) / ior));
+        };
+        expectLeft(slab, tiltRadians, wayMetres, 1e-4, 1e-5);
+    }
+    // Facets lie up to 0.2 mm inside of the ball on either side, which is 5e-4 of what passes; the renderer's pixels
+    // see them as planes.
+    const auto chordMetres = [](double asideMetres, double ior) {
+        return 2.0 * std::sqrt(kRadiusMetres * kRadiusMetres - asideMetres * asideMetres / (ior * ior));
+    };
+    expectLeft(ball, 0.0, chordMetres, 4e-3, 1e-3);
+}
+
+/// A wedge that stands on the wall reflects all light in its back, where its own depth and the wall's are the same up
+/// to rounding: nothing of the wall shows, only the background that the reflected rays go to.
+TEST_F(GlassBackFaces, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
+    constexpr double kIor = 2.4, kTiltRadians = 1.05, kHalfMetres = 0.4, kEdgeMetres = 0.1;
+    scenes::Mesh wedge;
+    scenes::builtin::appendBox(wedge, {-kHalfMetres, -0.8, -kBehindWallMetres}, {kHalfMetres, 0.8, 0.0});
+    const auto aboveWall = [&](double x) { return kEdgeMetres + (kHalfMetres - x) * std::tan(kTiltRadians); };
+    for (std::size_t i = 0; i < wedge.positionsOS.size(); ++i) {
+        glm::vec3 &positionOS = wedge.positionsOS[i], &normalOS = wedge.normalsOS[i];
+        if (positionOS.z < 0.0f) continue;
+        positionOS.z = float(aboveWall(double(positionOS.x)) - kBehindWallMetres);
+        if (normalOS.z > 0.5f) normalOS = {float(std::sin(kTiltRadians)), 0.0f, float(std::cos(kTiltRadians))};
+    }
+    const std::vector<float> shown =
+        drawn(coveredByBody(rampWall(), bareGlass(kIor), wedge), seeing(Refraction::BackFaces));
+    const double inside = kTiltRadians - std::asin(std::sin(kTiltRadians) / kIor);
+    ASSERT_GT(std::sin(inside), 1.0 / kIor);
+    int reflected = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x), end = begin - aboveWall(begin) * std::tan(inside);
+            if (begin > kHalfMetres - kBehindPixelMetres || end < -kHalfMetres + kBehindPixelMetres) continue;
+            if (std::abs(metresOf(y)) > 0.7) continue;
+            ++reflected;
+            EXPECT_EQ(at(shown, x, y), glm::dvec3(0.125, 0.375, 0.625)) << "at " << x << ", " << y;
+        }
+    EXPECT_GT(reflected, kBehindPixels);
+}
+
+} // namespace
+} // namespace tessera

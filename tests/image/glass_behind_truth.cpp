@@ -1,0 +1,278 @@
+// What bodies of glass show of what stands behind them: closed forms of bent rays, and the reference.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/image/GlassBehindTest.h"
+
+namespace tessera {
+namespace {
+
+using frame::Refraction;
+using scenes::Material;
+using scenes::Scene;
+using namespace test;
+
+class GlassBehindTruth : public GlassBehindTest {};
+
+/// Seen straight on, whatever its index: what it reflects is lost, and what its body absorbs.
+TEST_F(GlassBehindTruth, seenStraightOnShowsWhatItsClosedFormLeaves) {
+    Material glass = clearGlass();
+    glass.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
+    glass.transmission = 0.75f;
+    glass.thicknessMetres = 0.5f;
+    glass.attenuationDistanceMetres = 0.25f;
+    glass.attenuationColor = {0.5f, 0.8f, 1.0f};
+    const std::vector<float> plain = drawn(checkedWall(), seeing(Refraction::OneSide));
+    for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides})
+        for (const float ior : {1.5f, 2.0f}) {
+            glass.ior = ior;
+            const double contrast = (double(ior) - 1.0) / (double(ior) + 1.0);
+            const std::vector<float> shown = drawn(coveredByGlass(checkedWall(), glass), seeing(refraction));
+            for (int y = 0; y < kBehindPixels; ++y)
+                for (int x = 0; x < kBehindPixels; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const double left = std::pow(double(glass.attenuationColor[c]), 2.0);
+                        const double wanted =
+                            0.75 * double(glass.baseColor[c]) * left * (1.0 - contrast * contrast) * at(plain, x, y)[c];
+                        ASSERT_NEAR(at(shown, x, y)[c], wanted, kGlassRounding * std::max(wanted, 1e-3))
+                            << ior << " at " << x << ", " << y;
+                    }
+        }
+}
+
+/// By a whole number of pixels, so that no texel is interpolated. What is moved in from beyond the picture's edge is
+/// not known: there the body shows the background.
+TEST_F(GlassBehindTruth, withAFarSideMovesThePictureAsideByTheClosedForm) {
+    constexpr int kMoved = 3;
+    const frame::FrameSettings settings = seeing(Refraction::TwoSides);
+    const std::vector<float> plain = drawn(checkedWall(), settings);
+    const double cosine = std::cos(kBehindTiltRadians);
+    for (const double ior : {1.3, 1.5, 2.4}) {
+        Material glass = clearGlass();
+        glass.ior = float(ior);
+        glass.thicknessMetres =
+            float(kMoved * kBehindPixelMetres / asideMetres(1.0, double(glass.ior), kBehindTiltRadians));
+        const double straight = std::pow((ior - 1.0) / (ior + 1.0), 2.0);
+        const double share = 1.0 - (straight + (1.0 - straight) * std::pow(1.0 - cosine, 5.0));
+        const std::vector<float> shown = drawn(coveredByGlass(checkedWall(), glass, kBehindTiltRadians), settings);
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                const glm::dvec3 behind = x < kMoved ? glm::dvec3(0.125, 0.375, 0.625) : at(plain, x - kMoved, y);
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], share * behind[c], 1e-5) << ior << " at " << x << ", " << y;
+            }
+    }
+}
+
+/// Half of twice the thickness is the thickness; where none is left nothing is moved.
+TEST_F(GlassBehindTruth, withAFarSideIsAsThickAsItsTextureSays) {
+    const frame::FrameSettings settings = seeing(Refraction::TwoSides);
+    const auto shownOf = [&](float thickness, std::optional<float> texel) {
+        Material glass = bareGlass(1.5);
+        glass.thicknessMetres = thickness;
+        Scene scene = coveredByGlass(checkedWall(), glass, kBehindTiltRadians);
+        if (texel) {
+            scene.images.push_back(floatImage({0.7f, *texel, 0.3f, 0.1f}));
+            scene.materials.back().texture(scenes::TextureSlot::Thickness).image = int(scene.images.size()) - 1;
+        }
+        return drawn(scene, settings);
+    };
+    const auto expectAlike = [](const std::vector<float>& own, const std::vector<float>& wanted) {
+        for (std::size_t i = 0; i < own.size(); ++i) ASSERT_NEAR(own[i], wanted[i], 1e-5f) << i;
+    };
+    const std::vector<float> plain = drawn(checkedWall(), settings), moved = shownOf(0.5f, std::nullopt);
+    EXPECT_NE(moved, plain);
+    expectAlike(shownOf(1.0f, 0.5f), moved);
+    expectAlike(shownOf(0.5f, 0.0f), plain);
+}
+
+/// Rays that bend once meet a wall, upright or leaning, where a plane and a line meet.
+TEST_F(GlassBehindTruth, bentOnceShowsWhereTheRayMeetsTheWall) {
+    constexpr double kIor = 1.5;
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    for (const double leanRadians : {0.0, -0.6, 0.6}) {
+        Scene wall = rampWall();
+        placeQuad(wall.nodes[0], -kBehindWallMetres, 4.0, leanRadians);
+        const frame::FrameSettings settings = seeing(Refraction::OneSide);
+        const std::vector<float> plain = drawn(wall, settings);
+        const std::vector<float> shown = drawn(coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians), settings);
+        const double slope = -std::tan(leanRadians); // of the wall's z by x
+        int met = 0;
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                // The ray begins on the glass, at z = -x tan(tilt), and goes to the left as it goes back.
+                const double begin = metresOf(x), above = -begin * std::tan(kBehindTiltRadians) + kBehindWallMetres;
+                const double place = (begin - above * bend) / (1.0 - slope * bend);
+                if (place < -1.0 + kBehindPixelMetres) continue;
+                ++met;
+                const glm::dvec3 wanted = evenlyAt(plain, place, y);
+                const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 0.05 * step[c] + 1e-5)
+                        << leanRadians << " at " << x << ", " << y;
+            }
+        EXPECT_GT(met, kBehindPixels * kBehindPixels / 3);
+    }
+}
+
+/// A body that is thicker than the room before the wall: rays meet the wall inside, and not where they would leave the
+/// body behind it.
+TEST_F(GlassBehindTruth, withAFarSideBehindTheWallShowsWhereTheRayMeetsTheWallInside) {
+    constexpr double kIor = 1.5;
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    Material deep = bareGlass(kIor);
+    deep.thicknessMetres = 8.0f;
+    const frame::FrameSettings settings = seeing(Refraction::TwoSides);
+    const Scene covered = coveredByGlass(rampWall(), deep, kBehindTiltRadians);
+    const std::vector<float> plain = drawn(rampWall(), settings), shown = drawn(covered, settings);
+    const std::vector<float> truth = validation::referencePicture(
+                                         covered, settings, [] {}, validation::Leeway::None)
+                                         .picture.rgba;
+    int met = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x), above = -begin * std::tan(kBehindTiltRadians) + kBehindWallMetres;
+            const double place = begin - above * bend;
+            if (place < -1.0 + kBehindPixelMetres) continue;
+            ++met;
+            const glm::dvec3 wanted = evenlyAt(plain, place, y);
+            const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 0.05 * step[c] + 1e-5) << "at " << x << ", " << y;
+                ASSERT_NEAR(at(truth, x, y)[c], wanted[c], 1e-4) << "reference, at " << x << ", " << y;
+            }
+        }
+    EXPECT_GT(met, kBehindPixels * kBehindPixels / 3);
+}
+
+/// Bent once, or moved aside by a far side, seen through a lens, with a far plane and without.
+TEST_F(GlassBehindTruth, throughALensShowsWhereTheRayMeetsTheWall) {
+    constexpr double kIor = 1.5, kThicknessMetres = 0.4, kEyeMetres = 3.0, kFovYRadians = 0.5;
+    const double half = std::tan(0.5 * kFovYRadians), wallHalf = half * (kEyeMetres + kBehindWallMetres);
+    for (const double farMetres : {std::numeric_limits<double>::infinity(), 20.0})
+        for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides})
+            for (const double tiltRadians : {0.0, kBehindTiltRadians}) {
+                Scene wall = rampWall();
+                wall.cameras[0].projection = scenes::Projection::Perspective;
+                wall.cameras[0].fovYRadians = kFovYRadians;
+                wall.cameras[0].farMetres = farMetres;
+                Material glass = bareGlass(kIor);
+                glass.thicknessMetres = float(kThicknessMetres);
+                const frame::FrameSettings settings = seeing(refraction);
+                const std::vector<float> plain = drawn(wall, settings);
+                const std::vector<float> shown = drawn(coveredByGlass(wall, glass, tiltRadians), settings);
+                const glm::dvec3 normal(std::sin(tiltRadians), 0.0, std::cos(tiltRadians));
+                const glm::dvec3 eye(0.0, 0.0, kEyeMetres);
+                int met = 0;
+                for (int y = 0; y < kBehindPixels; ++y)
+                    for (int x = 0; x < kBehindPixels; ++x) {
+                        const glm::dvec3 ray =
+                            glm::normalize(glm::dvec3(half * metresOf(x), -half * metresOf(y), -1.0));
+                        glm::dvec3 from = eye - glm::dot(eye, normal) / glm::dot(ray, normal) * ray;
+                        glm::dvec3 along = *bentDirection(-ray, kIor, normal);
+                        if (refraction == Refraction::TwoSides) {
+                            from -= kThicknessMetres / glm::dot(along, normal) * along;
+                            along = ray;
+                        }
+                        const glm::dvec3 place = from - (from.z + kBehindWallMetres) / along.z * along;
+                        const glm::dvec2 seen = glm::dvec2(place) / wallHalf;
+                        if (std::max(std::abs(seen.x), std::abs(seen.y)) > 1.0 - kBehindPixelMetres) continue;
+                        ++met;
+                        const glm::dvec3 wanted = evenlyAt(plain, seen.x, y);
+                        const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+                        for (int c = 0; c < 3; ++c)
+                            ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 0.05 * step[c] + 1e-5)
+                                << infoOf(refraction).name << ", tilt " << tiltRadians << ", to " << farMetres
+                                << " m, at " << x << ", " << y;
+                    }
+                EXPECT_GT(met, kBehindPixels * kBehindPixels / 2);
+            }
+}
+
+/// A bar before the glass is no obstacle to what goes on behind it.
+TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
+    constexpr double kIor = 1.5, kBarMetres = 0.05; // half its width
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    const Scene wall = rampWall();
+    Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
+    covered.materials.push_back(unlit());
+    scenes::Node& bar = covered.nodes.emplace_back(covered.nodes[0]);
+    bar.instances[0].material = 2;
+    placeQuad(bar, 1.5, 4.0);
+    bar.parentFromNode[0] *= kBarMetres / 4.0;
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+    int crossing = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x);
+            const double place = begin - (kBehindWallMetres - begin * std::tan(kBehindTiltRadians)) * bend;
+            const auto isClear = [&](double metres) {
+                return std::abs(metres) > kBarMetres + 1.5 * kBehindPixelMetres;
+            };
+            if (place < -1.0 + kBehindPixelMetres || !isClear(begin) || !isClear(place)) continue;
+            crossing += begin > 0.0 && place < 0.0 ? 1 : 0;
+            const glm::dvec3 wanted = evenlyAt(plain, place, y);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 2e-3) << "at " << x << ", " << y;
+        }
+    EXPECT_GT(crossing, kBehindPixels);
+}
+
+/// A rough body before an even wall shows just that, before an edge a wider one, as the reference does.
+TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
+    Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(even, settings);
+    const std::vector<float> shown = drawn(coveredByGlass(even, bareGlass(1.5, 0.3)), settings);
+    for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], 2e-5f * plain[i]) << i;
+
+    // Black to the left, white to the right.
+    const Scene edge = wallScene(image8([](int x, int) {
+                                     const int value = x < kSide / 2 ? 0 : 255;
+                                     return std::array<int, 4>{value, value, value, 255};
+                                 }),
+                                 4.0);
+    const Scene rough = coveredByGlass(edge, bareGlass(1.5, 0.3));
+    const validation::ReferencePicture truth = validation::referencePicture(
+        rough, settings, [] {}, validation::Leeway::None);
+    const auto errorOf = [&](const Scene& scene) {
+        const std::vector<float> own = drawn(scene, settings);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < own.size(); i += 4) sum += std::abs(double(own[i]) - double(truth.picture.rgba[i]));
+        return sum / double(truth.picture.pixelCount());
+    };
+    const double blurred = errorOf(rough), sharp = errorOf(coveredByGlass(edge, bareGlass(1.5)));
+    fmt::print("behind rough glass: mean error {:.3f}, {:.3f} if it were smooth\n", blurred, sharp);
+    EXPECT_LT(blurred, 0.5 * sharp);
+
+    // Of a GGX lobe (1 + s / sqrt(s^2 + alpha^2)) / 2 lies below a slope s of its half vectors along one direction, and
+    // they turn light by twice their angle: from a quarter to three quarters of the light it is so far.
+    constexpr double kAlpha = 0.3 * 0.3;
+    const double wanted = 2.0 * kBehindWallMetres * std::tan(2.0 * std::atan(kAlpha / std::sqrt(3.0)));
+    const auto widthOf = [&](const std::vector<float>& picture) {
+        std::vector<double> columns(kBehindPixels);
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x)
+                columns[std::size_t(x)] += at(picture, x, y).r / double(kBehindPixels);
+        const auto placeOf = [&](double share) {
+            const auto next = std::ranges::find_if(columns, [&](double below) { return below > share; });
+            if (next == columns.begin() || next == columns.end()) return std::numeric_limits<double>::quiet_NaN();
+            const double rise = (share - *(next - 1)) / (*next - *(next - 1));
+            return metresOf(int(next - columns.begin()) - 1) + rise * kBehindPixelMetres;
+        };
+        return placeOf(0.75) - placeOf(0.25);
+    };
+    // The means of columns, of 48 x 32 samples, place each quarter to 2.6 % of the width; the lobe's cosine takes 2 %
+    // of it.
+    EXPECT_NEAR(widthOf(truth.picture.rgba), wanted, 0.13 * wanted);
+    EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
+}
+
+} // namespace
+} // namespace tessera

@@ -1,0 +1,149 @@
+// The dialogs of questions and of files, laid out without a window.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/PanelTest.h"
+#include "viewer/panels/Panels.h"
+#include "viewer/window/Input.h"
+
+namespace tessera::viewer {
+namespace {
+
+class Dialogs : public test::PanelTest {};
+
+TEST_F(Dialogs, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
+    State state = test::unusualScene();
+    const auto isOpen = [&] {
+        show([&] { questionDialog(state, 1.0f); });
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    EXPECT_FALSE(isOpen());
+    state.question = Question{Question::About::Opening, "/scenes/lamps.json"};
+    EXPECT_TRUE(isOpen());
+    EXPECT_EQ(questionText(*state.question, "room"),
+              "room has edits that are not saved. Save them before lamps.json is opened?");
+    EXPECT_FALSE(state.requests.answer);
+    state.question.reset();
+    EXPECT_FALSE(isOpen());
+}
+
+TEST_F(Dialogs, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
+    const tessera::test::TempFolder folder;
+    const std::string file = folder.write("one.glb", "").string();
+    State state;
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr int kEnter = 7; // any number
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    const auto isOpen = [&] {
+        show([&] {
+            fileDialog(state, 1.0f);
+            questionDialog(state, 1.0f);
+        });
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    EXPECT_FALSE(isOpen());
+    state.files.emplace(FileDialog::Purpose::Open, folder.path());
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(io.WantTextInput) << "nobody has to click the field first";
+    io.AddInputCharacter('o');
+    EXPECT_TRUE(isOpen());
+    EXPECT_EQ(state.files->text(), "o");
+    state.question = Question{};
+    EXPECT_TRUE(isOpen());
+    EXPECT_FALSE(io.WantTextInput) << "keys are answers";
+    state.question.reset();
+    EXPECT_TRUE(isOpen());
+    EXPECT_TRUE(isOpen());
+    io.KeysDown[kEnter] = true;
+    isOpen();
+    io.KeysDown[kEnter] = false;
+    EXPECT_FALSE(isOpen());
+    EXPECT_FALSE(state.files);
+    EXPECT_EQ(state.requests.chosen, file);
+}
+
+/// Keys in the order of the presses, each released at once; Ctrl is held for those that say so.
+void pressAll(InputQueue& queue, std::span<const bool> withControl, int key, int control) {
+    const auto push = [&](int code, bool isDown) {
+        InputEvent event;
+        event.kind = InputEvent::Kind::Key;
+        event.code = code;
+        event.down = isDown;
+        queue.push(event);
+    };
+    for (const bool isHeld : withControl) {
+        if (isHeld) push(control, true);
+        push(key, true);
+        push(key, false);
+        if (isHeld) push(control, false);
+    }
+}
+
+TEST_F(Dialogs, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem) {
+    const tessera::test::TempFolder folder;
+    const std::string file = folder.write("taken.png", "").string();
+    constexpr int kEnter = 257, kControl = 341; // GLFW's
+    constexpr std::array kPresses{false, false, true};
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    State state;
+    InputQueue queue;
+    state.files.emplace(FileDialog::Purpose::Save, folder.path(), "taken.png");
+    pressAll(queue, kPresses, kEnter, kControl); // before the dialog is there
+    int most = 0;                                // frames that keys waited
+    for (int i = 0, waited = 0; i < 100 && state.files; ++i) {
+        waited = state.keysWait() ? waited + 1 : 0;
+        most = std::max(most, waited);
+        for (const InputEvent& event : queue.takeFrame(state.keysWait())) io.KeysDown[event.code] = event.down;
+        io.KeyCtrl = io.KeysDown[kControl];
+        frame([&] { fileDialog(state, 1.0f); });
+    }
+    EXPECT_FALSE(state.files) << "Enter asks, once more is no answer, and Ctrl+Enter replaces";
+    EXPECT_EQ(state.requests.saveAs, file);
+    EXPECT_GT(most, 1) << "keys before the field listens are not what is tested";
+    EXPECT_LT(most, FileDialog::kMostWaits) << "they were let go before it listened";
+}
+
+TEST_F(Dialogs, theDialogOfFilesKeepsItsButtonsInViewWhateverItSays) {
+    ImGui::GetIO().DisplaySize = {800.0f, 600.0f};
+    State state;
+    std::filesystem::path folder = "/";
+    for (int i = 0; i < 30; ++i) folder /= std::string(100, char('a' + i % 26));
+    state.files.emplace(FileDialog::Purpose::Save, folder, "absent/one.png", "the folder before is full");
+    const auto overflow = [&] {
+        for (int i = 0; i < 4; ++i) frame([&] { fileDialog(state, 1.0f); });
+        return ImGui::FindWindowByName("Save as###files")->ScrollMax.y;
+    };
+    EXPECT_FALSE(state.files->fault().empty());
+    EXPECT_EQ(overflow(), 0.0f) << "of a folder that is not there";
+    EXPECT_FALSE(state.files->accept());
+    EXPECT_EQ(overflow(), 0.0f) << "of a name below one";
+    state.files.emplace(FileDialog::Purpose::Save, "/tmp", "one.png");
+    EXPECT_EQ(overflow(), 0.0f);
+}
+
+TEST_F(Dialogs, keysDoNotWaitForAFieldThatNeverListens) {
+    State state;
+    EXPECT_FALSE(state.keysWait());
+    state.files.emplace(FileDialog::Purpose::Open, "/");
+    EXPECT_TRUE(state.keysWait());
+    ImGui::GetIO().MouseDown[0] = true; // something is held all the time
+    for (int i = 0; i < FileDialog::kMostWaits; ++i) frame([&] { fileDialog(state, 1.0f); });
+    EXPECT_FALSE(state.keysWait());
+    state.question = Question{};
+    EXPECT_FALSE(state.keysWait()) << "keys are answers";
+    frame([&] { fileDialog(state, 1.0f); });
+    state.question.reset();
+    EXPECT_TRUE(state.keysWait()) << "the dialog is back";
+}
+
+} // namespace
+} // namespace tessera::viewer
