@@ -194,9 +194,10 @@ public:
     }
     void add(const Scene& scene) {
         const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background,
-                     options, variants, notes, warnings] = scene;
+                     options, supplied, variants, notes, warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options);
-        if (hook) add(*hook); // others keep the fingerprint that they had
+        if (hook) add(*hook);        // others keep the fingerprint that they had
+        static_cast<void>(supplied); // tells of the camera and the environment, which are content themselves
         for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // about the file, no content
     }
 
