@@ -134,7 +134,7 @@ HookedScene::Changed HookedScene::update(double timeSeconds, Excess excess, shad
 void HookedScene::takeOthers() {
     // Every member of a scene is named here, so that a new one is either taken or left.
     const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background, options,
-                 variants, notes, warnings] = scene_;
+                 supplied, variants, notes, warnings] = scene_;
     moved_.name = name;
     moved_.materials = materials;
     moved_.nodes = nodes;
@@ -151,6 +151,7 @@ void HookedScene::takeOthers() {
     static_cast<void>(meshes); // moved, or taken by takeMeshes()
     static_cast<void>(images); // texels stay as they were loaded
     static_cast<void>(rig);    // has posed the scene already
+    static_cast<void>(supplied);
     for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // nothing of the picture
 }
 
