@@ -1,3 +1,4 @@
+#include "scenes/Defaults.h"
 #include "scenes/Load.h"
 
 #include <algorithm>
