@@ -82,15 +82,17 @@ protected:
     };
     /// Every method misses no light, and draws Forward's picture.
     Seen expectSoundScene(scenes::Scene scene, std::uint64_t seed);
-    // About a sixth of their scenes, unless the sweep is whole, and these with pruning.
+    // Few of their scenes, unless the sweep is whole, and these with pruning.
     void expectSoundRandomScenes();
     void expectSoundFarAway();
-    // A third of them, each method with one tile in turn.
+    // A sixth of them, each method with one tile in turn.
     void expectSoundTransparent();
 
-    /// With counts of lights that fill words and tiles evenly and not, in a picture of a quarter of the pixels unless
+    /// With counts of lights that fill words and tiles evenly and not, in a picture of a sixteenth of the pixels unless
     /// the sweep is whole.
     void expectForwardsPictureAtEveryCount();
+    /// The same of each tile.
+    void expectForwardsPictureWithEveryTile();
     void expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels, std::span<const int> tiles);
 };
 using LightCullingSlow = LightCulling;
