@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <span>
 #include <vector>
