@@ -164,8 +164,7 @@ void Invariance::expectMaterialNumbersInvisible() {
              {frame::DebugView::Final, frame::DebugView::Diffuse, frame::DebugView::Distribution}) {
             // Filters read textures, which debug views of one term use as the picture does.
             if (filter == frame::TextureFilter::Exact && view != frame::DebugView::Final) continue;
-            if (!test::isWholeSweep() &&
-                (filter != frame::TextureFilter::Hardware || view != frame::DebugView::Final))
+            if (!test::isWholeSweep() && (filter != frame::TextureFilter::Hardware || view != frame::DebugView::Final))
                 continue;
             frame::FrameSettings settings = small();
             settings.sizePixels = {160, 91};

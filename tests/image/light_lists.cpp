@@ -111,7 +111,7 @@ protected:
     void expectListsOfTheLattice();
     void expectListsOfTheMostLights();
     // A scene of everything with every builder on the GPU; or Lambert materials, and a builder in turn.
-    void expectPicturesOfLists(); ///< unpruned as well, or not
+    void expectPicturesOfLists();   ///< unpruned as well, or not
     void expectMultisampledLists(); ///< of two and four samples, or of four
     void expectListsOfEveryLightType();
     void expectOrthographicLists();

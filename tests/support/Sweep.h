@@ -25,15 +25,15 @@ auto inTurn(Range&& all, std::size_t turn) {
     return isWholeSweep() ? elements.subspan(0) : elements.subspan(turn % elements.size(), 1);
 }
 
-/// The technique whose turn it is, of those that take so many samples a pixel, but forward, with which the tests compare
-/// them. All in a whole sweep. Techniques differ in how they store surfaces, in their light lists and in the pass that
-/// lights, and share what they light with. So the first turns have one that differs from forward in each of these.
+/// The technique whose turn it is, of those that take so many samples a pixel, but forward, with which the tests
+/// compare them. All in a whole sweep. Techniques differ in how they store surfaces, in their light lists and in the
+/// pass that lights, and share what they light with. So the first turns have one that differs from forward in each of
+/// these.
 inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1) {
     using engine::Technique;
-    constexpr Technique kTurns[] = {Technique::ClusteredDeferred, Technique::ForwardPlus,
-                                    Technique::DeferredVolumes,   Technique::TiledDeferred,
-                                    Technique::ClusteredForward,  Technique::Deferred,
-                                    Technique::ForwardPrepass};
+    constexpr Technique kTurns[] = {
+        Technique::ClusteredDeferred, Technique::ForwardPlus, Technique::DeferredVolumes, Technique::TiledDeferred,
+        Technique::ClusteredForward,  Technique::Deferred,    Technique::ForwardPrepass};
     std::vector<Technique> techniques;
     for (const Technique technique : kTurns)
         if (engine::takesSamples(engine::infoOf(technique), samples)) techniques.push_back(technique);

@@ -26,8 +26,8 @@ protected:
     ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
     /// Expects exit code 0 and a silent stderr; returns stdout.
     std::string runGood(const Words& arguments, const Environment& environment = {}) const;
-    /// Runs the program, kills it somewhere and runs it again, until it ends by itself; after times that grow by a step,
-    /// which is longer outside of a whole sweep (Sweep.h). Returns how often it was killed.
+    /// Runs the program, kills it somewhere and runs it again, until it ends by itself; after times that grow by a
+    /// step, which is longer outside of a whole sweep (Sweep.h). Returns how often it was killed.
     int killedUntilItEnds(const Words& arguments) const;
     /// Expects the exit code, nothing on stdout, exactly one line on stderr that begins with "tessera: error: " and
     /// holds all of `parts`, and every file of the folder as it was.

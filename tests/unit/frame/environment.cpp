@@ -358,8 +358,8 @@ double reflectedByHalfVectors(double ior, double cosView, double alpha) {
 /// Where total reflection begins as elsewhere, and on both sides of index 1; or of every third of these indices.
 void expectDielectricsLobe() {
     const std::vector<glm::vec4>& table = lobeTable();
-    for (const double ior : ::tessera::test::everyNth(
-             std::vector{0.15, 0.4, 0.6, 0.7, 0.75, 0.83, 0.93, 0.98, 1.2, 1.33, 1.5, 2.5}, 3))
+    for (const double ior :
+         ::tessera::test::everyNth(std::vector{0.15, 0.4, 0.6, 0.7, 0.75, 0.83, 0.93, 0.98, 1.2, 1.33, 1.5, 2.5}, 3))
         for (const double alpha : {0.005, 0.03, 0.1, 0.3, 0.6, 1.0})
             for (int i = 0; i < 12; ++i) {
                 const double cosine = 0.08 + 0.083 * i;
