@@ -22,6 +22,9 @@ inline constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
 class Cli : public testing::Test {
 protected:
     using Environment = std::map<std::string, std::string>;
+    /// Neither a driver for EGL nor a display.
+    static inline const Environment kNoGraphics{
+        {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
 
     ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
     /// Expects exit code 0 and a silent stderr; returns stdout.
