@@ -17,6 +17,7 @@ class Bands : public test::GlTest {
 protected:
     /// Of a scene of everything with every technique, or of its metal.
     void expectSameInBands();
+    void expectToldHowFar();
     static frame::FrameSettings small() {
         frame::FrameSettings settings;
         settings.sizePixels = {200, 211}; // four bands, the last of them cut
@@ -91,8 +92,8 @@ TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
-TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
-    const scenes::Scene scene = test::everythingScene();
+void Bands::expectToldHowFar() {
+    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
     engine::Renderer renderer(context(), scene);
     const gpu::Texture texture("other", graph::TextureDesc{graph::Format::Rgba8Unorm, 16, 16, 1});
     const gpu::Framebuffer other(gpu::Attachments{{&texture}});
@@ -121,6 +122,12 @@ TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
         EXPECT_GE(passes, renderer.backend().passTimings().size());
         EXPECT_GT(shares, 0u) << "no draw told how far it was";
     }
+}
+TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
+    expectToldHowFar();
+}
+TEST_F(BandsSlow, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
+    expectToldHowFar();
 }
 
 TEST_F(Bands, withoutBandedDrawingTheCallbackIsNotCalled) {

@@ -106,7 +106,7 @@ std::vector<scenes::Light> lightsByAHair(const scenes::Scene& scene, const frame
 
 class LightEdges : public test::GlTest {
 protected:
-    /// Random scenes, an eighth of them unless the sweep is whole, and these with pruning; their eyes so many times as
+    /// Random scenes, few of them unless the sweep is whole, and these with pruning; their eyes so many times as
     /// far away by seed. Lights end by a hair behind a surface; or, with lists that leave out those behind surfaces,
     /// stand by one in front.
     void expectSound(std::uint64_t seeds, const std::function<double(std::uint64_t)>& times, bool ofHorizon = false);
@@ -125,7 +125,7 @@ protected:
 
 void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std::uint64_t)>& times, bool ofHorizon) {
     constexpr glm::ivec2 kSizes[] = {{97, 61}, {33, 17}, {64, 64}, {130, 9}};
-    if (!test::isWholeSweep()) seeds = std::max<std::uint64_t>(seeds / 12, 6); // six distances of the eye
+    if (!test::isWholeSweep()) seeds = std::max<std::uint64_t>(seeds / 24, 6); // six distances of the eye
     std::uint64_t needed = 0, evaluated = 0;
     std::size_t lights = 0, scenes = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

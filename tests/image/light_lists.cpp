@@ -83,8 +83,8 @@ protected:
         }
     }
 
-    /// With every technique and method; with every builder on the GPU, or one in turn, and then without pruning, whose
-    /// programs are large, one technique alone. Forward's is pruned, which changes no bit.
+    /// With every technique and method and every builder on the GPU; or every technique with one method and builder in
+    /// turn. Forward's is pruned, which changes no bit.
     void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings, bool everyBuilder) {
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings pruned = settings;
@@ -93,9 +93,11 @@ protected:
         std::size_t turn = 0;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             if (!engine::takesSamples(technique, settings.samples)) continue;
-            if (!everyBuilder && !settings.prune && technique.technique != Technique::ClusteredDeferred) continue;
-            for (const culling::Method method : technique.methods) {
-                if (method == culling::Method::None) continue;
+            std::vector<culling::Method> methods(technique.methods.begin(), technique.methods.end());
+            std::erase(methods, culling::Method::None);
+            if (methods.empty()) continue;
+            if (!everyBuilder) methods = {methods[turn / 2 % methods.size()]};
+            for (const culling::Method method : methods) {
                 settings.culling.method = method;
                 for (const GpuBuilder& gpu : gpuBuilders(everyBuilder, turn++)) {
                     SCOPED_TRACE(fmt::format("{} {}, {}", technique.name, int(method), gpu.name));
@@ -105,10 +107,12 @@ protected:
         }
     }
 
-    // A scene of everything with every builder on the GPU; or Lambert materials, and for pictures and tiles a builder
-    // in turn.
-    void expectPicturesOfLists();
-    void expectMultisampledLists();
+    // Every builder on the GPU, or one in turn.
+    void expectListsOfTheLattice();
+    void expectListsOfTheMostLights();
+    // A scene of everything with every builder on the GPU; or Lambert materials, and a builder in turn.
+    void expectPicturesOfLists();   ///< unpruned as well, or not
+    void expectMultisampledLists(); ///< of two and four samples, or of four
     void expectListsOfEveryLightType();
     void expectOrthographicLists();
     void expectListsOfAnyCount();
@@ -126,10 +130,16 @@ scenes::Scene latticeOf(int count) {
     return scenes::loadScene("lattice", options);
 }
 
-TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
+void LightLists::expectListsOfTheLattice() {
     frame::FrameSettings settings;
     settings.sizePixels = {321, 179};
-    expectSameLists(latticeOf(256), settings, culling::kTileSides);
+    expectSameLists(latticeOf(256), settings, culling::kTileSides, test::isWholeSweep());
+}
+TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
+    expectListsOfTheLattice();
+}
+TEST_F(LightListsSlow, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
+    expectListsOfTheLattice();
 }
 
 void LightLists::expectListsOfEveryLightType() {
@@ -138,7 +148,7 @@ void LightLists::expectListsOfEveryLightType() {
     settings.sizePixels = {320, 180};
     expectSameLists(scene, settings, culling::kTileSides, test::isWholeSweep());
     settings.sizePixels = {37, 1};
-    expectSameLists(scene, settings, std::array{16});
+    expectSameLists(scene, settings, std::array{16}, test::isWholeSweep(), 1);
     if (!test::isWholeSweep()) return;
     settings.sizePixels = {161, 90};
     settings.prune = false;
@@ -178,6 +188,7 @@ void LightLists::expectPicturesOfLists() {
     frame::FrameSettings settings;
     settings.sizePixels = {161, 91};
     expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
+    if (!test::isWholeSweep()) return;
     settings.prune = false;
     expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
 }
@@ -190,7 +201,8 @@ TEST_F(LightListsSlow, picturesLitFromListsOfTheGpuAreThoseOfForward) {
 
 void LightLists::expectMultisampledLists() {
     int tried = 0;
-    for (const int samples : {2, 4}) {
+    constexpr int kSamples[] = {2, 4};
+    for (const int samples : test::inTurn(kSamples, 1)) {
         SCOPED_TRACE(samples);
         frame::FrameSettings settings;
         settings.sizePixels = {161, 91};
@@ -198,7 +210,7 @@ void LightLists::expectMultisampledLists() {
         settings = engine::settingsOn(context().capabilities(), settings);
         if (settings.samples == tried) continue; // what the driver gives for both
         tried = settings.samples;
-        expectSameLists(sceneOfLists(), settings, std::array{8, 64});
+        expectSameLists(sceneOfLists(), settings, std::array{8, 64}, test::isWholeSweep());
         expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
     }
 }
@@ -233,18 +245,24 @@ TEST_F(LightLists, manyLightsGiveThePictureOfForward) {
     expectForwardsPicture(latticeOf(4097), settings, true);
 }
 
-TEST_F(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
+void LightLists::expectListsOfTheMostLights() {
     frame::FrameSettings settings;
     settings.sizePixels = {33, 17};
     const scenes::Scene scene = latticeOf(65536);
-    expectSameLists(scene, settings, std::array{64});
+    expectSameLists(scene, settings, std::array{64}, test::isWholeSweep());
     engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-    for (const GpuBuilder& gpu : kGpuBuilders) {
+    for (const GpuBuilder& gpu : gpuBuilders(test::isWholeSweep(), 0)) {
         SCOPED_TRACE(gpu.name);
         EXPECT_TRUE(renderer.render(Technique::ForwardPlus, with(settings, gpu)).radiance == truth);
         EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, with(settings, gpu)).radiance == truth);
     }
+}
+TEST_F(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
+    expectListsOfTheMostLights();
+}
+TEST_F(LightListsSlow, theMostLightsOfASceneAreNotTooManyForTheGpu) {
+    expectListsOfTheMostLights();
 }
 
 } // namespace

@@ -143,7 +143,7 @@ protected:
     // Lambert materials unless the sweep is whole: which pixels a volume covers is no matter of them.
     void expectPlacesEqual();
     void expectMirroredNodesEqual();
-    /// 72 scenes, or a third of them, all with pruning.
+    /// 72 scenes, or a sixth of them, all with pruning.
     void expectRandomScenesEqual();
 };
 using LightVolumesSlow = LightVolumes;
@@ -225,7 +225,7 @@ void LightVolumes::expectRandomScenesEqual() {
     engine::Renderer renderer(context(), scene);
     int lit = 0;
     int scenes = 0;
-    for (int seed = 1; seed <= 72; seed += test::isWholeSweep() ? 1 : 3, ++scenes) {
+    for (int seed = 1; seed <= 72; seed += test::isWholeSweep() ? 1 : 6, ++scenes) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
         Random random{std::uint64_t(seed)};
         scene.cameras = {randomCamera(random)};

@@ -36,14 +36,14 @@ protected:
         engine::Renderer renderer(context(), scene);
         return engine::toPicture(renderer.render(technique, settings));
     }
-    /// Programs are compiled once per renderer, for all sizes. With a turn of a third of the techniques (Sweep.h).
+    /// Programs are compiled once per renderer, for all sizes. With the technique of a turn (Sweep.h).
     void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings,
                          std::optional<std::size_t> turn = {}) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
         request.techniques = validation::techniquesTaking(settings, leftOut);
         std::erase(request.techniques, Technique::Forward);
-        if (turn) request.techniques = test::techniquesInTurn(*turn, settings.samples, 3);
+        if (turn) request.techniques = test::techniquesInTurn(*turn, settings.samples);
         request.settings = settings;
         const validation::CompareRecord record =
             validation::compareTechniques(renderer, context().capabilities(), request).record;
@@ -58,15 +58,15 @@ protected:
         return alphas;
     }
 
-    /// Of a scene of everything, with options added one by one, or before the first and after the last, with every
-    /// third technique and one size in turn.
+    /// Of a scene of everything, with options added one by one, or before the first and after the last of those whose
+    /// programs are pruned (expectPruningInvisible has the others), with one technique and size in turn.
     void expectOptionsAgree();
     /// Of random scenes, with every technique, culling method and tile, or some with every ninth of these in turn. Its
     /// subject is which lights a pixel has, so the scene of everything is then one in Lambert materials.
     void expectForwardsPictureOfRandomScenes();
-    /// Of a scene of everything with two techniques, or every other view of its metal with one in turn.
+    /// Of a scene of everything with two techniques, or every fourth view of its metal with one in turn.
     void expectViewsAgree();
-    /// Each scene with every technique, or one of everything with the one that culls.
+    /// Each scene with every technique, or the metal of everything with the one that culls.
     void expectPruningInvisible();
     /// With every technique, or the one that culls.
     void expectNoBadPixel();
@@ -88,11 +88,12 @@ void Multisampling::expectOptionsAgree() {
     constexpr glm::ivec2 kAllSizes[] = {{320, 180}, {321, 179}}, kSizesInTurn[] = {{160, 90}, {161, 89}};
     const Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene);
+    constexpr std::size_t kLastPruned = std::size(kAddOption) - 2;
     Settings settings = sampled({});
     std::size_t turn = 0;
     for (std::size_t i = 0; i < std::size(kAddOption); ++i) {
         kAddOption[i](settings);
-        if (!test::isWholeSweep() && i != 0 && i + 1 < std::size(kAddOption)) continue;
+        if (!test::isWholeSweep() && i != 0 && i != kLastPruned) continue;
         for (const glm::ivec2 size : test::inTurn(test::isWholeSweep() ? kAllSizes : kSizesInTurn, turn)) {
             SCOPED_TRACE(fmt::format("{} options, {}x{}", i, size.x, size.y));
             settings.sizePixels = size;
@@ -240,9 +241,9 @@ void Multisampling::expectViewsAgree() {
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
         if (view.ofTechnique) continue; // shows what each technique visits
-        if (!test::isWholeSweep() && ++turn % 2 == 0) continue;
+        if (!test::isWholeSweep() && turn++ % 4 != 0) continue;
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const Technique technique : test::inTurn(kOthers, turn / 2))
+        for (const Technique technique : test::inTurn(kOthers, turn / 4))
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
     }
 }
@@ -255,8 +256,9 @@ TEST_F(MultisamplingSlow, everyViewIsExactlyTheSameInTheForwardFamily) {
 }
 
 void Multisampling::expectPruningInvisible() {
-    for (const Scene& scene : {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()}) {
-        if (!test::isWholeSweep() && (scene.name == "room" || scene.name == "hall")) continue;
+    std::vector<Scene> tried{test::metalScene()};
+    if (test::isWholeSweep()) tried = {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()};
+    for (const Scene& scene : tried) {
         for (const Technique technique : {Technique::ClusteredForward, Technique::ForwardPrepass, Technique::Forward}) {
             if (!test::isWholeSweep() && technique != Technique::ClusteredForward) continue;
             SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));

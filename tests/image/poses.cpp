@@ -68,6 +68,8 @@ protected:
     void expectDrawnAsAnew();
     /// The same scenes, at three times or one.
     void expectVerticesOfPlainMeshes();
+    /// Of a scene of everything with every technique, or of its metal with one at each time.
+    void expectTechniquesAgree();
 };
 using PosesSlow = Poses;
 
@@ -165,21 +167,28 @@ TEST_F(PosesSlow, everyPassHasTheVerticesOfPlainMeshes) {
     expectVerticesOfPlainMeshes();
 }
 
-TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
-    scenes::Scene scene = waving(test::everythingScene());
+void Poses::expectTechniquesAgree() {
+    scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::metalScene());
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {160, 91};
     renderer.render(Technique::Deferred, settings);
+    std::size_t turn = 0;
     for (const double seconds : {1.0, 0.15, 0.7}) {
         SCOPED_TRACE(seconds);
         scenes::poseScene(scene, seconds);
         renderer.geometryChanged();
-        expectParity(renderer, settings);
+        expectParity(renderer, settings, test::techniquesInTurn(turn++));
     }
     engine::Renderer anew(context(), scene);
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
               anew.render(Technique::Forward, settings).radiance);
+}
+TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
+    expectTechniquesAgree();
+}
+TEST_F(PosesSlow, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
+    expectTechniquesAgree();
 }
 
 /// A ball of a checkered material without layers, of which a clip makes glass with all of them within a second, while

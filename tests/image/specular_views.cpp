@@ -4,6 +4,7 @@
 #include "scenes/Load.h"
 #include "tests/image/Textbook.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 
 namespace tessera {
 namespace {
@@ -38,8 +39,11 @@ protected:
         }
         return nullptr;
     }
+    /// Of both, which draw views alike (Parity), or of `deferred`.
+    void expectFormulas();
     scenes::Scene scene_;
 };
+using SpecularViewsSlow = SpecularViews;
 
 /// Where the pixel's ray is after `metres` along the view axis; pixels in rows from the top.
 glm::dvec3 pointAt(const scenes::Camera& camera, std::size_t pixel, double metres) {
@@ -77,10 +81,11 @@ Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l,
     return terms;
 }
 
-TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
+void SpecularViews::expectFormulas() {
     engine::Renderer renderer(context(), scene_);
     const scenes::Camera& camera = scene_.cameras[0];
-    for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+    constexpr Technique kBoth[] = {Technique::Forward, Technique::Deferred};
+    for (const Technique technique : test::inTurn(kBoth, 1)) {
         for (int light = 0; light < int(scene_.lights.size()); ++light) {
             const auto view = [&](frame::DebugView what) { return show(renderer, what, technique, light); };
             const std::vector<float> ids = view(frame::DebugView::Ids), depth = view(frame::DebugView::Depth),
@@ -122,6 +127,12 @@ TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLig
             for (const double error : worst) EXPECT_LE(error, 1e-5);
         }
     }
+}
+TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
+    expectFormulas();
+}
+TEST_F(SpecularViewsSlow, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
+    expectFormulas();
 }
 
 } // namespace

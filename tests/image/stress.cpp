@@ -47,13 +47,13 @@ protected:
         return results;
     }
 
-    /// With every third picture of its short form, and those that these are compared with.
+    /// With every eighth picture of its short form, and those that these are compared with.
     static validation::StressCase withFewerPictures(validation::StressCase row) {
         if (!row.pictures) return row;
         std::vector<validation::StressPicture> all = row.pictures(validation::StressEffort::Quick), some;
         std::vector<bool> isTaken(all.size());
         for (std::size_t i = all.size(); i-- > 0;) {
-            isTaken[i] = isTaken[i] || i % 3 == 0;
+            isTaken[i] = isTaken[i] || i % 8 == 0;
             if (isTaken[i] && all[i].sameAs) isTaken[*all[i].sameAs] = true;
         }
         std::vector<std::size_t> places(all.size()); // in `some`

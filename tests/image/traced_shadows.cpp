@@ -25,7 +25,7 @@ protected:
     void expectRightByEachLight();
     /// Of 1000 suns, or a quarter as many.
     void expectNoAcne();
-    /// With every technique, or each third one in turn.
+    /// With every technique, or one in turn.
     void expectSameEverywhere();
     // Of a scene of everything, or of Lambert materials.
     void expectSameOnMasked();

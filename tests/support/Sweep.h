@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <ranges>
 #include <span>
@@ -25,14 +26,20 @@ auto inTurn(Range&& all, std::size_t turn) {
     return isWholeSweep() ? elements.subspan(0) : elements.subspan(turn % elements.size(), 1);
 }
 
-/// Of the techniques that take so many samples a pixel, but forward, each `every`th: so many turns one after the other
-/// have them all. All in a whole sweep.
-inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1, std::size_t every = 3) {
-    std::vector<engine::Technique> techniques;
-    for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
-        if (info.technique == engine::Technique::Forward || !engine::takesSamples(info, samples)) continue;
-        if (isWholeSweep() || turn++ % every == 0) techniques.push_back(info.technique);
-    }
+/// The technique whose turn it is, of those that take so many samples a pixel, but forward, with which the tests
+/// compare them. All in a whole sweep. Techniques differ in how they store surfaces, in their light lists and in the
+/// pass that lights, and share what they light with. So the first turns have one that differs from forward in each of
+/// these; the others follow in the order of their table.
+inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1) {
+    using engine::Technique;
+    std::vector<Technique> techniques{Technique::ClusteredDeferred, Technique::ForwardPlus, Technique::DeferredVolumes,
+                                      Technique::TiledDeferred};
+    for (const engine::TechniqueInfo& info : engine::techniqueTable())
+        if (info.technique != Technique::Forward && std::ranges::find(techniques, info.technique) == techniques.end())
+            techniques.push_back(info.technique);
+    std::erase_if(techniques,
+                  [&](Technique technique) { return !engine::takesSamples(engine::infoOf(technique), samples); });
+    if (!isWholeSweep()) techniques = {techniques[turn % techniques.size()]};
     return techniques;
 }
 

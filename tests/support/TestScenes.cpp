@@ -223,12 +223,15 @@ Scene builtinForSweep(const BuiltinScene& builtin, LoadOptions options) {
     return loadScene(std::string(builtin.name), options);
 }
 
-std::vector<BuiltinScene> builtinsForSweep() {
+bool isTakenBySweep(const BuiltinScene& builtin) {
     constexpr std::string_view kOfMostFeatures[] = {"models", "head_skin", "glass"};
+    return std::ranges::find(kOfMostFeatures, builtin.name) != std::end(kOfMostFeatures);
+}
+
+std::vector<BuiltinScene> builtinsForSweep() {
     std::vector<BuiltinScene> taken;
     for (const BuiltinScene& builtin : builtinScenes())
-        if (isWholeSweep() || std::ranges::find(kOfMostFeatures, builtin.name) != std::end(kOfMostFeatures))
-            taken.push_back(builtin);
+        if (isWholeSweep() || isTakenBySweep(builtin)) taken.push_back(builtin);
     return taken;
 }
 

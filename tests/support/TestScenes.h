@@ -43,6 +43,7 @@ scenes::Scene builtinForSweep(const scenes::BuiltinScene& builtin, scenes::LoadO
 /// The built-in scenes that a sweep goes through: all in a whole one, else three. Of all threes theirs leave out the
 /// fewest of the features that some built-in scene has, and everythingScene() and the suites of lights have those.
 std::vector<scenes::BuiltinScene> builtinsForSweep();
+bool isTakenBySweep(const scenes::BuiltinScene& builtin); ///< whether it is one of these three
 /// The features that those three lack; tests/unit/engine/sweep_scenes.cpp proves that there is no other.
 std::span<const frame::Feature> featuresThatNoBuiltinForSweepHas();
 

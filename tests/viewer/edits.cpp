@@ -152,7 +152,7 @@ TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
 }
 
 TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {
-    DrivenViewer viewer = open({"hall"});
+    DrivenViewer viewer = open({"hall", "--lights", "64"}); // whose pictures take longer than the click
     viewer.waitForWhole(0);
     const int below = barOf(viewer, Section::Environment);
     const glm::ivec2 view(200, barOf(viewer, Section::View));

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "base/PictureFile.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/UnderLedger.h"
 #include "validation/pictures/ReadPicture.h"
 
@@ -36,12 +37,13 @@ std::string Cli::runGood(const Words& arguments, const Environment& environment)
 int Cli::killedUntilItEnds(const Words& arguments) const {
     Words command{kProgram};
     command.insert(command.end(), arguments.begin(), arguments.end());
+    const int stepMilliseconds = isWholeSweep() ? 131 : 431; // which no period divides
     int kills = 0;
     for (int attempt = 0; attempt < 40; ++attempt) {
         Process process(command, {folder_.path(), {}, 60.0});
-        std::thread killer([&process, attempt] {
-            // From before the first picture on, by a step that no period divides.
-            std::this_thread::sleep_for(std::chrono::milliseconds(200 + 131 * attempt));
+        std::thread killer([&process, attempt, stepMilliseconds] {
+            // From before the first picture on.
+            std::this_thread::sleep_for(std::chrono::milliseconds(200 + stepMilliseconds * attempt));
             try {
                 process.send(SIGKILL);
             } catch (const std::runtime_error&) { // it had ended

@@ -22,12 +22,15 @@ inline constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
 class Cli : public testing::Test {
 protected:
     using Environment = std::map<std::string, std::string>;
+    /// Neither a driver for EGL nor a display.
+    static inline const Environment kNoGraphics{
+        {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
 
     ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
     /// Expects exit code 0 and a silent stderr; returns stdout.
     std::string runGood(const Words& arguments, const Environment& environment = {}) const;
-    /// Runs the program, kills it somewhere and runs it again, until it ends by itself. Returns how often it was
-    /// killed.
+    /// Runs the program, kills it somewhere and runs it again, until it ends by itself; after times that grow by a
+    /// step, which is longer outside of a whole sweep (Sweep.h). Returns how often it was killed.
     int killedUntilItEnds(const Words& arguments) const;
     /// Expects the exit code, nothing on stdout, exactly one line on stderr that begins with "tessera: error: " and
     /// holds all of `parts`, and every file of the folder as it was.

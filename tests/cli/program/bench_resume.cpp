@@ -64,7 +64,7 @@ private:
 using BenchRunsSlow = BenchRuns;
 
 void BenchRuns::expectKillsLeaveNoTrace() const {
-    const int stepMilliseconds = isWholeSweep() ? 173 : 431;
+    const int stepMilliseconds = isWholeSweep() ? 173 : 997;
     runGood(command("whole"));
     int kills = 0;
     bool isDone = false;

@@ -128,7 +128,7 @@ TEST_F(Help, theSchemaOfScenesHoldsEverySettingAndNoOther) {
 }
 
 TEST_F(Help, scenesListsEveryBuiltinOne) {
-    const std::string list = runGood({"scenes"});
+    const std::string list = runGood({"scenes"}, kNoGraphics);
     for (const char* row : {"\nhall +[0-9]+ +258 +[0-9]+  [a-z]", "\nspheres +[0-9]+", "\nlattice +192000 +256 +9  ",
                             "\nroom +30 +1 +10  ", "\nhead +[0-9]+"})
         EXPECT_THAT(list, ContainsRegex(row));

@@ -8,10 +8,6 @@ namespace {
 using Json = nlohmann::json;
 using testing::HasSubstr;
 
-/// Neither a driver for EGL nor a display.
-const std::map<std::string, std::string> kNoGraphics{
-    {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
-
 class Plan : public Cli {
 protected:
     static void expectKeys(const Json& object, const std::set<std::string>& wanted) {
@@ -111,7 +107,6 @@ TEST_F(Plan, furtherCamerasAreAlwaysViewsOfTheSameFrame) {
 
 TEST_F(Plan, plansNeedNoGraphicsAndOtherCommandsNameTheMissingPackage) {
     EXPECT_THAT(runGood({"plan", "room"}, kNoGraphics), HasSubstr("deferred_lighting"));
-    EXPECT_THAT(runGood({"scenes"}, kNoGraphics), HasSubstr("room"));
     const Words remedy{"no OpenGL 4.5 context can be made", "EGL surfaceless", "install", "libegl1 libgl1-mesa-dri"};
     expectError(1, {"render", "room", "-o", "a.png"}, remedy, kNoGraphics);
     expectError(1, {"render", "room", "-o", "a.png", "--context", "egl"}, remedy, kNoGraphics);

@@ -60,8 +60,12 @@ protected:
             if (name.starts_with(beginning) && name.ends_with(".exr")) found[name.substr(beginning.size())] = contents;
         return found;
     }
-    /// Each frame alone, or each third.
+    /// Each frame alone, looked at in three ways. Or each third, with shadow maps, which renderers keep from frame to
+    /// frame.
     void expectFramesAreThePicturesOfTheirTimes();
+    void expectKillsLeaveNoTrace();
+    /// Of twelve processes, or of four.
+    void expectKillsWhileWritingLeaveNoTrace();
 };
 using FrameSequencesSlow = FrameSequences;
 
@@ -70,7 +74,7 @@ void FrameSequences::expectFramesAreThePicturesOfTheirTimes() {
         {"--technique", "forward"},
         {"--technique", "clustered_deferred", "--shadow-filter", "pcf"},
         {"--technique", "tiled_deferred", "--shadow-filter", "hard", "--shadow-resolution", "128"}};
-    for (std::size_t i = 0; i < looks.size(); ++i) {
+    for (std::size_t i = isWholeSweep() ? 0 : looks.size() - 1; i < looks.size(); ++i) {
         SCOPED_TRACE(i);
         const auto with = [&](Words words) {
             words.insert(words.end(), looks[i].begin(), looks[i].end());
@@ -107,7 +111,7 @@ TEST_F(FrameSequencesSlow, framesAreThePicturesOfTheirTimesInAnyOrderAndShard) {
     expectFramesAreThePicturesOfTheirTimes();
 }
 
-TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles) {
+void FrameSequences::expectKillsLeaveNoTrace() {
     const auto words = [](const std::string& name) { return command({"--frames", "60", "-o", name + "%04d.exr"}); };
     runGood(words("whole_"));
     EXPECT_GT(killedUntilItEnds(words("killed_")), 0);
@@ -115,8 +119,14 @@ TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles)
     EXPECT_TRUE(pictures("killed_") == pictures("whole_"));
     EXPECT_THAT(runGood(words("killed_")), MatchesRegex(summary(0, 60)));
 }
+TEST_F(FrameSequences, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles) {
+    expectKillsLeaveNoTrace();
+}
+TEST_F(FrameSequencesSlow, aRunThatIsKilledAnywhereAndStartedAgainGivesTheSameFiles) {
+    expectKillsLeaveNoTrace();
+}
 
-TEST_F(FrameSequences, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWhole) {
+void FrameSequences::expectKillsWhileWritingLeaveNoTrace() {
     const auto words = [](const std::string& name) { return command({"--frames", "120", "-o", name + "%04d.exr"}); };
     runGood(words("whole_"));
     const std::map<std::string, std::string> whole = pictures("whole_");
@@ -130,7 +140,7 @@ TEST_F(FrameSequences, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWh
     };
     Random random(20261127);
     int kills = 0;
-    for (int attempt = 0; attempt < 12; ++attempt) {
+    for (int attempt = 0; attempt < (isWholeSweep() ? 12 : 4); ++attempt) {
         const auto before = countWritten();
         const std::chrono::microseconds delay(random.index(40'000));
         SCOPED_TRACE(fmt::format("killed {} us after its first picture", delay.count()));
@@ -158,6 +168,12 @@ TEST_F(FrameSequences, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWh
     runGood(words("killed_"));
     EXPECT_TRUE(pictures("killed_") == whole);
     EXPECT_THAT(runGood(words("killed_")), MatchesRegex(summary(0, 120)));
+}
+TEST_F(FrameSequences, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWhole) {
+    expectKillsWhileWritingLeaveNoTrace();
+}
+TEST_F(FrameSequencesSlow, killsAtRandomMomentsOfTheWritingLeaveNoPictureThatIsNotWhole) {
+    expectKillsWhileWritingLeaveNoTrace();
 }
 
 TEST_F(FrameSequences, onlyWhatIsMissingOrOfOtherSettingsIsDrawn) {

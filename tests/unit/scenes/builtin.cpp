@@ -113,9 +113,16 @@ void expectAllUsed(const Scene& scene) {
     for (std::size_t i = 0; i < imageUsed.size(); ++i) EXPECT_TRUE(imageUsed[i]) << scene.images[i].name;
 }
 
-class BuiltinScenes : public testing::TestWithParam<BuiltinScene> {};
+class BuiltinScenes : public testing::TestWithParam<BuiltinScene> {
+protected:
+    void expectSound();
+    void expectTheSameTwice();
+    void expectChargedBefore();
+};
+/// Of all scenes; the other suite is without those whose pictures take seconds to make.
+class BuiltinScenesSlow : public BuiltinScenes {};
 
-TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
+void BuiltinScenes::expectSound() {
     const Scene scene = underLedger(GetParam().make, withoutAssets());
     EXPECT_NO_THROW(checkScene(scene));
     EXPECT_EQ(scene.name, GetParam().name);
@@ -126,13 +133,25 @@ TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
     expectAllUsed(scene);
     for (const Mesh& mesh : scene.meshes) expectMeshRules(mesh);
 }
+TEST_P(BuiltinScenes, areAlwaysSoundAndFaceTheirNormals) {
+    expectSound();
+}
+TEST_P(BuiltinScenesSlow, areAlwaysSoundAndFaceTheirNormals) {
+    expectSound();
+}
 
-TEST_P(BuiltinScenes, areAlwaysTheSameTwice) {
+void BuiltinScenes::expectTheSameTwice() {
     EXPECT_EQ(digest(underLedger(GetParam().make, withoutAssets())),
               digest(underLedger(GetParam().make, withoutAssets())));
 }
+TEST_P(BuiltinScenes, areAlwaysTheSameTwice) {
+    expectTheSameTwice();
+}
+TEST_P(BuiltinScenesSlow, areAlwaysTheSameTwice) {
+    expectTheSameTwice();
+}
 
-TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake) {
+void BuiltinScenes::expectChargedBefore() {
     const BuiltinScene& builtin = GetParam();
     const std::uint64_t held = bytesOf(underLedger(builtin.make, withoutAssets()));
     EXPECT_LE(held, builtin.bytes) << sizeText(held);
@@ -145,6 +164,12 @@ TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake)
                     "the memory limit",
                     builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
+TEST_P(BuiltinScenes, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake) {
+    expectChargedBefore();
+}
+TEST_P(BuiltinScenesSlow, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyTake) {
+    expectChargedBefore();
+}
 
 TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreChargedBeforeTheyAreMade) {
     LoadOptions options;
@@ -153,8 +178,18 @@ TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreChargedBeforeTheyAreMade
     EXPECT_THAT(test::inputErrorOf([&] { loadScene("lattice", options); }), testing::StartsWith("lattice: asks for "));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
-                         [](const auto& scene) { return std::string(scene.param.name); });
+std::string nameOf(const testing::TestParamInfo<BuiltinScene>& scene) {
+    return std::string(scene.param.name);
+}
+std::vector<BuiltinScene> madeWithinASecond() {
+    std::vector<BuiltinScene> made;
+    for (const BuiltinScene& builtin : builtinScenes())
+        if (builtin.name != "head_skin" && builtin.name != "head_marble") made.push_back(builtin);
+    return made;
+}
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScenes, testing::ValuesIn(madeWithinASecond()), nameOf);
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScenesSlow, testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
+                         nameOf);
 
 } // namespace
 } // namespace tessera::scenes

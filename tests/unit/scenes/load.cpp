@@ -1,4 +1,3 @@
-#include "scenes/Defaults.h"
 #include "scenes/Load.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "scenes/Defaults.h"
 #include "scenes/Limits.h"
 #include "scenes/builtin/bust/Bust.h"
 #include "tests/support/AssetsFolder.h"

@@ -175,10 +175,11 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
     }
 }
 
+/// Of all built-in scenes, or of those for sweeps.
 std::map<std::string, shader::ProgramDesc> requestedPrograms() {
     std::map<std::string, shader::ProgramDesc> programs;
     std::size_t turn = 0;
-    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
+    for (const scenes::BuiltinScene& builtin : test::builtinsForSweep()) {
         scenes::LoadOptions options;
         options.useAssets = false;
         addPrograms(programs, scenes::loadScene(std::string(builtin.name), options), turn++);

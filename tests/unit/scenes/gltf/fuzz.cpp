@@ -6,6 +6,7 @@
 #include "DracoStream.h"
 #include "GltfBuilder.h"
 #include "scenes/Pose.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
@@ -121,7 +122,8 @@ TEST(GltfFuzz, unharmedDocumentIsImported) {
         EXPECT_TRUE(isImported(folder.write("model.gltf", document.dump()))) << document.dump();
 }
 
-TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
+/// Every value by each of these, or by each fourth in turn.
+void expectReplacedOnesImportedOrRefused() {
     const Folder folder;
     const char* evil[] = {"-1",
                           "0",
@@ -148,11 +150,12 @@ TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
                           "5126",
                           "18446744073709551615",
                           "-9223372036854775808"};
-    std::size_t importedCount = 0, triedCount = 0;
+    std::size_t importedCount = 0, triedCount = 0, turn = 0;
     for (const Json& document : richDocuments()) {
         const Json leaves = document.flatten();
         for (const auto& [pointer, leaf] : leaves.items())
-            for (const char* value : evil) {
+            for (const char* value : evil) { // of an odd number
+                if (!::tessera::test::isWholeSweep() && turn++ % 4 != 0) continue;
                 Json harmed = document;
                 harmed[Json::json_pointer(pointer)] = Json::parse(value);
                 SCOPED_TRACE(pointer + " = " + value);
@@ -162,6 +165,12 @@ TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
     }
     EXPECT_GT(importedCount, 0u);
     EXPECT_LT(importedCount, triedCount);
+}
+TEST(GltfFuzz, anyOneValueReplacedIsImportedOrRefused) {
+    expectReplacedOnesImportedOrRefused();
+}
+TEST(GltfFuzzSlow, anyOneValueReplacedIsImportedOrRefused) {
+    expectReplacedOnesImportedOrRefused();
 }
 
 TEST(GltfFuzz, anyOneValueRemovedIsImportedOrRefused) {
