@@ -190,7 +190,7 @@ void FarEye::expectTechniquesAgreeAtLimits() {
         int lit = 0;
         for (std::size_t i = 0; i < truth.radiance.size(); i += 4) lit += truth.radiance[i] > 0.0f;
         EXPECT_GT(lit, 160 * 90 / 4);
-        for (const Technique technique : test::techniquesInTurn(turn++, 1, 6))
+        for (const Technique technique : test::techniquesInTurn(turn++))
             EXPECT_TRUE(renderer.render(technique, settings_).radiance == truth.radiance) << infoOf(technique).name;
     }
 }
