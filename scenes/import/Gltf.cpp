@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -271,20 +272,78 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
     return ofMaterials;
 }
 
+float scaledThickness(const Material& material, double scale) {
+    const double most = fieldOf(kMaterialFields, &Material::thicknessMetres).most;
+    return static_cast<float>(std::min(double(material.thicknessMetres) * scale, most));
+}
+
+/// Of the instances that show a material, where nodes show it at several scales.
+struct ScaledUse {
+    MeshInstance* instance = nullptr;
+    double scale = 1.0;
+};
+
+/// None where some node scales differently by direction, or a clip changes the material.
+std::optional<std::vector<ScaledUse>> scaledUses(Scene& scene, int material) {
+    for (const RestNumber& number : scene.rig.numbers)
+        if (isOfMaterial(infoOf(number.property).owner) && number.element == material) return std::nullopt;
+    std::set<int> skinned; // meshes, which are taken to be as large as they are
+    for (const Deformed& deformed : scene.rig.deformed)
+        if (deformed.skin != kNone) skinned.insert(deformed.mesh);
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    std::vector<ScaledUse> uses;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        for (MeshInstance& instance : scene.nodes[i].instances) {
+            if (instance.material != material) continue;
+            const std::optional<double> scale =
+                skinned.contains(instance.mesh) ? std::optional(1.0) : uniformScale(worldFromNode[i]);
+            if (!scale) return std::nullopt;
+            if (*scale > 0.0) uses.push_back({&instance, *scale});
+        }
+    return uses;
+}
+
+/// Gives a material as many copies as nodes show it at other scales, each as thick as these make it. False where it
+/// cannot, and then changes nothing.
+bool splitByScale(Context& context, int index, int material) {
+    constexpr std::size_t kMostScales = 64; // each is a material that programs read on their own
+    Scene& scene = context.scene;
+    std::optional<std::vector<ScaledUse>> uses = scaledUses(scene, material);
+    if (!uses) return false;
+    std::ranges::stable_sort(*uses, {}, &ScaledUse::scale);
+    std::vector<double> scales;
+    for (const ScaledUse& use : *uses)
+        if (scales.empty() || use.scale > scales.back() * (1.0 + kSameScale)) scales.push_back(use.scale);
+    if (scales.size() > kMostScales) return false;
+    const Material original = scene.materials[static_cast<std::size_t>(material)];
+    constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
+    context.document.charge(kCopies * scales.size() * (sizeof(Material) + original.name.size() + kDigits), "materials",
+                            index);
+    auto use = uses->begin();
+    for (const double scale : scales) {
+        const bool isFirst = scale == scales.front();
+        const int own = isFirst ? material : static_cast<int>(scene.materials.size());
+        if (!isFirst) scene.materials.push_back(original);
+        Material& placed = scene.materials[static_cast<std::size_t>(own)];
+        if (!isFirst) placed.name = fmt::format("{} at scale {:g}", original.name, scale);
+        placed.thicknessMetres = scaledThickness(original, scale);
+        for (; use != uses->end() && use->scale <= scale * (1.0 + kSameScale); ++use) use->instance->material = own;
+    }
+    return true;
+}
+
 /// What clips say of them the rig scales.
 void placeThicknesses(Context& context, const Materials& materials) {
-    for (const auto& [material, scale] : context.thicknessScales) {
-        const std::optional<int> imported = materials.imported(material);
+    for (const auto& [index, scale] : context.thicknessScales) {
+        const std::optional<int> imported = materials.imported(index);
         if (!imported) continue;
         Material& placed = context.scene.materials[static_cast<std::size_t>(*imported)];
-        if (scale) {
-            const double most = fieldOf(kMaterialFields, &Material::thicknessMetres).most;
-            placed.thicknessMetres = static_cast<float>(std::min(double(placed.thicknessMetres) * *scale, most));
-        } else if (hasBody(placed)) {
+        if (scale)
+            placed.thicknessMetres = scaledThickness(placed, *scale);
+        else if (hasBody(placed) && !splitByScale(context, index, *imported))
             context.warn(fmt::format("the thickness of material {} is taken in metres, since the nodes that show it do "
                                      "not share one scale that is the same in all directions",
-                                     material));
-        }
+                                     index));
     }
 }
 

@@ -110,7 +110,7 @@ TEST(GltfMaterials, aThicknessWithoutOneScaleStaysAsItIsWithAWarning) {
     for (const char* nodes :
          {R"([{"mesh": 0, "scale": [1, 1, 2]}])",
           R"([{"mesh": 0, "matrix": [1,0,0,0, 0.6,0.8,0,0, 0,0,1,0, 0,0,0,1]}])", // sheared
-          R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [2, 2, 2]}])",
+          R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [1, 1, 2]}])",
           // The square of it is infinite.
           R"([{"scale": [1e38, 1e38, 1e38], "children": [1]}, {"scale": [1e38, 1e38, 1e38], "children": [2]},
               {"scale": [1e38, 1e38, 1e38], "children": [3]}, {"scale": [1e38, 1e38, 1e38], "children": [4]},
@@ -119,6 +119,20 @@ TEST(GltfMaterials, aThicknessWithoutOneScaleStaysAsItIsWithAWarning) {
         EXPECT_EQ(scene.materials.at(0).thicknessMetres, 0.5f) << nodes;
         EXPECT_TRUE(hasWarning(scene, kNoOneScale)) << nodes;
     }
+}
+
+TEST(GltfMaterials, aMaterialThatNodesShowAtSeveralScalesIsAsThickAsEachMakesIt) {
+    const Scene scene = paneOf(R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1, 2]},
+                                   {"mesh": 0, "scale": [2, 2, 2]}, {"mesh": 0}])");
+    EXPECT_FALSE(hasWarning(scene, kNoOneScale));
+    ASSERT_EQ(scene.materials.size(), 2u);
+    for (const auto& [node, wantedMetres] : {std::pair<std::size_t, float>(0, 1.5f), {1, 3.0f}, {2, 1.5f}}) {
+        const auto material = std::size_t(scene.nodes.at(node).instances.at(0).material);
+        EXPECT_FLOAT_EQ(scene.materials.at(material).thicknessMetres, wantedMetres) << node;
+        EXPECT_EQ(scene.materials.at(material).attenuationDistanceMetres, 2.0f);
+    }
+    EXPECT_NE(scene.materials[0].name, scene.materials[1].name);
+    checkScene(scene);
 }
 
 TEST(GltfMaterials, anAttenuationDistanceOf0IsRefused) {
