@@ -423,11 +423,17 @@ TEST(GltfInstances, eachIsANodeBelowThatOfItsMeshAfterAllOthers) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST(GltfInstances, aThicknessIsScaledAsAllInstancesWhereTheyAgree) {
+TEST(GltfInstances, aThicknessIsScaledAsEachInstance) {
     Builder builder = withInstances();
     builder.material()["extensions"] = Json::parse(
         R"({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 0.5}})");
-    EXPECT_TRUE(hasWarning(builder.import(), "the thickness of material 0 is taken in metres"));
+    const Scene scene = builder.import();
+    EXPECT_FALSE(hasWarning(scene, "the thickness of material 0 is taken in metres"));
+    const auto thicknessAt = [&](std::size_t node) {
+        return scene.materials.at(std::size_t(scene.nodes.at(node).instances.at(0).material)).thicknessMetres;
+    };
+    EXPECT_FLOAT_EQ(thicknessAt(2), 0.5f);
+    EXPECT_FLOAT_EQ(thicknessAt(3), 1.0f);
     Json& attributes = builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
     attributes["SCALE"] = builder.add(std::vector<float>{3, 3, 3, 3, 3, 3}, 5126, "VEC3", 2);
     EXPECT_FLOAT_EQ(builder.import().materials.at(0).thicknessMetres, 1.5f);
