@@ -102,7 +102,7 @@ class SameAsTheProgram(Folder):
         self.assertTrue(all(one["ms"] is not None for one in measured["passes"]), measured["passes"])
 
     def testBenchmarksAreKeptAsBenchKeepsThem(self):
-        matrix = {"technique": ["forward", "deferred"], "lights": [4, 16]}
+        matrix = {"technique": ["forward", "deferred"], "lights": [2, 4]}
         record = tessera.bench("spheres", matrix=matrix, frames=1, size=(48, 27), against="forward", output=self.folder / "run")
         self.assertEqual(record, json.loads((self.folder / "run/bench.json").read_text()))
         self.assertTrue(record["complete"])
@@ -171,15 +171,15 @@ class Arrays(unittest.TestCase):
 
 class Scenes(unittest.TestCase):
     def testALoadedSceneIsDrawnAsAFreshOne(self):
-        scene = tessera.load("spheres", lights=5)
-        self.assertEqual((scene.name, scene.lights), ("spheres", 5))
+        scene = tessera.load("spheres", lights=3)
+        self.assertEqual((scene.name, scene.lights), ("spheres", 3))
         self.assertGreater(scene.triangles, 100)
         self.assertIn("spheres", repr(scene))
         for keywords in ({}, {"technique": "forward"}, {"lights": 9}, {"size": (54, 96)}, {"eye": (0, 2, 9)}, {"time": 1.5}, {}):
             keywords = {**SIZE, **keywords}
             with self.subTest(keywords):
                 again = tessera.render(scene, **keywords).rgba
-                fresh = tessera.render("spheres", **{"lights": 5, **keywords}).rgba
+                fresh = tessera.render("spheres", **{"lights": 3, **keywords}).rgba
                 numpy.testing.assert_array_equal(again, fresh)
 
     def testAClipIsShownAtTheTimeOfEachPicture(self):
@@ -261,7 +261,8 @@ class Errors(Folder):
 
     def testAFolderOfTheCacheMayHaveANameThatIsNoUtf8(self):
         says = "import tessera; tessera.render('lamps', lights=1, size=(16, 9))"
-        result = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, timeout=300,
+        # Mesa names the folder too, by its bytes.
+        result = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, errors="replace", timeout=300,
                                 env={**os.environ, "XDG_CACHE_HOME": os.fsdecode(b"/dev/null/\xff")})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(r"UserWarning: /dev/null/\xff/tessera/lobes-", result.stderr)
