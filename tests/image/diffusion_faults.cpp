@@ -43,6 +43,11 @@ public:
     Measured slantedStep(const shader::SourceTree& shaders) {
         return {stepErrorOf(5.0, 9.0, shaders, {{0.6, 0.0}, {0.3, 0.6}}), 3e-3};
     }
+    /// A texel's row reaches as far along u as three of its columns: what interpolation shows of light there is as wide
+    /// as the narrower Gaussian.
+    Measured steeplySlantedStep(const shader::SourceTree& shaders) {
+        return {stepErrorOf(8.0, 12.0, shaders, {{0.2, 0.0}, {0.6, 0.2}}), 3e-3};
+    }
     Measured stepOfFewerTexelsAlongX(const shader::SourceTree& shaders) {
         const auto stretch = [](scenes::Scene& scene) { mapTexture(scene, {{0.5, 0.0}, {0.0, 1.0}}); };
         return {stepError(512, stretch, shaders).l2, 7e-3};
@@ -118,6 +123,8 @@ void DiffusionFaults::expectSeen() {
          "bool isFine = false", &DiffusionFaults::twoWidths},
         {"a slanted texture taken for a straight one", "passes/diffusion_spread.frag",
          "precise float aside = shear * float(offset);", "precise float aside = 0.0;", &DiffusionFaults::slantedStep},
+        {"light that slanted rows show along u counted as none", "passes/diffusion_spread.frag",
+         "(1.0 + askew * askew)", "1.0", &DiffusionFaults::steeplySlantedStep},
         {"light that texels hold already spread counted as none", "passes/diffusion_light.frag",
          "constants.inTexels.rgb * light", "0.0 * light", &DiffusionFaults::coarseStep},
     };

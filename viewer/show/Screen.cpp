@@ -74,7 +74,6 @@ void Screen::open(const OpenScene& scene) {
     environmentRevision_ = scene.environmentRevision();
     forget();
     kinds_.reset(); // its programs are yet to be compiled
-    forgetSpreadLight();
     pace_ = {};
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);

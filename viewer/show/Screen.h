@@ -85,11 +85,12 @@ public:
     /// be null, and may show the pictures as they were before; where it ends the frame, or the frame fails, they stay
     /// so. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp);
-    /// Redraws the current pictures after a change of shaders.
+    /// Redraws the current pictures after a change of shaders, and spreads their light again.
     void forget() {
         drawn_.reset();
         failed_.reset();
         differenceIsStale_ = true;
+        forgetSpreadLight();
     }
 
     /// Makes the picture of the difference, amplified by `factor`, where the pictures or the factor changed. Throws
