@@ -303,7 +303,7 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     const ForwardPass::Params params{ForwardPass::Surfaces::Transparent};
     ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}, {}};
     if (wiring.passingLobes) inputs.lighting.lobes.table = wiring.passingLobes;
-    if (wiring.spec.showsBehindBodies)
+    if (wiring.spec.showsBehindGlass)
         inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance}).behind;
     if (wiring.spec.drawsFarSides)
         inputs.farSides = FarSidesPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).farSides;

@@ -51,7 +51,7 @@ BehindGlassPass::Outputs BehindGlassPass::add(graph::Graph& graph, const frame::
     out.behind.picture = addBehindStep(graph, "behind_glass", pictureProgram(spec), inputs.radiance,
                                        spec.renderTarget(kFormat), spec.texture(kFormat))
                              .made;
-    if (spec.blursBehindBodies)
+    if (spec.blursBehindGlass)
         out.behind.levels = addBehindStep(graph, "behind_glass_levels", levelsProgram(), out.behind.picture,
                                           spec.texture(kFormat), spec.behindLevels())
                                 .made;

@@ -24,7 +24,7 @@ struct ForwardPass {
         frame::LightingInputs lighting;
         std::optional<graph::TextureHandle> depth; ///< of a prepass, or of the opaque surfaces under transparent ones
         std::optional<graph::TextureHandle> radiance;      ///< the picture to draw transparent surfaces on
-        std::optional<frame::BehindHandles> behind = {};   ///< of transparent surfaces, FrameSpec::showsBehindBodies
+        std::optional<frame::BehindHandles> behind = {};   ///< of transparent surfaces, FrameSpec::showsBehindGlass
         std::optional<graph::TextureHandle> farSides = {}; ///< of those, FrameSpec::drawsFarSides
     };
     struct Outputs {

@@ -61,7 +61,7 @@ EXTENSIONS = {
     "KHR_materials_pbrSpecularGlossiness": (RIGHT, "converted"),
     "KHR_materials_sheen": (APPROXIMATE, "a sheen sees the environment as a matte surface does"),
     "KHR_materials_specular": (RIGHT, ""),
-    "KHR_materials_transmission": (APPROXIMATE, "glass casts no shadow and no caustics, sorts as whole meshes, and rough sheets blur nothing"),
+    "KHR_materials_transmission": (APPROXIMATE, "glass casts no shadow and no caustics, and sorts as whole meshes"),
     "KHR_materials_unlit": (RIGHT, ""),
     "KHR_materials_variants": (RIGHT, "the first one"),
     "KHR_materials_volume": (APPROXIMATE, "bodies show opaque surfaces as the camera sees them, and no glass behind them"),

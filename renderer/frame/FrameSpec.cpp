@@ -88,19 +88,23 @@ bool anyOpaque(const scenes::Scene& scene) {
                                [](const scenes::Material* material) { return !scenes::isTransparent(*material); });
 }
 
-/// Decides what bodies of glass show, once the features of surfaces are known.
+/// Decides what glass shows of what is behind it, once the features of surfaces are known.
 void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const FrameSettings& settings = spec.settings;
-    const bool mayBend = settings.view == DebugView::Final &&
-                         (!settings.prune || (spec.features[Feature::Transmission] && spec.features[Feature::Volume]));
+    const auto mayBe = [&](bool (*isOne)(const scenes::Material&)) {
+        return !settings.prune || std::ranges::any_of(scenes::materialsInUse(scene),
+                                                      [&](const scenes::Material* one) { return isOne(*one); });
+    };
+    const bool isLit = settings.view == DebugView::Final;
+    const bool mayBend = isLit && mayBe(scenes::hasBody);
+    const bool maySheetScatter =
+        isLit && mayBe([](const scenes::Material& one) { return !scenes::hasBody(one) && mayScatter(one); });
     const RefractionInfo& refraction = infoOf(settings.refraction);
-    spec.showsBehindBodies = mayBend && refraction.showsScene && anyOpaque(scene);
+    spec.showsBehindGlass = (mayBend || maySheetScatter) && refraction.showsScene && anyOpaque(scene);
     spec.drawsFarSides = mayBend && refraction.farSide == RefractionInfo::FarSide::BackFaces;
-    spec.blursBehindBodies =
-        spec.showsBehindBodies &&
-        (!settings.prune || std::ranges::any_of(scenes::materialsInUse(scene), [](const scenes::Material* material) {
-            return mayBlurBehind(*material);
-        }));
+    spec.blursBehindGlass = spec.showsBehindGlass && mayBe(mayScatter);
+    spec.scattersBySheets =
+        maySheetScatter && refraction.showsScene && (spec.showsBehindGlass || spec.features[Feature::Environment]);
 }
 
 /// Decides whether light may pass through rough surfaces, which the table of lobes says how much of they reflect. A
@@ -112,10 +116,11 @@ void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
         (!spec.settings.prune || spec.hook.has_value() || std::ranges::any_of(scenes::materialsInUse(scene), mayPass));
 }
 
-/// Why bodies of glass show no surfaces, where they show none.
-std::string whyNothingBehindBodies(const scenes::Scene& scene, const FrameSpec& spec) {
-    if (!spec.features[Feature::Transmission] || !spec.features[Feature::Volume])
-        return "no material that transmits has a thickness";
+/// Why glass shows no surfaces along its rays, where it shows none.
+std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& spec) {
+    const auto looksBehind = [](const scenes::Material* one) { return scenes::hasBody(*one) || mayScatter(*one); };
+    if (std::ranges::none_of(scenes::materialsInUse(scene), looksBehind))
+        return "no material that transmits has a thickness or is rough";
     if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
     if (!anyOpaque(scene)) return "every surface is transparent";
     if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
@@ -210,7 +215,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
     // Each colour's ray inside and behind a body, which goes behind something in every other step at most.
-    if (spec.showsBehindBodies || spec.drawsFarSides)
+    if (spec.showsBehindGlass || spec.drawsFarSides)
         spec.iterations += 6 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
     return spec;
 }
@@ -233,7 +238,8 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;
-    spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = spec.passesByLobes = false;
+    spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = false;
+    spec.drawsFarSides = spec.passesByLobes = false;
     const auto spreadOver = [&](int border) {
         return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                            texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
@@ -259,8 +265,9 @@ Defines frameDefines(const FrameSpec& spec) {
         defines.emplace_back("SHADOW_TAP_TEXELS", std::to_string(shadowTapTexels(spec.settings)));
         defines.emplace_back("SHADOW_WIDTH", std::to_string(spec.settings.shadowMaps.widthTexels));
     }
-    defines.emplace_back("HAS_SCENE_BEHIND", spec.showsBehindBodies ? "1" : "0");
-    defines.emplace_back("HAS_BLURRED_SCENE_BEHIND", spec.blursBehindBodies ? "1" : "0");
+    defines.emplace_back("HAS_SCENE_BEHIND", spec.showsBehindGlass ? "1" : "0");
+    defines.emplace_back("HAS_BLURRED_SCENE_BEHIND", spec.blursBehindGlass ? "1" : "0");
+    defines.emplace_back("HAS_SCATTERING_SHEETS", spec.scattersBySheets ? "1" : "0");
     defines.emplace_back("HAS_PASSING_LOBES", spec.passesByLobes ? "1" : "0");
     const bool areParallel = infoOf(spec.settings.refraction).farSide == RefractionInfo::FarSide::Parallel;
     defines.emplace_back("HAS_PARALLEL_SIDES", areParallel ? "1" : "0");
@@ -442,7 +449,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                        {}});
     }
     if (spec.seenLights == 0) out.push_back({"surfaces of area lights", whyNoSeenLights(scene, spec.settings), 0, {}});
-    if (!spec.showsBehindBodies) out.push_back({"surfaces behind glass", whyNothingBehindBodies(scene, spec), 0, {}});
+    if (!spec.showsBehindGlass) out.push_back({"surfaces behind glass", whyNothingBehindGlass(scene, spec), 0, {}});
     addLights(out, lights.features, lights.off, "off, or not the solo light");
     addLights(out, lights.features, lights.dark, "no intensity, range, cone or surface");
     addLights(out, lights.features, lights.unseen, "their range ends outside the view");

@@ -39,8 +39,9 @@ struct FrameSpec {
     std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
     bool showsLightPictures = false;                 ///< some of them have one
     std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
-    bool showsBehindBodies = false;                  ///< bodies of glass show opaque surfaces along rays that they bend
-    bool blursBehindBodies = false;                  ///< and some of them spread those rays
+    bool showsBehindGlass = false;                   ///< bodies and rough sheets show opaque surfaces along their rays
+    bool blursBehindGlass = false;                   ///< and some of them spread those rays
+    bool scattersBySheets = false;                   ///< sheets spread light from opaque surfaces or the environment
     bool drawsFarSides = false;                      ///< of bodies, where rays leave them
     bool passesByLobes = false;                      ///< some surface that transmits may be rough: LobeTable.h
 

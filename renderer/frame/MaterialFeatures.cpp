@@ -62,7 +62,7 @@ bool mayMirror(const scenes::Material& material) {
         (double(material.alphaY) < kSharpAlpha || isTextured(TextureSlot::Anisotropy)))
         return true;
     const float roughness = material.*model.roughness;
-    if (scenes::hasBody(material) &&
+    if (scenes::isTransmissive(material) &&
         (isTextured(TextureSlot::Ior) || squared(roughness) * passingScale(material.ior) < kSharpAlpha))
         return true;
     switch (model.microsurface) {
@@ -133,8 +133,8 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
 
 } // namespace
 
-bool mayBlurBehind(const scenes::Material& material) {
-    if (!scenes::hasBody(material)) return false;
+bool mayScatter(const scenes::Material& material) {
+    if (!scenes::isTransmissive(material)) return false;
     const auto isTextured = [&](scenes::TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
     if (isTextured(scenes::TextureSlot::MetallicRoughness) || isTextured(scenes::TextureSlot::Ior)) return true;
     const auto roughness = double(material.perceptualRoughness);

@@ -7,8 +7,8 @@ namespace tessera::frame {
 /// Whether its model has options of masking.
 bool canMask(const scenes::Material& material);
 
-/// Whether the material has a body that may spread the light on its way through, so that what is behind is blurred.
-bool mayBlurBehind(const scenes::Material& material);
+/// Whether the material may spread light that passes through it, so that what is behind is blurred.
+bool mayScatter(const scenes::Material& material);
 
 /// Whether light passes through the material and its lobe may be broader than a mirror.
 bool mayPassByLobe(const scenes::Material& material);

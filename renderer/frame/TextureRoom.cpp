@@ -51,9 +51,9 @@ std::size_t sampledBeside(const FrameSpec& spec) {
     add(spec.usesLobeTable());             // TEXTURE_UNIT_LOBES
     add(spec.usesLobeShapes());            // TEXTURE_UNIT_LOBE_SHAPES
     add(features[Feature::LightPictures]); // TEXTURE_UNIT_LIGHT_PICTURES
-    add(spec.showsBehindBodies);           // TEXTURE_UNIT_BEHIND
-    add(spec.showsBehindBodies);           // TEXTURE_UNIT_BEHIND_DEPTH
-    add(spec.blursBehindBodies);           // TEXTURE_UNIT_BEHIND_LEVELS
+    add(spec.showsBehindGlass);            // TEXTURE_UNIT_BEHIND
+    add(spec.showsBehindGlass);            // TEXTURE_UNIT_BEHIND_DEPTH
+    add(spec.blursBehindGlass);            // TEXTURE_UNIT_BEHIND_LEVELS
     add(spec.drawsFarSides);               // TEXTURE_UNIT_FAR_SIDES
     return sampled;
 }
@@ -75,7 +75,7 @@ std::size_t sampledTextures(const FrameSpec& spec) {
 void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
     for (const bool read : {false, true}) {
         if (read && sampledTextures(spec) > std::size_t(spec.settings.texturesAStage))
-            spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = false;
+            spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = spec.drawsFarSides = false;
         for (const scenes::TextureSlotInfo& info : std::views::reverse(scenes::kTextureSlots)) {
             // Without a normal map other features would have to go too.
             const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;

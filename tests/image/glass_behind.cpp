@@ -104,6 +104,16 @@ TEST_F(GlassBehind, raysThatMeetNothingShowTheEnvironment) {
         }
 }
 
+/// They blend what lies straight behind them, as smooth ones do.
+TEST_F(GlassBehind, roughSheetsScatterNothingWhereGlassShowsTheEnvironmentAlone) {
+    scenes::Material rough = bareGlass(1.5, 0.3);
+    rough.thicknessMetres = 0.0f;
+    const Scene covered = coveredByGlass(checkedWall(), rough);
+    const std::vector<float> plain = drawn(checkedWall(), seeing(Refraction::Environment));
+    EXPECT_EQ(drawn(covered, seeing(Refraction::Environment)), plain);
+    EXPECT_NE(drawn(covered, seeing(Refraction::OneSide)), plain);
+}
+
 TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     const auto planOf = [](const Scene& scene, Refraction refraction = Refraction::OneSide) {
         frame::FrameSettings settings;
@@ -122,6 +132,14 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     EXPECT_THAT(planOf(covered), Not(HasSubstr("behind_glass_levels"))) << "smooth";
     EXPECT_TRUE(hasDefine(covered, "HAS_SCENE_BEHIND"));
     EXPECT_FALSE(hasDefine(covered, "HAS_BLURRED_SCENE_BEHIND"));
+    EXPECT_FALSE(hasDefine(covered, "HAS_SCATTERING_SHEETS"));
+    scenes::Material rough = clearGlass();
+    rough.perceptualRoughness = 0.3f;
+    const Scene frosted = coveredByGlass(checkedWall(), rough);
+    EXPECT_THAT(planOf(frosted), HasSubstr("behind_glass_levels"));
+    EXPECT_TRUE(hasDefine(frosted, "HAS_SCATTERING_SHEETS"));
+    EXPECT_FALSE(hasDefine(frosted, "HAS_VOLUME"));
+    EXPECT_THAT(planOf(frosted, Refraction::Environment), Not(HasSubstr("behind_glass")));
     EXPECT_THAT(planOf(coveredByGlass(checkedWall(), bareGlass(1.5, 0.3))), HasSubstr("behind_glass_levels"));
     EXPECT_THAT(planOf(covered, Refraction::Environment), Not(HasSubstr("behind_glass")));
     EXPECT_THAT(planOf(covered), Not(HasSubstr("far_sides")));

@@ -274,5 +274,40 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
     EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
 }
 
+/// Seen straight on, a body bends nothing: to the last bits, in the reference too. At a slant it does, and a sheet does
+/// not: before colours that change evenly its blur shows those straight behind.
+TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsABodyDoesAndBendsNone) {
+    Material body = bareGlass(1.5, 0.3), sheet = body;
+    sheet.thicknessMetres = 0.0f;
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const Scene wall = checkedWall(), covered = coveredByGlass(wall, sheet);
+    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+    const std::vector<float> throughBody = drawn(coveredByGlass(wall, body), settings);
+    const auto truthOf = [&](const Scene& scene) {
+        return validation::referencePicture(
+                   scene, settings, [] {}, validation::Leeway::None)
+            .picture.rgba;
+    };
+    const std::vector<float> truth = truthOf(covered), bodyTruth = truthOf(coveredByGlass(wall, body));
+    double blurred = 0.0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        ASSERT_NEAR(shown[i], throughBody[i], 1e-5f) << i;
+        ASSERT_NEAR(truth[i], bodyTruth[i], 1e-5f) << i;
+        blurred += double(std::abs(shown[i] - plain[i])) / double(shown.size());
+    }
+    EXPECT_GT(blurred, 0.05);
+
+    const Scene ramp = rampWall();
+    const std::vector<float> even = drawn(ramp, settings);
+    const std::vector<float> slanted = drawn(coveredByGlass(ramp, sheet, kBehindTiltRadians), settings);
+    const std::vector<float> bent = drawn(coveredByGlass(ramp, body, kBehindTiltRadians), settings);
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = kBehindPixels / 4; x < 3 * kBehindPixels / 4; ++x) // the blur ends where the picture does
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_NEAR(at(slanted, x, y)[c], at(even, x, y)[c], 2e-3) << "at " << x << ", " << y;
+                if (c != 1) ASSERT_GT(std::abs(at(bent, x, y)[c] - at(even, x, y)[c]), 0.02) << "at " << x << ", " << y;
+            }
+}
+
 } // namespace
 } // namespace tessera

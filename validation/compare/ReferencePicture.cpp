@@ -213,9 +213,12 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         return std::ranges::any_of(used, [&](const scenes::Material* material) { return isOne(*material); });
     };
     const auto isOpaque = [](const scenes::Material& material) { return !scenes::isTransparent(material); };
-    if (infoOf(settings.refraction).showsScene && isAny(scenes::hasBody) && isAny(isOpaque)) {
-        tolerance.reason = "bodies of glass show what the picture holds of the surfaces behind them: the error is "
-                           "reported, and held to nothing";
+    const auto looksBehind = [](const scenes::Material& material) {
+        return scenes::hasBody(material) || frame::mayScatter(material);
+    };
+    if (infoOf(settings.refraction).showsScene && isAny(looksBehind) && isAny(isOpaque)) {
+        tolerance.reason = "bodies and rough sheets of glass show what the picture holds of the surfaces behind them: "
+                           "the error is reported, and held to nothing";
         return tolerance;
     }
     if (scenes::anySpreads(scene, settings.subsurface)) {

@@ -120,13 +120,14 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
     return lit;
 }
 
-/// What shows through: by a body what it bends rays to, where that is asked for or an environment lights, else what
-/// lies straight behind.
+/// What shows through: by a body what it bends rays to, and by a rough sheet what is around the viewer's ray, where
+/// that is asked for or an environment lights; else what lies straight behind.
 void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                          SurfaceMemo& memo, Lit& lit) const {
     const glm::dvec3 share = transmitted(point, toViewer);
     const bool showsScene = settings_.bodiesShowScene && !sight_.objects().opaque().empty();
-    if (!point.hasBody || (!showsScene && !surroundings_.showsThroughBodies())) {
+    const bool looksBehind = point.hasBody || (settings_.bodiesShowScene && point.passingAlpha > kSmallestAlpha);
+    if (!looksBehind || (!showsScene && !surroundings_.showsThroughBodies())) {
         lit.passed = share * leftByBody(point, glm::dvec3(point.bodyMetres));
         return;
     }
@@ -143,6 +144,11 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const 
         const Seen seen = sight_.ahead(inside);
         return (seen.opaque && seen.opaque->depthMetres <= metres) || (seen.light && seen.light->depthMetres <= metres);
     };
+    const auto around = [&](const glm::dvec3& originRWS, const glm::dvec3& direction) {
+        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
+        return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
+    };
+    if (!point.hasBody) return {around(ray.at(depthMetres), -toViewer), {}};
     const auto along = [&](double ior, std::optional<double>& wayMetres) {
         const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
         if (!bent) return glm::dvec3(0.0);
@@ -166,8 +172,7 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const 
                 direction = leavingDirection(*bent, normalAt(*leaving, sight_.textures()), ior);
             }
         }
-        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
-        return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
+        return around(originRWS, direction);
     };
     const glm::dvec3 iors = iorsOf(point);
     BodyLight found;

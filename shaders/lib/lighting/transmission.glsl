@@ -6,7 +6,7 @@
 #if HAS_PASSING_LOBES
 #include "lib/reflectance/lobes.glsl"
 #endif
-#if HAS_VOLUME && (HAS_SCENE_BEHIND || HAS_BACK_FACES)
+#if (HAS_VOLUME || HAS_SCATTERING_SHEETS) && (HAS_SCENE_BEHIND || HAS_BACK_FACES)
 #include "lib/lighting/scene_behind.glsl"
 #endif
 #if HAS_ENVIRONMENT && ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
@@ -43,8 +43,65 @@ vec3 passedShare(SeenSurface seen)
     return share;
 }
 
-// Whether bodies show anything but what lies straight behind them.
+// Whether bodies show anything but what lies straight behind them. Sheets do where they scatter, of what lies there.
 #define BODIES_BEND (HAS_VOLUME && (HAS_ENVIRONMENT || HAS_SCENE_BEHIND))
+
+#if BODIES_BEND || HAS_SCATTERING_SHEETS
+#if HAS_ENVIRONMENT
+// The environment around a direction, as its filtered map averages it: by a GGX lobe seen from its own axis, weighted by
+// the cosine.
+vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
+{
+#if ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
+    if (alpha <= ALPHA_MIN) return mapRadiance(mapDirection(direction)).rgb;
+    uvec3 random = hashOf(uvec3(uvec2(pixel), 0x85ebca6bu));
+    vec3 tangent = anyPerpendicular(direction);
+    precise vec3 sum = vec3(0.0);
+    precise float weights = 0.0;
+    for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
+        vec3 toLight = visibleReflection(evenPoint(random.xy, k), vec2(alpha), direction, direction, tangent);
+        precise float weight = max(dot(toLight, direction), 0.0);
+        sum += weight * mapRadiance(mapDirection(toLight)).rgb;
+        weights += weight;
+    }
+    precise vec3 mean = sum / max(weights, 1e-6);
+    return mean;
+#else
+    return filteredLight(direction, direction, alpha);
+#endif
+}
+#endif
+
+// Where a ray goes on behind the surface, and along which direction.
+struct BentRay {
+    vec3 originLS;
+    vec3 directionLS;   // unit
+    float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
+};
+
+// What a ray shows, of which `kept` comes through, by channel: surfaces that the picture holds, and beyond them the
+// environment, or the background where none lights the scene. Light spreads around the ray by a GGX lobe of `alpha`.
+vec3 lightAlong(BentRay ray, vec3 kept, float alpha, Viewpoint viewpoint, vec2 pixel)
+{
+#if HAS_SCENE_BEHIND
+    vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, alpha);
+    precise vec3 shown = kept * met.rgb;
+    if (met.a >= 1.0) return shown;
+    precise float rest = 1.0 - met.a;
+#endif
+#if HAS_ENVIRONMENT
+    precise vec3 around = kept * surroundingsAlong(ray.directionLS, alpha, pixel) * environment.light.x;
+#else
+    precise vec3 around = kept * view.background.rgb;
+#endif
+#if HAS_SCENE_BEHIND
+    precise vec3 both = shown + rest * around;
+    return both;
+#else
+    return around;
+#endif
+}
+#endif
 
 #if BODIES_BEND
 // Along which the light came that leaves towards the viewer, bent once, by Snell's law; 0 where the surface lets none
@@ -73,38 +130,6 @@ vec3 iorByChannel(float ior)
     return vec3(red, ior, blue);
 }
 #endif
-
-#if HAS_ENVIRONMENT
-// The environment around a direction, as its filtered map averages it: by a GGX lobe seen from its own axis, weighted by
-// the cosine.
-vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
-{
-#if ENVIRONMENT_LIGHT == ENVIRONMENT_SAMPLED
-    if (alpha <= ALPHA_MIN) return mapRadiance(mapDirection(direction)).rgb;
-    uvec3 random = hashOf(uvec3(uvec2(pixel), 0x85ebca6bu));
-    vec3 tangent = anyPerpendicular(direction);
-    precise vec3 sum = vec3(0.0);
-    precise float weights = 0.0;
-    for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
-        vec3 toLight = visibleReflection(evenPoint(random.xy, k), vec2(alpha), direction, direction, tangent);
-        precise float weight = max(dot(toLight, direction), 0.0);
-        sum += weight * mapRadiance(mapDirection(toLight)).rgb;
-        weights += weight;
-    }
-    precise vec3 mean = sum / max(weights, 1e-6);
-    return mean;
-#else
-    return filteredLight(direction, direction, alpha);
-#endif
-}
-#endif
-
-// Where a ray that was bent at the surface goes on, and along which direction.
-struct BentRay {
-    vec3 originLS;
-    vec3 directionLS;   // unit
-    float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
-};
 
 #if HAS_BACK_FACES
 // The normal of a far side where a ray meets it, interpolated between pixels that show any.
@@ -166,9 +191,8 @@ BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float io
 #endif
 }
 
-// What a body shows of light that it bends by an index of refraction, of which its surface keeps `share`, by channel:
-// surfaces that the picture holds, and beyond them the environment, or the background where none lights the scene. Black
-// where all is reflected.
+// What a body shows of light that it bends by an index of refraction, of which its surface keeps `share`, by channel.
+// Black where all is reflected.
 vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float ior, vec2 pixel)
 {
     vec3 bent = refractedDirection(surface.normalLS, viewpoint.toViewerLS, ior);
@@ -179,23 +203,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     if (ray.insideMetres >= 0.0) left = leftByBody(ray.insideMetres / material.transmission.z);
 #endif
     precise vec3 kept = share * left;
-#if HAS_SCENE_BEHIND
-    vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, surface.passingAlpha);
-    precise vec3 shown = kept * met.rgb;
-    if (met.a >= 1.0) return shown;
-    precise float rest = 1.0 - met.a;
-#endif
-#if HAS_ENVIRONMENT
-    precise vec3 around = kept * surroundingsAlong(ray.directionLS, surface.passingAlpha, pixel) * environment.light.x;
-#else
-    precise vec3 around = kept * view.background.rgb;
-#endif
-#if HAS_SCENE_BEHIND
-    precise vec3 both = shown + rest * around;
-    return both;
-#else
-    return around;
-#endif
+    return lightAlong(ray, kept, surface.passingAlpha, viewpoint, pixel);
 }
 
 // The same of a body whose colours may bend apart. One loop, so that a program holds the way of a ray once.
@@ -233,5 +241,11 @@ ThroughSurface lightThrough(Surface surface, Viewpoint viewpoint, vec2 pixel)
         return ThroughSurface(lightThroughBody(surface, viewpoint, share, pixel), vec3(0.0));
 #endif
     precise vec3 kept = share * surface.leftByBody;
+#if HAS_SCATTERING_SHEETS
+    if (surface.passingAlpha > ALPHA_MIN) {
+        BentRay straight = BentRay(viewpoint.positionLS, -viewpoint.toViewerLS, -1.0);
+        return ThroughSurface(lightAlong(straight, kept, surface.passingAlpha, viewpoint, pixel), vec3(0.0));
+    }
+#endif
     return ThroughSurface(vec3(0.0), kept);
 }

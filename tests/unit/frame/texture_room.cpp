@@ -57,11 +57,11 @@ TEST(TextureRoom, thenTheLeastImportantOnesAreLeftOutAndNamed) {
 TEST(TextureRoom, whatBodiesOfGlassShowIsLeftOutBeforeATextureThatAMaterialReads) {
     for (const int room : {TEXTURE_UNITS_A_STAGE, TEXTURE_UNITS_A_STAGE - 4}) {
         FrameSpec spec = specOn(room);
-        spec.showsBehindBodies = spec.blursBehindBodies = spec.drawsFarSides = true;
+        spec.showsBehindGlass = spec.blursBehindGlass = spec.drawsFarSides = true;
         EXPECT_EQ(sampledTextures(spec), std::size_t(TEXTURE_SLOT_COUNT + 3 + 2 + 2 + 1 + 4));
         if (sampledTextures(spec) > std::size_t(room)) leaveOutTextures(spec, allFeatures());
-        EXPECT_EQ(spec.showsBehindBodies, room == TEXTURE_UNITS_A_STAGE);
-        EXPECT_EQ(spec.blursBehindBodies, room == TEXTURE_UNITS_A_STAGE);
+        EXPECT_EQ(spec.showsBehindGlass, room == TEXTURE_UNITS_A_STAGE);
+        EXPECT_EQ(spec.blursBehindGlass, room == TEXTURE_UNITS_A_STAGE);
         EXPECT_EQ(spec.drawsFarSides, room == TEXTURE_UNITS_A_STAGE);
         EXPECT_EQ(spec.features, allFeatures());
     }
