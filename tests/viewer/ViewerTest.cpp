@@ -1,6 +1,8 @@
 #include "tests/viewer/ViewerTest.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -28,6 +30,14 @@ void chooseEntry(const DrivenViewer& viewer, glm::ivec2 box, int pixels) {
 
 } // namespace
 
+glm::ivec2 ViewerTest::screenPixels() {
+    const char* const wish = std::getenv("TESSERA_TEST_SCREEN");
+    glm::ivec2 size(1280, 800);
+    if (wish != nullptr && std::sscanf(wish, "%dx%d", &size.x, &size.y) != 2)
+        throw std::runtime_error(fmt::format("TESSERA_TEST_SCREEN is '{}'; give WIDTHxHEIGHT", wish));
+    return size;
+}
+
 int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
     // Bars reach further to the left than anything else in the panels.
     constexpr int kColumn = 6, kLeastHeight = 12;
@@ -48,7 +58,7 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
 
 void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
     viewer.click({200, barOf(viewer, section)});
-    viewer.moveTo(kMiddle); // where nothing lights up
+    viewer.moveTo(middlePixel()); // where nothing lights up
     viewer.pause(0.5);
 }
 
@@ -60,13 +70,13 @@ void ViewerTest::addLight(const DrivenViewer& viewer) {
 void ViewerTest::chooseScene(const DrivenViewer& viewer, std::string_view builtin) {
     const auto index = std::find(std::begin(kBuiltin), std::end(kBuiltin), builtin) - std::begin(kBuiltin);
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + int(index) * kEntryPixels);
-    viewer.moveTo(kMiddle); // where no box explains what it points at
+    viewer.moveTo(middlePixel()); // where no box explains what it points at
 }
 
 void ViewerTest::chooseRecentScene(const DrivenViewer& viewer, int index) {
     const int entry = int(std::size(kBuiltin)) + index;
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + entry * kEntryPixels + kLinePixels);
-    viewer.moveTo(kMiddle);
+    viewer.moveTo(middlePixel());
 }
 
 std::string ViewerTest::shell(const std::string& script) const {

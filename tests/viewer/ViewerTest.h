@@ -11,9 +11,9 @@
 
 namespace tessera::test {
 
-/// A viewer in a window that fills a screen of 1280 x 800 pixels, and the program beside it to compare with. Nothing
-/// here calls the viewer's code: it is driven by X11 events, and judged by the screen, its saved files and its event
-/// log.
+/// A viewer in a window that fills a screen of 1280 x 800 pixels, or of those that TESSERA_TEST_SCREEN says, and the
+/// program beside it to compare with. Nothing here calls the viewer's code: it is driven by X11 events, and judged by
+/// the screen, its saved files and its event log.
 class ViewerTest : public testing::Test {
 protected:
     /// Of the panels, from the top, of a scene in which nothing moves.
@@ -34,17 +34,25 @@ protected:
         Graph
     };
 
-    static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(glm::ivec2(1280, 800)); }
+    static void SetUpTestSuite() { desktop_ = std::make_unique<Desktop>(screenPixels()); }
     static void TearDownTestSuite() { desktop_.reset(); }
 
     /// The pointer begins where nothing explains what it points at: over the picture, before a viewer is there.
-    void SetUp() override { desktop_->xdotool({"mousemove", std::to_string(kMiddle.x), std::to_string(kMiddle.y)}); }
+    void SetUp() override {
+        desktop_->xdotool({"mousemove", std::to_string(middlePixel().x), std::to_string(middlePixel().y)});
+    }
 
     /// Width of the panels at the left; the picture begins there.
     static constexpr int kPanelPixels = 300;
     static constexpr glm::ivec2 kPictureCorner{kPanelPixels, 0};
+    static glm::ivec2 screenPixels();
     /// A place in the picture.
-    static constexpr glm::ivec2 kMiddle{kPanelPixels + 490, 390};
+    static glm::ivec2 middlePixel() { return {(kPanelPixels + screenPixels().x) / 2, screenPixels().y / 2 - 10}; }
+
+    /// Where a picture of `spheres` shows the one of metalness 0/4 and roughness 4/10.
+    static glm::ivec2 sphereIn(glm::ivec2 sizePixels) {
+        return kPictureCorner + sizePixels / 2 + glm::ivec2(-70, 60) * sizePixels.y / 800;
+    }
 
     DrivenViewer open(std::vector<std::string> arguments, const std::map<std::string, std::string>& environment = {}) {
         return DrivenViewer(*desktop_, folder_.path(), arguments, environment);

@@ -9,25 +9,25 @@ using ViewerCameras = ViewerTest;
 TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
     DrivenViewer viewer = open({"spheres"});
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
-    const glm::ivec2 there = kMiddle + glm::ivec2(150, 60);
+    const glm::ivec2 there = middlePixel() + glm::ivec2(150, 60);
     const auto expectMoved = [&](const char* what, const Shot& shot) {
         SCOPED_TRACE(what);
         EXPECT_GT(differingShare(shot, home, 4), 0.2);
         EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
     };
-    expectMoved("rotate", after(viewer, [&] { viewer.drag(kMiddle, there); }));
-    expectMoved("rotate with Shift", after(viewer, [&] { viewer.drag(kMiddle, there, "shift"); }));
-    expectMoved("pan", after(viewer, [&] { viewer.drag(kMiddle, there, "alt"); }));
-    expectMoved("zoom", after(viewer, [&] { viewer.drag(kMiddle, there, "ctrl"); }));
+    expectMoved("rotate", after(viewer, [&] { viewer.drag(middlePixel(), there); }));
+    expectMoved("rotate with Shift", after(viewer, [&] { viewer.drag(middlePixel(), there, "shift"); }));
+    expectMoved("pan", after(viewer, [&] { viewer.drag(middlePixel(), there, "alt"); }));
+    expectMoved("zoom", after(viewer, [&] { viewer.drag(middlePixel(), there, "ctrl"); }));
     expectMoved("wheel", after(viewer, [&] {
-                    viewer.moveTo(kMiddle);
+                    viewer.moveTo(middlePixel());
                     viewer.wheel(4);
                 }));
     expectMoved("fly", after(viewer, [&] {
                     viewer.key("c");
                     viewer.hold("w", 0.5);
                 }));
-    expectMoved("look around", after(viewer, [&] { viewer.drag(kMiddle, there); }));
+    expectMoved("look around", after(viewer, [&] { viewer.drag(middlePixel(), there); }));
     expectMoved("frame", after(viewer, [&] {
                     viewer.key("c");
                     viewer.key("f");
@@ -38,7 +38,7 @@ TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIn
     DrivenViewer viewer = open({"spheres"});
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     for (const Section above : {Section::View, Section::Scene}) toggle(viewer, above); // the material's stays in view
-    const glm::ivec2 sphere(720, 460);                                                 // as in the test of edits
+    const glm::ivec2 sphere = sphereIn(home.sizePixels);
     std::size_t mark = viewer.mark();
     const Shot turned = after(viewer, [&] { viewer.doubleClick(sphere); });
     viewer.waitFor("turns about a surface", mark);

@@ -106,7 +106,7 @@ TEST_F(ViewerEdits, severalLightsAreSelectedInTheListAndDeletedAtOnce) {
         return glm::ivec2(120, barOf(viewer, Section::Lights) + kFirstSwitchPixels + light * kSwitchPixels);
     };
     viewer.click(nameOf(0));
-    viewer.moveTo(kMiddle);
+    viewer.moveTo(middlePixel());
     viewer.pause(0.5);
     EXPECT_GT(differingShare(pictureIn(viewer, lit.sizePixels), lit), 0.001) << "its range is not drawn";
     viewer.click(nameOf(1), "shift");
@@ -160,7 +160,7 @@ TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {
     viewer.key("F12");
     viewer.click(view); // while the picture is drawn and written
     viewer.waitFor("saved ", mark);
-    viewer.moveTo(kMiddle);
+    viewer.moveTo(middlePixel());
     viewer.pause(1.0);
     EXPECT_LT(barOf(viewer, Section::Environment), below) << "the section above was not closed";
 }
@@ -241,7 +241,7 @@ protected:
     }
     nlohmann::json savedLight(const DrivenViewer& viewer) { return readJson(saveScene(viewer)).at("lights").at(0); }
     static void undoOnce(const DrivenViewer& viewer) {
-        viewer.moveTo(kMiddle);
+        viewer.moveTo(middlePixel());
         viewer.key("ctrl+z");
         viewer.pause(0.5);
     }
@@ -298,7 +298,7 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     makeRoom(viewer);
     std::size_t mark = viewer.mark();
-    viewer.click({720, 460}); // which opens the panel of materials
+    viewer.click(sphereIn(before.sizePixels)); // which opens the panel of materials
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
     viewer.pause(0.5);
     constexpr int kMetallicRow = 4;
@@ -327,11 +327,11 @@ TEST_F(ViewerEdits, aSwatchShowsTheColourThatThePictureShows) {
         "cameras": [{"name": "front", "position": [0, 0, 2], "target": [0, 0, 0], "fovYDegrees": 30}]})");
     DrivenViewer viewer = open({"card.json"});
     viewer.waitForWhole(0);
-    const glm::ivec3 shown = viewer.capture().at(kMiddle);
+    const glm::ivec3 shown = viewer.capture().at(middlePixel());
     EXPECT_EQ(shown, glm::ivec3(170, 89, 149)) << "sRGB of its linear values";
     makeRoom(viewer);
     const std::size_t mark = viewer.mark();
-    viewer.click(kMiddle);
+    viewer.click(middlePixel());
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
     viewer.pause(0.5);
     constexpr int kColourRow = 3, kSwatchX = 280;
@@ -368,7 +368,8 @@ TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
     viewer.pause(0.5);
     EXPECT_TRUE(pictureIn(viewer, room.sizePixels) == room);
     // It goes on: the camera still moves.
-    EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(kMiddle, kMiddle + glm::ivec2(150, 60)); }), room, 4),
+    EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(middlePixel(), middlePixel() + glm::ivec2(150, 60)); }),
+                             room, 4),
               0.2);
 }
 

@@ -67,7 +67,8 @@ TEST_F(ViewerFiles, escapeLeavesTheDialogAndNothingIsDoneByLettersTypedIntoIt) {
     viewer.key("Escape");
     viewer.pause(0.7);
     EXPECT_TRUE(pictureIn(viewer, room.sizePixels) == room);
-    EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(kMiddle, kMiddle + glm::ivec2(150, 60)); }), room, 4),
+    EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(middlePixel(), middlePixel() + glm::ivec2(150, 60)); }),
+                             room, 4),
               0.1);
     viewer.key("ctrl+q");
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();

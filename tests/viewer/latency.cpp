@@ -61,11 +61,11 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAnsweredWithinATenthOfASecond) {
     viewer.waitForWhole(0);
     QuickPointer pointer(*desktop_, folder_.path());
     const auto press = [&](bool down) { desktop_->xdotool({down ? "mousedown" : "mouseup", "1"}); };
-    const auto place = [](int i) { return kMiddle + glm::ivec2(20 + 7 * (i % 9), 10 + 5 * (i % 7)); };
+    const auto place = [](int i) { return middlePixel() + glm::ivec2(20 + 7 * (i % 9), 10 + 5 * (i % 7)); };
 
     std::vector<double> first, during, interrupted;
     for (int i = 0; i < 12; ++i) {
-        viewer.moveTo(kMiddle);
+        viewer.moveTo(middlePixel());
         press(true);
         const std::size_t mark = viewer.mark();
         // The very first also measures this scene's cost.
@@ -84,7 +84,7 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAnsweredWithinATenthOfASecond) {
     }
     report("a key after a rest", keys);
 
-    viewer.moveTo(kMiddle);
+    viewer.moveTo(middlePixel());
     press(true);
     for (int i = 0; i < 60; ++i) during.push_back(answerMs(viewer, pointer, place(i)));
     press(false);
@@ -92,7 +92,7 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAnsweredWithinATenthOfASecond) {
 
     // The picture is drawn whole 150 ms after the latest move; that takes longer than 100 ms.
     for (int i = 0; i < 12; ++i) {
-        viewer.moveTo(kMiddle);
+        viewer.moveTo(middlePixel());
         press(true);
         const std::size_t mark = viewer.mark();
         desktop_->xdotool({"key", "bracketright"});

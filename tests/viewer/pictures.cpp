@@ -32,7 +32,7 @@ void ViewerPictures::expectThePictureOfRender() {
     if (isWholeSweep()) words = {"hall", "--lights", "256", "--technique", "clustered_deferred"};
     DrivenViewer viewer = open(words);
     const glm::ivec2 size = viewer.waitForWhole(0);
-    EXPECT_EQ(size.x, 1280 - kPanelPixels);
+    EXPECT_EQ(size.x, screenPixels().x - kPanelPixels);
     const Shot shown = pictureIn(viewer, size);
     EXPECT_TRUE(shown == rendered(fmt::format("{}", fmt::join(words, " ")), size));
     // Neither empty nor one colour.
@@ -83,7 +83,7 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
     DrivenViewer viewer = open({"spheres"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
-    const glm::ivec2 place(720, 460), pixel = place - kPictureCorner; // on a sphere, as in the test of edits
+    const glm::ivec2 place = sphereIn(size), pixel = place - kPictureCorner;
     viewer.moveTo(place);
     std::size_t mark = viewer.mark();
     viewer.key("i");
@@ -112,7 +112,7 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     DrivenViewer viewer = open({"models"});
     viewer.waitForWhole(0);
     std::size_t mark = viewer.mark();
-    viewer.drag(kMiddle, kMiddle + glm::ivec2(120, 40));
+    viewer.drag(middlePixel(), middlePixel() + glm::ivec2(120, 40));
     viewer.key("bracketright"); // exposure
     viewer.waitForWhole(mark);
     mark = viewer.mark();
@@ -146,7 +146,7 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     viewer.waitFor("spread light everywhere", 0);
     // To another side: nothing is left to be spread.
     std::size_t mark = viewer.mark();
-    viewer.drag(kMiddle, kMiddle + glm::ivec2(300, 20));
+    viewer.drag(middlePixel(), middlePixel() + glm::ivec2(300, 20));
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(mark));
     const std::vector<std::string> lines = viewer.lines();
     for (std::size_t i = mark; i < lines.size(); ++i) EXPECT_FALSE(lines[i].starts_with("spread light")) << lines[i];

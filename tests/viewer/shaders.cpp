@@ -89,7 +89,7 @@ TEST_F(ViewerHooks, anEditedHookIsReadWhileNothingElseHappensAndTheOutlineFollow
     DrivenViewer viewer = open({"card.json"});
     const glm::ivec2 size = viewer.waitForWhole(0), upper(size.x, size.y / 2); // the lower part has the message
     std::size_t mark = viewer.mark();
-    viewer.click(kMiddle);
+    viewer.click(middlePixel());
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");
     viewer.waitFor("outlined paint", mark);
     viewer.pause(1.0);

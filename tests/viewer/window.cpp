@@ -14,7 +14,7 @@ TEST_F(ViewerWindow, anySizeDownToOnePixelSurvivesAndComesBackWhole) {
         viewer.pause(0.4);
     }
     const std::size_t mark = viewer.mark();
-    viewer.resize({1280, 800});
+    viewer.resize(screenPixels());
     EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == first);
     viewer.minimise();
     viewer.pause(0.5);
@@ -38,16 +38,16 @@ TEST_F(ViewerWindow, closingDuringALoadIsClean) {
 TEST_F(ViewerWindow, settingsAreRememberedFromRunToRun) {
     {
         DrivenViewer viewer = open({"room"});
-        EXPECT_EQ(viewer.waitForWhole(0).x, 1280 - kPanelPixels);
+        EXPECT_EQ(viewer.waitForWhole(0).x, screenPixels().x - kPanelPixels);
         const std::size_t mark = viewer.mark();
         viewer.key("Tab"); // hides the panels
         viewer.key("t");
-        EXPECT_EQ(viewer.waitForWhole(mark).x, 1280);
+        EXPECT_EQ(viewer.waitForWhole(mark).x, screenPixels().x);
         viewer.key("ctrl+q");
         EXPECT_EQ(viewer.wait(), 0);
     }
     DrivenViewer viewer = open({"room"});
-    EXPECT_EQ(viewer.waitForWhole(0).x, 1280);
+    EXPECT_EQ(viewer.waitForWhole(0).x, screenPixels().x);
     EXPECT_NE(viewer.waitFor("drawn", 0).find("technique clustered_forward"), std::string::npos);
 }
 
@@ -60,12 +60,12 @@ TEST_F(ViewerWindow, panelsAreAsWideAndAsFoldedAsTheyWereLeft) {
         lights = barOf(viewer, Section::Lights);
         const std::size_t mark = viewer.mark();
         viewer.drag({kPanelPixels + 1, 300}, {kPanelPixels + 101, 300});
-        EXPECT_EQ(viewer.waitForWhole(mark).x, 1280 - kPanelPixels - 101);
+        EXPECT_EQ(viewer.waitForWhole(mark).x, screenPixels().x - kPanelPixels - 101);
         viewer.key("ctrl+q");
         EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
     }
     DrivenViewer viewer = open({"room"});
-    EXPECT_EQ(viewer.waitForWhole(0).x, 1280 - kPanelPixels - 101);
+    EXPECT_EQ(viewer.waitForWhole(0).x, screenPixels().x - kPanelPixels - 101);
     EXPECT_EQ(barOf(viewer, Section::Lights), lights);
 }
 
@@ -76,7 +76,9 @@ TEST_F(ViewerWindow, theReasonOfAFailedLoadIsShown) {
     EXPECT_NE(said.find("broken.json"), std::string::npos) << said;
     viewer.pause(1.0);
     // The reason stands in the window, and the viewer goes on.
-    const auto lowerPart = [&] { return viewer.capture().part({kPanelPixels, 600}, {1280 - kPanelPixels, 170}); };
+    const auto lowerPart = [&] {
+        return viewer.capture().part({kPanelPixels, screenPixels().y - 200}, {screenPixels().x - kPanelPixels, 170});
+    };
     const Shot message = lowerPart();
     viewer.key("Escape");
     viewer.pause(0.5);
