@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Exposure.h"
 #include "scenes/Framing.h"
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
@@ -71,8 +72,16 @@ void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     scene.supplied.light = true;
 }
 
+void addDefaultExposure(Scene& scene) {
+    if (scene.environment || scene.lights.empty()) return;
+    const int stops =
+        fittingExposureEV(estimatedLuminance(scene, viewedCamera(scene), aspectWished(scene)).value_or(0.0));
+    if (stops == 0 || !scene.options.wishes.try_emplace("exposureEV", double(stops)).second) return;
+    scene.supplied.exposureEV = stops;
+}
+
 std::string suppliedText(const Scene& scene) {
-    const auto& [camera, light] = scene.supplied;
+    const auto& [camera, light, exposureEV] = scene.supplied;
     std::string lacks, given;
     if (light) {
         lacks = "no light";
@@ -84,7 +93,11 @@ std::string suppliedText(const Scene& scene) {
         lacks += light ? " and no camera" : "no camera";
         given += fmt::format("{}seen whole by the supplied camera '{}'", light ? ", " : "", kDefaultName);
     }
-    return lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
+    std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
+    if (exposureEV != 0)
+        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV (--exposure chooses another)",
+                            text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV);
+    return text;
 }
 
 } // namespace tessera::scenes

@@ -22,8 +22,12 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
 /// that of addDefaultCamera().
 void addDefaultLight(Scene& scene, LoadLedger& ledger);
 
-/// One line for people: which camera and light the scene was given, and what chooses others. Empty where it was given
-/// none.
+/// A model that is lit by lights of its own alone gets the exposure that fits what its camera sees, where that is
+/// needed (Exposure.h): its format has none, and what writes it may count in any unit.
+void addDefaultExposure(Scene& scene);
+
+/// One line for people: which camera, light and exposure the scene was given, and what chooses others. Empty where it
+/// was given none.
 std::string suppliedText(const Scene& scene);
 
 } // namespace tessera::scenes

@@ -26,9 +26,10 @@ namespace {
 struct Format {
     std::string_view extension;
     Scene (*import)(const std::filesystem::path&, LoadLedger&);
+    bool isModel = true; ///< of which nothing says how it is to be shown
 };
 constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", importGltf}, Format{".obj", importObj},
-                                 Format{".json", importSceneJson}};
+                                 Format{".json", importSceneJson, false}};
 
 const Format* formatOf(const std::filesystem::path& file) {
     const std::string extension = extensionOf(file);
@@ -48,6 +49,11 @@ const Format* formatOf(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: is a folder; give {}", path,
                                  files.size() == 1 ? fmt::format("the scene in it, '{}'", files.front())
                                                    : "a .gltf, .glb, .obj or .json file"));
+}
+
+bool isModel(const std::string& path) {
+    const Format* const format = formatOf(path);
+    return format != nullptr && format->isModel;
 }
 
 Scene importFile(const std::string& path, LoadLedger& ledger) {
@@ -193,6 +199,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
         !options.environment)
         addDefaultLight(scene, ledger);
+    if (isModel(nameOrPath)) addDefaultExposure(scene);
     return scene;
 }
 

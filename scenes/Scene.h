@@ -88,6 +88,7 @@ struct SceneOptions {
 /// What a scene is given that its file lacks (scenes/Defaults.h).
 struct Supplied {
     bool camera = false, light = false;
+    int exposureEV = 0; ///< whole stops, where its lights are much too bright or too dim for a display
     bool operator==(const Supplied&) const = default;
 };
 

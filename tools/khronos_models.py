@@ -30,6 +30,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import signal
 import struct
@@ -75,7 +76,7 @@ SUPPLIED_CAMERA = "by the supplied camera"
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
 MOST_SECONDS = 900  # that a picture may take
-BLACK = 0.02  # mean luminance after exposure, which is 1 without options: a fifth of the studio's brightest walls
+BLACK = 0.02  # mean luminance after the exposure that the program chooses: a fifth of the studio's brightest walls
 LEAST_SPAN = 0.55  # of the picture's width or height, by what the supplied camera is to frame
 MOMENTS = 4  # after the first, at which a model that moves is looked at
 BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"
@@ -265,8 +266,14 @@ class Picture:
         """Places of the pixels in which something is drawn, row by row."""
         return [i for i, a in enumerate(self.planes["A"]) if a > 0.5]
 
+    def expose(self, stops):
+        """As a display picture is, of which the file holds the radiance."""
+        if stops != 0:
+            for channel in "RGB":
+                self.planes[channel] = [2.0**stops * value for value in self.planes[channel]]
+
     def luminance(self):
-        """The mean over the covered pixels, after exposure without options: times 1."""
+        """The mean over the covered pixels."""
         covered = self.covered()
         if not covered:
             return 0.0
@@ -411,15 +418,15 @@ def csv_of(rows):
 
 
 def render(program, path, picture, size, seconds=0.0):
-    """Of a model at a time: the exit code (None after MOST_SECONDS), the warnings without names of programs and files, and
-    whether the program supplied the camera."""
+    """Of a model at a time: the exit code (None after MOST_SECONDS), the warnings without names of programs and files,
+    whether the program supplied the camera, and the stops by which it exposes a display picture."""
     command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}"]
     if seconds > 0.0:
         command += ["--time", f"{seconds:g}"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS)
     except subprocess.TimeoutExpired:
-        return None, [], False
+        return None, [], False, 0
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
@@ -428,7 +435,8 @@ def render(program, path, picture, size, seconds=0.0):
             line = line.removeprefix(prefix)
         if line:
             lines.append(line)
-    return done.returncode, lines, SUPPLIED_CAMERA in done.stdout
+    exposed = re.search(r"exposed by ([+-]\d+) EV", done.stdout)
+    return done.returncode, lines, SUPPLIED_CAMERA in done.stdout, int(exposed[1]) if exposed else 0
 
 
 def look_at(name, program, path, picture, size):
@@ -437,11 +445,12 @@ def look_at(name, program, path, picture, size):
     shown, said = [], []
     for seconds in times_of(document):
         picture.unlink(missing_ok=True)
-        code, lines, is_framed = render(program, path, picture, size, seconds)
+        code, lines, is_framed, stops = render(program, path, picture, size, seconds)
         said = said or lines
         if code != 0:
             return Row(name, *status_of(extensions_of(document), code, lines), None), None, lines
         shown.append(read_exr(picture.read_bytes()))
+        shown[-1].expose(stops)
     picture.unlink(missing_ok=True)
     status, why = status_of(extensions_of(document), 0, said)
     figures = figures_of(shown, is_framed)

@@ -288,9 +288,12 @@ esac
         program.chmod(0o755)
         return ["--program", str(program)]
 
-    def show(self, picture, *said, is_framed=False):
+    def show(self, picture, *said, is_framed=False, stops=0):
         (self.folder / "shown").write_text(picture)
-        (self.folder / "noted").write_text("no camera in it: seen whole by the supplied camera 'default'\n" * is_framed)
+        noted = "no camera in it: seen whole by the supplied camera 'default'\n" * is_framed
+        if stops != 0:
+            noted += f"its lights are too dim for a display: exposed by {stops:+} EV (--exposure chooses another)\n"
+        (self.folder / "noted").write_text(noted)
         (self.folder / "said").write_text("".join(f"tessera: warning: {line}\n" for line in said))
 
     def rows(self):
@@ -388,6 +391,9 @@ esac
         for picture, told, is_framed in cases:
             self.show(picture, is_framed=is_framed)
             self.assertEqual(self.run_tool(*program), (1 if told else 0, told), picture)
+        self.show("black", is_framed=True, stops=2)
+        self.assertEqual(self.run_tool(*program), (0, ""))
+        self.assertEqual(self.rows()[0]["mean luminance"], "0.0400", "as the display picture is exposed")
         self.model("Ill.gltf")
         self.show("lit", is_framed=True)
         code, failed = self.run_tool(*program)
