@@ -51,12 +51,12 @@ struct RenderJob {
 
     /// How many pictures are to be made.
     std::size_t pictures() const { return sequence ? sequence->unfinished() : 1; }
-    /// Shows the scene at a time of the sequence; a single picture's scene is at its time already. True where something
-    /// may have moved.
-    bool pose(double timeSeconds) {
-        if (!sequence || !scenes::isPlaying(request.scene)) return false;
+    /// Shows the scene at a time of the sequence; a single picture's scene is at its time already. What of it may
+    /// have changed.
+    scenes::MovingParts pose(double timeSeconds) {
+        if (!sequence || !scenes::isPlaying(request.scene)) return {};
         poseAt(request.scene, timeSeconds, scene);
-        return true;
+        return scenes::movingParts(request.scene);
     }
     void make(const frame::FrameSettings& settings, const MakePicture& makePicture) {
         if (sequence) return sequence->draw(outputs, settings, makePicture);
@@ -184,7 +184,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false, hasWarnedOfSpread = false;
     std::optional<std::vector<std::string>> unheeded; // in all pictures
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        if (job.pose(one.timeSeconds)) renderer.geometryChanged();
+        renderer.partsMoved(job.pose(one.timeSeconds));
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         if (const std::string missing = renderer.missingTextures();
             !missing.empty() && !std::exchange(hasWarnedOfTextures, true))

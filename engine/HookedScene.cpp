@@ -156,11 +156,10 @@ void HookedScene::takeOthers() {
 }
 
 void HookedScene::takeMeshes() {
-    for (std::size_t i = 0; i < moved_.meshes.size(); ++i) {
-        std::vector<glm::vec4> marked = std::move(moved_.meshes[i].colors); // until update() has new ones
-        moved_.meshes[i] = scene_.meshes[i];
-        moved_.meshes[i].colors = std::move(marked);
-    }
+    std::vector<std::vector<glm::vec4>> marked; // colours, until update() has new ones
+    for (const std::size_t mesh : meshes_) marked.push_back(std::move(moved_.meshes[mesh].colors));
+    moved_.meshes = scene_.meshes;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) moved_.meshes[meshes_[i]].colors = std::move(marked[i]);
     moved_.nodes = scene_.nodes;
     moved_.materials = scene_.materials;
 }

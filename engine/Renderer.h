@@ -13,6 +13,7 @@
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/shader/ProgramLibrary.h"
+#include "scenes/Pose.h"
 
 namespace tessera::engine {
 
@@ -132,6 +133,14 @@ public:
     /// the next draw() uploads them. Programs and textures stay, unless an emission begins or ends at 0 or other lights
     /// reach the view. The latest frame is gone.
     void geometryChanged();
+
+    /// To be called after clips posed the scene anew: either of the two above, or neither.
+    void partsMoved(const scenes::MovingParts& parts) {
+        if (parts.geometry)
+            geometryChanged();
+        else if (parts.materials)
+            materialsChanged();
+    }
 
     /// To be called after the scene got another map of its environment; how that lies and shines may change without
     /// notice. Who has filtered the map already may bring that.

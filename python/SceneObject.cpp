@@ -68,7 +68,7 @@ void LoadedScene::pose(const std::string& file) {
     if (posedAtSeconds == timeSeconds || !scenes::isPlaying(request.scene)) return;
     posedAtSeconds.reset(); // where posing fails, that is nowhere
     app::poseAt(request.scene, timeSeconds, file);
-    if (renderer) renderer->geometryChanged();
+    if (renderer) renderer->partsMoved(scenes::movingParts(request.scene));
     posedAtSeconds = timeSeconds;
 }
 

@@ -300,6 +300,25 @@ void replaceMaterial(Scene& scene, std::size_t index, Material resting, double t
     }
 }
 
+namespace {
+
+/// By node, whether a clip that plays moves it, or one above it: parents stand before their children.
+std::vector<bool> movedNodes(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    std::vector<bool> moves(scene.nodes.size());
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels)
+            if (infoOf(channel.property).owner == AnimatedOwner::Node)
+                moves[std::size_t(rig.nodes[std::size_t(channel.target)].node)] = true;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const int parent = scene.nodes[i].parent;
+        if (parent != kNone && moves[std::size_t(parent)]) moves[i] = true;
+    }
+    return moves;
+}
+
+} // namespace
+
 bool hasPoses(const Scene& scene) {
     return !scene.rig.clips.empty() || !scene.rig.deformed.empty();
 }
@@ -361,18 +380,26 @@ void restLights(Scene& scene) {
 }
 
 bool movesCamera(const Scene& scene, int camera) {
-    const Rig& rig = scene.rig;
-    std::vector<bool> moves(scene.nodes.size());
-    for (const int playing : rig.playing)
-        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels)
-            if (infoOf(channel.property).owner == AnimatedOwner::Node)
-                moves[std::size_t(rig.nodes[std::size_t(channel.target)].node)] = true;
-    return std::ranges::any_of(rig.cameras, [&](const Carried& carried) {
-        if (carried.element != camera) return false;
-        for (int node = carried.node; node != kNone; node = scene.nodes[std::size_t(node)].parent)
-            if (moves[std::size_t(node)]) return true;
-        return false;
+    const std::vector<bool> moves = movedNodes(scene);
+    return std::ranges::any_of(scene.rig.cameras, [&](const Carried& carried) {
+        return carried.element == camera && moves[std::size_t(carried.node)];
     });
+}
+
+MovingParts movingParts(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    MovingParts parts;
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels) {
+            const AnimatedOwner owner = infoOf(channel.property).owner;
+            parts.materials = parts.materials || isOfMaterial(owner);
+            parts.geometry = parts.geometry || owner == AnimatedOwner::Weights ||
+                             (owner == AnimatedOwner::Node && !rig.deformed.empty()); // it may be a joint
+        }
+    const std::vector<bool> moves = movedNodes(scene);
+    for (std::size_t i = 0; i < moves.size(); ++i)
+        parts.geometry = parts.geometry || (moves[i] && !scene.nodes[i].instances.empty());
+    return parts;
 }
 
 } // namespace tessera::scenes

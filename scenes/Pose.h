@@ -46,8 +46,15 @@ void replaceMaterial(Scene& scene, std::size_t index, Material resting, double t
 
 /// Whether a pose changes anything of the scene.
 bool hasPoses(const Scene& scene);
-/// Whether the scene's picture changes with the time of its clips.
+/// Whether any clip is chosen.
 bool isPlaying(const Scene& scene);
+
+/// What the clips that play change of what a renderer keeps from picture to picture. Lights and cameras it does not.
+struct MovingParts {
+    bool geometry = false;  ///< transforms of nodes that show meshes, joints or weights of morph targets
+    bool materials = false; ///< numbers of materials or of their textures' places
+};
+MovingParts movingParts(const Scene& scene);
 
 /// Poses a scene that hasPoses(), and leaves others alone.
 void poseScene(Scene& scene, double timeSeconds);

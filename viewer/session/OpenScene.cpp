@@ -48,8 +48,10 @@ bool OpenScene::showTime(double timeSeconds) {
         throw;
     }
     shownSeconds_ = timeSeconds;
+    const scenes::MovingParts parts = scenes::movingParts(scene_);
     ++revision_;
-    ++geometryRevision_;
+    if (parts.geometry) ++geometryRevision_;
+    if (parts.materials) ++materialRevision_;
     return true;
 }
 

@@ -1,7 +1,9 @@
 #include "scenes/Pose.h"
 
 #include <chrono>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -174,6 +176,35 @@ TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
     EXPECT_FLOAT_EQ(scene.lights[0].intensity, 2.0f);
     expectAt(glm::dvec3(scene.cameras[0].worldFromCamera[0]), {0.0, 1.0, 0.0});
     expectAt(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
+}
+
+/// What is not among them is not made anew for each picture.
+TEST(Poses, theMovingPartsAreThoseThatPlayingClipsChange) {
+    const auto partsOf = [](const Scene& scene) {
+        const MovingParts parts = movingParts(scene);
+        return std::string(parts.geometry ? "geometry " : "") + (parts.materials ? "materials" : "");
+    };
+    Scene scene = riggedScene();
+    Clip& clip = scene.rig.clips[0];
+    const std::vector<AnimationChannel> all = clip.channels; // of a joint, a weight and a light
+    EXPECT_EQ(partsOf(scene), "geometry ");
+    clip.channels = {all[1]};
+    EXPECT_EQ(partsOf(scene), "geometry ");
+    clip.channels = {all[2]};
+    EXPECT_EQ(partsOf(scene), "");
+    scene.rig.numbers.push_back({AnimatedProperty::Metallic, 0, glm::vec4(0.0f)});
+    clip.channels = {{AnimatedProperty::Metallic, 1, 2}};
+    EXPECT_EQ(partsOf(scene), "materials");
+
+    scene.rig.deformed.clear();
+    clip.channels = {all[0]};
+    EXPECT_EQ(partsOf(scene), "") << "only the camera and the light hang on the joint";
+    EXPECT_TRUE(movesCamera(scene, 0));
+    scene.nodes[3].parent = 2;
+    EXPECT_EQ(partsOf(scene), "geometry ");
+    scene.rig.playing.clear();
+    EXPECT_EQ(partsOf(scene), "");
+    EXPECT_FALSE(movesCamera(scene, 0));
 }
 
 TEST(Poses, numbersStayWithinTheirBounds) {
