@@ -83,9 +83,9 @@ bool splitByScale(Context& context, int index, int material) {
         if (scales.empty() || use.scale > scales.back() * (1.0 + kSameScale)) scales.push_back(use.scale);
     if (scales.size() > kMostScales) return false;
     const Material original = scene.materials[static_cast<std::size_t>(material)];
-    constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
-    context.document.charge(kCopies * scales.size() * (sizeof(Material) + original.name.size() + kDigits), "materials",
-                            index);
+    constexpr std::size_t kWhileGrowing = 2, kDigits = 24; // copies of the vector; behind the name
+    context.document.charge(kWhileGrowing * scales.size() * (sizeof(Material) + original.name.size() + kDigits),
+                            "materials", index);
     auto use = uses->begin();
     for (const double scale : scales) {
         const bool isFirst = scale == scales.front();
