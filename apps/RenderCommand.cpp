@@ -123,7 +123,8 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     }
     const auto rowDone = [&progress] { progress.advance(); };
     job.make(settings, [&](const std::string& path, const frame::FrameSettings& one) {
-        if (job.pose(one.timeSeconds) && renderer) renderer->geometryChanged();
+        const scenes::MovingParts moved = job.pose(one.timeSeconds);
+        if (renderer) renderer->partsMoved(moved);
         Picture picture =
             renderer ? validation::referencePicture(*renderer, one, rowDone, validation::Leeway::None).picture
                      : validation::referencePicture(job.request.scene, one, rowDone, validation::Leeway::None).picture;
