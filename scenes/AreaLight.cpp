@@ -114,6 +114,10 @@ std::string cornersProblem(const LightCorners& corners) {
     return {};
 }
 
+static_assert(kAreaTypeCount == 5,
+              "a new shape needs a case in hasSurface(), largestSeenArea() and surfaceReachMetres(), which are 0 of "
+              "types without an area");
+
 bool hasSurface(const Light& light) {
     const auto isThere = [](float metres) { return metres >= kLeastAreaMetres; };
     switch (light.type) {

@@ -72,6 +72,9 @@ static_assert(std::ranges::all_of(scenes::lightTypes(),
                                   [](const scenes::LightTypeInfo& info) { return info.parameters.size() <= 2; }),
               "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs its vectors in packArea(), and what they reach in surfaceReachMetres()");
+
 /// The surface of an area light (shared/light.h).
 void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
     const glm::dvec3 travelLS = lsFromWorld * light.directionWS;

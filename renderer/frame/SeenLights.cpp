@@ -17,6 +17,10 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 8>;
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs its box in reachWS(), its back or inside in turnsAway() and its numbers in "
+              "packSeenLights()");
+
 /// The three vectors, each at right angles to the others, by which a box around the surface reaches from the light's
 /// position, in metres; none across what is flat.
 std::array<glm::dvec3, 3> reachWS(const scenes::Light& light) {

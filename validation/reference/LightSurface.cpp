@@ -32,6 +32,8 @@ glm::dvec3 factorOf(const scenes::Image& map, const glm::dvec2& texels) {
            right * down * storedTexel(map, column + 1, row + 1);
 }
 
+static_assert(scenes::kFlatTypeCount == 3, "a new shape needs a case in halfSidesOf() and isOnSurface()");
+
 /// Half the sides of the picture.
 glm::dvec2 halfSidesOf(const scenes::Light& light) {
     if (light.type == LightType::Rectangle) return {0.5 * double(light.widthMetres), 0.5 * double(light.heightMetres)};
