@@ -191,4 +191,8 @@ glm::dvec3 usualAlong(const glm::dvec3& directionWS) {
     return acrossFrom(directionWS, {1.0, 0.0, 0.0}).value_or(glm::dvec3(1.0, 0.0, 0.0));
 }
 
+glm::dvec3 alongOf(const Light& light) {
+    return infoOf(light.type).isTurned() ? light.alongWS : usualAlong(light.directionWS);
+}
+
 } // namespace tessera::scenes

@@ -60,8 +60,7 @@ bool isOnSurface(const scenes::Light& light, const std::vector<std::array<glm::d
 } // namespace
 
 LightSurface::LightSurface(const ShiningLight& shining, const glm::dvec3& toMiddle)
-    : light_(shining.light), toMiddle_(toMiddle),
-      along_(scenes::infoOf(light_.type).isTurned() ? light_.alongWS : scenes::usualAlong(light_.directionWS)),
+    : light_(shining.light), toMiddle_(toMiddle), along_(scenes::alongOf(light_)),
       across_(glm::cross(light_.directionWS, along_)), halfMetres_(halfSidesOf(light_)) {}
 
 glm::dvec2 LightSurface::texelsAt(const glm::dvec3& direction) const {
