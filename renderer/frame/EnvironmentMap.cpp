@@ -10,7 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/Error.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/frame/VanDerCorput.h"
 #include "renderer/gpu/Context.h"
 

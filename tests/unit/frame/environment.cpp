@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/frame/EnvironmentFilter.h"
 #include "renderer/frame/EnvironmentIrradiance.h"
 #include "renderer/frame/EnvironmentMap.h"
