@@ -235,7 +235,7 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
                                                             seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
 #endif
     }
-    precise float scale = environment.light.x * openShare(seen.surface);
+    precise float scale = environmentIntensity() * openShare(seen.surface);
     precise vec3 mean = sum * (scale / float(ENVIRONMENT_SAMPLES));
 #if HAS_MIRRORS
     mean += mirrored * scale;

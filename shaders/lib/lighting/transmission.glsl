@@ -186,7 +186,8 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     precise float rest = 1.0 - met.a;
 #endif
 #if HAS_ENVIRONMENT
-    precise vec3 around = kept * surroundingsAlong(ray.directionLS, surface.passingAlpha, pixel) * environment.light.x;
+    precise vec3 around =
+        kept * surroundingsAlong(ray.directionLS, surface.passingAlpha, pixel) * environmentIntensity();
 #else
     precise vec3 around = kept * view.background.rgb;
 #endif
