@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/Progress.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 
 namespace tessera::app {
 

@@ -26,7 +26,7 @@
 #include "apps/Version.h"
 #include "base/Error.h"
 #include "base/OneLine.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 
 namespace {
 

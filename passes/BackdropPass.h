@@ -7,7 +7,7 @@ namespace tessera::passes {
 
 /// Shows the environment where nothing opaque was drawn.
 ///
-/// Reads   depth D32F, reverse-Z, 0 where nothing is
+/// Reads   the environment's map, or its filtered one for a blurred backdrop; depth D32F, reverse-Z, 0 where nothing is
 /// Writes  radiance RGBA32F, linear, before exposure; A stays 0, the coverage
 class BackdropPass {
 public:

@@ -15,9 +15,9 @@ struct UploadViewPass {
 };
 
 /// Puts a view's lights on the GPU.
-/// Writes  light texels (shaders/shared/light.h), faces of shadow maps behind them, the constants of lighting and,
-/// where
-///         shadows are traced, shared::CasterTreeConstants; where area lights are seen, shared::SeenLightTexels
+/// Writes  light texels (shaders/shared/light.h), faces of shadow maps behind them, the constants of lighting; where an
+///         environment shines or is seen, shared::EnvironmentConstants; where shadows are traced,
+///         shared::CasterTreeConstants; where area lights are seen, shared::SeenLightTexels
 /// Space   lighting space
 struct UploadLightsPass {
     struct Outputs {

@@ -10,7 +10,7 @@
 #include "apps/Keywords.h"
 #include "base/OneLine.h"
 #include "python/Log.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 
 namespace py = pybind11;
 

@@ -114,6 +114,10 @@ std::string cornersProblem(const LightCorners& corners) {
     return {};
 }
 
+static_assert(kAreaTypeCount == 5,
+              "a new shape needs a case in hasSurface(), largestSeenArea() and surfaceReachMetres(), which are 0 of "
+              "types without an area");
+
 bool hasSurface(const Light& light) {
     const auto isThere = [](float metres) { return metres >= kLeastAreaMetres; };
     switch (light.type) {
@@ -185,6 +189,10 @@ glm::dvec3 usualAlong(const glm::dvec3& directionWS) {
     const double length = glm::length(horizontal);
     if (length > kVertical) return horizontal / length;
     return acrossFrom(directionWS, {1.0, 0.0, 0.0}).value_or(glm::dvec3(1.0, 0.0, 0.0));
+}
+
+glm::dvec3 alongOf(const Light& light) {
+    return infoOf(light.type).isTurned() ? light.alongWS : usualAlong(light.directionWS);
 }
 
 } // namespace tessera::scenes

@@ -45,4 +45,8 @@ std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dve
 /// Light::alongWS of a light that states none.
 glm::dvec3 usualAlong(const glm::dvec3& directionWS);
 
+/// Of a light with a direction, a unit vector at right angles to that: Light::alongWS, or of one that may be turned
+/// about its direction and shines the same, usualAlong().
+glm::dvec3 alongOf(const Light& light);
+
 } // namespace tessera::scenes

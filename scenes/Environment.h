@@ -8,8 +8,7 @@
 
 #include "scenes/Image.h"
 
-/// Light from everywhere: a picture of all directions around a scene, so far away that its place is no matter
-/// (docs/environment.md).
+/// Light from everywhere: a picture of all directions around a scene, infinitely distant (docs/environment.md).
 namespace tessera::scenes {
 
 class LoadLedger;

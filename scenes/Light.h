@@ -230,6 +230,11 @@ static_assert(areLightTypesSound(), "the table of light types follows the enumer
 
 inline constexpr std::size_t kLightTypeCount = detail::kLightTypes.size();
 
+/// The types that shine from a surface, and those of them that are flat. What treats each shape in its own way asserts
+/// the number, so that no new shape is taken for another one.
+inline constexpr auto kAreaTypeCount = std::ranges::count(detail::kLightTypes, true, &LightTypeInfo::isArea);
+inline constexpr auto kFlatTypeCount = std::ranges::count(detail::kLightTypes, true, &LightTypeInfo::isFlat);
+
 /// The only list of types; row i is that of type i.
 constexpr std::span<const LightTypeInfo> lightTypes() {
     return detail::kLightTypes;

@@ -211,8 +211,7 @@ struct MaterialModelInfo {
     float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
     std::span<const MaterialParameter> parameters{};
     Anisotropy anisotropy = Anisotropy::None;
-    bool hasLayers =
-        false; ///< emission, clearcoat, sheen, a film and transmission, which scene files and the viewer spell out
+    bool hasLayers = false; ///< emission, and those of scenes/MaterialLayers.h: clearcoat, sheen, film, transmission
     bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
 
     constexpr bool isMicrofacet() const { return microsurface == Microsurface::Dielectric; }

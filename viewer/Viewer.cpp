@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "base/EndRequest.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Debug.h"

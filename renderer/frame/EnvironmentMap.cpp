@@ -10,7 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/Error.h"
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/frame/VanDerCorput.h"
 #include "renderer/gpu/Context.h"
 
@@ -126,24 +126,23 @@ EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
                         map.name, map.width, map.height, most));
 }
 
-void EnvironmentGpu::makeMap() {
-    if (map_) return;
-    std::vector<double> summed;
-    const LatitudeMap texels = environmentTexels(environment_.map, summed);
-    auto map = std::make_unique<gpu::Texture>("environment_map", environmentShape(environment_.map).map);
-    map->upload(0, texels.texels);
-    samples_ =
-        std::make_unique<gpu::Buffer>(gpu::Buffer::of("environment_samples", makeEnvironmentSamples(texels, summed)));
-    map_ = std::move(map);
-}
-
 const gpu::Texture& EnvironmentGpu::map() {
-    makeMap();
+    if (map_) return *map_;
+    auto map = std::make_unique<gpu::Texture>("environment_map", environmentShape(environment_.map).map);
+    map->upload(0, environment_.map.texels);
+    map_ = std::move(map);
     return *map_;
 }
 
 const gpu::Buffer& EnvironmentGpu::samples() {
-    makeMap();
+    if (samples_) return *samples_;
+    std::vector<double> summed;
+    const LatitudeMap texels = environmentTexels(environment_.map, summed);
+    auto samples =
+        std::make_unique<gpu::Buffer>(gpu::Buffer::of("environment_samples", makeEnvironmentSamples(texels, summed)));
+    map();
+    map_->upload(0, texels.texels); // with the densities, which nothing else reads
+    samples_ = std::move(samples);
     return *samples_;
 }
 

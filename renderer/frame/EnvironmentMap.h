@@ -51,13 +51,11 @@ public:
     /// The environment must outlive it. `filtered` may be null: it is made when it is asked for.
     explicit EnvironmentGpu(const scenes::Environment& environment,
                             std::shared_ptr<const FilteredEnvironment> filtered = {});
-    const gpu::Texture& map();      ///< as environmentTexels()
+    const gpu::Texture& map();      ///< RGB radiance; A as environmentTexels(), once samples() has been asked for
     const gpu::Buffer& samples();   ///< as makeEnvironmentSamples()
     const gpu::Texture& filtered(); ///< as atlasOf()
 
 private:
-    void makeMap();
-
     const scenes::Environment& environment_;
     std::shared_ptr<const FilteredEnvironment> known_; ///< until it is on the GPU
     std::unique_ptr<gpu::Texture> map_, filtered_;

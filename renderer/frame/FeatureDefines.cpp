@@ -63,6 +63,12 @@ void addModels(const FeatureSet& features, Defines& defines) {
     addQuestion("HAS_LAYERS(model)", [](const MaterialModelInfo& model) { return model.hasLayers; });
 }
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs a case in areaOutline() (shaders/lib/light/area_outline.glsl), areaFacing() "
+              "(shaders/lib/light/light.glsl), shadowSurface() and surfacePlace() "
+              "(shaders/lib/shadow/surface_samples.glsl) and shaders/passes/seen_lights.frag; docs/add-a-light-type.md "
+              "lists everything");
+
 void addLightTypes(const FeatureSet& features, Defines& defines) {
     std::vector<std::string> cones, areas;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {

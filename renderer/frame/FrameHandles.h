@@ -194,8 +194,7 @@ struct LitDepths {
 };
 
 /// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
-/// the scene, so any of the frame's views has them.
-/// `tracesShadows`: some view does; then `scene` has its casters.
+/// the scene, so any of the frame's views has them. Where some view traces shadows, `scene` has its casters.
 SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> specs, const SceneGpu* scene);
 /// The same of what views of these specs use of the environment; null where the frame is only planned.
 EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,

@@ -29,6 +29,8 @@ struct Masked {
     const glm::dvec4& at(int x, int y) const { return texels[std::size_t(y) * std::size_t(width) + std::size_t(x)]; }
 };
 
+static_assert(scenes::kFlatTypeCount == 3, "a new shape needs a case in isWithinOutline()");
+
 /// A place of the picture, x and y within -1..1, y upwards; corners in the same measure.
 bool isWithinOutline(const ShownPicture& shown, const std::vector<glm::dvec2>& corners, const glm::dvec2& place) {
     if (shown.type == scenes::LightType::Rectangle) return true;

@@ -12,8 +12,4 @@ namespace tessera::frame {
 /// the light.
 std::span<const glm::vec4> lobeShapes();
 
-/// The matrix that takes lights to a clamped cosine (shared::inverseOfShape), from numbers interpolated as by a shader:
-/// linearly between four entries. Smaller alphas and cosines count as the smallest of the table.
-glm::dmat3 inverseShape(double alpha, double cosView);
-
 } // namespace tessera::frame

@@ -8,13 +8,14 @@
 #include <tbb/parallel_for.h>
 
 #include "shaders/shared/lobe_table.h"
+#include "shaders/shared/models.h"
 
 namespace tessera::frame {
 
 namespace {
 
 using std::numbers::pi;
-constexpr double kSmallestAlpha = 1e-3, kSmallestCosine = 1e-4;
+constexpr double kSmallestAlpha = ALPHA_MIN, kSmallestCosine = 1e-4;
 constexpr int kNodes = 64, kTurns = 16; ///< of the integrals, away from an axis and around it
 constexpr double kGolden = 0.618033988749895;
 

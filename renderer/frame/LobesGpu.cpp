@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/frame/LobeShapes.h"
 #include "shaders/shared/lobe_shapes.h"
 #include "shaders/shared/lobe_table.h"

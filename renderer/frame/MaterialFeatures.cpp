@@ -9,6 +9,7 @@
 #include "shaders/shared/environment.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/models.h"
+#include "shaders/shared/refraction.h"
 
 namespace tessera::frame {
 
@@ -40,13 +41,6 @@ constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
 /// Half of the least alpha, so that rounding in shaders never finds more.
 constexpr double kSurelyMirrorAlpha = 0.5 * ALPHA_MIN;
 
-/// By how much light that passes is spread less than light that is reflected: factor of alpha.
-/// setPassing() of shaders/lib/material/material.glsl.
-double passingScale(float ior) {
-    const double scale = ior > 0.0f ? std::clamp(2.0 * double(ior) - 2.0, 0.0, 1.0) : 1.0;
-    return scale * scale;
-}
-
 /// Whether a highlight of the material may be sharper, or light that passes through it. Textures may have any texel.
 bool mayMirror(const scenes::Material& material) {
     using scenes::Microsurface, scenes::TextureSlot;
@@ -63,7 +57,7 @@ bool mayMirror(const scenes::Material& material) {
         return true;
     const float roughness = material.*model.roughness;
     if (scenes::isTransmissive(material) &&
-        (isTextured(TextureSlot::Ior) || squared(roughness) * passingScale(material.ior) < kSharpAlpha))
+        (isTextured(TextureSlot::Ior) || squared(roughness) * double(shared::passingScale(material.ior)) < kSharpAlpha))
         return true;
     switch (model.microsurface) {
     case Microsurface::None:
@@ -138,7 +132,7 @@ bool mayScatter(const scenes::Material& material) {
     const auto isTextured = [&](scenes::TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
     if (isTextured(scenes::TextureSlot::MetallicRoughness) || isTextured(scenes::TextureSlot::Ior)) return true;
     const auto roughness = double(material.perceptualRoughness);
-    return roughness * roughness * passingScale(material.ior) > kSurelyMirrorAlpha;
+    return roughness * roughness * double(shared::passingScale(material.ior)) > kSurelyMirrorAlpha;
 }
 
 bool mayPassByLobe(const scenes::Material& material) {

@@ -72,6 +72,9 @@ static_assert(std::ranges::all_of(scenes::lightTypes(),
                                   [](const scenes::LightTypeInfo& info) { return info.parameters.size() <= 2; }),
               "more parameters need room in LightShapeTexels (shaders/shared/light.h)");
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs its vectors in packArea(), and what they reach in surfaceReachMetres()");
+
 /// The surface of an area light (shared/light.h).
 void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
     const glm::dvec3 travelLS = lsFromWorld * light.directionWS;
@@ -80,9 +83,7 @@ void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromW
         return glm::vec3(directionLS * double(length));
     };
     if (info.isFlat) {
-        // A disk may be turned in its plane.
-        const glm::dvec3 alongLS =
-            lsFromWorld * (info.isTurned() ? light.alongWS : scenes::usualAlong(light.directionWS));
+        const glm::dvec3 alongLS = lsFromWorld * scenes::alongOf(light);
         const glm::dvec3 acrossLS = glm::cross(travelLS, alongLS);
         const float radius = info.hasCorners() ? float(scenes::surfaceReachMetres(light)) : light.radiusMetres;
         const float along = info.hasSides() ? 0.5f * light.widthMetres : radius;
@@ -107,12 +108,8 @@ shared::LightCornerTexels packCorners(const scenes::Light& light) {
         std::reverse(outline.metres.begin(), outline.metres.begin() + std::ptrdiff_t(outline.count));
     const std::span<const glm::vec2> corners = outline.all();
     packed.outline = glm::vec4(glm::vec2(scenes::middleOf(outline) * perMetre), float(corners.size()), 0.0f);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::vec2 corner(glm::dvec2(corners[i]) * perMetre);
-        glm::vec4& two = packed.corners[i / 2];
-        (i % 2 == 0 ? two.x : two.z) = corner.x;
-        (i % 2 == 0 ? two.y : two.w) = corner.y;
-    }
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        packCorner(packed.corners, i, glm::vec2(glm::dvec2(corners[i]) * perMetre));
     const auto triangles = scenes::trianglesOf(outline);
     const double area = scenes::signedArea(outline);
     std::array<float, 5> ends{1.0f, 1.0f, 1.0f, 1.0f, 1.0f};
@@ -183,6 +180,12 @@ float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels&
     if (info.hasCorners()) return along;
     if (info.hasSides()) return std::hypot(along, glm::length(glm::vec3(shape.attenuation)));
     return AREA_OUTLINE_REACH * (info.isFlat ? along : std::hypot(along, shape.axis.w));
+}
+
+void packCorner(std::span<glm::vec4> pairs, std::size_t number, const glm::vec2& corner) {
+    glm::vec4& two = pairs[number / 2];
+    (number % 2 == 0 ? two.x : two.z) = corner.x;
+    (number % 2 == 0 ? two.y : two.w) = corner.y;
 }
 
 static_assert(scenes::kLightTypeCount <= LIGHT_TYPE_MASK + 1);

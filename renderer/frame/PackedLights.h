@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "renderer/frame/CameraView.h"
@@ -17,6 +19,9 @@ scenes::LightType typeOf(const shared::LightTexels& light);
 /// The radius in metres of the ball around its position that the surface of a packed area light lies in; of other types
 /// 0.
 float surfaceReachMetres(scenes::LightType type, const shared::LightShapeTexels& shape);
+
+/// Puts a corner of an outline into vectors of two each, as shaders read them: one in xy and the next in zw.
+void packCorner(std::span<glm::vec4> pairs, std::size_t number, const glm::vec2& corner);
 
 /// The lights of one frame as the GPU reads them: those that casters may hide, then the others, each in document order.
 /// Lights that cannot change the picture are left out.

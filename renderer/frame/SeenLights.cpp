@@ -9,6 +9,7 @@
 #include "renderer/frame/DebugViews.h"
 #include "renderer/frame/LightPictures.h"
 #include "renderer/frame/LightRange.h"
+#include "renderer/frame/PackedLights.h"
 #include "scenes/AreaLight.h"
 
 namespace tessera::frame {
@@ -17,13 +18,17 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 8>;
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs its box in reachWS(), its back or inside in turnsAway() and its numbers in "
+              "packSeenLights()");
+
 /// The three vectors, each at right angles to the others, by which a box around the surface reaches from the light's
 /// position, in metres; none across what is flat.
 std::array<glm::dvec3, 3> reachWS(const scenes::Light& light) {
     const double radius = light.radiusMetres;
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (!info.hasDirection) return {glm::dvec3(radius, 0, 0), glm::dvec3(0, radius, 0), glm::dvec3(0, 0, radius)};
-    const glm::dvec3 along = info.isTurned() ? light.alongWS : scenes::usualAlong(light.directionWS);
+    const glm::dvec3 along = scenes::alongOf(light);
     const glm::dvec3 across = glm::cross(light.directionWS, along);
     if (info.hasCorners()) {
         glm::dvec2 most(0.0); // to either side of the position
@@ -158,7 +163,7 @@ std::vector<shared::SeenLightTexels> packSeenLights(const std::vector<SeenLight>
         texels.middle = glm::vec4(glm::vec3(view.positionLS(light.positionWS)), float(light.type));
         texels.along = texels.across = glm::vec4(0.0f, 0.0f, 0.0f, light.radiusMetres);
         if (info.isFlat) {
-            const glm::dvec3 alongWS = info.isTurned() ? light.alongWS : scenes::usualAlong(light.directionWS);
+            const glm::dvec3 alongWS = scenes::alongOf(light);
             texels.along = glm::vec4(unitLS(alongWS), info.hasSides() ? 0.5f * light.widthMetres : light.radiusMetres);
             texels.across = glm::vec4(unitLS(glm::cross(light.directionWS, alongWS)),
                                       info.hasSides() ? 0.5f * light.heightMetres : light.radiusMetres);
@@ -169,11 +174,7 @@ std::vector<shared::SeenLightTexels> packSeenLights(const std::vector<SeenLight>
             const std::span<const glm::vec2> corners = light.corners.all();
             texels.along.w = float(corners.size());
             texels.across.w = float(scenes::surfaceReachMetres(light));
-            for (std::size_t i = 0; i < corners.size(); ++i) {
-                glm::vec4& two = texels.corners[i / 2];
-                (i % 2 == 0 ? two.x : two.z) = corners[i].x;
-                (i % 2 == 0 ? two.y : two.w) = corners[i].y;
-            }
+            for (std::size_t i = 0; i < corners.size(); ++i) packCorner(texels.corners, i, corners[i]);
         }
     }
     return packed;

@@ -6,7 +6,8 @@ namespace tessera::scenes::builtin {
 
 inline constexpr int kMapWidth = 1024, kMapHeight = 512; ///< texels
 
-/// A grey room with a warm key light, a broad fill and two strips behind, for a camera that looks along -(1, 0.7, 1).
+/// A grey room with a warm key light, a broad fill, two strips behind and a soft light above, for a camera that looks
+/// along -(1, 0.7, 1).
 Image makeStudio();
 /// A clear sky at a solar elevation of 38 degrees.
 Image makeSky();

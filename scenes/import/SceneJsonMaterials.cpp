@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "scenes/MaterialLayers.h"
 #include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonNames.h"
 
@@ -38,10 +39,6 @@ public:
             set(*value);
     }
 
-    void number(std::string_view key, TextureSlot slot, float& factor, double least, double most) {
-        read(key, slot, [&](const JsonValue& value) { factor = value.single(least, most); });
-    }
-
     /// RGB, or RGB and opacity.
     void baseColor(std::string_view key) {
         read(key, TextureSlot::BaseColor, [&](const JsonValue& value) {
@@ -49,14 +46,6 @@ public:
             for (glm::length_t i = 0; i < 3; ++i)
                 material_.baseColor[i] = channels[static_cast<std::size_t>(i)].single(0.0);
             if (channels.size() == 4) material_.baseColor.w = channels[3].single(0.0, 1.0);
-        });
-    }
-
-    /// RGB, each 0..1.
-    void shareColor(std::string_view key, TextureSlot slot, glm::vec3& factor) {
-        read(key, slot, [&](const JsonValue& value) {
-            const std::vector<JsonValue> channels = value.elements(3, 3);
-            for (glm::length_t i = 0; i < 3; ++i) factor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
         });
     }
 
@@ -71,54 +60,6 @@ public:
         if (const auto rotation = object_.find("anisotropyRotationDegrees"))
             material_.anisotropyRotationRadians = static_cast<float>(glm::radians(rotation->number()));
         if (const auto texture = object_.find("anisotropyTexture")) setTexture(*texture, TextureSlot::Anisotropy);
-    }
-
-    void clearcoat() {
-        number("clearcoat", TextureSlot::Clearcoat, material_.clearcoat, 0.0, 1.0);
-        number("clearcoatPerceptualRoughness", TextureSlot::ClearcoatRoughness, material_.clearcoatPerceptualRoughness,
-               0.0, 1.0);
-        const std::optional<JsonValue> value = object_.find("clearcoatNormalMap");
-        if (!value) return;
-        TextureUse& use = material_.texture(TextureSlot::ClearcoatNormal);
-        material_.clearcoatNormalScale = 1.0f;
-        if (!value->isObject()) return setTexture(*value, TextureSlot::ClearcoatNormal);
-        JsonObject map = value->object();
-        if (const auto scale = map.find("scale")) material_.clearcoatNormalScale = scale->single();
-        use = readTexture(map, images_);
-        map.done("a clearcoat normal map");
-    }
-
-    void sheen() {
-        shareColor("sheenColor", TextureSlot::SheenColor, material_.sheenColor);
-        number("sheenPerceptualRoughness", TextureSlot::SheenRoughness, material_.sheenPerceptualRoughness, 0.0, 1.0);
-    }
-
-    void single(const char* key, float Material::*member) {
-        const auto& field = fieldOf(kMaterialFields, member);
-        if (const auto value = object_.find(key)) material_.*member = value->single(field.least, field.most);
-    }
-    void single(const char* key, TextureSlot slot, float Material::*member) {
-        const auto& field = fieldOf(kMaterialFields, member);
-        number(key, slot, material_.*member, field.least, field.most);
-    }
-
-    void iridescence() {
-        single("iridescence", TextureSlot::Iridescence, &Material::iridescence);
-        single("iridescenceIor", &Material::iridescenceIor);
-        single("iridescenceThicknessNm", TextureSlot::IridescenceThickness, &Material::iridescenceThicknessNm);
-        single("iridescenceLeastThicknessNm", &Material::iridescenceLeastThicknessNm);
-    }
-
-    void transmission() {
-        single("transmission", TextureSlot::Transmission, &Material::transmission);
-        single("thicknessMetres", TextureSlot::Thickness, &Material::thicknessMetres);
-        if (const auto value = object_.find("attenuationColor")) {
-            const std::vector<JsonValue> channels = value->elements(3, 3);
-            for (glm::length_t i = 0; i < 3; ++i)
-                material_.attenuationColor[i] = channels[static_cast<std::size_t>(i)].single(0.0, 1.0);
-        }
-        single("attenuationDistanceMetres", &Material::attenuationDistanceMetres);
-        single("dispersion", &Material::dispersion);
     }
 
     void normalMap() {
@@ -180,13 +121,48 @@ public:
 
     void layers() {
         emission();
-        clearcoat();
-        sheen();
-        iridescence();
-        transmission();
+        for (const MaterialLayer& layer : materialLayers())
+            for (const LayerParameter& parameter : layer) {
+                if (parameter.isNormalMap)
+                    layerNormalMap(parameter);
+                else
+                    layerParameter(parameter);
+            }
     }
 
 private:
+    void layerParameter(const LayerParameter& parameter) {
+        const auto set = [&](const JsonValue& value) {
+            std::visit([&](auto member) { setBounded(value, member); }, parameter.member);
+        };
+        if (parameter.slot != TextureSlot::Count)
+            read(parameter.key, parameter.slot, set);
+        else if (const auto value = object_.find(parameter.key))
+            set(*value);
+    }
+    void layerNormalMap(const LayerParameter& parameter) {
+        const std::optional<JsonValue> value = object_.find(parameter.key);
+        if (!value) return;
+        float& scaleOfMap = material_.*std::get<float Material::*>(parameter.member);
+        scaleOfMap = 1.0f;
+        if (!value->isObject()) return setTexture(*value, parameter.slot);
+        JsonObject map = value->object();
+        if (const auto scale = map.find("scale")) scaleOfMap = scale->single();
+        material_.texture(parameter.slot) = readTexture(map, images_);
+        map.done("a clearcoat normal map");
+    }
+    void setBounded(const JsonValue& value, float Material::*member) {
+        const auto field = fieldOf(kMaterialFields, member);
+        material_.*member = value.single(field.least, field.most);
+    }
+    /// RGB.
+    void setBounded(const JsonValue& value, glm::vec3 Material::*member) {
+        const auto field = fieldOf(kMaterialFields, member);
+        const std::vector<JsonValue> channels = value.elements(3, 3);
+        for (glm::length_t i = 0; i < 3; ++i)
+            (material_.*member)[i] = channels[static_cast<std::size_t>(i)].single(field.least, field.most);
+    }
+
     void setFactor(const JsonValue& value, MaterialParameter::Kind kind, float Material::*member) {
         using Kind = MaterialParameter::Kind;
         if (kind == Kind::Ior) value.positive();

@@ -1,3 +1,4 @@
+#include "scenes/MaterialLayers.h"
 #include "scenes/import/SceneJsonMaterials.h"
 #include "scenes/import/SceneJsonNames.h"
 #include "scenes/write/ElementJson.h"
@@ -31,15 +32,13 @@ public:
 
     void factor(const char* key, float value) { json_[key] = number(value); }
 
+    /// A slot of Count has no texture.
     void parameter(const char* key, Json factor, TextureSlot slot) {
-        const TextureUse& use = material_.texture(slot);
-        if (use.image == kNone)
+        if (slot == TextureSlot::Count || material_.texture(slot).image == kNone)
             json_[key] = std::move(factor);
         else
-            json_[key] = {{"factor", std::move(factor)}, {"texture", textureJson(use)}};
+            json_[key] = {{"factor", std::move(factor)}, {"texture", textureJson(material_.texture(slot))}};
     }
-
-    void parameter(const char* key, float value, TextureSlot slot) { parameter(key, number(value), slot); }
 
     void texture(const char* key, TextureSlot slot) {
         if (material_.texture(slot).image != kNone) json_[key] = textureJson(material_.texture(slot));
@@ -49,12 +48,7 @@ public:
 
     /// One of the table's.
     void parameter(const MaterialParameter& parameter) {
-        const auto json = [&](auto member) { return factorJson(material_.*member); };
-        Json factor = std::visit(json, parameter.member);
-        if (parameter.slot == TextureSlot::Count)
-            json_[parameter.key] = std::move(factor);
-        else
-            this->parameter(parameter.key, std::move(factor), parameter.slot);
+        this->parameter(parameter.key, factorOf(parameter.member), parameter.slot);
     }
 
     void normalMap() {
@@ -79,35 +73,27 @@ public:
 
     void layers() {
         parameter("emissive", numbers(material_.emissive), TextureSlot::Emissive);
-        if (material_.clearcoat != 0.0f) {
-            parameter("clearcoat", material_.clearcoat, TextureSlot::Clearcoat);
-            parameter("clearcoatPerceptualRoughness", material_.clearcoatPerceptualRoughness,
-                      TextureSlot::ClearcoatRoughness);
-            if (material_.texture(TextureSlot::ClearcoatNormal).image != kNone) {
-                json_["clearcoatNormalMap"] = textureJson(material_.texture(TextureSlot::ClearcoatNormal));
-                json_["clearcoatNormalMap"]["scale"] = number(material_.clearcoatNormalScale);
-            }
-        }
-        if (material_.sheenColor != glm::vec3(0.0f)) {
-            parameter("sheenColor", numbers(material_.sheenColor), TextureSlot::SheenColor);
-            parameter("sheenPerceptualRoughness", material_.sheenPerceptualRoughness, TextureSlot::SheenRoughness);
-        }
-        if (material_.iridescence != 0.0f) {
-            parameter("iridescence", material_.iridescence, TextureSlot::Iridescence);
-            factor("iridescenceIor", material_.iridescenceIor);
-            parameter("iridescenceThicknessNm", material_.iridescenceThicknessNm, TextureSlot::IridescenceThickness);
-            factor("iridescenceLeastThicknessNm", material_.iridescenceLeastThicknessNm);
-        }
-        if (material_.transmission != 0.0f) {
-            parameter("transmission", material_.transmission, TextureSlot::Transmission);
-            parameter("thicknessMetres", material_.thicknessMetres, TextureSlot::Thickness);
-            json_["attenuationColor"] = numbers(material_.attenuationColor);
-            factor("attenuationDistanceMetres", material_.attenuationDistanceMetres);
-            factor("dispersion", material_.dispersion);
+        for (const MaterialLayer& layer : materialLayers()) {
+            const auto isThere = [&](auto member) {
+                return material_.*member != std::remove_cvref_t<decltype(material_.*member)>(0.0f);
+            };
+            if (!std::visit(isThere, layer.front().member)) continue;
+            for (const LayerParameter& parameter : layer) layerParameter(parameter);
         }
     }
 
 private:
+    void layerParameter(const LayerParameter& parameter) {
+        if (!parameter.isNormalMap) return this->parameter(parameter.key, factorOf(parameter.member), parameter.slot);
+        if (material_.texture(parameter.slot).image == kNone) return;
+        json_[parameter.key] = textureJson(material_.texture(parameter.slot));
+        json_[parameter.key]["scale"] = factorOf(parameter.member);
+    }
+
+    template <typename Member>
+    Json factorOf(const Member& member) const {
+        return std::visit([this](auto own) { return factorJson(material_.*own); }, member);
+    }
     static Json factorJson(float value) { return number(value); }
     static Json factorJson(const glm::vec3& value) { return numbers(value); }
     static Json factorJson(Masking masking) { return scenejson::nameOf(masking); }

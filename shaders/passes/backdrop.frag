@@ -15,10 +15,10 @@ void main()
     if (view.forwardLS.w == 0.0) ray += acrossOfPixel(gl_FragCoord.xy);
     vec3 direction = mapDirection(normalize(ray));
 #if BACKDROP_BLURRED
-    float level = log2(ENVIRONMENT_BACKDROP_ALPHA / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
-    vec3 seen = filteredLevel(encodeOctahedral(direction), min(int(level + 0.5), int(environment.light.y)));
+    float level = log2(ENVIRONMENT_BACKDROP_ALPHA / ENVIRONMENT_LEAST_ALPHA) * levelsADoubling();
+    vec3 seen = filteredLevel(encodeOctahedral(direction), min(int(level + 0.5), lastLevel()));
 #else
     vec3 seen = mapRadiance(direction).rgb;
 #endif
-    radiance = vec4(seen * environment.light.x, 0.0);
+    radiance = vec4(seen * environmentIntensity(), 0.0);
 }

@@ -20,6 +20,7 @@
 
 SHARED_BEGIN
 
+// Shaders read `light` by functions of lib/environment/environment_constants.glsl.
 struct EnvironmentConstants {
     mat4 mapFromLS; // rotation
     vec4 light;     // x multiplies the map's radiance; of the filtered map y the last level, z levels a doubling of

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 namespace tessera::shared {
 using glm::abs;
+using glm::clamp;
 using glm::dot;
 using glm::length;
 using glm::log2;

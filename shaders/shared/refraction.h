@@ -1,6 +1,6 @@
 #pragma once
-// What bodies of glass show of the surfaces behind them: how a ray is followed over the screen, and where coarser
-// pictures of those surfaces lie.
+// What bodies of glass show of the surfaces behind them: how much a rough one blurs them, how a ray is followed over
+// the screen, and where coarser pictures of those surfaces lie.
 #include "interop.h"
 
 #define REFRACTION_STEPS 256   // of a ray over the screen, at most; fewer pixels take as many steps
@@ -10,6 +10,15 @@
 #define BEHIND_COARSEST 6
 
 SHARED_BEGIN
+
+// By how much less a rough surface spreads light that passes than light that it reflects, a factor of alpha: the less
+// its index of refraction bends it. An index of 0 is one without bound. Source: the Khronos sample viewer,
+// applyIorToRoughness().
+SHARED_FUNCTION float passingScale(float ior) {
+    SHARED_PRECISE float root = ior > 0.0f ? clamp(2.0f * ior - 2.0f, 0.0f, 1.0f) : 1.0f;
+    SHARED_PRECISE float scale = root * root;
+    return scale;
+}
 
 // Rows or columns of a level.
 SHARED_FUNCTION int behindTexels(int pixels, int level) {

@@ -33,7 +33,7 @@ constexpr EnvironmentFault kEnvironmentFaults[] = {
      "lib/environment/environment_constants.glsl", "direction * mat3(environment.mapFromLS)",
      "mat3(environment.mapFromLS) * direction"},
     {"the wrong level", EnvironmentLight::SplitSum, 1.0f, "lib/environment/environment_filtered.glsl",
-     "* environment.light.z;", "* 0.5 * environment.light.z;"},
+     "* levelsADoubling();", "* 0.5 * levelsADoubling();"},
     {"a lobe without its table", EnvironmentLight::SplitSum, 1.0f, "lib/reflectance/even_light.glsl",
      "seen.f0 * lobe.r + seen.fresnelRise * lobe.g", "seen.f0 + seen.fresnelRise * lobe.g"},
     {"a density without its cosine", EnvironmentLight::Sampled, kMatteBall, "lib/environment/environment_samples.glsl",

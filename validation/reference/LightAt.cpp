@@ -37,6 +37,10 @@ double outlineArea(const scenes::LightCorners& corners) {
     return 0.5 * std::abs(twice);
 }
 
+static_assert(scenes::kAreaTypeCount == 5,
+              "a new shape needs a case in projectedArea() and boundingRadiusMetres(), and perhaps in "
+              "mostProjectedArea()");
+
 /// The projected area of an area light, m^2, by the cosine between its direction and that to the point: on its front
 /// above 0.
 double projectedArea(const scenes::Light& light, double cosFront) {

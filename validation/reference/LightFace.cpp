@@ -14,6 +14,9 @@ glm::dvec3 besideOf(const glm::dvec3& direction) {
         glm::cross(direction, std::abs(direction.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
 }
 
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs its places here, or it casts the shadows of a tube or a disk");
+
 LightFace::LightFace(const scenes::Light& light, const glm::dvec3& ahead, double radius)
     : type_(light.type), radius_(radius), reach_(radius), area_(std::numbers::pi * radius * radius) {
     x_ = besideOf(ahead);

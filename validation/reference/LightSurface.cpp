@@ -32,6 +32,8 @@ glm::dvec3 factorOf(const scenes::Image& map, const glm::dvec2& texels) {
            right * down * storedTexel(map, column + 1, row + 1);
 }
 
+static_assert(scenes::kFlatTypeCount == 3, "a new shape needs a case in halfSidesOf() and isOnSurface()");
+
 /// Half the sides of the picture.
 glm::dvec2 halfSidesOf(const scenes::Light& light) {
     if (light.type == LightType::Rectangle) return {0.5 * double(light.widthMetres), 0.5 * double(light.heightMetres)};
@@ -58,8 +60,7 @@ bool isOnSurface(const scenes::Light& light, const std::vector<std::array<glm::d
 } // namespace
 
 LightSurface::LightSurface(const ShiningLight& shining, const glm::dvec3& toMiddle)
-    : light_(shining.light), toMiddle_(toMiddle),
-      along_(scenes::infoOf(light_.type).isTurned() ? light_.alongWS : scenes::usualAlong(light_.directionWS)),
+    : light_(shining.light), toMiddle_(toMiddle), along_(scenes::alongOf(light_)),
       across_(glm::cross(light_.directionWS, along_)), halfMetres_(halfSidesOf(light_)) {}
 
 glm::dvec2 LightSurface::texelsAt(const glm::dvec3& direction) const {

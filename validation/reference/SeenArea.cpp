@@ -60,6 +60,8 @@ std::vector<FlatCorners> trianglesWithin(const scenes::LightCorners& corners) {
     return triangles;
 }
 
+static_assert(scenes::kAreaTypeCount == 5, "a new shape needs its patches, or it is dark");
+
 SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const scenes::Light& light = shining.light;
     const glm::dvec3 middle = shining.positionRWS - positionRWS;

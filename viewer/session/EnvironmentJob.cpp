@@ -5,7 +5,7 @@
 #include <new>
 #include <utility>
 
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
 

@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 #include "renderer/gpu/Timer.h"
 
 namespace tessera::viewer {

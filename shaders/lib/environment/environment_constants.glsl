@@ -9,6 +9,25 @@ layout(std140, binding = UNIFORM_ENVIRONMENT) uniform EnvironmentBlock
     EnvironmentConstants environment;
 };
 
+float environmentIntensity() // multiplies the map's radiance
+{
+    return environment.light.x;
+}
+
+// Of the filtered map.
+int lastLevel()
+{
+    return int(environment.light.y);
+}
+float levelsADoubling() // of alpha
+{
+    return environment.light.z;
+}
+int unfilteredSide() // texels along the square that its levels were filtered from
+{
+    return int(environment.light.w);
+}
+
 vec3 mapDirection(vec3 directionLS)
 {
     precise vec3 direction = mat3(environment.mapFromLS) * directionLS;

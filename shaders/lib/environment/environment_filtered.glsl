@@ -12,7 +12,7 @@
 
 vec3 irradianceOn(vec3 normalLS)
 {
-    int level = int(environment.light.y) + 1;
+    int level = lastLevel() + 1;
     return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, level);
 }
 
@@ -20,8 +20,8 @@ vec3 irradianceOn(vec3 normalLS)
 // sharper the more of the map itself, in the direction that mirrors the viewer.
 vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
 {
-    precise float level = log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * environment.light.z;
-    int fine = min(int(level), int(environment.light.y) - 1);
+    precise float level = log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * levelsADoubling();
+    int fine = min(int(level), lastLevel() - 1);
     precise float share = min(level - float(fine), 1.0);
     vec2 code = encodeOctahedral(mapDirection(axisLS));
     vec3 fineLight = filteredLevel(code, fine), coarseLight = filteredLevel(code, fine + 1);
@@ -146,6 +146,6 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 #if HAS_CLEARCOAT
     light += shares.ofCoat * lobes.coat;
 #endif
-    precise vec3 scaled = light * (environment.light.x * openShare(seen.surface));
+    precise vec3 scaled = light * (environmentIntensity() * openShare(seen.surface));
     return scaled;
 }

@@ -3,7 +3,8 @@
 #include "lib/environment/environment_constants.glsl"
 #include "lib/maths/math.glsl"
 
-layout(binding = TEXTURE_UNIT_ENVIRONMENT) uniform sampler2D environmentMap; // rgb radiance; a density of samples, 1/sr
+// RGB radiance; A, where samples are taken, their density in 1/sr.
+layout(binding = TEXTURE_UNIT_ENVIRONMENT) uniform sampler2D environmentMap;
 
 // Texels from the left and from the top of where a direction of the map lies.
 vec2 mapPlace(vec3 direction, ivec2 size)

@@ -90,15 +90,6 @@ float blinnDensity(float exponent, HalfSum h)
 }
 #endif
 
-bool hasSampledLobe(SeenSurface seen)
-{
-#if HAS_GLOSSY_MODELS
-    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
-#else
-    return false;
-#endif
-}
-
 vec3 lobeDirection(vec2 point, SeenSurface seen, vec3 tangent)
 {
     vec3 normal = seen.surface.normalLS;
@@ -121,7 +112,7 @@ vec3 lobeDirection(vec2 point, SeenSurface seen, vec3 tangent)
 float surfaceDensity(SeenSurface seen, vec3 toLight)
 {
     precise float density = max(dot(seen.surface.normalLS, toLight), 0.0) * kInversePi;
-    if (hasSampledLobe(seen)) {
+    if (hasLobe(seen)) {
         HalfSum h = halfSum(seen.surface.normalLS, toLight, seen.toViewer);
         if (h.length2 > 0.0 && h.along > 0.0) {
 #if HAS_BLINN_PHONG
@@ -215,9 +206,9 @@ vec3 takeMirrors(inout SeenSurface seen)
 // Radiance towards the viewer of the map's light, before its intensity.
 vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 {
-    bool hasLobe = hasSampledLobe(seen);
+    bool samplesLobe = hasLobe(seen);
 #if HAS_MIRRORS
-    hasLobe = hasLobe && !isMirror(seen);
+    samplesLobe = samplesLobe && !isMirror(seen);
     vec3 mirrored = takeMirrors(seen);
 #endif
     uvec3 random = hashOf(uvec3(uvec2(pixel), 0x9e3779b9u));
@@ -237,14 +228,14 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
         if (ofMap.w > 0.0) sum += sampledLight(seen, bounces, fromMapDirection(ofMap.xyz), light.rgb, ofMap.w);
         vec2 point = evenPoint(random.xy, k);
         sum += sampledDirection(seen, bounces, cosineDirection(point, normal, tangent));
-        if (hasLobe) sum += sampledDirection(seen, bounces, lobeDirection(point, seen, tangent));
+        if (samplesLobe) sum += sampledDirection(seen, bounces, lobeDirection(point, seen, tangent));
 #if HAS_CLEARCOAT && !SPECULAR_OFF
         if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0)
             sum += sampledDirection(seen, bounces, visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer,
                                                             seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
 #endif
     }
-    precise float scale = environment.light.x * openShare(seen.surface);
+    precise float scale = environmentIntensity() * openShare(seen.surface);
     precise vec3 mean = sum * (scale / float(ENVIRONMENT_SAMPLES));
 #if HAS_MIRRORS
     mean += mirrored * scale;

@@ -75,6 +75,7 @@ float shareOfLine(vec3 middle, vec3 halfLine, float facing, AreaLobe lobe)
 // Lights that reach less far across than this from their middle line, in parts of their distance, are lines: there edges
 // are right to 1e-4, and lines to 1e-5.
 const float kNarrow = 2e-3;
+const float kSmall2 = 4e-6; // what reaches less far to all sides is a place: the square of that
 
 // What a lobe sees of an outline, 1 where it fills the hemisphere.
 float shareSeen(Outline outline, AreaLobe lobe)
@@ -86,7 +87,7 @@ float shareSeen(Outline outline, AreaLobe lobe)
     precise float right2 = dot(right, right), up2 = dot(up, up), ends2 = dot(toEnds, toEnds);
     precise float distance2 = dot(middle, middle);
     bool isLong = isTube(outline), isWide = right2 > up2;
-    if (!isLong && max(right2, up2) < 4e-6 * distance2) {
+    if (!isLong && max(right2, up2) < kSmall2 * distance2) {
         precise float facing = abs(dot(outline.middle, outline.faces));
         precise vec3 place = outline.middle + outline.toSide;
         return min(shareOfPlace(place, facing, lobe) * lobe.perAbove, 1.0);
@@ -100,7 +101,7 @@ float shareSeen(Outline outline, AreaLobe lobe)
             vec3 halfLine = isLong ? outline.toEnds : isWide ? outline.right : outline.up;
             precise vec3 place = outline.middle + outline.toSide;
             float facing = isLong ? outline.ofSide : abs(dot(outline.middle, outline.faces));
-            bool isShort = line2 < 4e-6 * distance2;
+            bool isShort = line2 < kSmall2 * distance2;
             precise float share = isShort ? shareOfPlace(place, facing, lobe) : shareOfLine(place, halfLine, facing, lobe);
             if (isLong) {
                 share += shareOfPlace(outline.middle + halfLine, outline.ofEnds.x, lobe);

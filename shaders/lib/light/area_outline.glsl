@@ -153,8 +153,7 @@ vec3 outlineCorner(Outline outline, int vertex)
     int number = vertex == outline.edges ? 0 : vertex;
 #if HAS_POLYGON_LIGHTS
     if (isPolygon(outline)) {
-        vec4 two = lightShapeTexel(outline.polygon, LIGHT_SHAPE_TEXELS + 1 + number / 2);
-        vec2 at = (number & 1) == 0 ? two.xy : two.zw;
+        vec2 at = lightCorner(outline.polygon, number);
         precise vec3 corner = at.x * outline.right + at.y * outline.up;
         return corner;
     }

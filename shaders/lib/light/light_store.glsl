@@ -42,3 +42,12 @@ vec4 lightShadowTexel(int index)
 }
 #endif
 #endif
+
+#if HAS_POLYGON_LIGHTS
+// A corner of a polygon, in parts of its reach.
+vec2 lightCorner(int index, int number)
+{
+    vec4 two = lightShapeTexel(index, LIGHT_SHAPE_TEXELS + 1 + number / 2);
+    return (number & 1) == 0 ? two.xy : two.zw;
+}
+#endif

@@ -90,7 +90,7 @@ vec3 lightAlong(BentRay ray, vec3 kept, float alpha, Viewpoint viewpoint, vec2 p
     precise float rest = 1.0 - met.a;
 #endif
 #if HAS_ENVIRONMENT
-    precise vec3 around = kept * surroundingsAlong(ray.directionLS, alpha, pixel) * environment.light.x;
+    precise vec3 around = kept * surroundingsAlong(ray.directionLS, alpha, pixel) * environmentIntensity();
 #else
     precise vec3 around = kept * view.background.rgb;
 #endif

@@ -1,6 +1,7 @@
 // A surface from a material, as it is rasterised; and from the material's constants alone, where pixels hold its
 // number.
 #pragma once
+#include "shared/refraction.h"
 #include "lib/material/hook.glsl"
 #include "lib/material/material_frame.glsl"
 #include "lib/material/material_lobes.glsl"
@@ -17,9 +18,7 @@ vec3 leftByBody(float thicknesses)
     return mix(left, vec3(1.0), equal(logarithm, vec3(0.0)));
 }
 
-// Source: KHR_materials_transmission and _volume. The alpha is that of the Khronos sample viewer, applyIorToRoughness():
-// the less the index of refraction bends light, the less a rough surface spreads it. An index of 0 is one without
-// bound.
+// Source: KHR_materials_transmission and _volume.
 void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, inout Surface surface)
 {
     precise float transmission = material.transmission.x;
@@ -33,8 +32,7 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     precise float bodyMetres = material.transmission.z * thicknesses;
     precise float share = transmission * (1.0 - metallic);
     precise vec3 passing = baseColor * share;
-    precise float scale = ior > 0.0 ? clamp(2.0 * ior - 2.0, 0.0, 1.0) : 1.0;
-    precise float alpha = max(surface.alpha * (scale * scale), ALPHA_MIN);
+    precise float alpha = max(surface.alpha * passingScale(ior), ALPHA_MIN);
     surface.transmission = transmission;
     surface.passing = passing;
     surface.leftByBody = leftByBody(thicknesses);

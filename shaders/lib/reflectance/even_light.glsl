@@ -13,15 +13,6 @@ struct EvenShares {
 #endif
 };
 
-bool hasLobe(SeenSurface seen)
-{
-#if HAS_GLOSSY_MODELS
-    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
-#else
-    return false;
-#endif
-}
-
 #if HAS_MIRRORS && HAS_GGX_MODELS
 // Fresnel's factor itself as far as the lobe is a mirror, in place of what the table has between its places.
 vec3 towardsMirror(SeenSurface seen, vec3 reflected)

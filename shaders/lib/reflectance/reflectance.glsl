@@ -98,6 +98,16 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
     return seen;
 }
 
+// Whether the viewer sees a lobe of its model, the coat's aside.
+bool hasLobe(SeenSurface seen)
+{
+#if HAS_GLOSSY_MODELS
+    return SPECULAR_OFF == 0 && IS_GLOSSY(seen.surface.model) && seen.nv > 0.0;
+#else
+    return false;
+#endif
+}
+
 // A light and a viewer seen from a surface.
 struct Directions {
     vec3 toLight; // unit

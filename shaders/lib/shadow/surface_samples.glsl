@@ -46,12 +46,6 @@ vec2 squarePlace(int i, vec2 random)
 #endif
 
 #if HAS_POLYGON_LIGHTS
-vec2 lightCorner(int light, int number)
-{
-    vec4 two = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 1 + number / 2);
-    return (number & 1) == 0 ? two.xy : two.zw;
-}
-
 // In the triangle that a place of the unit square falls to by its column.
 vec2 polygonPlace(int light, vec2 place)
 {

@@ -416,7 +416,7 @@ constexpr AreaFault kAreaFaults[] = {
      "1.0"},
     {"what closes a hollowed outline always along one way", "lib/light/area_edges.glsl", "along < 0.0 ? -1.0 : 1.0",
      "1.0"},
-    {"a polygon's corners in twos", "lib/light/area_outline.glsl", "(number & 1) == 0 ? two.xy : two.zw", "two.xy"},
+    {"a polygon's corners in twos", "lib/light/light_store.glsl", "(number & 1) == 0 ? two.xy : two.zw", "two.xy"},
     {"a small polygon in its position", "lib/light/area_light.glsl", "outline.middle + outline.toSide;\n        return",
      "outline.middle;\n        return"},
     {"lines not cut at the horizon", "lib/light/area_light.glsl", "part.x = max(part.x, crossing)", "part.x = -1.0"},

@@ -14,6 +14,23 @@
 namespace tessera::frame {
 namespace {
 
+/// The matrix that takes lights to a clamped cosine (shared::inverseOfShape), from numbers interpolated as by a shader:
+/// linearly between four entries. Smaller alphas and cosines count as the smallest of the table.
+glm::dmat3 inverseShape(double alpha, double cosView) {
+    constexpr double kLast = LOBE_SHAPES_SIDE - 1;
+    alpha = std::clamp(alpha, double(LOBE_SHAPES_SMALLEST_ALPHA), 1.0);
+    cosView = std::clamp(cosView, double(LOBE_SHAPES_SMALLEST_COSINE), 1.0);
+    const double right = kLast * std::sqrt(cosView), up = kLast * std::sqrt(alpha);
+    const double column = std::min(std::floor(right), kLast - 1.0), row = std::min(std::floor(up), kLast - 1.0);
+    const auto between = [&](double y) {
+        const glm::vec4* entry = lobeShapes().data() + std::size_t(y * LOBE_SHAPES_SIDE + column);
+        return glm::mix(glm::dvec4(entry[0]), glm::dvec4(entry[1]), right - column);
+    };
+    const glm::dvec4 numbers = glm::mix(between(row), between(row + 1.0), up - row);
+    const double sineView = std::sqrt(1.0 - cosView * cosView);
+    return shared::inverseOfShape(glm::vec4(numbers), float(alpha), float(cosView), float(sineView));
+}
+
 /// Of an isotropic GGX lobe and a view in the plane of x and z.
 struct ShapeView {
     double alpha = 1.0, cosine = 1.0;

@@ -1,4 +1,4 @@
-#include "renderer/frame/EnvironmentCache.h"
+#include "renderer/frame/ComputedCache.h"
 
 #include <algorithm>
 #include <cstdint>
