@@ -23,8 +23,7 @@ public:
         for (std::size_t i = 0; i < rig_.nodes.size(); ++i) checkNodeAtRest(i);
         for (std::size_t i = 0; i < rig_.weights.size(); ++i) {
             begin("resting weights", i, {});
-            requireIndex(rig_.weights[i].node, scene_.nodes.size(), "node");
-            requireFinite(rig_.weights[i].weights, "weights");
+            requireFinite(rig_.weights[i], "weights");
         }
         for (std::size_t i = 0; i < rig_.numbers.size(); ++i) {
             begin("resting number", i, {});
@@ -101,7 +100,7 @@ private:
                 requireIndex(channel.target, rig_.nodes.size(), "resting node");
             } else if (info.owner == AnimatedOwner::Weights) {
                 requireIndex(channel.target, rig_.weights.size(), "resting weights");
-                width = rig_.weights[std::size_t(channel.target)].weights.size();
+                width = rig_.weights[std::size_t(channel.target)].size();
             } else {
                 requireIndex(channel.target, rig_.numbers.size(), "resting number");
                 require(rig_.numbers[std::size_t(channel.target)].property == channel.property,

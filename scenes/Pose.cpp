@@ -179,7 +179,7 @@ bool isOf(const RestNumber& rest, std::size_t material) {
 Pose poseAt(const Rig& rig, double timeSeconds) {
     Pose pose;
     std::vector<RestNode> nodes = rig.nodes;
-    for (const RestWeights& rest : rig.weights) pose.weights.emplace_back(rest.weights.begin(), rest.weights.end());
+    for (const std::vector<float>& rest : rig.weights) pose.weights.emplace_back(rest.begin(), rest.end());
     pose.numbers.resize(rig.numbers.size());
     std::vector<double> value;
     for (const int number : rig.playing) {

@@ -125,9 +125,9 @@ void Rigging::addDeformed(int index) {
     if (deforms.byTargets) {
         std::vector<float> rest = restWeights(index);
         // A pose has them too, in double precision.
-        document.charge(2 * sizeof(RestWeights) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
+        document.charge(2 * sizeof(rest) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
         deformed.weights = weights_[index] = static_cast<int>(scene.rig.weights.size());
-        scene.rig.weights.push_back({deformed.node, std::move(rest)});
+        scene.rig.weights.push_back(std::move(rest));
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
     for (const Drawn& drawn : shapesOf(node.mesh, deforms)) {
