@@ -68,6 +68,9 @@ bool hasLength(const LightAnimation& path);
 /// Whether there are keyframes of a member but the position.
 bool hasKeys(const Light& light, LightKeyed of);
 
+/// Gives a member a value, x of a number, within the bounds of its field: splines go past their keys.
+void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value);
+
 /// The light as it is at `timeSeconds`: its animation applied to its position, its keyframes to what they are of, its
 /// flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);
