@@ -56,8 +56,7 @@ private:
     void require(bool holds, std::string_view problem) const { element_->require(holds, problem); }
 
     void requireIndex(int index, std::size_t count, std::string_view kind) const {
-        if (index >= 0 && std::size_t(index) < count) return;
-        require(false, fmt::format("refers to {} {}, but there are {}", kind, index, count));
+        element_->requireIndex(index, count, kind);
     }
 
     void requireFinite(const std::vector<float>& numbers, std::string_view what) const {
