@@ -101,12 +101,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
 } // namespace
 
 HookedScene::HookedScene(const scenes::Scene& scene) : scene_(scene), moved_(scene) {
-    std::set<std::size_t> meshes;
-    for (const scenes::Node& node : scene.nodes)
-        for (const scenes::MeshInstance& instance : node.instances)
-            if (instance.mesh != scenes::kNone && instance.material != scenes::kNone &&
-                scene.hook->changes(std::size_t(instance.material)))
-                meshes.insert(std::size_t(instance.mesh));
+    const std::set<std::size_t> meshes = scenes::hookedMeshes(scene);
     meshes_.assign(meshes.begin(), meshes.end());
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -126,6 +127,9 @@ Box3 worldBounds(const Scene& scene);
 
 /// Triangles drawn, instances counted each.
 std::size_t triangleCount(const Scene& scene);
+
+/// The meshes drawn with a material that the hook of a scene that has one changes.
+std::set<std::size_t> hookedMeshes(const Scene& scene);
 
 /// Throws InputError unless everything drawn lies within kFarthestMetres of the origin, and the lights and cameras that
 /// nodes carry do: the part of checkScene() that a pose may break.
