@@ -152,7 +152,7 @@ void Rigging::addDeformed(int index) {
 }
 
 /// A skinned mesh ignores the transform of its node and all above, so it stands at a root.
-void Rigging::standAll() {
+void Rigging::addSkinnedNodes() {
     Scene& scene = context_.scene;
     for (const Standing& standing : standing_) {
         Deformed& deformed = scene.rig.deformed[standing.deformed];
@@ -198,7 +198,7 @@ void Rigging::carryAll() {
 }
 
 void Rigging::finish() {
-    standAll();
+    addSkinnedNodes();
     Rig& rig = context_.scene.rig;
     for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i)
         rig.clips.push_back(clip(static_cast<int>(i)));
