@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-/// GLSL of a scene's own that changes its surfaces (docs/hooks.md).
+/// GLSL of a scene's own that changes its surfaces and moves its vertices (docs/hooks.md).
 namespace tessera::scenes {
 
 inline constexpr std::size_t kMostHookParameters = 15;

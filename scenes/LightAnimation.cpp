@@ -14,13 +14,13 @@
 namespace tessera::scenes {
 namespace {
 
-/// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
-/// exact.
 /// What is left of whole turns: of more turns than a double can count nothing is.
 double shareOf(double turns) {
     return std::isfinite(turns) ? turns - std::floor(turns) : 0.0;
 }
 
+/// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
+/// exact.
 double periodShare(const LightAnimation& animation, double timeSeconds) {
     return shareOf(timeSeconds / animation.periodSeconds + animation.phase);
 }

@@ -10,7 +10,8 @@
 // Invocations of a group of the compute shaders.
 #define HOOK_GROUP 64
 
-// Opacities of vertices that a debug view marks: moved farther than the hook may move them; moved nowhere.
+// Opacities of vertices that a debug view marks: moved farther than the hook may move them; moved nowhere, to NaN or
+// beyond 1000 km.
 #define HOOK_MARK_TOO_FAR 2.0
 #define HOOK_MARK_NOWHERE 3.0
 
