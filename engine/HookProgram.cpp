@@ -2,6 +2,7 @@
 
 #include "renderer/frame/HookConstants.h"
 #include "renderer/gpu/Commands.h"
+#include "shaders/shared/hook.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::engine {
@@ -22,15 +23,14 @@ HookRun::HookRun(const std::string& name, const scenes::Hook& hook, double timeS
     gpu::bindUniformBuffer(UNIFORM_HOOK, constants_);
 }
 
-std::vector<float> HookRun::run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
-                                std::size_t count, std::size_t numbersEach) const {
-    constexpr std::size_t kGroup = 64; // local_size_x
-    const gpu::Buffer taken("made by hook", count * numbersEach * sizeof(float), gpu::BufferUse::Readback);
+gpu::Buffer HookRun::runInto(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
+                             std::size_t count, std::size_t bytes) const {
+    gpu::Buffer taken("made by hook", bytes, gpu::BufferUse::Readback);
     gpu::bindStorageBuffer(givenSlot, given);
     gpu::bindStorageBuffer(takenSlot, taken);
-    gpu::dispatch(std::uint32_t((count + kGroup - 1) / kGroup));
+    gpu::dispatch(std::uint32_t((count + HOOK_GROUP - 1) / HOOK_GROUP));
     gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
-    return taken.downloadAs<float>(count * numbersEach);
+    return taken;
 }
 
 } // namespace tessera::engine

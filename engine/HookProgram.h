@@ -11,7 +11,7 @@
 /// Functions of a scene's hook that run beside the frame, in compute shaders, and what they make is read back.
 namespace tessera::engine {
 
-/// What they are called: passes/<name>.comp, whose groups are of 64.
+/// What they are called: passes/<name>.comp.
 inline constexpr const char* kHookSurfaces = "hook_surfaces";
 inline constexpr const char* kHookVertices = "hook_vertices";
 shader::ProgramDesc hookProgram(const std::string& name, const scenes::Hook& hook);
@@ -22,11 +22,18 @@ public:
     /// Throws InputError where the hook is faulty.
     HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds, shader::ProgramLibrary& programs);
 
-    /// What it makes of what is given, `count` times so many numbers. The slots are those of its storage blocks.
-    std::vector<float> run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
-                           std::size_t count, std::size_t numbersEach) const;
+    /// Runs the hook on `count` items and returns a row an item. The slots are those of its storage blocks.
+    template <typename Row>
+    std::vector<Row> run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
+                         std::size_t count) const {
+        return runInto(givenSlot, given, takenSlot, count, count * sizeof(Row)).template downloadAs<Row>(count);
+    }
 
 private:
+    /// The buffer of so many bytes that it has written.
+    gpu::Buffer runInto(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot, std::size_t count,
+                        std::size_t bytes) const;
+
     gpu::Buffer constants_;
 };
 

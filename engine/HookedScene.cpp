@@ -10,26 +10,25 @@
 
 #include "base/Error.h"
 #include "engine/HookProgram.h"
+#include "shaders/shared/hook.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::engine {
 
 namespace {
 
-/// Of shaders/passes/hook_vertices.comp: floats a vertex.
-constexpr std::size_t kRestFloats = 8, kMovedFloats = 6;
 /// At once: 32 MiB, a quarter of what OpenGL guarantees a storage block.
 constexpr std::size_t kMostAtOnce = std::size_t(1) << 20;
 
 /// Vertices from `first` on, `count` of them.
-std::vector<float> restOf(const scenes::Mesh& mesh, std::size_t first, std::size_t count) {
-    std::vector<float> rest;
-    rest.reserve(count * kRestFloats);
+std::vector<shared::HookVertexRow> restOf(const scenes::Mesh& mesh, std::size_t first, std::size_t count) {
+    std::vector<shared::HookVertexRow> rest;
+    rest.reserve(count);
     for (std::size_t i = first; i < first + count; ++i) {
         const glm::vec3& position = mesh.positionsOS[i];
         const glm::vec3& normal = mesh.normalsOS[i];
         const glm::vec2 uv = mesh.texCoords[0].empty() ? glm::vec2(0.0f) : mesh.texCoords[0][i];
-        rest.insert(rest.end(), {position.x, position.y, position.z, normal.x, normal.y, normal.z, uv.x, uv.y});
+        rest.push_back({{position.x, position.y, position.z}, {normal.x, normal.y, normal.z}, {uv.x, uv.y}});
     }
     return rest;
 }
@@ -38,9 +37,6 @@ struct MovedVertices {
     std::vector<glm::vec3> positionsOS, normalsOS;
     std::vector<glm::vec4> colors; ///< the mesh's own, with marks where there are any
 };
-
-/// Opacities of vertices that are moved too far and nowhere (shaders/lib/material/material_values.glsl).
-constexpr float kTooFarMark = 2.0f, kNowhereMark = 3.0f;
 
 void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<glm::vec4>& colors) {
     if (colors.empty()) colors.assign(vertices, glm::vec4(1.0f));
@@ -68,13 +64,12 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
     const std::size_t vertices = mesh.positionsOS.size();
     for (std::size_t first = 0; first < vertices; first += kMostAtOnce) {
         const std::size_t count = std::min(kMostAtOnce, vertices - first);
-        const std::vector<float> moved =
-            moving.run(STORAGE_HOOK_REST, gpu::Buffer::of("hook rest", restOf(mesh, first, count)), STORAGE_HOOK_MOVED,
-                       count, kMovedFloats);
+        const gpu::Buffer given = gpu::Buffer::of("hook rest", restOf(mesh, first, count));
+        const auto moved = moving.run<shared::HookMovedRow>(STORAGE_HOOK_REST, given, STORAGE_HOOK_MOVED, count);
         for (std::size_t i = 0; i < count; ++i) {
-            const float* const own = moved.data() + kMovedFloats * i;
-            glm::vec3 position(own[0], own[1], own[2]);
-            const glm::vec3 normal(own[3], own[4], own[5]);
+            const auto& [positionOS, normalOS] = moved[i];
+            glm::vec3 position(positionOS[0], positionOS[1], positionOS[2]);
+            const glm::vec3 normal(normalOS[0], normalOS[1], normalOS[2]);
             const glm::vec3& rest = mesh.positionsOS[first + i];
             const double metres = glm::distance(glm::dvec3(position), glm::dvec3(rest));
             // What rounding to fp32 adds to a movement just as long.
@@ -82,7 +77,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
             if (isTooFar && excess == Excess::Mark) {
                 const bool isNowhere = !(metres <= kFarthestMarkedMetres);
-                mark(first + i, vertices, isNowhere ? kNowhereMark : kTooFarMark, result.colors);
+                mark(first + i, vertices, float(isNowhere ? HOOK_MARK_NOWHERE : HOOK_MARK_TOO_FAR), result.colors);
                 if (isNowhere) position = rest;
             } else if (isTooFar) {
                 throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres));
@@ -101,12 +96,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
 } // namespace
 
 HookedScene::HookedScene(const scenes::Scene& scene) : scene_(scene), moved_(scene) {
-    std::set<std::size_t> meshes;
-    for (const scenes::Node& node : scene.nodes)
-        for (const scenes::MeshInstance& instance : node.instances)
-            if (instance.mesh != scenes::kNone && instance.material != scenes::kNone &&
-                scene.hook->changes(std::size_t(instance.material)))
-                meshes.insert(std::size_t(instance.mesh));
+    const std::set<std::size_t> meshes = scenes::hookedMeshes(scene);
     meshes_.assign(meshes.begin(), meshes.end());
 }
 

@@ -10,7 +10,9 @@ namespace tessera::engine {
 /// What is done about vertices that are moved nowhere, or farther than the hook may move them.
 enum class Excess : std::uint8_t {
     Refuse,
-    Mark ///< one that goes nowhere stays; opacities of vertex colours are 2 for those too far, 3 for those nowhere
+    /// A vertex that goes nowhere, to NaN or beyond 1000 km, stays in place. Opacities of vertex colours are
+    /// HOOK_MARK_TOO_FAR or HOOK_MARK_NOWHERE (shaders/shared/hook.h).
+    Mark
 };
 
 /// A scene whose hook moves vertices, with the vertices as they are at a time. The hook runs in a compute shader, and

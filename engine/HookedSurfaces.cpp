@@ -1,44 +1,36 @@
 #include "engine/HookedSurfaces.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 #include "engine/HookProgram.h"
+#include "shaders/shared/hook.h"
 #include "shaders/shared/slots.h"
 
 namespace tessera::engine {
 namespace {
 
-/// Of shaders/passes/hook_surfaces.comp: numbers a point.
-constexpr std::size_t kGivenNumbers = 14, kTakenNumbers = 8;
 /// At once: 56 MiB, less than the 128 that OpenGL guarantees a storage block.
 constexpr std::size_t kMostPointsAtOnce = std::size_t(1) << 20;
 
-std::vector<std::uint32_t> givenOf(std::span<const scenes::HookPoint> points) {
-    std::vector<std::uint32_t> given;
-    given.reserve(points.size() * kGivenNumbers);
-    const auto add = [&given](float value) { given.push_back(std::bit_cast<std::uint32_t>(value)); };
-    for (const scenes::HookPoint& point : points) {
-        for (int i = 0; i < 3; ++i) add(point.surface.color[i]);
-        for (int i = 0; i < 3; ++i) add(point.surface.emission[i]);
-        add(point.surface.alpha);
-        add(point.surface.metallic);
-        for (int i = 0; i < 2; ++i) add(point.uv[i]);
-        for (int i = 0; i < 3; ++i) add(point.positionOS[i]);
-        given.push_back(std::uint32_t(point.instance));
+std::vector<shared::HookPointRow> rowsOf(std::span<const scenes::HookPoint> points) {
+    std::vector<shared::HookPointRow> rows;
+    rows.reserve(points.size());
+    for (const auto& [surface, uv, positionOS, instance] : points) {
+        const auto& [color, emission, alpha, metallic] = surface;
+        rows.push_back({{{color.x, color.y, color.z}, {emission.x, emission.y, emission.z}, alpha, metallic},
+                        {uv.x, uv.y},
+                        {positionOS.x, positionOS.y, positionOS.z},
+                        instance});
     }
-    return given;
+    return rows;
 }
 
 void addTaken(const HookRun& hook, std::span<const scenes::HookPoint> points,
               std::vector<scenes::HookedSurface>& surfaces) {
-    const std::vector<float> taken = hook.run(STORAGE_HOOK_POINTS, gpu::Buffer::of("hook points", givenOf(points)),
-                                              STORAGE_HOOK_SURFACES, points.size(), kTakenNumbers);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const float* const own = taken.data() + kTakenNumbers * i;
-        surfaces.push_back({{own[0], own[1], own[2]}, {own[3], own[4], own[5]}, own[6], own[7]});
-    }
+    const gpu::Buffer given = gpu::Buffer::of("hook points", rowsOf(points));
+    for (const auto& [color, emission, alpha, metallic] :
+         hook.run<shared::HookSurfaceRow>(STORAGE_HOOK_POINTS, given, STORAGE_HOOK_SURFACES, points.size()))
+        surfaces.push_back({{color[0], color[1], color[2]}, {emission[0], emission[1], emission[2]}, alpha, metallic});
 }
 
 } // namespace

@@ -130,8 +130,8 @@ public:
 
     /// To be called after vertices of the scene's meshes, transforms of its nodes or factors of its materials were
     /// changed (scenes::applyPose()), but not which instances there are nor their attributes, triangles and textures:
-    /// the next draw() uploads them. Programs and textures stay, unless an emission begins or ends at 0 or other lights
-    /// reach the view. The latest frame is gone.
+    /// the next draw() uploads them. Programs and textures stay, unless an emission, a layer, transmission or a
+    /// texture's transform begins or ends, or other lights reach the view. The latest frame is gone.
     void geometryChanged();
 
     /// To be called after clips posed the scene anew: either of the two above, or neither.

@@ -75,7 +75,7 @@ constexpr bool ownsNumbers(AnimatedOwner owner) {
     return owner != AnimatedOwner::Node && owner != AnimatedOwner::Weights;
 }
 
-/// Whether that counts in Scene::materials.
+/// Whether RestNumber::element indexes Scene::materials.
 constexpr bool isOfMaterial(AnimatedOwner owner) {
     return owner == AnimatedOwner::Material || owner == AnimatedOwner::Texture;
 }

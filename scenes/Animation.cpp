@@ -83,14 +83,18 @@ void valueAt(const AnimationSampler& sampler, bool isRotation, double timeSecond
     const auto next = std::ranges::upper_bound(times, timeSeconds, {}, [](float time) { return double(time); });
     if (next == times.begin()) return atKey(sampler, isRotation, 0, value);
     const auto key = std::size_t(next - times.begin()) - 1;
-    if (next == times.end() || sampler.interpolation == Interpolation::Step)
-        return atKey(sampler, isRotation, key, value);
+    if (next == times.end()) return atKey(sampler, isRotation, key, value);
     const double seconds = double(times[key + 1]) - double(times[key]);
     const double share = (timeSeconds - double(times[key])) / seconds;
-    if (sampler.interpolation == Interpolation::CubicSpline) {
+    switch (sampler.interpolation) {
+    case Interpolation::Step:
+        return atKey(sampler, isRotation, key, value);
+    case Interpolation::CubicSpline:
         spline(sampler, key, share, seconds, value);
         if (isRotation) makeUnit(value);
         return;
+    case Interpolation::Linear:
+        break;
     }
     std::vector<double> to(value.size());
     atKey(sampler, isRotation, key, value);

@@ -58,12 +58,6 @@ struct RestNode {
     glm::dvec3 scale{1.0};
 };
 
-/// How far the morph targets of a node's meshes count by themselves.
-struct RestWeights {
-    int node = 0;
-    std::vector<float> weights; ///< by target
-};
-
 /// A member of a light, a material, a texture's transform or a camera, and what it is by itself (takeRest()).
 struct RestNumber {
     AnimatedProperty property = AnimatedProperty::LightColor;
@@ -120,7 +114,7 @@ struct Rig {
     std::vector<Clip> clips;
     std::vector<int> playing; ///< clips; of two that change the same thing the later counts
     std::vector<RestNode> nodes;
-    std::vector<RestWeights> weights;
+    std::vector<std::vector<float>> weights; ///< morph weights without a clip, by target
     std::vector<RestNumber> numbers;
     std::vector<Skin> skins;
     std::vector<Shape> shapes;

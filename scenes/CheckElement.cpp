@@ -14,7 +14,7 @@ void CheckedElement::require(bool holds, std::string_view problemAndRemedy) cons
 
 void CheckedElement::requireIndex(int index, std::size_t count, std::string_view kind) const {
     if (index >= 0 && static_cast<std::size_t>(index) < count) return;
-    require(false, fmt::format("refers to {} {}, but the scene has {}", kind, index, count));
+    require(false, fmt::format("refers to {} {}, but there are {}", kind, index, count));
 }
 
 std::string boundsText(double least, double most) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,17 +16,14 @@ namespace {
 
 /// All instances of a mesh share its vertices.
 void checkMovedMeshes(const Scene& scene, const auto& require) {
-    std::vector<std::optional<bool>> moves(scene.meshes.size());
+    const std::set<std::size_t> moved = hookedMeshes(scene);
     for (const Node& node : scene.nodes)
         for (const MeshInstance& instance : node.instances) {
-            if (instance.mesh == kNone || instance.material == kNone) continue;
-            std::optional<bool>& ofMesh = moves[std::size_t(instance.mesh)];
-            const bool changes = scene.hook->changes(std::size_t(instance.material));
-            require(ofMesh.value_or(changes) == changes,
+            const auto mesh = std::size_t(instance.mesh);
+            require(scene.hook->changes(std::size_t(instance.material)) || !moved.contains(mesh),
                     fmt::format("the mesh '{}' is drawn with a material that its hook changes and with one that it "
                                 "leaves alone, and its vertices cannot be in two places; give both to the hook",
-                                scene.meshes[std::size_t(instance.mesh)].name));
-            ofMesh = changes;
+                                scene.meshes[mesh].name));
         }
 }
 
@@ -54,8 +50,7 @@ void checkHook(const Scene& scene) {
         require(isHookParameterName(parameter.name) && names.insert(parameter.name).second,
                 fmt::format("'{}' names no parameter of its hook; give letters and digits, each name once",
                             parameter.name));
-        require(std::isfinite(parameter.least) && std::isfinite(parameter.most) &&
-                    between(double(parameter.value), double(parameter.least), double(parameter.most)),
+        require(std::isfinite(parameter.least) && std::isfinite(parameter.most) && parameter.allows(parameter.value),
                 fmt::format("the parameter '{}' of its hook is {:g}, and must lie between {:g} and {:g}",
                             parameter.name, parameter.value, parameter.least, parameter.most));
     }

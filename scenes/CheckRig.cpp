@@ -23,8 +23,7 @@ public:
         for (std::size_t i = 0; i < rig_.nodes.size(); ++i) checkNodeAtRest(i);
         for (std::size_t i = 0; i < rig_.weights.size(); ++i) {
             begin("resting weights", i, {});
-            requireIndex(rig_.weights[i].node, scene_.nodes.size(), "node");
-            requireFinite(rig_.weights[i].weights, "weights");
+            requireFinite(rig_.weights[i], "weights");
         }
         for (std::size_t i = 0; i < rig_.numbers.size(); ++i) {
             begin("resting number", i, {});
@@ -57,8 +56,7 @@ private:
     void require(bool holds, std::string_view problem) const { element_->require(holds, problem); }
 
     void requireIndex(int index, std::size_t count, std::string_view kind) const {
-        if (index >= 0 && std::size_t(index) < count) return;
-        require(false, fmt::format("refers to {} {}, but there are {}", kind, index, count));
+        element_->requireIndex(index, count, kind);
     }
 
     void requireFinite(const std::vector<float>& numbers, std::string_view what) const {
@@ -101,7 +99,7 @@ private:
                 requireIndex(channel.target, rig_.nodes.size(), "resting node");
             } else if (info.owner == AnimatedOwner::Weights) {
                 requireIndex(channel.target, rig_.weights.size(), "resting weights");
-                width = rig_.weights[std::size_t(channel.target)].weights.size();
+                width = rig_.weights[std::size_t(channel.target)].size();
             } else {
                 requireIndex(channel.target, rig_.numbers.size(), "resting number");
                 require(rig_.numbers[std::size_t(channel.target)].property == channel.property,

@@ -160,10 +160,6 @@ public:
         const auto& [index, translation, rotation, scale] = node;
         addAll(index, translation, rotation, scale);
     }
-    void add(const RestWeights& rest) {
-        const auto& [node, weights] = rest;
-        addAll(node, weights);
-    }
     void add(const RestNumber& rest) {
         const auto& [property, element, number, slot] = rest;
         addAll(property, element, number, slot);

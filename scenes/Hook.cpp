@@ -62,6 +62,12 @@ bool isDigit(char c) {
 bool isOfWord(char c) {
     return isLetter(c) || isDigit(c) || c == '_';
 }
+/// What of a word stands from a place on; empty: another letter does.
+std::string_view wordAt(std::string_view code, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < code.size() && isOfWord(code[end])) ++end;
+    return code.substr(begin, end - begin);
+}
 
 /// The text with spaces for its comments; lines stay where they are.
 std::string withoutComments(std::string_view text) {
@@ -109,7 +115,7 @@ void setHookValue(Hook& hook, const HookValue& value) {
             fmt::format("its hook has no parameter '{}'; {}", value.name,
                         names.empty() ? "it has none" : fmt::format("valid are {}", fmt::join(names, ", "))));
     }
-    if (!(value.value >= found->least && value.value <= found->most))
+    if (!found->allows(value.value))
         throw InputError(fmt::format("the parameter '{}' of its hook cannot be {:g}; it lies between {:g} and {:g}",
                                      value.name, value.value, found->least, found->most));
     found->value = value.value;
@@ -119,12 +125,10 @@ HookFunctions hookFunctions(std::string_view text) {
     const std::string code = withoutComments(text);
     HookFunctions functions;
     for (std::size_t i = 0; i < code.size();) {
-        std::size_t end = i;
-        while (end < code.size() && isOfWord(code[end])) ++end;
-        const std::string_view word = std::string_view(code).substr(i, end - i);
+        const std::string_view word = wordAt(code, i);
         functions.surface = functions.surface || word == kSurfaceFunction;
         functions.vertex = functions.vertex || word == kVertexFunction;
-        i = std::max(end, i + 1);
+        i += std::max(word.size(), std::size_t(1));
     }
     return functions;
 }
@@ -148,20 +152,18 @@ std::optional<HookFault> hookFault(std::string_view text) {
             return HookFault{line, "outside of comments GLSL has the letters of ASCII alone; take others out, and the "
                                    "byte order mark that some editors begin a file with"};
         if (code.compare(i, 2, "##") == 0) return HookFault{line, "## makes words that nothing checks; write them out"};
-        if (!isOfWord(c)) {
+        const std::string_view word = wordAt(code, i);
+        if (word.empty()) {
             if (c == '\n') ++line;
             if (c != ' ' && c != '\t' && c != '\r') before = c;
             ++i;
             continue;
         }
-        std::size_t end = i;
-        while (end < code.size() && isOfWord(code[end])) ++end;
-        const std::string_view word = std::string_view(code).substr(i, end - i);
         for (const RefusedWord& refused : kRefusedWords)
             if (isRefused(refused, word, before == '#'))
                 return HookFault{line, fmt::format("{}: {}", word, refused.why)};
-        before = code[end - 1];
-        i = end;
+        before = word.back();
+        i += word.size();
     }
     const HookFunctions functions = hookFunctions(text);
     if (!functions.surface && !functions.vertex)

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-/// GLSL of a scene's own that changes its surfaces (docs/hooks.md).
+/// GLSL of a scene's own that changes its surfaces and moves its vertices (docs/hooks.md).
 namespace tessera::scenes {
 
 inline constexpr std::size_t kMostHookParameters = 15;
@@ -21,6 +21,8 @@ struct HookParameter {
     float least = 0.0f; ///< the value lies between the two
     float most = 1.0f;
     bool operator==(const HookParameter&) const = default;
+
+    bool allows(float other) const { return other >= least && other <= most; } // false for NaN
 };
 
 /// Another value for the parameter of that name.

@@ -14,13 +14,13 @@
 namespace tessera::scenes {
 namespace {
 
-/// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
-/// exact.
 /// What is left of whole turns: of more turns than a double can count nothing is.
 double shareOf(double turns) {
     return std::isfinite(turns) ? turns - std::floor(turns) : 0.0;
 }
 
+/// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
+/// exact.
 double periodShare(const LightAnimation& animation, double timeSeconds) {
     return shareOf(timeSeconds / animation.periodSeconds + animation.phase);
 }
@@ -158,22 +158,6 @@ glm::dvec3 betweenKeys(const LightKeys& keys, double anyTimeSeconds) {
     return isOnSphere ? alongGreatCircle(from, to, share) : glm::mix(from, to, share);
 }
 
-/// Splines go past their keys: a member with bounds stays within them.
-void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value) {
-    std::visit(
-        [&](auto at) {
-            const auto field = fieldOf(kLightFields, at);
-            auto& own = light.*at;
-            if constexpr (std::is_same_v<std::decay_t<decltype(own)>, float>)
-                own = float(std::clamp(value.x, field.least, field.most));
-            else if constexpr (std::is_same_v<std::decay_t<decltype(own)>, glm::vec3>)
-                own = glm::vec3(glm::clamp(value, field.least, field.most));
-            else
-                own = value;
-        },
-        infoOf(member).at);
-}
-
 /// A light as it is without its animation.
 void animate(Light& light, const LightAnimation& animation, double timeSeconds) {
     switch (animation.kind) {
@@ -233,6 +217,21 @@ bool hasLength(const LightAnimation& path) {
 
 bool hasKeys(const Light& light, LightKeyed of) {
     return std::ranges::find(light.keyframes, of, &LightKeys::of) != light.keyframes.end();
+}
+
+void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value) {
+    std::visit(
+        [&](auto at) {
+            const auto field = fieldOf(kLightFields, at);
+            auto& own = light.*at;
+            if constexpr (std::is_same_v<std::decay_t<decltype(own)>, float>)
+                own = float(std::clamp(value.x, field.least, field.most));
+            else if constexpr (std::is_same_v<std::decay_t<decltype(own)>, glm::vec3>)
+                own = glm::vec3(glm::clamp(value, field.least, field.most));
+            else
+                own = value;
+        },
+        infoOf(member).at);
 }
 
 Light lightAtTime(const Light& light, double timeSeconds) {

@@ -110,7 +110,7 @@ std::uint64_t bytesOf(const Rig& rig) {
     std::uint64_t bytes = bytesOf(rig.playing) + bytesOf(rig.nodes) + bytesOf(rig.weights) + bytesOf(rig.numbers) +
                           bytesOf(rig.deformed) + bytesOf(rig.lights) + bytesOf(rig.cameras);
     for (const Clip& clip : rig.clips) bytes += bytesOf(clip);
-    for (const RestWeights& rest : rig.weights) bytes += bytesOf(rest.weights);
+    for (const std::vector<float>& rest : rig.weights) bytes += bytesOf(rest);
     for (const Skin& skin : rig.skins)
         bytes += sizeof(Skin) + skin.name.size() + bytesOf(skin.joints) + bytesOf(skin.jointFromBind);
     for (const Shape& shape : rig.shapes) bytes += bytesOf(shape);

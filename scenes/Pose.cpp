@@ -136,7 +136,7 @@ void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
 }
 
 /// Lets no inner cone be wider than its outer one. What the pose says of the outer one counts where it says both.
-void nestCones(Scene& scene, const Pose& pose) {
+void clampInnerCones(Scene& scene, const Pose& pose) {
     for (const AnimatedProperty cone : {AnimatedProperty::LightInnerCone, AnimatedProperty::LightOuterCone})
         for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
             const RestNumber& rest = scene.rig.numbers[i];
@@ -150,7 +150,7 @@ void nestCones(Scene& scene, const Pose& pose) {
 }
 
 /// Lets every far plane lie beyond the near one.
-void partPlanes(Scene& scene, const Pose& pose) {
+void separatePlanes(Scene& scene, const Pose& pose) {
     for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
         const RestNumber& rest = scene.rig.numbers[i];
         if (infoOf(rest.property).owner != AnimatedOwner::Camera || rest.element == kNone || !pose.numbers[i]) continue;
@@ -179,7 +179,7 @@ bool isOf(const RestNumber& rest, std::size_t material) {
 Pose poseAt(const Rig& rig, double timeSeconds) {
     Pose pose;
     std::vector<RestNode> nodes = rig.nodes;
-    for (const RestWeights& rest : rig.weights) pose.weights.emplace_back(rest.weights.begin(), rest.weights.end());
+    for (const std::vector<float>& rest : rig.weights) pose.weights.emplace_back(rest.begin(), rest.end());
     pose.numbers.resize(rig.numbers.size());
     std::vector<double> value;
     for (const int number : rig.playing) {
@@ -228,8 +228,8 @@ void applyPose(Scene& scene, const Pose& pose) {
         if (rest.element == kNone || !number) continue;
         useOwner(scene, rest, [&](auto& owner) { setPosed(owner, infoOf(rest.property), *number); });
     }
-    nestCones(scene, pose);
-    partPlanes(scene, pose);
+    clampInnerCones(scene, pose);
+    separatePlanes(scene, pose);
     deformAll(scene, pose);
     if (!rig.lights.empty() || !rig.cameras.empty()) {
         const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);

@@ -15,7 +15,7 @@ struct LightLinks {
 };
 LightLinks lightLinks(const Rig& rig);
 void setLightLinks(Rig& rig, const LightLinks& links);
-/// What is left of the links when a light is edited: who gives it another place, direction or number, owns that.
+/// What is left of the links when a light is edited. An edited place, direction or number is no longer animated.
 LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after);
 /// The same when `put` lights have come in the place of `taken` ones from `first` on, which all are without links.
 LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put);
@@ -28,7 +28,7 @@ void keepLights(Scene& scene, std::size_t count);
 void dropCameras(Scene& scene);
 /// Lets clips leave alone what of a camera is not as it was `before`: its place, or a number.
 void ownCamera(Scene& scene, std::size_t camera, const Camera& before);
-/// How many of those there are in a scene that RestNumber::element counts in.
+/// How many elements of that owner the scene has, which RestNumber::element indexes.
 std::size_t elementCount(const Scene& scene, AnimatedOwner owner);
 
 /// Lets lights and cameras stay as they are whatever clips play, as those of a scene file do.

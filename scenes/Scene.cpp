@@ -66,4 +66,12 @@ std::size_t triangleCount(const Scene& scene) {
     return triangles;
 }
 
+std::set<std::size_t> hookedMeshes(const Scene& scene) {
+    std::set<std::size_t> meshes;
+    for (const Node& node : scene.nodes)
+        for (const MeshInstance& instance : node.instances)
+            if (scene.hook->changes(std::size_t(instance.material))) meshes.insert(std::size_t(instance.mesh));
+    return meshes;
+}
+
 } // namespace tessera::scenes

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -68,6 +69,9 @@ bool hasLength(const LightAnimation& path);
 /// Whether there are keyframes of a member but the position.
 bool hasKeys(const Light& light, LightKeyed of);
 
+/// Gives a member a value, x of a number, within the bounds of its field: splines go past their keys.
+void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value);
+
 /// The light as it is at `timeSeconds`: its animation applied to its position, its keyframes to what they are of, its
 /// flicker to its intensity.
 Light lightAtTime(const Light& light, double timeSeconds);
@@ -123,6 +127,9 @@ Box3 worldBounds(const Scene& scene);
 
 /// Triangles drawn, instances counted each.
 std::size_t triangleCount(const Scene& scene);
+
+/// The meshes drawn with a material that the hook of a scene that has one changes.
+std::set<std::size_t> hookedMeshes(const Scene& scene);
 
 /// Throws InputError unless everything drawn lies within kFarthestMetres of the origin, and the lights and cameras that
 /// nodes carry do: the part of checkScene() that a pose may break.

@@ -9,7 +9,7 @@
 
 namespace tessera::frame {
 
-/// What of a hook decides on programs.
+/// The parts of a hook that programs are compiled for.
 struct HookShape {
     std::string file; ///< absolute
     std::uint64_t contentHash = 0;

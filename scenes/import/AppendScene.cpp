@@ -94,7 +94,6 @@ void shiftRig(Rig& rig, const Scene& whole, std::size_t nodes) {
     const Rig& before = whole.rig;
     for (int& clip : rig.playing) shift(clip, before.clips.size());
     for (RestNode& rest : rig.nodes) shift(rest.node, nodes);
-    for (RestWeights& rest : rig.weights) shift(rest.node, nodes);
     for (RestNumber& rest : rig.numbers) shift(rest.element, elementCount(whole, infoOf(rest.property).owner));
     for (Skin& skin : rig.skins)
         for (int& joint : skin.joints) shift(joint, nodes);

@@ -40,7 +40,7 @@ int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot
     return entry->second;
 }
 
-std::optional<int> Rigging::morphlessNode(const model::AnimationChannel& channel) const {
+std::optional<int> Rigging::nodeWithoutTargets(const model::AnimationChannel& channel) const {
     const std::optional<std::size_t> node = nodeOfWeights(channel);
     if (!node || *node >= sceneNodes_.size()) return {};
     const int mesh = context_.document.model.nodes[*node].mesh;
@@ -175,7 +175,7 @@ Clip Rigging::clip(int index) {
         const model::AnimationChannel& channel = stored.channels[i];
         std::optional<Animated> what = animated(channel);
         if (!what) {
-            if (const std::optional<int> node = morphlessNode(channel))
+            if (const std::optional<int> node = nodeWithoutTargets(channel))
                 morphless_.insert(*node);
             else
                 leaveOut(channel.pointer.empty() ? channel.path : channel.pointer, count);

@@ -94,7 +94,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
         const auto rest = weights_.find(index);
         if (rest == weights_.end()) return {};
         animated.targets.push_back(rest->second);
-        animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].weights.size();
+        animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].size();
         return animated;
     }
     if (context_.document.model.nodes[static_cast<std::size_t>(index)].matrix) return {}; // has no parts to change

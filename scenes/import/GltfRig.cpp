@@ -125,9 +125,9 @@ void Rigging::addDeformed(int index) {
     if (deforms.byTargets) {
         std::vector<float> rest = restWeights(index);
         // A pose has them too, in double precision.
-        document.charge(2 * sizeof(RestWeights) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
+        document.charge(2 * sizeof(rest) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
         deformed.weights = weights_[index] = static_cast<int>(scene.rig.weights.size());
-        scene.rig.weights.push_back({deformed.node, std::move(rest)});
+        scene.rig.weights.push_back(std::move(rest));
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
     for (const Drawn& drawn : shapesOf(node.mesh, deforms)) {
@@ -152,7 +152,7 @@ void Rigging::addDeformed(int index) {
 }
 
 /// A skinned mesh ignores the transform of its node and all above, so it stands at a root.
-void Rigging::standAll() {
+void Rigging::addSkinnedNodes() {
     Scene& scene = context_.scene;
     for (const Standing& standing : standing_) {
         Deformed& deformed = scene.rig.deformed[standing.deformed];
@@ -198,7 +198,7 @@ void Rigging::carryAll() {
 }
 
 void Rigging::finish() {
-    standAll();
+    addSkinnedNodes();
     Rig& rig = context_.scene.rig;
     for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i)
         rig.clips.push_back(clip(static_cast<int>(i)));

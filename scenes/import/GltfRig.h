@@ -55,7 +55,7 @@ private:
     std::vector<float> restWeights(int node) const;
     int skinOf(int index);
     void requireJoints(const Shape& shape, int mesh, int skin, std::size_t joints) const;
-    void standAll();
+    void addSkinnedNodes();
 
     Clip clip(int index);
     std::optional<Animated> animated(const model::AnimationChannel& channel);
@@ -66,7 +66,7 @@ private:
     std::optional<Animated> animatedOfTexture(std::size_t material, std::string_view path);
     std::optional<Animated> animatedOfCamera(std::size_t index, std::string_view path);
     /// The node whose weights a channel changes though its mesh has no morph targets; none: another channel.
-    std::optional<int> morphlessNode(const model::AnimationChannel& channel) const;
+    std::optional<int> nodeWithoutTargets(const model::AnimationChannel& channel) const;
     void warnOfMorphless();
     int restNode(int node);
     int restNumber(AnimatedProperty property, int element, TextureSlot slot = TextureSlot::Count);
@@ -92,7 +92,7 @@ private:
     std::size_t leftOut_ = 0;                         ///< channels
     std::map<std::string, std::string> leftOutPaths_; ///< the first of each kind, by its kind
     bool hasMoreLeftOut_ = false;                     ///< kinds than are named
-    std::set<int> morphless_;                         ///< nodes of morphlessNode(), of the document
+    std::set<int> morphless_;                         ///< nodes of nodeWithoutTargets(), of the document
 };
 
 } // namespace tessera::scenes::gltf

@@ -13,7 +13,7 @@ namespace {
 
 float valueWithin(const HookParameter& parameter, const JsonValue& number) {
     const float value = number.single();
-    if (!(value >= parameter.least && value <= parameter.most))
+    if (!parameter.allows(value))
         number.fail(fmt::format("is {:g}, and must lie between its least, {:g}, and its most, {:g}", value,
                                 parameter.least, parameter.most));
     return value;

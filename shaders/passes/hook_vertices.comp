@@ -2,29 +2,28 @@
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = HOOK_GROUP) in;
 
-// The names are none that a hook, whose text follows, is likely to have.
-// A vertex each: position, normal, the first texture coordinates.
+// Names that hooks are unlikely to use.
 layout(std430, binding = STORAGE_HOOK_REST) readonly buffer HookRest
 {
-    float hookRestNumbers[];
+    HookVertexRow hookRestRows[];
 };
-// A vertex each: position, normal of any length.
 layout(std430, binding = STORAGE_HOOK_MOVED) writeonly buffer HookMoved
 {
-    float hookMovedNumbers[];
+    HookMovedRow hookMovedRows[];
 };
 
 void main()
 {
-    uint from = 8u * gl_GlobalInvocationID.x, to = 6u * gl_GlobalInvocationID.x;
-    if (from >= uint(hookRestNumbers.length())) return;
-    vec3 positionOS = vec3(hookRestNumbers[from], hookRestNumbers[from + 1u], hookRestNumbers[from + 2u]);
-    vec3 normalOS = vec3(hookRestNumbers[from + 3u], hookRestNumbers[from + 4u], hookRestNumbers[from + 5u]);
-    hookVertex(positionOS, normalOS, vec2(hookRestNumbers[from + 6u], hookRestNumbers[from + 7u]));
+    uint at = gl_GlobalInvocationID.x;
+    if (at >= uint(hookRestRows.length())) return;
+    HookVertexRow rest = hookRestRows[at];
+    vec3 positionOS = vec3(rest.positionOS[0], rest.positionOS[1], rest.positionOS[2]);
+    vec3 normalOS = vec3(rest.normalOS[0], rest.normalOS[1], rest.normalOS[2]);
+    hookVertex(positionOS, normalOS, vec2(rest.uv[0], rest.uv[1]));
     for (int i = 0; i < 3; ++i) {
-        hookMovedNumbers[to + uint(i)] = positionOS[i];
-        hookMovedNumbers[to + 3u + uint(i)] = normalOS[i];
+        hookMovedRows[at].positionOS[i] = positionOS[i];
+        hookMovedRows[at].normalOS[i] = normalOS[i];
     }
 }

@@ -1,7 +1,8 @@
 #pragma once
 // Lets one file declare a struct, or define a function, for C++ and GLSL alike. Such structs hold only vec4, uvec4,
 // mat4 and arrays of them, whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with
-// what the driver reports. Shared functions take and return such values, mat3 and plain numbers.
+// what the driver reports. Those of storage blocks alone may hold plain numbers and arrays of them. Shared functions
+// take and return such values, mat3 and plain numbers.
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>

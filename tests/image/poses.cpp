@@ -44,7 +44,7 @@ scenes::Scene waving(scenes::Scene scene) {
         scene.nodes.emplace_back().parent = int(n);
         rig.skins.push_back({"joint", {joint}, {glm::dmat4(1.0)}});
         rig.nodes.push_back({joint});
-        rig.weights.push_back({int(n), {0.0f}});
+        rig.weights.push_back({0.0f});
         scenes::Node& stand = scene.nodes.emplace_back();
         stand.instances.push_back(drawn);
         stand.instances[0].mesh = int(scene.meshes.size());

@@ -47,24 +47,6 @@ glm::dvec3 memberOf(const Light& light, LightKeyed member) {
         scenes::infoOf(member).at);
 }
 
-/// Within the bounds of the member, which keys need not keep to.
-void setMember(Light& light, LightKeyed member, const glm::dvec3& value) {
-    if (member == LightKeyed::Direction) return turnLight(light, value);
-    std::visit(
-        [&](auto at) {
-            auto& own = light.*at;
-            using Value = std::decay_t<decltype(own)>;
-            const auto field = scenes::fieldOf(scenes::kLightFields, at);
-            if constexpr (std::is_same_v<Value, float>)
-                own = float(std::clamp(value.x, field.least, field.most));
-            else if constexpr (std::is_same_v<Value, glm::vec3>)
-                own = glm::vec3(glm::clamp(value, field.least, field.most));
-            else
-                own = value;
-        },
-        scenes::infoOf(member).at);
-}
-
 /// What the light shows at a time but for its flicker, which multiplies what keys say.
 glm::dvec3 shownMember(Light light, LightKeyed member, double timeSeconds) {
     light.flicker.reset();
@@ -157,7 +139,8 @@ void removeKey(Light& light, LightKeyed member, std::size_t key) {
             light.animation.reset();
         else
             std::erase_if(light.keyframes, [&](const LightKeys& one) { return one.of == member; });
-        return setMember(light, member, last);
+        if (member == LightKeyed::Direction) return turnLight(light, last); // and what lies across it
+        return scenes::setKeyed(light, member, last);
     }
     const auto eraseFrom = [key](auto& list) { list.erase(list.begin() + std::ptrdiff_t(key)); };
     eraseFrom(keys.timesSeconds);

@@ -147,9 +147,9 @@ vec4 materialBaseColor(Fragment fragment)
 #if VIEW == VIEW_MOVED_TOO_FAR
     color.rgb = vec3(0.4);
 #if HAS_VERTEX_COLOR
-    // Opacities beyond 1 are engine::HookedScene's marks.
-    precise float tooFar = clamp(fragment.color.a - 1.0, 0.0, 1.0);
-    precise float nowhere = clamp(fragment.color.a - 2.0, 0.0, 1.0);
+    // Opacities beyond 1 are engine::HookedScene's marks, 1 apart.
+    precise float tooFar = clamp(fragment.color.a - (HOOK_MARK_TOO_FAR - 1.0), 0.0, 1.0);
+    precise float nowhere = clamp(fragment.color.a - (HOOK_MARK_NOWHERE - 1.0), 0.0, 1.0);
     color.rgb += tooFar * (vec3(0.9, 0.0, 0.9) - color.rgb);
     color.rgb += nowhere * (vec3(0.0, 0.9, 0.9) - color.rgb);
 #endif

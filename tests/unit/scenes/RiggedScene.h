@@ -37,7 +37,7 @@ inline Scene riggedScene() {
     skin.jointFromBind.assign(2, glm::dmat4(1.0));
     skin.jointFromBind[1][3].x = -1.0;
     rig.nodes.push_back({2, {1.0, 0.0, 0.0}});
-    rig.weights.push_back({0, {0.0f}});
+    rig.weights.push_back({0.0f});
     rig.numbers.push_back({AnimatedProperty::LightIntensity, 0, glm::vec4(1.0f, 0.0f, 0.0f, 0.0f)});
     rig.deformed.push_back({0, 0, 0, 3, 0, 0});
     rig.lights.push_back({0, 2});

@@ -58,9 +58,9 @@ TEST(CheckScene, soundScenePasses) {
 
 TEST(CheckScene, messageNamesSceneAndElement) {
     EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].mesh = 7; }),
-              "scene 'tiny': node 0 'root': refers to mesh 7, but the scene has 1");
+              "scene 'tiny': node 0 'root': refers to mesh 7, but there are 1");
     EXPECT_EQ(verdict([](Scene& s) { s.nodes[0].instances[0].material = kNone; }),
-              "scene 'tiny': node 0 'root': refers to material -1, but the scene has 1");
+              "scene 'tiny': node 0 'root': refers to material -1, but there are 1");
     EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].indices[1] = 3; }),
               "scene 'tiny': mesh 0 'triangle': index 1 is 3, but there are 3 vertices");
     EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].positionsOS[2].y = kNaN; }),
@@ -162,7 +162,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              s.materials[0].subsurface.method = SubsurfaceMethod::Wrap;
              s.materials.resize(256, s.materials[0]);
          }},
-        {"image 0, but the scene has 0", [](Scene& s) { s.materials[0].texture(TextureSlot::Normal).image = 0; }},
+        {"image 0, but there are 0", [](Scene& s) { s.materials[0].texture(TextureSlot::Normal).image = 0; }},
         {"tangents", [](Scene& s) { s.meshes[0].tangentsOS.resize(2); }},
         {"colours", [](Scene& s) { s.meshes[0].colors.resize(4, glm::vec4(1.0f)); }},
         {"texture coordinates", [](Scene& s) { s.meshes[0].texCoords[1].resize(1); }},
