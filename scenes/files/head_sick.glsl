@@ -55,7 +55,7 @@ void hookSurface(inout HookedSurface surface, HookInputs inputs)
     float skin = smoothstep(0.1, 0.3, surface.color.r) * smoothstep(0.1, 0.2, surface.color.r - surface.color.b);
     float light = dot(surface.color, vec3(0.3, 0.6, 0.1));
     surface.color = mix(surface.color, light * vec3(0.52, 1.2, 0.4), hook.green * illness() * skin);
-    float nose = smoothstep(0.34, 0.12, distance(place, kNose));
+    float nose = 1.0 - smoothstep(0.12, 0.34, distance(place, kNose));
     float beat = 0.75 + 0.25 * sin(5.0 * hook.timeSeconds);
     float red = hook.red * beat * nose * smoothstep(0.0, 0.5, illness());
     surface.color = mix(surface.color, vec3(0.75, 0.05, 0.03), red);

@@ -120,7 +120,9 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     const int components = isOneByOne ? 1 : info.width;
     if (values.components != components)
         failValues(fmt::format("has {} components an element; {} needs {}", values.components, info.path, components));
-    if (values.componentType != model::ComponentType::Float && !values.normalized)
+    // Pointers take plain integers as the numbers that they are. Source: KHR_animation_pointer, "Output Accessor
+    // Component Types".
+    if (values.componentType != model::ComponentType::Float && !values.normalized && !ownsNumbers(info.owner))
         failValues("holds integers that are not normalized");
     const std::size_t needed =
         sampler.timesSeconds.size() * sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});

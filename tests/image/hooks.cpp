@@ -147,6 +147,47 @@ TEST_F(Hooks, whatTheyGiveIsKeptWithinWhatASurfaceMayBe) {
     }
 }
 
+/// What is beyond a bound draws the very picture of a material at that bound; so does NaN at the least.
+TEST_F(Hooks, whatIsBeyondABoundIsDrawnAsTheBound) {
+    using scenes::Material;
+    struct Case {
+        const char* body;
+        void (*set)(Material&);
+    };
+    const Case cases[] = {{"{ surface.color = vec3(7.0, 1.0, -3.0); }",
+                           [](Material& m) {
+                               m.baseColor = {1.0f, 1.0f, 0.0f, 1.0f};
+                           }},
+                          {"{ surface.color = vec3(uintBitsToFloat(0x7fc00000u)); }",
+                           [](Material& m) {
+                               m.baseColor = {0, 0, 0, 1.0f};
+                           }},
+                          {"{ surface.alpha = 0.0; }", [](Material& m) { m.perceptualRoughness = 0.0f; }},
+                          {"{ surface.alpha = 9.0; }", [](Material& m) { m.perceptualRoughness = 1.0f; }},
+                          {"{ surface.metallic = 2.0; }", [](Material& m) { m.metallic = 1.0f; }},
+                          {"{ surface.metallic = -1.0; }", [](Material& m) { m.metallic = 0.0f; }},
+                          {"{ surface.emission = vec3(1e4, 0.0, -2.0); }", [](Material& m) {
+                               m.emissive = {1e4f, 0.0f, 0.0f};
+                           }}};
+    Material material;
+    material.model = scenes::MaterialModel::MetallicRoughness;
+    material.baseColor = {0.6f, 0.4f, 0.3f, 1.0f};
+    material.metallic = 0.4f;
+    material.perceptualRoughness = 0.5f;
+    scenes::Scene scene = test::quadScene(material);
+    scene.lights = {test::pointLight({0.3, 0.4, 1.0}, 3.0f)};
+    frame::FrameSettings settings = smallSettings();
+    settings.sizePixels = {24, 24};
+    for (const Case& one : cases) {
+        SCOPED_TRACE(one.body);
+        scenes::Scene at = scene;
+        one.set(at.materials[0]);
+        const std::vector<float> shown = drawn(hooked(scene, one.body), settings), wanted = drawn(at, settings);
+        EXPECT_EQ(shown, wanted);
+        EXPECT_NE(shown, drawn(scene, settings));
+    }
+}
+
 TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {
     const scenes::Scene faulty = hooked(test::evenScene(), "{\n    surface.color = undeclaredName;\n}\n");
     try {

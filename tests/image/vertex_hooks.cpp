@@ -101,6 +101,21 @@ TEST_F(VertexHooksSlow, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
     expectAlikeAtAnyTime();
 }
 
+/// A quad that its own texture coordinates move is the quad whose vertices lie there.
+TEST_F(VertexHooks, theyGetTheTextureCoordinatesOfTheirVertex) {
+    scenes::Material glowing;
+    glowing.model = scenes::MaterialModel::SingleColor;
+    scenes::Scene scene = test::quadScene(glowing), there = scene;
+    scenes::Mesh& mesh = there.meshes[0];
+    ASSERT_FALSE(mesh.texCoords[0].empty());
+    for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i)
+        mesh.positionsOS[i] += glm::vec3(0.25f * mesh.texCoords[0][i].x, 0.125f * mesh.texCoords[0][i].y, 0.0f);
+    EXPECT_EQ(
+        drawn(moving(scene, "{\n    positionOS += vec3(0.25 * uv.x, 0.125 * uv.y, 0.0);\n}\n", 1.0), smallSettings()),
+        drawn(there, smallSettings()));
+    EXPECT_NE(drawn(there, smallSettings()), drawn(scene, smallSettings()));
+}
+
 TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
     const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.x *= 0.5;\n}\n", 0.6);
     engine::Renderer renderer(context(), scene);

@@ -30,8 +30,11 @@ scenes::HookPoint pointOf(const Hit& hit, const SurfacePoint& point) {
 }
 
 /// A number that the hook leaves alone keeps all its digits; another lies from `least` to `most`, or to what it was.
+/// NaN is the least.
 void take(float before, float after, double least, double most, double& number) {
-    if (after != before) number = std::clamp(double(after), std::min(number, least), std::max(number, most));
+    if (after == before) return;
+    const double low = std::min(number, least), high = std::max(number, most);
+    number = double(after) >= low ? std::min(double(after), high) : low;
 }
 
 void takeAll(const scenes::HookedSurface& before, const scenes::HookedSurface& after, SurfacePoint& point) {

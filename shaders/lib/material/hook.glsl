@@ -7,19 +7,29 @@
 #if HOOKED && VIEW != VIEW_MOVED_TOO_FAR
 const float HOOK_EMISSION_MOST = 1e30; // scenes::kMostEmission
 
-// Values that a hook leaves alone keep every bit: no bound is within them.
+// What a hook gives, within bounds that are widened to the value it found, so that one it leaves alone keeps every bit.
+// NaN is the least: of it GLSL's clamp() says nothing.
+float boundHooked(float given, float found, float least, float most)
+{
+    float low = min(found, least), high = max(found, most);
+    return given >= low ? min(given, high) : low;
+}
+vec3 boundHooked(vec3 given, vec3 found, float least, float most)
+{
+    return vec3(boundHooked(given.r, found.r, least, most), boundHooked(given.g, found.g, least, most),
+                boundHooked(given.b, found.b, least, most));
+}
+
 void takeHook(Fragment fragment, inout Surface surface)
 {
     if ((material.kind.y & MATERIAL_FLAG_HOOKED) == 0u) return;
     HookedSurface hooked = HookedSurface(surface.albedo, surface.emission, surface.alpha, surface.metallic);
     hookSurface(hooked, HookInputs(vec2(fragment.texCoord[0]), fragment.positionOS, fragment.instance));
-    surface.albedo = clamp(hooked.color, min(surface.albedo, vec3(0.0)), max(surface.albedo, vec3(1.0)));
-    surface.emission = clamp(hooked.emission, min(surface.emission, vec3(0.0)),
-                             max(surface.emission, vec3(HOOK_EMISSION_MOST)));
+    surface.albedo = boundHooked(hooked.color, surface.albedo, 0.0, 1.0);
+    surface.emission = boundHooked(hooked.emission, surface.emission, 0.0, HOOK_EMISSION_MOST);
     if (IS_MICROFACET(surface.model) || HAS_METALLIC(surface.model))
-        surface.alpha = clamp(hooked.alpha, ALPHA_MIN, max(surface.alpha, 1.0));
-    if (HAS_METALLIC(surface.model))
-        surface.metallic = clamp(hooked.metallic, min(surface.metallic, 0.0), max(surface.metallic, 1.0));
+        surface.alpha = boundHooked(hooked.alpha, max(surface.alpha, ALPHA_MIN), ALPHA_MIN, 1.0);
+    if (HAS_METALLIC(surface.model)) surface.metallic = boundHooked(hooked.metallic, surface.metallic, 0.0, 1.0);
 }
 #else
 #define takeHook(fragment, surface)

@@ -1,6 +1,7 @@
 #include "scenes/Pose.h"
 
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -107,6 +108,29 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
             glm::normalize(glm::transpose(glm::inverse(worldFromMesh)) * glm::dvec3(scene.meshes[0].normalsOS[0]));
         expectAt(normalWS, side * normalOf(positionsWS(scene, kSkinned)));
     }
+}
+
+/// They lie in the surface, so a joint that stretches it turns them as it does the surface, and not as normals.
+TEST(Poses, tangentsLieInTheDeformedSurface) {
+    Scene scene = riggedScene();
+    const float half = std::sqrt(0.5f);
+    scene.rig.shapes[0].rest.tangentsOS.assign(3, glm::vec4(half, half, 0.0f, -1.0f));
+    scene.meshes[0].tangentsOS = scene.rig.shapes[0].rest.tangentsOS;
+    scene.rig.shapes[0].targets[0].tangentsOS = {{0, 0, 0}, {0, 0, 0}, {-half, half, 0}};
+    scene.rig.playing.clear();
+    scene.rig.nodes[0].scale = {1.0, 2.0, 1.0}; // of the knee, which the second vertex follows
+    poseScene(scene, 0.0);
+    const std::vector<glm::vec4>& tangents = scene.meshes[0].tangentsOS;
+    const auto expectAlong = [](const glm::vec4& tangent, const glm::dvec3& direction) {
+        EXPECT_LT(glm::distance(glm::dvec3(tangent), glm::normalize(direction)), 1e-6) << tangent.x << " " << tangent.y;
+        EXPECT_EQ(tangent.w, -1.0f);
+    };
+    expectAlong(tangents[0], {1.0, 1.0, 0.0});
+    expectAlong(tangents[1], {1.0, 2.0, 0.0});
+    expectAlong(tangents[2], {1.0, 1.5, 0.0}); // half of both joints
+    scene.rig.weights[0] = {1.0f};
+    poseScene(scene, 0.0);
+    expectAlong(tangents[2], {0.0, 1.0, 0.0});
 }
 
 TEST(Poses, verticesWithoutWeightAreMirroredWithTheirNode) {

@@ -23,7 +23,7 @@ public:
     /// A triangle's corner.
     struct Corner {
         Point placeWS;
-        Point normalWS; ///< not of unit length; zero where the mesh has no normals
+        Point normalWS; ///< not of unit length; of the triangle where the mesh has no normals
         bool mirrored = false;
     };
 
@@ -280,6 +280,7 @@ private:
         }
     }
 
+    static Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     static Point crossed(const Point& a, const Point& b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
@@ -369,6 +370,10 @@ private:
                         sum[c] += targetWeights[t] * accessor(targets[t][attribute])[vertex][c];
             return Point{sum[0], sum[1], sum[2]};
         };
+        // By its node all of a mesh has one side, of which joints may turn a part inside out.
+        const Point x = moved(index, {}, {1, 0, 0}, 0.0), y = moved(index, {}, {0, 1, 0}, 0.0),
+                    z = moved(index, {}, {0, 0, 1}, 0.0), yz = crossed(y, z);
+        const bool isMirrored = x.x * yz.x + x.y * yz.y + x.z * yz.z < 0.0;
         std::vector<Corner> corners;
         for (std::size_t vertex = 0; vertex < rest.size(); ++vertex) {
             const std::vector<Influence> influences = influencesOf(node, attributes, vertex);
@@ -381,13 +386,23 @@ private:
             const Point bc = crossed(b, c), ca = crossed(c, a), ab = crossed(a, b);
             corner.normalWS = {n.x * bc.x + n.y * ca.x + n.z * ab.x, n.x * bc.y + n.y * ca.y + n.z * ab.y,
                                n.x * bc.z + n.y * ca.z + n.z * ab.z};
-            corner.mirrored = a.x * bc.x + a.y * bc.y + a.z * bc.z < 0.0;
+            corner.mirrored = isMirrored;
         }
+        const std::size_t first = all.size();
         if (primitive.contains("indices"))
             for (const Numbers& vertex : accessor(primitive["indices"]))
                 all.push_back(corners.at(std::size_t(vertex[0])));
         else
             all.insert(all.end(), corners.begin(), corners.end());
+        if (attributes.contains("NORMAL")) return;
+        for (std::size_t i = first; i + 2 < all.size(); i += 3) { // flat
+            const Point normalWS =
+                crossed(difference(all[i + 1].placeWS, all[i].placeWS), difference(all[i + 2].placeWS, all[i].placeWS));
+            for (std::size_t corner = i; corner < i + 3; ++corner) {
+                all[corner].normalWS = normalWS;
+                all[corner].mirrored = isMirrored;
+            }
+        }
     }
 
     Json json_;

@@ -1,4 +1,5 @@
 // What KHR_animation_pointer names: numbers of lights, materials, textures and cameras.
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -44,6 +45,17 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
     poseScene(scene, 0.5);
     EXPECT_FLOAT_EQ(scene.lights[0].intensity, 3.0f);
     EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 1.0f);
+}
+
+/// Plain integers are the numbers that they are, which of a node's own properties no file may hold.
+TEST(GltfAnimation, pointersTakePlainIntegers) {
+    Builder builder;
+    builder.material();
+    const int output = builder.add(std::vector<std::uint8_t>{0, 1}, kUnsignedByteType, "SCALAR", 2);
+    addClip(builder, {0, 1}, output, pointerTo("/materials/0/pbrMetallicRoughness/roughnessFactor"));
+    Scene scene = builder.import();
+    poseAll(scene, 0.5);
+    EXPECT_FLOAT_EQ(scene.materials[0].perceptualRoughness, 0.5f);
 }
 
 /// Its keys state it in the space of the mesh, as the material does. A sampler that another channel takes as well keeps

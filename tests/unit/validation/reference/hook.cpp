@@ -1,4 +1,5 @@
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -108,6 +109,7 @@ TEST(ReferenceHook, whatItGivesIsKeptWithinWhatASurfaceMayBe) {
     EXPECT_GT(white.r, 0.0);
     EXPECT_EQ(view.rendered(painted(7.0f)).radiance[middle], white);
     EXPECT_EQ(view.rendered(painted(-1.0f)).radiance[middle], glm::dvec3(0.0));
+    EXPECT_EQ(view.rendered(painted(std::numeric_limits<float>::quiet_NaN())).radiance[middle], glm::dvec3(0.0));
 }
 
 TEST(ReferenceHook, anUnlitSurfaceShowsItsEmissionAlone) {
