@@ -24,8 +24,8 @@
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "renderer/shader/SourceTree.h"
+#include "scenes/Clips.h"
 #include "scenes/Defaults.h"
-#include "scenes/Pose.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/pictures/ShownPicture.h"
 

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
+#include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "scenes/InUse.h"
 #include "scenes/Pose.h"

@@ -13,7 +13,7 @@
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/shader/ProgramLibrary.h"
-#include "scenes/Pose.h"
+#include "scenes/Clips.h"
 
 namespace tessera::engine {
 

@@ -11,8 +11,8 @@
 #include "apps/FrameOptionText.h"
 #include "apps/Keywords.h"
 #include "base/OneLine.h"
+#include "scenes/Clips.h"
 #include "scenes/Defaults.h"
-#include "scenes/Pose.h"
 
 namespace tessera::python {
 

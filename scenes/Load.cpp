@@ -13,10 +13,12 @@
 #include "base/Error.h"
 #include "base/Extension.h"
 #include "base/Names.h"
+#include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
 #include "scenes/import/Importers.h"
 

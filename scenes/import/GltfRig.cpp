@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "scenes/import/GltfPointers.h"
 
 namespace tessera::scenes::gltf {

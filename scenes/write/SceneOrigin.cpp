@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/Extension.h"
-#include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "scenes/import/FileBytes.h"
 #include "scenes/import/JsonText.h"
 #include "scenes/import/SceneJsonFiles.h"

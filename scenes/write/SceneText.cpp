@@ -9,7 +9,7 @@
 
 #include "base/Error.h"
 #include "scenes/Load.h"
-#include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "scenes/write/ElementJson.h"
 
 namespace tessera::scenes {

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "engine/Rendering.h"
+#include "scenes/Clips.h"
 #include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/AnimatedModels.h"
 #include "tests/support/Sweep.h"

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
-#include "scenes/Pose.h"
+#include "scenes/Clips.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Playback.h"

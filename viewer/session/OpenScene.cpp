@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Clips.h"
 #include "scenes/Framing.h"
 #include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
 #include "viewer/edit/Pick.h"
 

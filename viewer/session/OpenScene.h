@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/Pose.h"
+#include "scenes/Clips.h"
 #include "scenes/write/SceneOrigin.h"
 #include "viewer/session/CameraRig.h"
 #include "viewer/session/EnvironmentJob.h"

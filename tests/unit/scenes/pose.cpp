@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "scenes/Clips.h"
 #include "scenes/Fingerprint.h"
+#include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
 #include "scenes/import/AppendScene.h"
 #include "tests/unit/scenes/RiggedScene.h"

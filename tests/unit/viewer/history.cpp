@@ -9,6 +9,7 @@
 
 #include "scenes/Fingerprint.h"
 #include "scenes/Load.h"
+#include "scenes/Rest.h"
 #include "scenes/write/SceneText.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/CameraTest.h"

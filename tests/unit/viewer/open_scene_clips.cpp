@@ -2,6 +2,7 @@
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/Pose.h"
+#include "scenes/Rest.h"
 #include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/session/OpenScene.h"

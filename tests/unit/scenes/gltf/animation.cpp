@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenes/Clips.h"
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 namespace tessera::scenes::gltf::test {

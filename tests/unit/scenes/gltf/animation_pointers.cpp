@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scenes/Clips.h"
+#include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 

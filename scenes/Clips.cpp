@@ -1,0 +1,101 @@
+#include "scenes/Clips.h"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+#include "base/Names.h"
+#include "scenes/Rest.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// By node, whether a clip that plays moves it, or one above it: parents stand before their children.
+std::vector<bool> movedNodes(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    std::vector<bool> moves(scene.nodes.size());
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels)
+            if (infoOf(channel.property).owner == AnimatedOwner::Node)
+                moves[std::size_t(rig.nodes[std::size_t(channel.target)].node)] = true;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const int parent = scene.nodes[i].parent;
+        if (parent != kNone && moves[std::size_t(parent)]) moves[i] = true;
+    }
+    return moves;
+}
+
+} // namespace
+
+bool isPlaying(const Scene& scene) {
+    return !scene.rig.playing.empty();
+}
+
+void playClip(Scene& scene, const std::string& nameOrNumber) {
+    Rig& rig = scene.rig;
+    restPlayed(scene);
+    rig.playing.clear();
+    for (std::size_t i = 0; i < rig.clips.size(); ++i)
+        if (rig.clips[i].name == nameOrNumber) rig.playing.push_back(int(i));
+    if (!rig.playing.empty() || nameOrNumber == kNoClip) return;
+    std::size_t number = 0;
+    const char* const end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
+    if (error == std::errc() && rest == end && number < rig.clips.size()) {
+        rig.playing.push_back(int(number));
+        return;
+    }
+    if (rig.clips.empty())
+        throw InputError(fmt::format("the scene has no clip, so none is called '{}'; leave it out", nameOrNumber));
+    std::vector<std::string_view> names{kNoClip};
+    for (const Clip& clip : rig.clips) names.push_back(clip.name);
+    throw InputError(fmt::format("no clip of the scene is called '{}', nor is it the number of one; {}", nameOrNumber,
+                                 suggestNames(nameOrNumber, names)));
+}
+
+std::string clipText(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    if (rig.clips.empty()) return {};
+    if (rig.playing.empty()) return fmt::format("no clip of {}", rig.clips.size());
+    std::string text;
+    for (const int playing : rig.playing) {
+        const Clip& clip = rig.clips[std::size_t(playing)];
+        const double seconds = lengthSeconds(clip);
+        // "0 s" would look like a fault.
+        const std::string length = clip.channels.empty() ? "which moves nothing"
+                                   : seconds == 0.0      ? "a pose without duration"
+                                                         : fmt::format("{:.3g} s", seconds);
+        text += fmt::format("{}clip {} '{}' of {}, {}", text.empty() ? "" : "; ", playing, clip.name, rig.clips.size(),
+                            length);
+    }
+    return text;
+}
+
+bool movesCamera(const Scene& scene, int camera) {
+    const std::vector<bool> moves = movedNodes(scene);
+    return std::ranges::any_of(scene.rig.cameras, [&](const Carried& carried) {
+        return carried.element == camera && moves[std::size_t(carried.node)];
+    });
+}
+
+MovingParts movingParts(const Scene& scene) {
+    const Rig& rig = scene.rig;
+    MovingParts parts;
+    for (const int playing : rig.playing)
+        for (const AnimationChannel& channel : rig.clips[std::size_t(playing)].channels) {
+            const AnimatedOwner owner = infoOf(channel.property).owner;
+            parts.materials = parts.materials || isOfMaterial(owner);
+            parts.geometry = parts.geometry || owner == AnimatedOwner::Weights ||
+                             (owner == AnimatedOwner::Node && !rig.deformed.empty()); // it may be a joint
+        }
+    const std::vector<bool> moves = movedNodes(scene);
+    for (std::size_t i = 0; i < moves.size(); ++i)
+        parts.geometry = parts.geometry || (moves[i] && !scene.nodes[i].instances.empty());
+    return parts;
+}
+
+} // namespace tessera::scenes
