@@ -305,7 +305,8 @@ TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsABodyDoesAndBendsNone) {
         for (int x = kBehindPixels / 4; x < 3 * kBehindPixels / 4; ++x) // the blur ends where the picture does
             for (int c = 0; c < 3; ++c) {
                 ASSERT_NEAR(at(slanted, x, y)[c], at(even, x, y)[c], 2e-3) << "at " << x << ", " << y;
-                if (c != 1) ASSERT_GT(std::abs(at(bent, x, y)[c] - at(even, x, y)[c]), 0.02) << "at " << x << ", " << y;
+                if (c == 1) continue;
+                ASSERT_GT(std::abs(at(bent, x, y)[c] - at(even, x, y)[c]), 0.02) << "at " << x << ", " << y;
             }
 }
 

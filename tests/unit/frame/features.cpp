@@ -260,11 +260,12 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
         {true, blinn(2e4f)}, // as wide as alpha 0.01
         {false, blinn(1e4f)},
         {true, also(blinn(1e4f), textured(TextureSlot::MetallicRoughness))},
-        // Bodies that hardly bend light hardly spread it.
+        // What hardly bends light hardly spreads it.
         {true, also(metal(0.5f), body(0.1f, 1.02f))},
         {false, also(metal(0.5f), body(0.1f, 1.5f))},
-        {false, also(metal(0.5f), body(0.1f, 0.0f))},  // an index without bound
-        {false, also(metal(0.5f), body(0.0f, 1.02f))}, // a sheet
+        {false, also(metal(0.5f), body(0.1f, 0.0f))}, // an index without bound
+        {true, also(metal(0.5f), body(0.0f, 1.02f))}, // sheets too
+        {false, also(metal(0.5f), body(0.0f, 1.5f))},
         {true, also(also(metal(0.5f), body(0.1f, 1.5f)), textured(TextureSlot::Ior))},
         {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has none
     for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -370,23 +370,20 @@ private:
                         sum[c] += targetWeights[t] * accessor(targets[t][attribute])[vertex][c];
             return Point{sum[0], sum[1], sum[2]};
         };
-        // By its node all of a mesh has one side, of which joints may turn a part inside out.
-        const Point x = moved(index, {}, {1, 0, 0}, 0.0), y = moved(index, {}, {0, 1, 0}, 0.0),
-                    z = moved(index, {}, {0, 0, 1}, 0.0), yz = crossed(y, z);
-        const bool isMirrored = x.x * yz.x + x.y * yz.y + x.z * yz.z < 0.0;
         std::vector<Corner> corners;
         for (std::size_t vertex = 0; vertex < rest.size(); ++vertex) {
             const std::vector<Influence> influences = influencesOf(node, attributes, vertex);
             Corner& corner = corners.emplace_back();
             corner.placeWS = moved(index, influences, morphed("POSITION", vertex), 1.0);
-            if (!attributes.contains("NORMAL")) continue;
             // A plane's normal, by two directions in it.
             const Point a = moved(index, influences, {1, 0, 0}, 0.0), b = moved(index, influences, {0, 1, 0}, 0.0),
-                        c = moved(index, influences, {0, 0, 1}, 0.0), n = morphed("NORMAL", vertex);
+                        c = moved(index, influences, {0, 0, 1}, 0.0);
             const Point bc = crossed(b, c), ca = crossed(c, a), ab = crossed(a, b);
+            corner.mirrored = a.x * bc.x + a.y * bc.y + a.z * bc.z < 0.0;
+            if (!attributes.contains("NORMAL")) continue;
+            const Point n = morphed("NORMAL", vertex);
             corner.normalWS = {n.x * bc.x + n.y * ca.x + n.z * ab.x, n.x * bc.y + n.y * ca.y + n.z * ab.y,
                                n.x * bc.z + n.y * ca.z + n.z * ab.z};
-            corner.mirrored = isMirrored;
         }
         const std::size_t first = all.size();
         if (primitive.contains("indices"))
@@ -398,10 +395,7 @@ private:
         for (std::size_t i = first; i + 2 < all.size(); i += 3) { // flat
             const Point normalWS =
                 crossed(difference(all[i + 1].placeWS, all[i].placeWS), difference(all[i + 2].placeWS, all[i].placeWS));
-            for (std::size_t corner = i; corner < i + 3; ++corner) {
-                all[corner].normalWS = normalWS;
-                all[corner].mirrored = isMirrored;
-            }
+            for (std::size_t corner = i; corner < i + 3; ++corner) all[corner].normalWS = normalWS;
         }
     }
 

@@ -19,6 +19,7 @@ namespace {
 struct DrawnCorner {
     glm::dvec3 placeWS;
     glm::dvec3 normalWS;
+    bool isMirrored = false; ///< the whole mesh, by its node
 };
 
 std::vector<DrawnCorner> drawnCorners(const Scene& scene) {
@@ -26,11 +27,12 @@ std::vector<DrawnCorner> drawnCorners(const Scene& scene) {
     std::vector<DrawnCorner> corners;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         const glm::dmat3 normalFromNode = glm::transpose(glm::inverse(glm::dmat3(worldFromNode[node])));
+        const bool isMirrored = glm::determinant(glm::dmat3(worldFromNode[node])) < 0.0;
         for (const MeshInstance& instance : scene.nodes[node].instances) {
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             for (const std::uint32_t vertex : mesh.indices)
                 corners.push_back({glm::dvec3(worldFromNode[node] * glm::dvec4(mesh.positionsOS[vertex], 1.0)),
-                                   normalFromNode * glm::dvec3(mesh.normalsOS[vertex])});
+                                   normalFromNode * glm::dvec3(mesh.normalsOS[vertex]), isMirrored});
         }
     }
     return corners;
@@ -48,6 +50,7 @@ void widen(double& most, double difference) {
 /// The largest distance of a place from the truth, as a share of the picture's extent, and of a normal's direction.
 struct Difference {
     double place = 0.0, normal = 0.0;
+    bool hasOtherSides = false; ///< some corner is mirrored, and its mesh is not, or the other way round
 };
 
 /// The largest distance of a joint's matrix from the truth of the latest corners(), as a share of the matrix: of a
@@ -88,7 +91,8 @@ Difference differenceAt(Scene& scene, TruthOfAnimation& truth, int clip, double 
     const double extent = std::max(glm::length(box.max - box.min), glm::length(glm::max(glm::abs(box.min), box.max)));
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         widen(difference.place, glm::distance(drawn[i].placeWS, vectorOf(wanted[i].placeWS)) / extent);
-        const glm::dvec3 normal = (wanted[i].mirrored ? -1.0 : 1.0) * vectorOf(wanted[i].normalWS);
+        difference.hasOtherSides = difference.hasOtherSides || drawn[i].isMirrored != wanted[i].mirrored;
+        const glm::dvec3 normal = (drawn[i].isMirrored ? -1.0 : 1.0) * vectorOf(wanted[i].normalWS);
         if (!(glm::length(normal) > 1e-12)) continue;
         widen(difference.normal, glm::distance(glm::normalize(drawn[i].normalWS), glm::normalize(normal)));
     }
@@ -112,6 +116,7 @@ void expectTrue(const std::filesystem::path& file) {
             const Difference difference = differenceAt(scene, truth, clip, time);
             EXPECT_LT(difference.place, 1e-5) << "clip " << clip << " at " << time << " s";
             EXPECT_LT(difference.normal, 1e-3) << "clip " << clip << " at " << time << " s";
+            EXPECT_FALSE(difference.hasOtherSides) << "clip " << clip << " at " << time << " s";
             EXPECT_LT(differenceOfJoints(scene, truth), 1e-5) << "clip " << clip << " at " << time << " s";
         }
     }
