@@ -69,15 +69,18 @@ std::string_view wordAt(std::string_view code, std::size_t begin) {
     return code.substr(begin, end - begin);
 }
 
-/// The text with spaces for its comments; lines stay where they are.
-std::string withoutComments(std::string_view text) {
+/// The text with spaces for its comments; lines stay where they are. `open` receives where a comment begins that does
+/// not end.
+std::string withoutComments(std::string_view text, std::optional<std::size_t>* open = nullptr) {
     std::string code(text);
     enum class In { Code, Line, Block } in = In::Code;
+    std::size_t begin = 0;
     for (std::size_t i = 0; i < code.size(); ++i) {
         const std::string_view pair = text.substr(i, 2);
         if (in == In::Code && pair == "//") in = In::Line;
         if (in == In::Code && pair == "/*") {
             in = In::Block;
+            begin = i;
             code[i++] = ' ';
             code[i] = ' ';
             continue;
@@ -91,6 +94,7 @@ std::string withoutComments(std::string_view text) {
         if (in == In::Line && code[i] == '\n') in = In::Code;
         if (in != In::Code && code[i] != '\n') code[i] = ' ';
     }
+    if (open != nullptr && in == In::Block) *open = begin;
     return code;
 }
 
@@ -134,7 +138,9 @@ HookFunctions hookFunctions(std::string_view text) {
 }
 
 std::optional<HookFault> hookFault(std::string_view text) {
-    const std::string code = withoutComments(text);
+    std::optional<std::size_t> openComment;
+    const std::string code = withoutComments(text, &openComment);
+    std::vector<std::size_t> conditionals; // lines of those that are open
     std::size_t line = 1;
     char before = '\n'; // the last that is no blank
     for (std::size_t i = 0; i < code.size();) {
@@ -162,9 +168,21 @@ std::optional<HookFault> hookFault(std::string_view text) {
         for (const RefusedWord& refused : kRefusedWords)
             if (isRefused(refused, word, before == '#'))
                 return HookFault{line, fmt::format("{}: {}", word, refused.why)};
+        if (before == '#' && (word == "if" || word == "ifdef" || word == "ifndef")) {
+            conditionals.push_back(line);
+        } else if (before == '#' && (word == "elif" || word == "else" || word == "endif")) {
+            if (conditionals.empty())
+                return HookFault{line, fmt::format("#{} has no #if before it; take it out", word)};
+            if (word == "endif") conditionals.pop_back();
+        }
         before = word.back();
         i += word.size();
     }
+    // Else the rest of the programs that the text is put into would be part of it.
+    if (openComment)
+        return HookFault{std::size_t(1 + std::ranges::count(text.substr(0, *openComment), '\n')),
+                         "the comment that begins here has no end; write */"};
+    if (!conditionals.empty()) return HookFault{conditionals.back(), "this #if has no #endif; write one"};
     const HookFunctions functions = hookFunctions(text);
     if (!functions.surface && !functions.vertex)
         return HookFault{1, "it defines neither hookSurface nor hookVertex; write void hookSurface(inout HookedSurface "

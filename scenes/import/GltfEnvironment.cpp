@@ -155,7 +155,17 @@ Image readCube(Context& context, const model::ImageLight& light, const std::stri
     std::array<Image, kCube.size()> pictures;
     int side = 1;
     for (std::size_t face = 0; face < kCube.size(); ++face) {
-        std::optional<Image> picture = readableImage(context, light.images[0][face], kInstead);
+        const int image = light.images[0][face];
+        std::optional<Image> picture = readableImage(context, image, kInstead);
+        // A line of texels would ask for a square of them, six times.
+        if (picture && picture->width != picture->height) {
+            const std::string place = fmt::format("/images/{}", image);
+            const std::string what = fmt::format("has {}x{} texels, and is a face of an environment, which is square",
+                                                 picture->width, picture->height);
+            if (document.ledger.wishes().isStrict) document.fail(place, what);
+            context.warn(fmt::format("{}: {}{}", place, what, kInstead));
+            picture.reset();
+        }
         if (picture && (picture->width != light.sideTexels || picture->height != light.sideTexels))
             context.warn(fmt::format("the environment '{}' has faces of other sizes than {}x{} texels, its "
                                      "specularImageSize; all are stretched to the largest",

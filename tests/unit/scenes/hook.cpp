@@ -69,7 +69,11 @@ TEST(Hook, whatWouldBreakOtherPassesIsRefusedWithItsLine) {
                  {"#define JOINED \\", "a backslash joins lines"},
                  {"/* *\\", "a backslash joins lines"},
                  {"// so is this \\\r", "a backslash joins lines"},
-                 {"// some drivers go on\rhere", "a carriage return alone ends a line for some"}};
+                 {"// some drivers go on\rhere", "a carriage return alone ends a line for some"},
+                 {"#endif", "#endif has no #if before it"},
+                 {"# else\nint outside;\n#if 1", "#else has no #if before it"},
+                 {"#if 1\n#if 0\n#endif", "this #if has no #endif"},
+                 {"/* and on", "the comment that begins here has no end"}};
     for (const auto& tried : cases) {
         const std::optional<HookFault> fault = hookFault(std::string(kGood).append(tried.line).append("\n"));
         ASSERT_TRUE(fault.has_value()) << tried.line;

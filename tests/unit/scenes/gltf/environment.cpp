@@ -247,6 +247,21 @@ TEST(GltfEnvironment, aFaceThatCannotBeReadIsACheckerboardUnlessLoadsAreStrict) 
     EXPECT_THAT(builder.error(), HasSubstr("/images/2"));
 }
 
+TEST(GltfEnvironment, aFaceThatIsNotSquareIsACheckerboardUnlessLoadsAreStrict) {
+    std::array<Bytes, 6> faces = sixOf(pfm(8, [](int, int) { return glm::vec3(0.25f); }));
+    const std::string line = "PF\n512 1\n-1.0\n" + std::string(512 * 12, '\0'); // of 512x512 the map would be large
+    faces[2] = bytesOf(std::vector<char>(line.begin(), line.end()));
+    Builder builder;
+    addLight(builder, 8, faces);
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("/images/2: has 512x1 texels, and is a face of an environment, which is "
+                                             "square; its side of the environment is a checkerboard"));
+    EXPECT_EQ(scene.environment.value().map.width, 4 * 64) << "that of the checkerboard, which is the largest";
+    builder.wishes.isStrict = true;
+    EXPECT_THAT(builder.error(), HasSubstr("/images/2: has 512x1 texels"));
+}
+
 TEST(GltfEnvironment, facesOfOtherSizesThanStatedAreStretchedToTheLargestWithAWarning) {
     // Whatever the number: a short file must not ask for gigabytes.
     Builder builder = cubeOf(16, byDirection);
