@@ -95,8 +95,9 @@ std::string suppliedText(const Scene& scene) {
     }
     std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
-        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV (--exposure chooses another)",
-                            text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV);
+        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV (--exposure chooses another{})",
+                            text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV,
+                            exposureEV > 0 ? ", --environment studio adds light from all around" : "");
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/Srgb.h"
@@ -13,10 +14,14 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr double kMiddleGrey = 0.18;
+constexpr double kBright = 0.4;
 constexpr double kLeewayEV = 2.0;
+constexpr double kBelow = 0.9; ///< share of what is seen that stays below an estimate
 /// Of a place and a light: what an estimate looks at in all.
-constexpr double kMostPairs = 2e6;
+constexpr double kMostPairs = 5e5;
+
+/// About what a layer reflects of light from anywhere: a dielectric's highlight, and a sheen of colour 1.
+constexpr double kOfHighlight = 0.04, kOfSheen = 0.3;
 
 /// A channel of a texel, 0 to 1 where the format has whole numbers.
 double channelOf(const Image& image, std::size_t at) {
@@ -66,7 +71,10 @@ Shown shownOf(const Scene& scene, const Material& material) {
     const double color = luminanceOf(glm::dvec3(material.baseColor) * mean(TextureSlot::BaseColor));
     Shown shown;
     shown.emission = luminanceOf(glm::dvec3(material.emissive) * mean(TextureSlot::Emissive));
-    (infoOf(material.model).isLit ? shown.albedo : shown.emission) += color;
+    const MaterialModelInfo& model = infoOf(material.model);
+    (model.isLit ? shown.albedo : shown.emission) += color;
+    if (model.highlight != Highlight::None) shown.albedo += kOfHighlight;
+    if (model.hasLayers) shown.albedo += kOfSheen * luminanceOf(material.sheenColor);
     return shown;
 }
 
@@ -127,7 +135,8 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
     std::vector<std::optional<Shown>> shown(scene.materials.size());
     const Picture picture(camera, aspect);
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
-    double sum = 0.0, shares = 0.0;
+    std::vector<std::pair<double, double>> seen; // luminances and their shares
+    double shares = 0.0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshInstance& instance : scene.nodes[n].instances) {
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -149,18 +158,21 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
                     if (!(share > 0.0)) continue;
                     const double lux =
                         own->albedo > 0.0 ? illuminanceOn(lights, placeWS, areaWS / area, material.doubleSided) : 0.0;
-                    sum += share * (own->emission + own->albedo * lux / std::numbers::pi);
+                    seen.emplace_back(own->emission + own->albedo * lux / std::numbers::pi, share);
                     shares += share;
                 }
             }
         }
-    if (!(shares > 0.0)) return {};
-    return sum / shares;
+    std::ranges::sort(seen);
+    double below = 0.0;
+    for (const auto& [luminance, share] : seen)
+        if ((below += share) >= kBelow * shares) return luminance;
+    return {};
 }
 
 int fittingExposureEV(double luminance) {
     if (!(luminance > 0.0) || !std::isfinite(luminance)) return 0;
-    const double stops = std::log2(kMiddleGrey / luminance);
+    const double stops = std::log2(kBright / luminance);
     return std::abs(stops) <= kLeewayEV ? 0 : int(std::lround(stops));
 }
 

@@ -70,7 +70,7 @@ TEST(Exposure, aMatteCardUnderASunHasTheLuminanceOfItsClosedForm) {
     EXPECT_EQ(luminanceSeen(scene), 0.0);
 }
 
-/// A candela 2 m above a small card: I / d^2, the card's mean of which is 4 % less.
+/// Eight candela 2 m above a small card: I / d^2, and at its corners some percent less.
 TEST(Exposure, lampsFallOffWithTheSquareOfTheirDistanceWithinTheirRangeAndCone) {
     Scene scene = card();
     Light lamp;
@@ -111,7 +111,10 @@ TEST(Exposure, surfacesCountByTheirTexturesEmissionAndSizeInThePicture) {
     other.parentFromNode[3].x = 5.0;
     EXPECT_NEAR(luminanceSeen(scene), 3.0, kExposureRounding) << "it is not in the picture";
     other.parentFromNode[3].x = 0.1;
-    EXPECT_NEAR(luminanceSeen(scene), 1.5, 0.01);
+    EXPECT_NEAR(luminanceSeen(scene), 3.0, kExposureRounding) << "half of what is seen";
+    for (int i = 0; i < 9; ++i) scene.nodes.push_back(scene.nodes.back());
+    EXPECT_EQ(luminanceSeen(scene), 0.0) << "a tenth";
+    scene.nodes.resize(2);
     scene.nodes.pop_back();
     scene.nodes[0].parentFromNode[2].z = -1.0;
     scene.nodes[0].parentFromNode[0].x = -1.0;
@@ -119,13 +122,24 @@ TEST(Exposure, surfacesCountByTheirTexturesEmissionAndSizeInThePicture) {
     EXPECT_FALSE(estimatedLuminance(scene, scene.cameras[0], 1.0)) << "behind the camera";
 }
 
-TEST(Exposure, stopsBringToMiddleGreyWhatIsMoreThanTwoOfThemAway) {
+TEST(Exposure, aSheenAndAHighlightReflectToo) {
+    Scene scene = card();
+    scene.lights = {sun(std::numbers::pi)};
+    scene.materials[0].baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    EXPECT_EQ(luminanceSeen(scene), 0.0) << "lambert";
+    scene.materials[0].model = MaterialModel::MetallicRoughness;
+    EXPECT_NEAR(luminanceSeen(scene), 0.04, kExposureRounding);
+    scene.materials[0].sheenColor = glm::vec3(0.5f);
+    EXPECT_NEAR(luminanceSeen(scene), 0.19, kExposureRounding);
+}
+
+TEST(Exposure, stopsBringToADisplaysBrightHalfWhatIsMoreThanTwoOfThemAway) {
     for (const double luminance :
-         {0.0451, 0.18, 0.719, 0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+         {0.1001, 0.4, 1.59, 0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         EXPECT_EQ(fittingExposureEV(luminance), 0) << luminance;
-    EXPECT_EQ(fittingExposureEV(0.04), 2);
-    EXPECT_EQ(fittingExposureEV(0.018), 3);
-    EXPECT_EQ(fittingExposureEV(0.18 * 1024.0), -10);
+    EXPECT_EQ(fittingExposureEV(0.09), 2);
+    EXPECT_EQ(fittingExposureEV(0.018), 4);
+    EXPECT_EQ(fittingExposureEV(0.4 * 1024.0), -10);
 }
 
 TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
@@ -147,13 +161,16 @@ TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
             .string();
     };
     const Scene bright = loadScene(write(1e5)); // the sun's, 1e5 / pi of a white card
-    EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-17.0));
+    EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-16.0));
     EXPECT_EQ(suppliedText(bright), "no camera in it: seen whole by the supplied camera 'default'; its lights are too "
-                                    "bright for a display: exposed by -17 EV (--exposure chooses another)");
+                                    "bright for a display: exposed by -16 EV (--exposure chooses another)");
     EXPECT_FALSE(loadScene(write(1.0)).options.wishes.contains("exposureEV"));
     const Scene dim = loadScene(write(0.01));
-    EXPECT_EQ(dim.options.wishes.at("exposureEV"), Wish(6.0));
-    EXPECT_NE(suppliedText(dim).find("too dim for a display: exposed by +6 EV"), std::string::npos);
+    EXPECT_EQ(dim.options.wishes.at("exposureEV"), Wish(7.0));
+    EXPECT_NE(
+        suppliedText(dim).find("too dim for a display: exposed by +7 EV (--exposure chooses another, --environment "
+                               "studio adds light from all around)"),
+        std::string::npos);
     const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
     EXPECT_FALSE(loadScene(own).options.wishes.contains("exposureEV")) << "who writes a scene says how it is shown";
     LoadOptions options;
