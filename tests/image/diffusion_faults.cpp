@@ -44,7 +44,7 @@ public:
         return {stepErrorOf(5.0, 9.0, shaders, {{0.6, 0.0}, {0.3, 0.6}}), 3e-3};
     }
     /// From row to row the texture goes on by two and a half columns: what interpolation shows of light along u is as
-    /// wide as half of the narrower Gaussian.
+    /// wide as a quarter of the narrower Gaussian, and not a tenth.
     Measured steeplySlantedStep(const shader::SourceTree& shaders) {
         return {stepErrorOf(12.0, 20.0, shaders, {{0.4, 0.0}, {0.5, 0.2}}), 3e-3};
     }
