@@ -51,7 +51,7 @@ protected:
 
     /// Where a picture of `spheres` shows the one of metalness 0/4 and roughness 4/10.
     static glm::ivec2 sphereIn(glm::ivec2 sizePixels) {
-        return kPictureCorner + sizePixels / 2 + glm::ivec2(-70, 60) * sizePixels.y / 800;
+        return kPictureCorner + sizePixels / 2 + glm::ivec2(-70, 71) * sizePixels.y / 778;
     }
 
     DrivenViewer open(std::vector<std::string> arguments, const std::map<std::string, std::string>& environment = {}) {
