@@ -17,14 +17,17 @@ frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::Fr
     settings.softwareBackend = capabilities.isSoftware;
     settings.snapPixels = capabilities.snapPixels;
     settings.texturesAStage = capabilities.texturesAStage;
-    const std::vector<int>& given = capabilities.renderTargetSamples;
-    const auto enough = std::lower_bound(given.begin(), given.end(), settings.samples);
+    const auto& given = capabilities.samplePlaces;
+    const auto enough =
+        std::ranges::find_if(given, [&](const auto& places) { return int(places.size()) >= settings.samples; });
     if (enough == given.end()) {
+        std::vector<std::size_t> counts;
+        for (const auto& places : given) counts.push_back(places.size());
         throw InputError(fmt::format("samples {}: this driver's 32-bit float render targets have {} samples; "
                                      "ask for fewer",
-                                     settings.samples, fmt::join(given, " or ")));
+                                     settings.samples, fmt::join(counts, " or ")));
     }
-    settings.samplesGiven = *enough;
+    settings.samplePlaces = *enough;
     return settings;
 }
 
@@ -34,19 +37,20 @@ int chooseSamples(const frame::FrameSettings& settings) {
         throw InputError(
             fmt::format("samples {}: a pixel can have {} samples", settings.samples, fmt::join(counts, ", ")));
     // No driver is asked for one sample: every texture can have it.
-    return settings.samples == 1 ? 1 : settings.samplesGiven.value_or(settings.samples);
+    const bool wasAsked = settings.samples > 1 && !settings.samplePlaces.empty();
+    return wasAsked ? int(settings.samplePlaces.size()) : settings.samples;
 }
 
 std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& settings) {
     if (settings.samples == 1) return {};
-    if (!settings.samplesGiven) {
+    const int given = chooseSamples(settings);
+    if (settings.samplePlaces.empty()) {
         return {{"samples", std::to_string(settings.samples),
                  "chosen by the setting samples; a driver may give more, which only a plan that measures asks it"}};
     }
-    return {{"samples", std::to_string(*settings.samplesGiven),
+    return {{"samples", std::to_string(given),
              fmt::format("the setting samples is {}; {}", settings.samples,
-                         *settings.samplesGiven == settings.samples ? "the driver gives as many"
-                                                                    : "the driver's next larger number")}};
+                         given == settings.samples ? "the driver gives as many" : "the driver's next larger number")}};
 }
 
 } // namespace tessera::engine

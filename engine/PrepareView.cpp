@@ -182,7 +182,7 @@ frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::Sp
     settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);
     settings.wholePixels.reset();
     settings.samples = 1;
-    settings.samplesGiven.reset();
+    settings.samplePlaces.clear();
     settings.eyeOffsetWS = glm::dvec3(0.0);
     settings.view = frame::DebugView::Final;
     settings.space = frame::LightingSpace::World;
@@ -268,6 +268,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     for (const frame::SeenLight& seen : seenLights) withLights.push_back(seen.bounds);
     prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background,
                                             seenLights.empty() ? bounds : withLights, settings.snapPixels);
+    prepared.camera.constants.sizePixels.z = glm::uint(samples);
     if (frame::showsLitPicture(settings.view)) prepared.seenLights = frame::packSeenLights(seenLights, prepared.camera);
     const auto makeSpec = [&](const frame::PackedLights& lights) {
         return frame::makeFrameSpec(scene, lights, settings);

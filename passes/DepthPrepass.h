@@ -8,7 +8,7 @@ namespace tessera::passes {
 /// Draws the depth of opaque and alpha-masked geometry, so that later passes shade each pixel once.
 /// Reads   the scene
 /// Writes  depth D32F, reverse-Z, cleared to 0; on request shading_depth RG32F, the depth at which the fragment of
-///         each sample is lit (shaders/lib/raster/shading_depth.glsl) and the same negated, cleared to (0, -2). Both
+///         each sample is lit (shaders/lib/raster/shading_place.glsl) and the same negated, cleared to (0, -2). Both
 ///         are of FrameSpec::samples. With several samples a fragment is lit once, at the pixel's centre, which may lie
 ///         outside the depths of its samples
 /// Space   lighting space, through the vertex function that every pass shares

@@ -11,7 +11,7 @@ TileGrid tileGrid(const FrameConstants& frame) {
     grid.columns = frame.lighting.tileGrid.x;
     grid.rows = frame.lighting.tileGrid.y;
     grid.sidePixels = 1u << frame.lighting.tileGrid.w;
-    grid.sizePixels = glm::uvec2(frame.view.sizePixels);
+    grid.sizePixels = frame.view.sizePixels;
     grid.rayFromPixel = frame.view.rayFromPixel;
     grid.spread = frame.view.forwardLS.w != 0.0f ? glm::vec2(1.0f, 0.0f) : glm::vec2(frame.view.eyeLS.w, 1.0f);
     return grid;

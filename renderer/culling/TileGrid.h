@@ -16,7 +16,7 @@ struct FrameConstants {
 struct TileGrid {
     std::uint32_t columns = 0, rows = 0;
     std::uint32_t sidePixels = 0;
-    glm::uvec2 sizePixels{0u};
+    glm::uvec4 sizePixels{0u}; ///< as ViewConstants has it
     glm::vec4 rayFromPixel{0.0f};
     glm::vec2 spread{0.0f}; ///< of rays, as shaders/shared/culling.h has it
 

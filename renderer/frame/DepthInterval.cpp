@@ -202,8 +202,7 @@ DepthInterval depthInterval(const scenes::Camera& camera, const glm::dvec2& half
     }
     if (!(seen.nearest <= seen.farthest)) return interval;
 
-    // Margin for rounding of positions relative to the middle, and of vertices relative to their nodes. With several
-    // samples per pixel a surface is also lit a little beyond its edges, at its extrapolated depth.
+    // Margin for rounding of positions relative to the middle, and of vertices relative to their nodes.
     const double span = seen.farthest - seen.nearest;
     const double room = span / 8.0 + 1e-3 * (span + seen.across) + 1e-6 * seen.reach;
     const double nearMetres = std::max(camera.nearMetres, seen.nearest - room);

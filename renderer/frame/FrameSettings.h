@@ -146,7 +146,7 @@ struct FrameSettings {
     std::optional<glm::ivec2> wholePixels; ///< of the picture that this one stands in for while something moves; shadow
                                            ///< maps are as fine as for that one; open: it is whole itself
     int samples = 1;                       ///< of a pixel, one of kSampleCounts
-    std::optional<int> samplesGiven;       ///< the driver's own number for them, where one was asked; never fewer
+    std::vector<glm::vec2> samplePlaces;   ///< of the driver's own number, never fewer; none where no driver was asked
     int camera = 0;                        ///< index into Scene::cameras
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames

@@ -104,9 +104,6 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
 /// Why there are no shadows, where there are none.
 std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request);
 
-/// What every geometry and lighting shader of the frame is compiled with.
-Defines frameDefines(const FrameSpec& spec);
-
 /// How a pass that shades opaque or transparent surfaces finds its lights.
 void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines);
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 namespace tessera::gpu {
 
 /// What the context's driver says of itself, read once when the context is made.
@@ -23,9 +25,10 @@ struct Capabilities {
     int maxTextureSize = 0;           ///< texels, of a 2D texture's side
     int maxSamples = 0;               ///< of colour textures
     int texturesAStage = 16;          ///< that a fragment shader may sample, at least 16
-    /// Samples that textures of RGBA32F, R32F and D32F can all have, ascending from 1. A driver gives the next larger
-    /// of its own numbers for one that it lacks.
-    std::vector<int> renderTargetSamples{1};
+    /// Where the samples of a pixel lie, in shares of it from its lower left corner: a row for each number of them that
+    /// textures of RGBA32F, R32F and D32F can all have, ascending from 1. A driver gives the next larger of its own
+    /// numbers for one that it lacks.
+    std::vector<std::vector<glm::vec2>> samplePlaces{{glm::vec2(0.5f)}};
     float maxAnisotropy = 1.0f;
     bool parallelShaderCompile = false; ///< KHR_parallel_shader_compile
 };

@@ -52,8 +52,24 @@ std::vector<int> samplesOf(GLenum internalFormat) {
     return samples;
 }
 
-std::vector<int> commonSamples() {
-    std::vector<int> common{1};
+/// Where the samples of a pixel lie. GL tells them of the bound framebuffer only.
+std::vector<glm::vec2> placesOf(int samples) {
+    std::uint32_t texture = 0, framebuffer = 0;
+    glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &texture);
+    glTextureStorage2DMultisample(texture, samples, GL_RGBA32F, 1, 1, GL_TRUE);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, texture, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    std::vector<glm::vec2> places(std::size_t(samples), glm::vec2(0.5f));
+    for (std::size_t i = 0; i < places.size(); ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(i), &places[i].x);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &texture);
+    return places;
+}
+
+std::vector<std::vector<glm::vec2>> commonSamplePlaces() {
+    std::vector<int> common;
     for (const int samples : samplesOf(GL_RGBA32F)) {
         const auto has = [&](GLenum internalFormat) {
             const std::vector<int> others = samplesOf(internalFormat);
@@ -62,7 +78,9 @@ std::vector<int> commonSamples() {
         if (samples > 1 && has(GL_R32F) && has(GL_DEPTH_COMPONENT32F)) common.push_back(samples);
     }
     std::sort(common.begin(), common.end());
-    return common;
+    std::vector<std::vector<glm::vec2>> places{{glm::vec2(0.5f)}};
+    for (const int samples : common) places.push_back(placesOf(samples));
+    return places;
 }
 
 bool isSoftwareRenderer(std::string renderer) {
@@ -101,7 +119,7 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.maxTextureSize = int(integer(GL_MAX_TEXTURE_SIZE));
     capabilities.maxSamples = int(integer(GL_MAX_COLOR_TEXTURE_SAMPLES));
     capabilities.texturesAStage = int(integer(GL_MAX_TEXTURE_IMAGE_UNITS));
-    capabilities.renderTargetSamples = commonSamples();
+    capabilities.samplePlaces = commonSamplePlaces();
     if (hasExtension("GL_ARB_texture_filter_anisotropic") || hasExtension("GL_EXT_texture_filter_anisotropic"))
         glGetFloatv(kMaxTextureMaxAnisotropy, &capabilities.maxAnisotropy);
     capabilities.parallelShaderCompile = GLAD_GL_KHR_parallel_shader_compile != 0;

@@ -74,7 +74,6 @@ Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.wi
             fail(attachments, "the attachments' sizes differ");
         width_ = desc.width;
         height_ = desc.height;
-        samples_ = desc.samples;
     }
     std::uint32_t id = 0;
     glCreateFramebuffers(1, &id);
@@ -108,19 +107,6 @@ Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.wi
 
 Framebuffer::~Framebuffer() {
     if (const std::uint32_t id = id_.value()) glDeleteFramebuffers(1, &id);
-}
-
-std::vector<glm::vec2> Framebuffer::samplePositions() const {
-    std::vector<glm::vec2> positions(std::size_t(samples_), glm::vec2(0.5f));
-    if (samples_ == 1) return positions;
-    GLint bound = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound); // GL tells them of the bound framebuffer only
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id_.value());
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(i), &positions[i].x);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(bound));
-    throwIfFailed("reading the positions of samples");
-    return positions;
 }
 
 const Framebuffer& FramebufferCache::get(const Attachments& attachments) {

@@ -31,14 +31,11 @@ public:
     std::uint32_t id() const { return id_.value(); }
     int width() const { return width_; }   ///< pixels
     int height() const { return height_; } ///< pixels
-    /// Where each sample lies within its pixel, from the lower-left corner in pixels; the centre for one sample.
-    std::vector<glm::vec2> samplePositions() const;
 
 private:
     Id id_;
     int width_ = 0;
     int height_ = 0;
-    int samples_ = 1;
 };
 
 /// Framebuffers by attachments, so that passes just ask for the one they need.

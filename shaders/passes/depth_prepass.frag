@@ -1,7 +1,7 @@
 // Depth alone; only alpha-masked materials have anything to decide. With SHADING_DEPTH also the depth at which each
 // sample will be lit, which with several samples per pixel is not the sample's own depth, and the same negated, so that
 // the largest of each over a pixel is its range.
-#include "lib/raster/shading_depth.glsl"
+#include "lib/raster/shading_place.glsl"
 #if HAS_ALPHA_MASK
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/coverage.glsl"
@@ -14,7 +14,7 @@ layout(location = 0) out vec2 depthOfShading;
 void main()
 {
 #if SHADING_DEPTH
-    float depth = shadingDepth();
+    float depth = shadingPlace().depth;
     depthOfShading = vec2(depth, -depth);
 #endif
 #if HAS_ALPHA_MASK

@@ -3,7 +3,7 @@
 #include "lib/raster/spread_light.glsl"
 #include "lib/raster/filmed.glsl"
 #include "lib/raster/coverage.glsl"
-#include "lib/raster/shading_depth.glsl"
+#include "lib/raster/shading_place.glsl"
 #include "lib/lighting/views.glsl"
 
 #if HAS_PASSING_LIGHT
@@ -22,9 +22,9 @@ void main()
     Surface surface = surfaceFromMaterial(fragment, baseColor);
     takeSpreadLight(fragment, surface);
     coverWithFilm(fragment, surface);
-    float depth = shadingDepth();
+    ShadingPlace place = shadingPlace();
     if (coversNothing(baseColor)) discard;
-    Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, depth);
+    Viewpoint viewpoint = viewpointFromDepth(place.pixel, place.depth);
     precise vec3 viewed = viewedRadiance(surface, viewpoint, gl_FragCoord.xy);
 #if HAS_PASSING_LIGHT
     float coverage = material.transmission.y > 0.0 ? clamp(baseColor.a, 0.0, 1.0) : 1.0;

@@ -42,14 +42,15 @@ struct CellBox {
     vec4 high; // xyz in culling space
 };
 
-// The bounds of the rays through the pixel centres of tile (column, row): x, y least and most to the right, z, w least
-// and most up, in the units of rayFromPixel. Centres suffice, since pixels are shaded there only. `size` is the
-// picture's, in pixels.
-SHARED_FUNCTION vec4 tileRays(vec4 rayFromPixel, uint column, uint row, uint side, uvec2 size) {
-    float left = float(column * side) + 0.5f;
-    float right = float(min((column + 1u) * side, size.x)) - 0.5f;
-    float top = float(size.y - row * side) - 0.5f;
-    float bottom = float(size.y - min((row + 1u) * side, size.y)) + 0.5f;
+// The bounds of the rays along which the pixels of tile (column, row) are shaded: x, y least and most to the right, z,
+// w least and most up, in the units of rayFromPixel. Those of one sample are shaded in their centres, those of several
+// anywhere (lib/raster/shading_place.glsl). `size` is ViewConstants::sizePixels.
+SHARED_FUNCTION vec4 tileRays(vec4 rayFromPixel, uint column, uint row, uint side, uvec4 size) {
+    float inset = size.z > 1u ? 0.0f : 0.5f;
+    float left = float(column * side) + inset;
+    float right = float(min((column + 1u) * side, size.x)) - inset;
+    float top = float(size.y - row * side) - inset;
+    float bottom = float(size.y - min((row + 1u) * side, size.y)) + inset;
     SHARED_PRECISE vec4 rays =
         vec4(rayFromPixel.x * (left - rayFromPixel.z), rayFromPixel.x * (right - rayFromPixel.z),
              rayFromPixel.y * (bottom - rayFromPixel.w), rayFromPixel.y * (top - rayFromPixel.w));

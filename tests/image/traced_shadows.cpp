@@ -340,5 +340,51 @@ TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
     }
 }
 
+/// A floor, 2 m wide and deep, and a wall that stands on its far edge, as high and twice as wide, seen slantwise.
+scenes::Scene floorBeforeWall() {
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.meshes.clear();
+    scene.nodes.resize(1);
+    scene.nodes[0] = {};
+    addFloor(scene, {0.0, 0.0, 1.0}, 2.0);
+    scene.nodes.push_back({});
+    scene.nodes[1].parentFromNode = glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(1.0, 0.0, 0.0));
+    scene.meshes.emplace_back();
+    scenes::builtin::appendFloor(scene.meshes.back(), {0.0, 0.0, -1.0}, glm::dvec2(4.0, 2.0), glm::ivec2(1));
+    scene.nodes[1].instances = {{1, 0}};
+    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, 3.0}, {0.0, 0.4, 0.0});
+    scene.lights = {test::pointLight({}, 3.0f)};
+    scene.lights[0].type = scenes::LightType::Directional;
+    return scene;
+}
+
+// With several samples a pixel on the edge between the two is lit once for each of them, and its centre lies on one
+// only: beyond the edge the floor's plane goes on behind the wall, and the wall's below the floor.
+TEST_F(Shadows, severalSamplesAreLitWhereTheirTriangleIsAndNotBehindTheNext) {
+    scenes::Scene scene = floorBeforeWall();
+    frame::FrameSettings settings;
+    settings.sizePixels = {160, 90};
+    settings.samples = 4;
+    settings.shadows = kAllLightsCast;
+    settings.view = frame::DebugView::Shadow;
+    for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
+        settings.shadowFilter = filter;
+        for (const bool isBefore : {true, false}) {
+            if (!isBefore && filter == frame::ShadowFilter::Hard)
+                continue; // maps leak at contacts, with one sample too
+            scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.1, -0.7, isBefore ? -0.8 : 0.8));
+            engine::Renderer renderer(context(), scene);
+            const std::vector<float> seen = renderer.render(engine::Technique::ForwardPrepass, settings).radiance;
+            std::size_t wrong = 0, covered = 0;
+            for (std::size_t i = 0; i < seen.size(); i += 4) {
+                covered += seen[i + 3] > 0.0f;
+                wrong += seen[i] != (isBefore ? seen[i + 3] : 0.0f); // the wall hides all of the floor from behind it
+            }
+            EXPECT_GT(covered, 3000u);
+            EXPECT_EQ(wrong, 0u) << (isBefore ? "before" : "behind") << ", filter " << int(filter);
+        }
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -325,7 +325,7 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
-    result.record.samples = engine::settingsOn(gl, request.settings).samplesGiven.value_or(1);
+    result.record.samples = engine::chooseSamples(engine::settingsOn(gl, request.settings));
     result.record.renderer = gl.renderer;
     const std::vector<Asked> all = askedPictures(request);
     for (const Asked& asked : all) {

@@ -87,7 +87,7 @@ void MaterialOutline::find(Facts& facts, Screen& screen, Look look, const Sight&
     settings.sizePixels = sight.sizePixels;
     settings.wholePixels.reset();
     settings.samples = 1;
-    settings.samplesGiven.reset();
+    settings.samplePlaces.clear();
     settings.view = frame::DebugView::Ids;
     settings.idsOfNearest = true;
     settings.display = false;

@@ -47,7 +47,7 @@ bool isLastRound()
 // Rays of the tile in this column and row.
 vec4 raysOfTile(uint column, uint row)
 {
-    return tileRays(view.rayFromPixel, column, row, 1u << lighting.tileGrid.w, view.sizePixels.xy);
+    return tileRays(view.rayFromPixel, column, row, 1u << lighting.tileGrid.w, view.sizePixels);
 }
 
 // Whether a run of columns or rows, first | last << 16, has any of first..last.

@@ -28,9 +28,10 @@ frame::FrameSettings asking(int samples) {
     return settings;
 }
 
-gpu::Capabilities giving(std::vector<int> samples) {
+gpu::Capabilities giving(const std::vector<std::size_t>& samples) {
     gpu::Capabilities capabilities;
-    capabilities.renderTargetSamples = std::move(samples);
+    capabilities.samplePlaces.clear();
+    for (const std::size_t number : samples) capabilities.samplePlaces.emplace_back(number, glm::vec2(0.5f));
     return capabilities;
 }
 
@@ -60,10 +61,10 @@ TEST(ChooseSamples, invalidSampleCountsAreRefused) {
 
 TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
     const gpu::Capabilities fours = giving({1, 4});
-    EXPECT_EQ(settingsOn(fours, asking(1)).samplesGiven, 1);
-    EXPECT_EQ(settingsOn(fours, asking(2)).samplesGiven, 4);
-    EXPECT_EQ(settingsOn(fours, asking(4)).samplesGiven, 4);
-    EXPECT_EQ(settingsOn(giving({1, 2, 8}), asking(4)).samplesGiven, 8);
+    EXPECT_EQ(settingsOn(fours, asking(1)).samplePlaces.size(), 1u);
+    EXPECT_EQ(settingsOn(fours, asking(2)).samplePlaces.size(), 4u);
+    EXPECT_EQ(settingsOn(fours, asking(4)).samplePlaces.size(), 4u);
+    EXPECT_EQ(settingsOn(giving({1, 2, 8}), asking(4)).samplePlaces.size(), 8u);
     gpu::Capabilities roomy = fours;
     roomy.texturesAStage = 48;
     EXPECT_EQ(settingsOn(roomy, asking(1)).texturesAStage, 48);

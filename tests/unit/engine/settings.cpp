@@ -36,7 +36,7 @@ struct Differences {
 Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
-        const auto& [sizePixels, wholePixels, samples, samplesGiven, camera, timeSeconds, eyeOffsetWS, layout, view,
+        const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
                      idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
                      shadowSamples, shadowMaps, subsurface, diffusion, environment, refraction, culling, lightOn,
                      snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
@@ -50,7 +50,7 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                                     gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
                                     backdrop, refraction, method, tilePixels, builder, normals, lightOn, exposureEV,
                                     toneMap),
-                         std::tuple(wholePixels, samplesGiven, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
+                         std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
                                     softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {

@@ -12,9 +12,9 @@
 namespace tessera {
 namespace {
 
-TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixels) {
+TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixelsAndAllOfThemWithSeveralSamples) {
     const glm::vec4 rayFromPixel(0.25f, 0.5f, 3.0f, 2.0f);
-    const glm::uvec2 size(13u, 9u);
+    glm::uvec4 size(13u, 9u, 1u, 0u);
     const auto rays = [&](unsigned column, unsigned row) {
         return shared::tileRays(rayFromPixel, column, row, 4u, size);
     };
@@ -23,6 +23,9 @@ TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixels) {
               glm::vec4(0.25f * (4.5f - 3.0f), 0.25f * (7.5f - 3.0f), 0.5f * (5.5f - 2.0f), 0.5f * (8.5f - 2.0f)));
     // The last tile has one column and one row.
     EXPECT_EQ(rays(3, 2), glm::vec4(0.25f * 9.5f, 0.25f * 9.5f, 0.5f * -1.5f, 0.5f * -1.5f));
+    size.z = 4u;
+    EXPECT_EQ(rays(1, 0),
+              glm::vec4(0.25f * (4.0f - 3.0f), 0.25f * (8.0f - 3.0f), 0.5f * (5.0f - 2.0f), 0.5f * (9.0f - 2.0f)));
 }
 
 TEST(LightTouch, aSphereThatJustMeetsAPlaneOfASlabTouchesIt) {
