@@ -20,9 +20,9 @@ vec3 reflectedEvenly(SeenSurface seen)
     if (!(seen.nv > 0.0)) return vec3(0.0);
     precise vec3 mirrored = fresnelSchlick(seen.f0, seen.fresnelRise, min(seen.nv, 1.0));
 #if HAS_PASSING_LOBES
-    float alpha = lobeAlpha(seen.surface), ofMirror = mirrorShare(alpha);
-    vec4 lobe = lobeTexel(seen.nv, alpha, LOBE_LAYER_GGX);
-    precise vec3 scattered = seen.f0 * lobe.r + seen.fresnelRise * lobe.g;
+    float ofMirror = mirrorShare(lobeAlpha(seen.surface));
+    vec2 lobe = lobeShares(seen);
+    precise vec3 scattered = seen.f0 * lobe.x + seen.fresnelRise * lobe.y;
     precise vec3 blended = scattered * (1.0 - ofMirror) + mirrored * ofMirror;
     return blended;
 #else

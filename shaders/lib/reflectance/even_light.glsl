@@ -50,9 +50,13 @@ float reflectedByDielectric(SeenSurface seen)
 void addMetallicRoughness(SeenSurface seen, const bool fromAllAround, inout EvenShares shares)
 {
     Surface surface = seen.surface;
-    vec4 lobe = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX);
-    precise vec3 entering = seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * lobe.a);
-    precise vec3 highlight = hasLobe(seen) ? seen.f0 * lobe.r + seen.fresnelRise * lobe.g : vec3(0.0);
+    float coupled = lobeTexel(max(seen.nv, 0.0), lobeAlpha(surface), LOBE_LAYER_GGX).a;
+    precise vec3 entering = seen.diffuse * (vec3(1.0) - seen.f0 - seen.fresnelRise * coupled);
+    precise vec3 highlight = vec3(0.0);
+    if (hasLobe(seen)) {
+        vec2 lobe = lobeShares(seen);
+        highlight = seen.f0 * lobe.x + seen.fresnelRise * lobe.y;
+    }
 #if HAS_MIRRORS
     if (fromAllAround && hasLobe(seen)) highlight = towardsMirror(seen, highlight);
 #endif
