@@ -22,7 +22,7 @@ namespace tessera::frame {
 namespace {
 
 /// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 8, kLobeVersion = 6;
+constexpr std::uint64_t kEnvironmentVersion = 9, kLobeVersion = 6;
 
 /// Of words and bytes; another one in the place of any single word gives another hash for sure.
 class WordHash {
@@ -115,10 +115,10 @@ FilteredEnvironment emptyFor(const scenes::Image& map) {
     const auto shape = [](int side) {
         return DividedOctahedron{side, std::vector<glm::vec3>(std::size_t((side + 1) * (side + 1)))};
     };
-    const int side = filteredSideOf(map);
+    const int halvings = filteredHalvingsOf(map);
     FilteredEnvironment empty;
-    for (int level = 0; level < filteredLevelsOf(side); ++level)
-        empty.levels.push_back(shape(shared::filteredSide(side, level)));
+    for (int level = 0; level < ENVIRONMENT_LEVELS; ++level)
+        empty.levels.push_back(shape(shared::filteredSide(halvings, level)));
     empty.irradiance = shape(ENVIRONMENT_IRRADIANCE_SIDE);
     return empty;
 }

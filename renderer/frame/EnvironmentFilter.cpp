@@ -146,21 +146,20 @@ glm::vec3 filtered(const std::vector<Bordered>& sources, const std::vector<LobeS
 
 } // namespace
 
-int filteredSideOf(const scenes::Image& map) {
+int filteredHalvingsOf(const scenes::Image& map) {
+    constexpr int kLeastSide = 128;
     const auto side = int(std::bit_ceil(unsigned(std::max({map.width / 2, map.height, 1}))));
-    return std::clamp(side, 4 * kLeastFilteredSide, kMostFilteredSide);
+    return std::countr_zero(unsigned(ENVIRONMENT_MOST_SIDE)) -
+           std::countr_zero(unsigned(std::clamp(side, kLeastSide, ENVIRONMENT_MOST_SIDE)));
 }
 
-int filteredLevelsOf(int side) {
-    return 2 * (std::countr_zero(unsigned(side)) - std::countr_zero(unsigned(kLeastFilteredSide)));
-}
-
-double alphaOfLevel(int level, int levels) {
-    return std::pow(double(ENVIRONMENT_LEAST_ALPHA), double(levels - 1 - level) / double(levels - 1));
+double alphaOfLevel(int level) {
+    constexpr double kLast = ENVIRONMENT_LEVELS - 1;
+    return std::pow(double(ENVIRONMENT_LEAST_ALPHA), (kLast - level) / kLast);
 }
 
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
-    const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
+    const int halvings = filteredHalvingsOf(map), side = ENVIRONMENT_MOST_SIDE >> halvings;
     FilteredEnvironment result;
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
@@ -175,24 +174,23 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
     for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);
-    // The smaller a level, the rougher its lobe: about as much work for each.
-    constexpr int kLeastSamples = 32, kMostSamples = 1024, kFullSide = kMostFilteredSide / 2;
+    // The rougher a lobe, the smaller the level of a large map: about as much work for each.
     double work = 0.0, done = 0.0;
-    const auto samplesOf = [&](int level) {
-        return std::min(kLeastSamples * (kFullSide / filteredSide(side, level)) *
-                            (kFullSide / filteredSide(side, level)),
-                        kMostSamples);
+    const auto samplesOf = [](int level) {
+        constexpr int kLeastSamples = 32, kMostSamples = 1024;
+        const int narrower = filteredSide(0, 0) / filteredSide(0, level);
+        return std::min(kLeastSamples * narrower * narrower, kMostSamples);
     };
     const auto workOf = [&](int level) {
-        const int rows = filteredSide(side, level) + 1;
+        const int rows = filteredSide(halvings, level) + 1;
         return double(samplesOf(level)) * rows * rows;
     };
-    for (int level = 0; level < levels; ++level) work += workOf(level);
-    for (int level = 0; level < levels; ++level) {
+    for (int level = 0; level < ENVIRONMENT_LEVELS; ++level) work += workOf(level);
+    for (int level = 0; level < ENVIRONMENT_LEVELS; ++level) {
         std::atomic<int> rows = 0;
-        const int levelSide = filteredSide(side, level);
+        const int levelSide = filteredSide(halvings, level);
         const std::vector<LobeSample> samples =
-            lobeSamples(alphaOfLevel(level, levels), samplesOf(level), side, int(sources.size()));
+            lobeSamples(alphaOfLevel(level), samplesOf(level), side, int(sources.size()));
         result.levels.push_back(makeDivided(
             levelSide, [&](const glm::dvec3& n) { return glm::dvec3(filtered(sources, samples, glm::vec3(n))); },
             [&] { progress((done + workOf(level) * ++rows / double(levelSide + 1)) / work); }));
@@ -201,17 +199,18 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     return result;
 }
 
-glm::ivec2 atlasTexels(int side) {
-    return {std::max(side / 2, ENVIRONMENT_IRRADIANCE_SIDE) + 1,
-            filteredTop(side, filteredLevelsOf(side)) + ENVIRONMENT_IRRADIANCE_SIDE + 1};
+glm::ivec2 atlasTexels(int halvings) {
+    return {std::max(filteredSide(halvings, 0), ENVIRONMENT_IRRADIANCE_SIDE) + 1,
+            filteredTop(halvings, ENVIRONMENT_LEVELS) + ENVIRONMENT_IRRADIANCE_SIDE + 1};
 }
 
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered) {
-    const int side = 2 * filtered.levels[0].side;
-    const glm::ivec2 size = atlasTexels(side);
+    const int halvings =
+        std::countr_zero(unsigned(ENVIRONMENT_MOST_SIDE / 2)) - std::countr_zero(unsigned(filtered.levels[0].side));
+    const glm::ivec2 size = atlasTexels(halvings);
     std::vector<glm::vec4> atlas(std::size_t(size.x) * std::size_t(size.y), glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
     const auto put = [&](const DividedOctahedron& level, int number) {
-        const int top = filteredTop(side, number);
+        const int top = filteredTop(halvings, number);
         for (int y = 0; y <= level.side; ++y)
             for (int x = 0; x <= level.side; ++x)
                 atlas[std::size_t(top + y) * std::size_t(size.x) + std::size_t(x)] = glm::vec4(level.at(x, y), 1.0f);

@@ -18,13 +18,11 @@ struct FilteredEnvironment {
     DividedOctahedron irradiance; ///< on a surface that faces that way, ENVIRONMENT_IRRADIANCE_SIDE
 };
 
-inline constexpr int kMostFilteredSide = 1024, kLeastFilteredSide = 32; ///< of filteredSideOf(), and of the last level
-
-/// Side of the square that a map is filtered from, with about as many texels, and the number of levels.
-int filteredSideOf(const scenes::Image& map);
-int filteredLevelsOf(int side);
+/// By how many halvings the square that a map is filtered from is smaller than ENVIRONMENT_MOST_SIDE, so that it has
+/// about as many texels, but not fewer than 128 along a side.
+int filteredHalvingsOf(const scenes::Image& map);
 /// ENVIRONMENT_LEAST_ALPHA to 1, each the same times the one before.
-double alphaOfLevel(int level, int levels);
+double alphaOfLevel(int level);
 
 /// Filters a map on all cores: some seconds for 2048 x 1024 texels. `progress` is called with the share that is done,
 /// from any thread.
@@ -34,6 +32,6 @@ FilteredEnvironment filterEnvironment(
 /// All levels and the irradiance in one picture, a texel for each corner, RGBA; shaders/shared/environment.h says where
 /// they lie.
 std::vector<glm::vec4> atlasOf(const FilteredEnvironment& filtered);
-glm::ivec2 atlasTexels(int side);
+glm::ivec2 atlasTexels(int halvings);
 
 } // namespace tessera::frame

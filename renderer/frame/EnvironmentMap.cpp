@@ -48,12 +48,10 @@ shared::EnvironmentConstants packEnvironment(const scenes::Environment& environm
     const glm::dmat4 mapFromWorld = glm::rotate(glm::dmat4(1.0), -turn, glm::dvec3(0.0, 1.0, 0.0));
     shared::EnvironmentConstants constants;
     constants.mapFromLS = glm::mat4(mapFromWorld * glm::dmat4(glm::transpose(view.lsFromWorld)));
-    const int side = filteredSideOf(environment.map), levels = filteredLevelsOf(side);
     // Finite, so that a black map stays black.
     const double intensity = std::min(double(environment.intensity) * double(settings.environment.intensity),
                                       double(std::numeric_limits<float>::max()));
-    constants.light = glm::vec4(float(intensity), float(levels - 1),
-                                float(-(levels - 1) / std::log2(double(ENVIRONMENT_LEAST_ALPHA))), float(side));
+    constants.light = glm::vec4(float(intensity), float(filteredHalvingsOf(environment.map)), 0.0f, 0.0f);
     return constants;
 }
 
@@ -106,7 +104,7 @@ std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std:
 }
 
 EnvironmentShape environmentShape(const scenes::Image& map) {
-    const glm::ivec2 atlas = atlasTexels(filteredSideOf(map));
+    const glm::ivec2 atlas = atlasTexels(filteredHalvingsOf(map));
     EnvironmentShape shape;
     shape.map = {graph::Format::Rgba32Float, map.width, map.height};
     shape.filtered = {graph::Format::Rgba32Float, atlas.x, atlas.y};

@@ -15,8 +15,8 @@ void main()
     if (view.forwardLS.w == 0.0) ray += acrossOfPixel(gl_FragCoord.xy);
     vec3 direction = mapDirection(normalize(ray));
 #if BACKDROP_BLURRED
-    float level = log2(ENVIRONMENT_BACKDROP_ALPHA / ENVIRONMENT_LEAST_ALPHA) * levelsADoubling();
-    vec3 seen = filteredLevel(encodeOctahedral(direction), min(int(level + 0.5), lastLevel()));
+    int level = int(filteredPlace(ENVIRONMENT_BACKDROP_ALPHA) + 0.5);
+    vec3 seen = filteredLevel(encodeOctahedral(direction), level);
 #else
     vec3 seen = mapRadiance(direction).rgb;
 #endif

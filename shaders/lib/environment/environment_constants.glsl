@@ -14,18 +14,9 @@ float environmentIntensity() // multiplies the map's radiance
     return environment.light.x;
 }
 
-// Of the filtered map.
-int lastLevel()
+int filteredHalvings() // of ENVIRONMENT_MOST_SIDE, as the levels of the filtered map have it
 {
     return int(environment.light.y);
-}
-float levelsADoubling() // of alpha
-{
-    return environment.light.z;
-}
-int unfilteredSide() // texels along the square that its levels were filtered from
-{
-    return int(environment.light.w);
 }
 
 vec3 mapDirection(vec3 directionLS)

@@ -12,16 +12,15 @@
 
 vec3 irradianceOn(vec3 normalLS)
 {
-    int level = lastLevel() + 1;
-    return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, level);
+    return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, ENVIRONMENT_LEVELS);
 }
 
 // What a lobe sees: around its axis, by the two levels whose alphas lie around its own; below the first of them the
 // sharper the more of the map itself, in the direction that mirrors the viewer.
 vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
 {
-    precise float level = log2(max(alpha, ENVIRONMENT_LEAST_ALPHA) / ENVIRONMENT_LEAST_ALPHA) * levelsADoubling();
-    int fine = min(int(level), lastLevel() - 1);
+    float level = filteredPlace(alpha);
+    int fine = min(int(level), ENVIRONMENT_LEVELS - 2);
     precise float share = min(level - float(fine), 1.0);
     vec2 code = encodeOctahedral(mapDirection(axisLS));
     vec3 fineLight = filteredLevel(code, fine), coarseLight = filteredLevel(code, fine + 1);

@@ -12,7 +12,7 @@ layout(binding = TEXTURE_UNIT_ENVIRONMENT_FILTERED) uniform sampler2D filteredEn
 vec3 filteredTexel(vec2 code, int side, int level)
 {
     int halfSide = side / 2;
-    ivec2 middle = ivec2(halfSide, halfSide + filteredTop(unfilteredSide(), level));
+    ivec2 middle = ivec2(halfSide, halfSide + filteredTop(filteredHalvings(), level));
     // From the square's middle outwards all quarters are alike: a cell is halved by the edge that faces the middle.
     ivec2 outward = ivec2(signNotZero(code.x), signNotZero(code.y));
     precise vec2 place = abs(code) * float(halfSide);
@@ -30,5 +30,5 @@ vec3 filteredTexel(vec2 code, int side, int level)
 
 vec3 filteredLevel(vec2 code, int level)
 {
-    return filteredTexel(code, filteredSide(unfilteredSide(), level), level);
+    return filteredTexel(code, filteredSide(filteredHalvings(), level), level);
 }

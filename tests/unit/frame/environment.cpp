@@ -163,7 +163,7 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
         // sharp lobes and 1/4 where they are as broad as can be. The lamp stands near a corner of the octahedron, where
         // texels are three times as small as on average, so that samples lie apart: a corner that has the lamp in the
         // very middle of its lobe sees up to 1.54 of that.
-        const double alpha = alphaOfLevel(i, levels);
+        const double alpha = alphaOfLevel(i);
         const double most = 1.6 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& corner : level.corners) ASSERT_LE(double(corner.x), most) << i;
     }
@@ -172,28 +172,30 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
 TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
     const scenes::Image map = mapOf(64, 32, [](int x, int y) { return x + 100.0 * y; });
     const FilteredEnvironment filtered = filterEnvironment(map);
-    const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
-    ASSERT_EQ(filtered.levels.size(), std::size_t(levels));
-    EXPECT_NEAR(alphaOfLevel(0, levels), ENVIRONMENT_LEAST_ALPHA, 1e-12);
-    EXPECT_EQ(alphaOfLevel(levels - 1, levels), 1.0);
+    constexpr int kLevels = ENVIRONMENT_LEVELS;
+    const int halvings = filteredHalvingsOf(map);
+    ASSERT_EQ(filtered.levels.size(), std::size_t(kLevels));
+    EXPECT_NEAR(alphaOfLevel(0), ENVIRONMENT_LEAST_ALPHA, 1e-12);
+    EXPECT_EQ(alphaOfLevel(kLevels - 1), 1.0);
+    for (int i = 0; i < kLevels; ++i)
+        EXPECT_NEAR(shared::filteredPlace(float(alphaOfLevel(i))), float(i), 1e-5f);
     const std::vector<glm::vec4> atlas = atlasOf(filtered);
-    const glm::ivec2 size = atlasTexels(side);
+    const glm::ivec2 size = atlasTexels(halvings);
     ASSERT_EQ(atlas.size(), std::size_t(size.x) * std::size_t(size.y));
     std::size_t texels = 0;
     const auto expectAt = [&](const DividedOctahedron& level, int number, int cells) {
         ASSERT_EQ(level.side, cells);
         for (int y = 0; y <= level.side; ++y)
             for (int x = 0; x <= level.side; ++x) {
-                const auto row = std::size_t(shared::filteredTop(side, number) + y);
+                const auto row = std::size_t(shared::filteredTop(halvings, number) + y);
                 ASSERT_EQ(glm::vec3(atlas[row * std::size_t(size.x) + std::size_t(x)]), level.at(x, y)) << number;
                 ++texels;
             }
     };
-    for (int level = 0; level < levels; ++level)
-        expectAt(filtered.levels[std::size_t(level)], level, shared::filteredSide(side, level));
-    EXPECT_EQ(filtered.levels.back().side, kLeastFilteredSide);
-    expectAt(filtered.irradiance, levels, ENVIRONMENT_IRRADIANCE_SIDE);
-    EXPECT_EQ(texels, 2u * (65 * 65 + 33 * 33) + 65 * 65);
+    for (int level = 0; level < kLevels; ++level)
+        expectAt(filtered.levels[std::size_t(level)], level, shared::filteredSide(halvings, level));
+    expectAt(filtered.irradiance, kLevels, ENVIRONMENT_IRRADIANCE_SIDE);
+    EXPECT_EQ(texels, 8u * 65 * 65 + 2u * 33 * 33 + 65 * 65);
 }
 
 /// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md

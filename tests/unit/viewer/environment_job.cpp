@@ -53,8 +53,7 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     ASSERT_TRUE(studio.environment);
     EXPECT_EQ(studio.environment->source, "builtin:studio");
     ASSERT_TRUE(studio.filtered);
-    EXPECT_EQ(studio.filtered->levels.size(),
-              std::size_t(frame::filteredLevelsOf(frame::filteredSideOf(studio.environment->map))));
+    EXPECT_EQ(studio.filtered->levels.size(), std::size_t(ENVIRONMENT_LEVELS));
     EXPECT_FALSE(chosen("none").environment);
     const ChosenEnvironment unknown = chosen("stduio");
     EXPECT_FALSE(unknown.environment);
