@@ -74,7 +74,7 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
         pose(shownSeconds_);
         throw;
     }
-    load_.clip = nameOrNumber;
+    load_.clip = scene_.options.clip = nameOrNumber;
     lastSeconds_ = lastSecondsOf(scene_.rig);
     askedSeconds_ = shownSeconds_ = 0.0;
     ++revision_;
@@ -318,7 +318,6 @@ void OpenScene::exchange(CameraEdit& edit) {
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
-    load.clip = std::move(load_.clip);
     load.import = std::move(load_.import);
     load.import.variant.reset();
     load_ = std::move(load);

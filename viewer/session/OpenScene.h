@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/Clips.h"
@@ -28,9 +29,12 @@ public:
     bool isEdited() const { return !history_.isSaved(); }
     /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
-    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays,
-    /// and the clip that was asked for, which a scene file cannot choose.
+    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
     void becomes(const std::string& file);
+    /// Gives the scene other options, and returns those that it had. It is no edit.
+    scenes::SceneOptions exchangeOptions(scenes::SceneOptions options) {
+        return std::exchange(scene_.options, std::move(options));
+    }
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
 
