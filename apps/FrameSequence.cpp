@@ -33,7 +33,22 @@ void FrameSequence::requireWritable() const {
 }
 
 double FrameSequence::secondsOf(int frame, const frame::FrameSettings& settings) const {
-    return settings.timeSeconds + frame / options_.framesPerSecond;
+    const double seconds = settings.timeSeconds + frame / options_.framesPerSecond;
+    const bool isOver = options_.repeatsClip && clipSeconds_ > 0.0 && seconds >= clipSeconds_;
+    return isOver ? std::fmod(seconds, clipSeconds_) : seconds; // as the viewer plays it
+}
+
+std::string FrameSequence::framesBehindClip(const frame::FrameSettings& settings) const {
+    const FrameRange& range = options_.range;
+    const int last = range.frame(range.count() - 1);
+    if (options_.repeatsClip || !(clipSeconds_ > 0.0) || !(secondsOf(last, settings) > clipSeconds_)) return {};
+    std::size_t place = 0;
+    while (!(secondsOf(range.frame(place), settings) > clipSeconds_)) ++place;
+    const int first = range.frame(place);
+    const std::string frames =
+        first == last ? fmt::format("frame {} lies", last) : fmt::format("frames {} to {} lie", first, last);
+    return fmt::format("{} behind the clip's end at {:.3g} s, where it stands still; --loop begins it again", frames,
+                       clipSeconds_);
 }
 
 /// A number for all that a picture depends on. The same time has the same text.

@@ -53,6 +53,12 @@ std::vector<int> clipsCalled(const Rig& rig, const std::string& nameOrNumber) {
                                  suggestNames(nameOrNumber, names)));
 }
 
+double playingSeconds(const Rig& rig) {
+    double seconds = 0.0;
+    for (const int clip : rig.playing) seconds = std::max(seconds, lengthSeconds(rig.clips[std::size_t(clip)]));
+    return seconds;
+}
+
 void playClip(Scene& scene, const std::string& nameOrNumber) {
     std::vector<int> called = clipsCalled(scene.rig, nameOrNumber);
     restPlayed(scene);

@@ -22,6 +22,9 @@ std::string clipText(const Scene& scene);
 /// Whether any clip is chosen.
 bool isPlaying(const Scene& scene);
 
+/// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
+double playingSeconds(const Rig& rig);
+
 /// What the clips that play change of what a renderer keeps from picture to picture. Lights and cameras it does not.
 struct MovingParts {
     bool geometry = false;  ///< transforms of nodes that show meshes, joints or weights of morph targets

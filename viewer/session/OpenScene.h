@@ -63,7 +63,7 @@ public:
     /// lies too far away; the pose before then stays, and the next time is tried anew.
     bool showTime(double timeSeconds);
     /// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
-    double clipSeconds() const { return std::max(lastSeconds_, 0.0); }
+    double clipSeconds() const { return clipSeconds_; }
     /// Plays another clip, as --clip takes it, from its beginning. Throws InputError where that does not exist, or
     /// moves something too far away; the one before then stays.
     void playClip(const std::string& nameOrNumber);
@@ -151,7 +151,7 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0;
     History history_;
-    double lastSeconds_;        ///< when the last key of a clip that plays is; without one long ago
+    double clipSeconds_;        ///< as clipSeconds() says
     double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused
     double shownSeconds_ = 0.0; ///< of the clip
     std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;
