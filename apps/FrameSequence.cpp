@@ -8,6 +8,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Median.h"
+#include "base/Milliseconds.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::app {
@@ -91,7 +92,7 @@ std::string FrameSequence::summary() const {
     std::string text = fmt::format("{} frame{}: {} drawn, {} skipped", frames_.size(), frames_.size() == 1 ? "" : "s",
                                    ms_.size(), frames_.size() - ms_.size());
     if (ms_.size() < frames_.size()) text += " (finished already)";
-    if (!ms_.empty()) text += fmt::format(", median {:.3g} ms", medianOf(ms_));
+    if (!ms_.empty()) text += fmt::format(", median {} ms", millisecondsText(medianOf(ms_)));
     return text;
 }
 
