@@ -10,6 +10,7 @@
 #include "apps/Outputs.h"
 #include "apps/Progress.h"
 #include "base/AtomicFile.h"
+#include "base/Milliseconds.h"
 #include "base/PictureFile.h"
 #include "engine/ChooseSamples.h"
 #include "engine/Renderer.h"
@@ -58,10 +59,10 @@ struct DemoResult {
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
     const std::size_t best = std::size_t(std::min_element(ms.begin(), ms.end()) - ms.begin());
     const std::string pace = best == 0 ? "the fastest here"
-                                       : fmt::format("{:.1f}x the speed of {} ({:.3g} ms)", ms[0] / ms[best],
-                                                     infoOf(techniques[0]).name, ms[0]);
-    return fmt::format("Take {} for this scene on this machine: {:.3g} ms a frame, {}, and {}.",
-                       infoOf(techniques[best]).name, ms[best], pace,
+                                       : fmt::format("{:.1f}x the speed of {} ({} ms)", ms[0] / ms[best],
+                                                     infoOf(techniques[0]).name, millisecondsText(ms[0]));
+    return fmt::format("Take {} for this scene on this machine: {} ms a frame, {}, and {}.",
+                       infoOf(techniques[best]).name, millisecondsText(ms[best]), pace,
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
@@ -99,8 +100,8 @@ validation::Report makeReport(const std::string& source, const Request& request,
     if (comparison.record.samples > 1)
         report.facts.push_back({"Samples", fmt::format("{} a pixel", comparison.record.samples)});
     for (std::size_t i = 0; i < result.ms.size(); ++i)
-        report.facts.push_back(
-            {std::string(infoOf(result.techniques[i]).name), fmt::format("{:.3g} ms a frame", result.ms[i])});
+        report.facts.push_back({std::string(infoOf(result.techniques[i]).name),
+                                fmt::format("{} ms a frame", millisecondsText(result.ms[i]))});
     for (const Technique technique : result.techniques) {
         report.plans.push_back(
             {std::string(infoOf(technique).name),

@@ -8,6 +8,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Median.h"
+#include "base/Milliseconds.h"
 #include "scenes/Fingerprint.h"
 
 namespace tessera::app {
@@ -33,7 +34,22 @@ void FrameSequence::requireWritable() const {
 }
 
 double FrameSequence::secondsOf(int frame, const frame::FrameSettings& settings) const {
-    return settings.timeSeconds + frame / options_.framesPerSecond;
+    const double seconds = settings.timeSeconds + frame / options_.framesPerSecond;
+    const bool isOver = options_.repeatsClip && clipSeconds_ > 0.0 && seconds >= clipSeconds_;
+    return isOver ? std::fmod(seconds, clipSeconds_) : seconds; // as the viewer plays it
+}
+
+std::string FrameSequence::framesBehindClip(const frame::FrameSettings& settings) const {
+    const FrameRange& range = options_.range;
+    const int last = range.frame(range.count() - 1);
+    if (options_.repeatsClip || !(clipSeconds_ > 0.0) || !(secondsOf(last, settings) > clipSeconds_)) return {};
+    std::size_t place = 0;
+    while (!(secondsOf(range.frame(place), settings) > clipSeconds_)) ++place;
+    const int first = range.frame(place);
+    const std::string frames =
+        first == last ? fmt::format("frame {} lies", last) : fmt::format("frames {} to {} lie", first, last);
+    return fmt::format("{} behind the clip's end at {:.3g} s, where it stands still; --loop begins it again", frames,
+                       clipSeconds_);
 }
 
 /// A number for all that a picture depends on. The same time has the same text.
@@ -76,7 +92,7 @@ std::string FrameSequence::summary() const {
     std::string text = fmt::format("{} frame{}: {} drawn, {} skipped", frames_.size(), frames_.size() == 1 ? "" : "s",
                                    ms_.size(), frames_.size() - ms_.size());
     if (ms_.size() < frames_.size()) text += " (finished already)";
-    if (!ms_.empty()) text += fmt::format(", median {:.3g} ms", medianOf(ms_));
+    if (!ms_.empty()) text += fmt::format(", median {} ms", millisecondsText(medianOf(ms_)));
     return text;
 }
 

@@ -24,14 +24,22 @@ struct FrameSequenceOptions {
     FrameRange range;
     double framesPerSecond = 30.0; ///< of scene time
     Shard shard;
+    bool repeatsClip = false; ///< time begins again at the end of the clip that plays
 };
 
-/// Pictures in numbered files: frame k shows the time of the request + k / framesPerSecond seconds. A shard has every
-/// Nth. Frames that are finished already, by an earlier run of the same request, are not made again.
+/// Pictures in numbered files: frame k shows the time of the request + k / framesPerSecond seconds, less whole lengths
+/// of the clip that plays where that is repeated. A shard has every Nth. Frames that are finished already, by an
+/// earlier run of the same request, are not made again.
 class FrameSequence {
 public:
     /// Throws InputError for a pattern without one place for a number.
     explicit FrameSequence(const FrameSequenceOptions& options);
+
+    /// The length of the clip that plays, 0 where none has any. To be called before all that looks at times.
+    void takeClip(double lengthSeconds) { clipSeconds_ = lengthSeconds; }
+    /// "frames 31 to 89 lie behind the clip's end at 1.04 s, ..." of the whole range; empty where there are none, or
+    /// the clip is repeated.
+    std::string framesBehindClip(const frame::FrameSettings& settings) const;
 
     /// The files that are written here: the shard's frames and its journal.
     std::vector<std::string> outputs() const;
@@ -56,6 +64,7 @@ private:
 
     FrameSequenceOptions options_;
     FramePattern pattern_;
+    double clipSeconds_ = 0.0; ///< 0: no clip plays, or only poses do
     std::vector<int> frames_, unfinished_;
     std::string depends_; ///< on what a picture does besides its time, as text
     std::optional<FrameJournal> journal_;

@@ -46,6 +46,16 @@ std::string unknownOption(const CLI::App& app, const CLI::App* command, const st
     return fmt::format("unknown option '{}'{}", flag, isNear ? ": " + suggestion : where);
 }
 
+/// "--environment lacks its value: ..."; empty where the error is another.
+std::string lackingValue(const CLI::App& app, const CLI::App* command, const CLI::ParseError& error) {
+    if (error.get_exit_code() != int(CLI::ExitCodes::ArgumentMismatch)) return {};
+    const std::string what = error.what(), flag = what.substr(0, what.find(':'));
+    const CLI::Option* option = command ? optionNamed(*command, flag) : nullptr;
+    if (option == nullptr) option = optionNamed(app, flag);
+    if (option == nullptr || option->get_type_size() == 0 || what.find("missing") == std::string::npos) return {};
+    return fmt::format("{0} lacks its value: give it as {0} {1}", flag, option->get_type_name());
+}
+
 } // namespace
 
 std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
@@ -72,6 +82,7 @@ std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int 
     const std::string who = command ? command->get_name() + ": " : "";
     if (error.get_exit_code() == int(CLI::ExitCodes::ExtrasError))
         return fmt::format("{}unexpected argument '{}'{}", who, stray, where);
+    if (const std::string lacking = lackingValue(app, command, error); !lacking.empty()) return who + lacking + where;
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return who + text + where;

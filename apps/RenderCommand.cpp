@@ -39,6 +39,7 @@ struct RenderOptions {
     std::optional<FrameRange> frames; ///< none: one picture
     std::optional<double> framesPerSecond;
     std::optional<std::string> shard;
+    bool repeatsClip = false;
 };
 
 /// What a command makes: one picture, or the frames of a sequence.
@@ -142,6 +143,7 @@ std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
                                          "render, or give another name",
                                          options.output));
         if (options.framesPerSecond) throw InputError("--fps needs --frames: how many pictures to render");
+        if (options.repeatsClip) throw InputError("--loop needs --frames: how many pictures to render");
         if (options.shard) throw InputError("--shard needs --frames: how many pictures to render");
         requireWritable(options.output);
         return {};
@@ -153,9 +155,24 @@ std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
     if (!(sequence.framesPerSecond > 0.0))
         throw InputError(fmt::format("--fps {} must be more than 0", sequence.framesPerSecond));
     if (options.shard) sequence.shard = shardNamed(*options.shard);
+    sequence.repeatsClip = options.repeatsClip;
     std::optional<FrameSequence> frames(sequence);
     frames->requireWritable();
     return frames;
+}
+
+/// Prints what the user should know of the clip, and warns where there is none to repeat.
+void tellOfClip(const RenderOptions& options, RenderJob& job, bool isQuiet) {
+    const scenes::Scene& scene = job.request.scene;
+    if (const std::string clip = scenes::clipText(scene); !clip.empty() && !isQuiet) fmt::print("{}\n", oneLine(clip));
+    if (!job.sequence) return;
+    const double clipSeconds = scenes::playingSeconds(scene.rig);
+    job.sequence->takeClip(clipSeconds);
+    if (const std::string behind = job.sequence->framesBehindClip(job.request.settings); !behind.empty() && !isQuiet)
+        fmt::print("{}\n", behind);
+    if (options.repeatsClip && clipSeconds == 0.0)
+        spdlog::warn("--loop changes nothing. {}",
+                     scenes::isPlaying(scene) ? "The clip is a pose without duration" : "No clip plays");
 }
 
 void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOptions& global) {
@@ -218,8 +235,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     job.request = resolve(frame);
     job.outputs = Outputs(job.sequence ? job.sequence->outputs() : std::vector{job.output});
     job.outputs.reads(job.request.files);
-    if (const std::string clip = scenes::clipText(job.request.scene); !clip.empty() && !global.quiet)
-        fmt::print("{}\n", oneLine(clip));
+    tellOfClip(options, job, global.quiet);
     if (const std::string supplied = scenes::suppliedText(job.request.scene); !supplied.empty() && !global.quiet)
         fmt::print("{}\n", supplied);
     for (const std::string& note : job.request.scene.notes)
@@ -253,6 +269,8 @@ void addRenderCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
         ->type_name("N|A:B[:S]");
     addNumber(*command, "--fps", options->framesPerSecond,
               "Frames a second of scene time: frame k shows --time + k/R seconds [30]", "R");
+    command->add_flag("--loop", options->repeatsClip,
+                      "Begins the clip that plays again at its end, and with it all else that moves");
     command->add_option("--shard", options->shard, "Renders part I of N: every Nth frame, beginning with the Ith")
         ->type_name("I/N");
     command->footer(R"(Examples

@@ -131,7 +131,7 @@ void requireTaken(const ViewRequest& request) {
 void takeWishes(const scenes::Scene& scene, const std::string& file, ViewRequest& request,
                 const std::function<bool(const Setting& setting)>& isSaid) {
     const scenes::SceneOptions& options = scene.options;
-    std::vector<std::string_view> keys{"defaultLight"};
+    std::vector<std::string_view> keys{"clip", "defaultLight"};
     for (const Setting& setting : settingTable())
         if (setting.isWishable) keys.push_back(setting.key);
     for (const auto& [key, wish] : options.wishes)

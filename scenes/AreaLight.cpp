@@ -109,7 +109,8 @@ std::string cornersProblem(const LightCorners& corners) {
         // Edges that follow each other have a corner in common.
         for (std::size_t j = i + 2; j < count; ++j)
             if ((j + 1) % count != i && doMeet(at(i), at(i + 1), at(j), at(j + 1)))
-                return fmt::format("cross or touch: the edges behind number {} and behind number {} meet", i, j);
+                return fmt::format("let the edge from number {} to {} meet that from number {} to {}; move one of them",
+                                   i, i + 1, j, (j + 1) % count);
     }
     return {};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,26 +36,33 @@ bool isPlaying(const Scene& scene) {
     return !scene.rig.playing.empty();
 }
 
-void playClip(Scene& scene, const std::string& nameOrNumber) {
-    Rig& rig = scene.rig;
-    restPlayed(scene);
-    rig.playing.clear();
+std::vector<int> clipsCalled(const Rig& rig, const std::string& nameOrNumber) {
+    std::vector<int> called;
     for (std::size_t i = 0; i < rig.clips.size(); ++i)
-        if (rig.clips[i].name == nameOrNumber) rig.playing.push_back(int(i));
-    if (!rig.playing.empty() || nameOrNumber == kNoClip) return;
+        if (rig.clips[i].name == nameOrNumber) called.push_back(int(i));
+    if (!called.empty() || nameOrNumber == kNoClip) return called;
     std::size_t number = 0;
     const char* const end = nameOrNumber.data() + nameOrNumber.size();
     const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
-    if (error == std::errc() && rest == end && number < rig.clips.size()) {
-        rig.playing.push_back(int(number));
-        return;
-    }
+    if (error == std::errc() && rest == end && number < rig.clips.size()) return {int(number)};
     if (rig.clips.empty())
         throw InputError(fmt::format("the scene has no clip, so none is called '{}'; leave it out", nameOrNumber));
     std::vector<std::string_view> names{kNoClip};
     for (const Clip& clip : rig.clips) names.push_back(clip.name);
     throw InputError(fmt::format("no clip of the scene is called '{}', nor is it the number of one; {}", nameOrNumber,
                                  suggestNames(nameOrNumber, names)));
+}
+
+double playingSeconds(const Rig& rig) {
+    double seconds = 0.0;
+    for (const int clip : rig.playing) seconds = std::max(seconds, lengthSeconds(rig.clips[std::size_t(clip)]));
+    return seconds;
+}
+
+void playClip(Scene& scene, const std::string& nameOrNumber) {
+    std::vector<int> called = clipsCalled(scene.rig, nameOrNumber);
+    restPlayed(scene);
+    scene.rig.playing = std::move(called);
 }
 
 std::string clipText(const Scene& scene) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/Scene.h"
 
@@ -9,8 +10,10 @@ namespace tessera::scenes {
 
 inline constexpr std::string_view kNoClip = "none";
 
-/// Lets the clips of a name play, else the one of that number from 0, or none (kNoClip), and puts numbers that others
-/// changed to rest. Throws InputError that lists the names.
+/// The clips of a name, else the one of that number from 0, or none (kNoClip). Throws InputError that lists the names.
+std::vector<int> clipsCalled(const Rig& rig, const std::string& nameOrNumber);
+
+/// Lets the clips play that are called so, and puts numbers that others changed to rest. Throws as clipsCalled().
 void playClip(Scene& scene, const std::string& nameOrNumber);
 
 /// "clip 0 'Walk' of 3, 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
@@ -18,6 +21,9 @@ std::string clipText(const Scene& scene);
 
 /// Whether any clip is chosen.
 bool isPlaying(const Scene& scene);
+
+/// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
+double playingSeconds(const Rig& rig);
 
 /// What the clips that play change of what a renderer keeps from picture to picture. Lights and cameras it does not.
 struct MovingParts {

@@ -123,8 +123,9 @@ public:
         addAll(name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres);
     }
     void add(const SceneOptions& options) {
-        const auto& [camera, defaultLight, wishes] = options;
+        const auto& [camera, clip, defaultLight, wishes] = options;
         addAll(camera, defaultLight, std::uint64_t(wishes.size()));
+        static_cast<void>(clip); // the rig tells which play
         for (const auto& [key, wish] : wishes) {
             addAll(key, std::uint64_t(wish.index()));
             std::visit([this](const auto& value) { add(value); }, wish);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/Error.h"
+#include "scenes/Clips.h"
 #include "scenes/LookAt.h"
 #include "scenes/Pose.h"
 
@@ -24,9 +25,7 @@ constexpr double kLeastShare = 0.05;
 template <typename Look>
 void overClips(Scene& scene, const Look& look) {
     constexpr int kSteps = 16; // a turn of 360 degrees is seen every 22.5
-    double seconds = 0.0;
-    for (const int clip : scene.rig.playing)
-        seconds = std::max(seconds, lengthSeconds(scene.rig.clips[static_cast<std::size_t>(clip)]));
+    const double seconds = playingSeconds(scene.rig);
     if (!(seconds > 0.0)) return look(scene);
     for (int step = 0; step <= kSteps; ++step) {
         try {

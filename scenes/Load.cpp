@@ -190,7 +190,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
             setHookValue(*scene.hook, value);
         }
         takeRest(scene);
-        if (options.clip) playClip(scene, *options.clip);
+        if (options.clip) scene.options.clip = options.clip;
+        if (scene.options.clip) playClip(scene, *scene.options.clip);
         poseScene(scene, 0.0);
     } catch (const InputError& error) {
         throw InputError(nameOrPath + ": " + error.what());

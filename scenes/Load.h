@@ -21,8 +21,8 @@ struct LoadOptions {
     bool defaultLight = true;  ///< light a scene without lights by the studio, unless all is unlit
     /// Takes the place of the scene's own: a built-in one's name, a picture file, or kNoEnvironment.
     std::optional<std::string> environment;
-    /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it the first of each
-    /// model.
+    /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it those that the scene's
+    /// options call so, else the first of each model.
     std::optional<std::string> clip;
     /// Given to parameters of the scene's hook, in order.
     std::vector<HookValue> hookValues;

@@ -84,6 +84,7 @@ using Wish = std::variant<bool, double, std::string, std::vector<double>>;
 /// What a scene asks for where the user does not say otherwise.
 struct SceneOptions {
     std::optional<std::string> camera;
+    std::optional<std::string> clip;                 ///< as playClip() takes it; none: the first of each model plays
     std::optional<bool> defaultLight;                ///< false: where there is no light, none is supplied
     std::map<std::string, Wish, std::less<>> wishes; ///< by the settings' keys (engine::settingTable())
     bool operator==(const SceneOptions&) const = default;

@@ -26,11 +26,11 @@ Directive LineScanner::next(std::string_view line) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     const bool continues = !line.empty() && line.back() == '\\';
     if (continues) line.remove_suffix(1);
-    const std::string code = withoutComments(line);
+    code_ = withoutComments(line);
     inContinuation_ = continues;
     if (!continues) inLineComment_ = false;
 
-    std::string_view rest = trimmed(code);
+    std::string_view rest = trimmed(code_);
     if (startsInside || rest.empty() || rest.front() != '#') return {};
     rest = trimmed(rest.substr(1));
     const auto end = std::find_if_not(rest.begin(), rest.end(), isWord);

@@ -18,9 +18,12 @@ public:
     Directive next(std::string_view line);
     /// True after a line inside which a block comment or a continuation is still open.
     bool isOpen() const { return inBlockComment_ || inContinuation_; }
+    /// The last line without its comments and a backslash at its end.
+    const std::string& code() const { return code_; }
 
 private:
     std::string withoutComments(std::string_view line);
+    std::string code_;
     bool inBlockComment_ = false;
     bool inLineComment_ = false; ///< only carried to the next line by a continuation
     bool inContinuation_ = false;

@@ -39,6 +39,7 @@ std::string mapLine(const std::string& line, std::span<const std::string> files)
         if (file >= files.size()) return line;
         std::string severity;
         if (dialect.severity != 0) severity = match.str(dialect.severity) == "ERROR" ? "error: " : "warning: ";
+        if (number % kLinesAFile == 0) return severity + match.suffix().str(); // lines count from 1: it tells no place
         return fmt::format("{}:{}: {}{}", displayPath(files[file]), number % kLinesAFile, severity,
                            match.suffix().str());
     }

@@ -41,8 +41,8 @@ struct ExpandedSource {
 ExpandedSource expand(const SourceTree& tree, std::string_view entryPath, const Defines& defines = {});
 
 /// Rewrites the places in a driver's log, "0:12(5): error: x" (Mesa), "0(12) : error C1: x" (NVIDIA), "ERROR: 0:12: x"
-/// (glslang and others), to "shaders/lib/reflectance/brdf.glsl:12: error: x". Lines without a known place stay as they
-/// are.
+/// (glslang and others), to "shaders/lib/reflectance/brdf.glsl:12: error: x". Line 0 is no place and left out. Lines
+/// without a known place stay as they are.
 std::string mapLog(std::string_view log, std::span<const std::string> files);
 
 /// The lines of a mapped log, warnings behind all others: compilers warn before they find the error. Either keep their

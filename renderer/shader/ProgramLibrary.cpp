@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <exception>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "renderer/shader/HookFault.h"
 
 namespace tessera::shader {
 namespace {
@@ -34,12 +34,6 @@ bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedSta
     });
 }
 
-/// The file of the hook that a program is made with; empty: it has none.
-std::string hookOf(const ProgramDesc& desc) {
-    const auto found = std::ranges::find(desc.defines, kHookFile, &Defines::value_type::first);
-    return found == desc.defines.end() ? "" : found->second;
-}
-
 /// When a file last changed; none where it is gone, as while an editor saves it.
 std::optional<std::filesystem::file_time_type> timeOf(const std::string& file) {
     std::error_code error;
@@ -47,24 +41,15 @@ std::optional<std::filesystem::file_time_type> timeOf(const std::string& file) {
     return error ? std::nullopt : std::optional(time);
 }
 
-constexpr const char* kHookFunctions[] = {"hookSurface", "hookVertex"}; // lib/material/hook_interface.glsl
-constexpr const char* kHookSignatures =
-    "write void hookSurface(inout HookedSurface surface, HookInputs inputs), void hookVertex(inout vec3 positionOS, "
-    "inout vec3 normalOS, vec2 uv) or both, each once and outside of conditionals";
-
-/// What is wrong with the hook of a program whose mapped log tells a fault; empty where that is the program's own.
-std::string hookProblem(const ProgramDesc& desc, const std::string& log) {
-    const std::string hook = hookOf(desc);
-    if (hook.empty()) return "";
-    std::string errors; // without warnings, most of which are about the program's own files
-    std::istringstream lines(log);
-    for (std::string line; std::getline(lines, line);)
-        if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
-    const auto holds = [&errors](const std::string& word) { return errors.find(word) != std::string::npos; };
-    const bool names = holds(hook);
-    if (!names && std::ranges::none_of(kHookFunctions, holds)) return "";
-    return fmt::format("{}: the driver refuses this hook: {}{}{}", hook, errors, names ? "" : "\n",
-                       names ? "" : kHookSignatures);
+/// Whether a driver that refuses the program takes it with a hook that changes nothing.
+bool isWholeWithEmptyHook(const SourceTree& tree, const ProgramDesc& desc) {
+    const ProgramDesc empty = withEmptyHook(desc);
+    try {
+        gpu::PendingProgram(label(empty), sources(expandStages(tree, empty))).finish();
+        return true;
+    } catch (const gpu::ShaderError&) {
+        return false;
+    }
 }
 
 /// A build under way, with the data that maps its errors to source lines.
@@ -76,7 +61,8 @@ struct Build {
     Build(const ProgramDesc& ofDesc, std::vector<ExpandedStage> ofStages)
         : desc(ofDesc), stages(std::move(ofStages)), pending(label(ofDesc), sources(stages)) {}
 
-    gpu::Program finish() {
+    /// Throws gpu::ShaderError, or InputError where the scene's hook is at fault.
+    gpu::Program finish(const SourceTree& tree) {
         try {
             return pending.finish();
         } catch (const gpu::ShaderError& error) {
@@ -87,7 +73,8 @@ struct Build {
             std::string all = error.linkLog();
             for (const gpu::ShaderError::StageLog& log : logs) all += (all.empty() ? "" : "\n") + log.text;
             while (all.ends_with('\n')) all.pop_back();
-            if (const std::string problem = hookProblem(desc, all); !problem.empty()) throw InputError(problem);
+            if (!hookFileOf(desc).empty() && (namesHook(desc, all) || isWholeWithEmptyHook(tree, desc)))
+                throw InputError(hookFaultText(tree, desc, all));
             throw gpu::ShaderError(error.program(), std::move(logs), error.linkLog());
         }
     }
@@ -103,7 +90,7 @@ const gpu::Program& ProgramLibrary::get(const ProgramDesc& desc) {
     if (found == entries_.end()) {
         noteHook(desc);
         Build build(desc, expandStages(tree_, desc));
-        gpu::Program program = build.finish();
+        gpu::Program program = build.finish(tree_);
         auto entry = std::make_unique<Entry>(Entry{desc, std::move(build.stages), std::move(program)});
         found = entries_.emplace(std::move(key), std::move(entry)).first;
     }
@@ -128,7 +115,7 @@ void ProgramLibrary::warm(std::span<const ProgramDesc> descs) {
     }
     for (auto& [key, build] : builds)
         keepGoing([&] {
-            gpu::Program program = build.finish();
+            gpu::Program program = build.finish(tree_);
             entries_[key] = std::make_unique<Entry>(Entry{build.desc, std::move(build.stages), std::move(program)});
         });
     if (firstFault) std::rethrow_exception(firstFault);
@@ -148,7 +135,7 @@ Reloading ProgramLibrary::reload() {
     }
     for (auto& [entry, build] : builds) {
         try {
-            entry->program = build.finish();
+            entry->program = build.finish(tree_);
             entry->stages = std::move(build.stages);
             ++result.programs;
             ++reloaded_;
@@ -174,7 +161,7 @@ bool ProgramLibrary::sourcesChanged() {
 }
 
 void ProgramLibrary::noteHook(const ProgramDesc& desc) {
-    if (const std::string hook = hookOf(desc); !hook.empty() && !hooks_.contains(hook))
+    if (const std::string hook = hookFileOf(desc); !hook.empty() && !hooks_.contains(hook))
         hooks_.emplace(hook, timeOf(hook));
 }
 

@@ -106,7 +106,8 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     scene.name = file.stem().string();
     Buffers buffers(document);
     Accessors accessors(document, buffers);
-    Context context{document, buffers, accessors, scene};
+    DracoStreams streams(document, buffers);
+    Context context{document, buffers, accessors, streams, scene};
     warnOfIgnoredFeatures(context);
 
     constexpr std::size_t kCopies = 2; // while a vector grows
@@ -165,7 +166,8 @@ Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger&
     Scene scene;
     Buffers buffers(document);
     Accessors accessors(document, buffers);
-    Context context{document, buffers, accessors, scene};
+    DracoStreams streams(document, buffers);
+    Context context{document, buffers, accessors, streams, scene};
     importEnvironment(context);
     if (!scene.environment)
         throw InputError(fmt::format("{}: its scene has no light of EXT_lights_image_based; name a picture, or a model "

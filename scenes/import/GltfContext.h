@@ -8,6 +8,7 @@
 
 #include "scenes/Scene.h"
 #include "scenes/import/GltfAccessors.h"
+#include "scenes/import/GltfDraco.h"
 
 namespace tessera::scenes::gltf {
 
@@ -16,6 +17,7 @@ struct Context {
     const Document& document;
     Buffers& buffers;
     Accessors& accessors;
+    DracoStreams& streams;
     Scene& scene;
     /// Primitives that are no triangles: how many, and the place of the first.
     struct Undrawn {

@@ -35,6 +35,18 @@ bool isComponentType(draco::DataType type) {
     return (type >= draco::DT_INT8 && type <= draco::DT_UINT32) || type == draco::DT_FLOAT32;
 }
 
+/// What the points of a stream take while they are decoded, of which the portable components are gone then.
+std::uint64_t pointBytes(const draco::PointCloud& points) {
+    std::uint64_t bytesEach = 0; // of a point; the stream may hold attributes that nobody names
+    for (int i = 0; i < points.num_attributes(); ++i) {
+        const draco::PointAttribute& stored = *points.attribute(i);
+        const auto componentBytes = static_cast<std::uint64_t>(draco::DataTypeLength(stored.data_type()));
+        bytesEach += kPointBytes + stored.num_components() * (componentBytes + kPortableBytes);
+    }
+    const std::uint64_t count = points.num_points(), most = std::numeric_limits<std::uint64_t>::max();
+    return count > 0 && bytesEach > most / count ? most : count * bytesEach;
+}
+
 /// What of the stream is checked before the library reserves memory for it.
 class Claims {
 public:
@@ -43,15 +55,23 @@ public:
 
     /// At the head of a stream's triangles. Throws InputError with what is wrong.
     void checkTriangles(std::uint64_t faces, std::uint64_t seamTables) const {
-        const std::uint64_t corners = 3 * faces;
-        if (primitive_.indices != kNone && accessor(primitive_.indices).count != corners)
-            throw InputError(fmt::format("holds {} triangles, but accessor {} says {} indices", faces,
-                                         primitive_.indices, accessor(primitive_.indices).count));
-        charge(corners * (kDracoCornerBytes + seamTables * kSeamCornerBytes));
+        compareTriangles(faces);
+        charge(3 * faces * (kDracoCornerBytes + seamTables * kSeamCornerBytes));
     }
 
     /// When all attributes are known, and before their values are read. Throws InputError with what is wrong.
     void checkAttributes(const draco::PointCloud& points) const {
+        compareAttributes(points);
+        charge(pointBytes(points));
+    }
+
+    /// Throws InputError where the accessors say other than the stream.
+    void compareTriangles(std::uint64_t faces) const {
+        if (primitive_.indices != kNone && accessor(primitive_.indices).count != 3 * faces)
+            throw InputError(fmt::format("holds {} triangles, but accessor {} says {} indices", faces,
+                                         primitive_.indices, accessor(primitive_.indices).count));
+    }
+    void compareAttributes(const draco::PointCloud& points) const {
         for (const auto& [name, id] : primitive_.draco->attributes) {
             const auto named = primitive_.attributes.find(name);
             if (named == primitive_.attributes.end()) continue;
@@ -67,14 +87,6 @@ public:
                 throw InputError(fmt::format("holds {} with {} components an element, but accessor {} says {}", name,
                                              stored->num_components(), named->second, wanted.components));
         }
-        std::uint64_t bytesEach = 0; // of a point; the stream may hold attributes that nobody names
-        for (int i = 0; i < points.num_attributes(); ++i) {
-            const draco::PointAttribute& stored = *points.attribute(i);
-            const auto componentBytes = static_cast<std::uint64_t>(draco::DataTypeLength(stored.data_type()));
-            bytesEach += kPointBytes + stored.num_components() * (componentBytes + kPortableBytes);
-        }
-        const std::uint64_t count = points.num_points(), most = std::numeric_limits<std::uint64_t>::max();
-        charge(count > 0 && bytesEach > most / count ? most : count * bytesEach);
     }
 
     void charge(std::uint64_t bytes) const {
@@ -232,17 +244,34 @@ std::vector<std::uint32_t> cornersOf(const draco::Mesh& mesh) {
 
 } // namespace
 
-DracoGeometry decodeDraco(const Document& document, Buffers& buffers, const model::Primitive& primitive,
-                          const std::string& place, const std::string& meshName) {
+DracoStreams::DracoStreams(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {
+    for (const model::Mesh& mesh : document.model.meshes)
+        for (const model::Primitive& primitive : mesh.primitives)
+            if (primitive.draco) ++primitives_[primitive.draco->bufferView];
+}
+
+DracoGeometry DracoStreams::decode(const model::Primitive& primitive, const std::string& place,
+                                   const std::string& meshName) {
     const std::string stream = place + "/extensions/KHR_draco_mesh_compression";
-    const std::span<const std::byte> bytes = buffers.view(primitive.draco->bufferView);
-    const std::uint64_t mark = document.ledger.usedBytes();
-    const Claims claims(document, primitive, stream);
+    const int view = primitive.draco->bufferView;
+    const std::span<const std::byte> bytes = buffers_.view(view);
+    const std::uint64_t mark = document_.ledger.usedBytes();
+    const Claims claims(document_, primitive, stream);
     DracoGeometry geometry;
     std::uint64_t keptBytes = 0;
     try {
-        draco::Mesh mesh;
-        decodeStream(bytes, claims, mesh);
+        const auto known = shared_.find(view);
+        std::shared_ptr<const draco::Mesh> decoded;
+        if (known != shared_.end()) {
+            decoded = known->second;
+            claims.compareTriangles(decoded->num_faces());
+            claims.compareAttributes(*decoded);
+        } else {
+            const auto made = std::make_shared<draco::Mesh>();
+            decodeStream(bytes, claims, *made);
+            decoded = made;
+        }
+        const draco::Mesh& mesh = *decoded;
         const auto keep = [&](std::uint64_t more) {
             claims.charge(more);
             keptBytes += more;
@@ -250,20 +279,26 @@ DracoGeometry decodeDraco(const Document& document, Buffers& buffers, const mode
         for (const auto& [name, id] : primitive.draco->attributes) {
             const auto named = primitive.attributes.find(name);
             if (named == primitive.attributes.end()) continue;
-            const model::Accessor& wanted = document.model.accessors[static_cast<std::size_t>(named->second)];
+            const model::Accessor& wanted = document_.model.accessors[static_cast<std::size_t>(named->second)];
             keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components));
             const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
             geometry.attributes[name] = packedElements(mesh, stored, name, wanted);
         }
         keep(3 * std::uint64_t{mesh.num_faces()} * sizeof(std::uint32_t));
         geometry.corners = cornersOf(mesh);
+        if (known == shared_.end() && primitives_[view] > 1) {
+            shared_[view] = decoded;
+            const std::uint64_t sharedBytes = mesh.num_faces() * sizeof(draco::Mesh::Face) + pointBytes(mesh);
+            heldBytes_ += sharedBytes;
+            keptBytes += sharedBytes; // charged above
+        }
     } catch (const MemoryRefused&) {
         throw; // names the place already
     } catch (const InputError& error) {
-        document.fail(stream, fmt::format("the stream of mesh '{}' {}; compress the mesh anew, or leave it plain",
-                                          meshName, error.what()));
+        document_.fail(stream, fmt::format("the stream of mesh '{}' {}; compress the mesh anew, or leave it plain",
+                                           meshName, error.what()));
     }
-    document.ledger.settle(mark, keptBytes);
+    document_.ledger.settle(mark, keptBytes);
     return geometry;
 }
 

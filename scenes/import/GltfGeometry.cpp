@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "scenes/import/GltfDraco.h"
 #include "scenes/import/GltfTriangles.h"
 
 namespace tessera::scenes::gltf {
@@ -28,7 +27,7 @@ public:
         if (!primitive_.draco) return;
         if (primitive_.mode == kFan)
             context_.document.fail(place_ + "/mode", "is 6, a fan; KHR_draco_mesh_compression holds lists or strips");
-        decoded_ = decodeDraco(context_.document, context_.buffers, primitive_, place_, meshName_);
+        decoded_ = context_.streams.decode(primitive_, place_, meshName_);
     }
 
     /// How corners() make triangles: those of a stream are a list, whatever was encoded.
@@ -253,7 +252,8 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     if (stored.primitives.size() > 1) mesh.name += fmt::format(" primitive {}", primitiveIndex);
 
     LoadLedger& ledger = context.document.ledger;
-    const std::uint64_t mark = ledger.usedBytes() - context.buffers.heldBytes();
+    const auto heldBytes = [&context] { return context.buffers.heldBytes() + context.streams.heldBytes(); };
+    const std::uint64_t mark = ledger.usedBytes() - heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
     if (primitive.mode < kTriangles) {
         Context::Undrawn& undrawn = primitive.mode == kPoints ? context.points : context.lines;
@@ -279,7 +279,7 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     mesh.indices = trianglesOf(reader.mode(), std::move(corners));
     reader.warnOfUnused();
     finishNormals(context, place, shape);
-    ledger.settle(mark, context.buffers.heldBytes() + bytesOf(shape));
+    ledger.settle(mark, heldBytes() + bytesOf(shape));
     if (mesh.indices.empty()) {
         context.warn(fmt::format("{}: mesh '{}' has no triangle and is left out", place, mesh.name));
         return std::nullopt;

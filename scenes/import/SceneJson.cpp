@@ -5,6 +5,7 @@
 
 #include "base/Error.h"
 #include "base/Extension.h"
+#include "scenes/Clips.h"
 #include "scenes/Limits.h"
 #include "scenes/Load.h"
 #include "scenes/RigLinks.h"
@@ -354,6 +355,13 @@ private:
                 for (const Camera& known : scene.cameras) names.push_back(known.name);
                 if (std::ranges::find(names, *options.camera) == names.end())
                     option.failUnknown("camera", *options.camera, names);
+            } else if (key == "clip") {
+                options.clip = option.text();
+                try {
+                    clipsCalled(scene.rig, *options.clip);
+                } catch (const InputError& error) {
+                    option.fail(error.what());
+                }
             } else {
                 options.wishes[key] = readWish(option); // the floors above know the settings
             }

@@ -110,6 +110,7 @@ Json optionsJson(const Scene& scene) {
     for (const auto& [key, wish] : options.wishes)
         object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
     if (options.camera) object["camera"] = *options.camera;
+    if (options.clip) object["clip"] = *options.clip;
     // Who takes away the last light wants the dark.
     const bool isDark = scene.lights.empty() && !scene.environment;
     if (options.defaultLight || isDark) object["defaultLight"] = options.defaultLight.value_or(false);

@@ -5,10 +5,11 @@ namespace tessera::scenes {
 
 /// The .json scene that loadScene() makes `scene` of again, to the last bit, when it is `file`: a reference to the
 /// origin, relative to the file's folder, and what may have been edited since: materials that changed, lights, cameras,
-/// background and options in full. What clips make of materials is no edit. Geometry and pictures must be the origin's.
-/// Warnings are not kept, pictures are called by the way to them from the new file, and a scene without lights gets the
-/// option that none is supplied. Throws InputError, naming the file, the thing and the remedy, when the scene does not
-/// pass checkScene(), when `file` is one that the origin is made of, or when text is not UTF-8.
+/// background and options in full, among them the clip that was chosen. What clips make of materials is no edit.
+/// Geometry and pictures must be the origin's. Warnings are not kept, pictures are called by the way to them from the
+/// new file, and a scene without lights gets the option that none is supplied. Throws InputError, naming the file, the
+/// thing and the remedy, when the scene does not pass checkScene(), when `file` is one that the origin is made of, or
+/// when text is not UTF-8.
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file);
 
 } // namespace tessera::scenes

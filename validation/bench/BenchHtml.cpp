@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/Milliseconds.h"
 #include "engine/Techniques.h"
 #include "validation/bench/BenchJsonTerms.h"
 #include "validation/bench/BenchTables.h"
@@ -142,7 +143,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),
                          fmt::format("relMSE against {}", group.truth == "reference" ? "double precision" : "forward"));
-    html += tileHtml("Time", fmt::format("{:.3g}&#8239;ms", best.times.cpuMs.median),
+    html += tileHtml("Time", millisecondsText(best.times.cpuMs.median) + "&#8239;ms",
                      !best.ratioToFloor ? "a frame"
                      : *best.ratioToFloor < 1.0
                          ? "a frame, below its lower bound: measure again"

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/Milliseconds.h"
 #include "validation/bench/Pareto.h"
 #include "validation/bench/Recommend.h"
 #include "validation/bench/ScalingFit.h"
@@ -52,7 +53,7 @@ std::string answersHtml(const BenchRecord& record) {
         const BenchResult& best = *choice->best;
         html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Take\"><strong>{}</strong></td>\n",
                             escapedHtml(groupName(group)), escapedHtml(pointName(best.key)));
-        html += cellHtml("ms a frame", fmt::format("{:.3g}", best.times.cpuMs.median));
+        html += cellHtml("ms a frame", millisecondsText(best.times.cpuMs.median));
         html +=
             cellHtml("Against forward", choice->speedup ? fmt::format("<span class=\"{}\">{:.2f}&times;</span>",
                                                                       speedClass(*choice->speedup), *choice->speedup)

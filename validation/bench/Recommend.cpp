@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/Milliseconds.h"
 #include "validation/bench/Pareto.h"
 #include "validation/figures/FigureText.h"
 
@@ -147,14 +148,14 @@ std::string recommendationText(const BenchGroup& group) {
     else
         text += choice->asFast ? "as fast as any of those measured" : "the fastest of those measured";
     if (relMseOf(best)) text += fmt::format(" at relMSE {}", figureText(*relMseOf(best)));
-    text += fmt::format(", {:.3g} ms a frame", timeOf(best));
+    text += fmt::format(", {} ms a frame", millisecondsText(timeOf(best)));
     if (best.ratioToFloor) text += fmt::format(", {:.1f} times the lower bound", *best.ratioToFloor);
     text += ".";
     if (!choice->isAcceptable && relMseOf(best))
         text += fmt::format(" Nothing here stays below relMSE {:g}; this is the most exact.", kAcceptableRelMse);
     if (choice->asFast)
-        text += fmt::format(" {} takes as long within the spread of the times, {:.3g} ms, at the larger relMSE {}.",
-                            pointName(choice->asFast->key), timeOf(*choice->asFast),
+        text += fmt::format(" {} takes as long within the spread of the times, {} ms, at the larger relMSE {}.",
+                            pointName(choice->asFast->key), millisecondsText(timeOf(*choice->asFast)),
                             figureText(*relMseOf(*choice->asFast)));
     if (choice->exact) {
         text += fmt::format(" The most exact is {}", pointName(choice->exact->key));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/Milliseconds.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Context.h"
 #include "renderer/gpu/Timer.h"
@@ -74,9 +75,10 @@ void summarisePasses(PointTimes& times, const std::vector<std::string>& names,
         const double sum = spreadOf(sums).median;
         const double whole = spreadOf({frameMs.begin(), frameMs.end()}).median;
         if (std::abs(sum - whole) > kMostUnexplained * whole) {
-            return leaveOut(times, fmt::format("the passes sum to {:.3g} ms of the {:.3g} ms of their frames, beyond "
-                                               "the {:.0f} % that may be missing",
-                                               sum, whole, 100.0 * kMostUnexplained));
+            return leaveOut(times,
+                            fmt::format("the passes sum to {} ms of the {} ms of their frames, beyond "
+                                        "the {:.0f} % that may be missing",
+                                        millisecondsText(sum), millisecondsText(whole), 100.0 * kMostUnexplained));
         }
     }
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -10,6 +10,9 @@ namespace tessera::viewer {
 namespace {
 
 constexpr float kSmoothPixels = 1.0f; ///< as high as the steps of an edge that slants
+/// The most sides of a piece that is smoothed by itself. Where each point that stays cuts off one side alone, as on a
+/// comb, a piece takes the square of this.
+constexpr std::size_t kPieceSides = 128;
 
 /// Ways along the sides of pixels from one of their corners, each with the inside at its right.
 constexpr std::array<glm::ivec2, 4> kWays{glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)};
@@ -80,13 +83,18 @@ float distanceToLine(const glm::vec2& point, const glm::vec2& begin, const glm::
     return glm::distance(point, begin + share * along);
 }
 
-/// Leaves out points that lie within so many pixels of the line between those that stay.
+/// Leaves out points that lie within so many pixels of the line between those that stay. The ends of pieces do, so the
+/// time grows with the number of points, whatever they are.
 /// Source: Douglas and Peucker 1973, "Algorithms for the reduction of the number of points required to represent a
 /// digitized line or its caricature".
 Contour smoothed(const Contour& contour, float pixels) {
     std::vector<std::uint8_t> stays(contour.size(), 0);
     stays.front() = stays.back() = 1;
-    std::vector<std::pair<std::size_t, std::size_t>> parts{{0, contour.size() - 1}};
+    std::vector<std::pair<std::size_t, std::size_t>> parts;
+    for (std::size_t first = 0, end = contour.size() - 1; first < end; first += kPieceSides) {
+        stays[first] = 1;
+        parts.emplace_back(first, std::min(first + kPieceSides, end));
+    }
     while (!parts.empty()) {
         const auto [first, last] = parts.back();
         parts.pop_back();
@@ -131,8 +139,9 @@ std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ive
     for (const auto& [length, contour] : found) {
         Contour smooth = smoothed(contour, kSmoothPixels);
         if (contours.empty()) // it stays, as of leaves that all hang together
+            // Once the picture lies within so many pixels, only ends of pieces stay, each time fewer of them.
             for (float pixels = 2.0f * kSmoothPixels; smooth.size() > kMostContourPoints; pixels *= 2.0f)
-                smooth = smoothed(contour, pixels);
+                smooth = smoothed(smooth, pixels);
         points += smooth.size();
         if (points > kMostContourPoints) break;
         if (smooth.size() > 1) contours.push_back(std::move(smooth));

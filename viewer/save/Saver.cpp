@@ -1,6 +1,7 @@
 #include "viewer/save/Saver.h"
 
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "base/AtomicFile.h"
@@ -13,6 +14,7 @@
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/FreePath.h"
+#include "viewer/session/Playback.h"
 #include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
@@ -55,7 +57,13 @@ void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
 
 void Saver::scene(const std::string& path) {
     OpenScene& open = *state_.open;
-    saveScene(path, open.scene(), open.origin());
+    scenes::SceneOptions before = open.exchangeOptions(optionsToSave(state_));
+    try {
+        saveScene(path, open.scene(), open.origin());
+    } catch (...) {
+        open.exchangeOptions(std::move(before));
+        throw;
+    }
     open.becomes(std::filesystem::absolute(path).string());
     noteRecent(state_.recent, open.source());
     tell(path);

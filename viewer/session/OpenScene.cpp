@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,12 +17,6 @@
 namespace tessera::viewer {
 namespace {
 
-double lastSecondsOf(const scenes::Rig& rig) {
-    double seconds = -std::numeric_limits<double>::infinity();
-    for (const int clip : rig.playing) seconds = std::max(seconds, scenes::lengthSeconds(rig.clips[std::size_t(clip)]));
-    return seconds;
-}
-
 /// Whether a change says where a camera is or looks.
 bool places(const scenes::CameraChange& change) {
     return change.eyeWS || change.targetWS || change.upWS;
@@ -35,11 +28,11 @@ OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
       boundsWS_(scenes::boundsOverClips(scene_)), cameras_(scene_.cameras), loadedCameras_(cameras_),
-      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_), lastSeconds_(lastSecondsOf(scene_.rig)),
-      filtered_(std::move(filtered)) {}
+      rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_),
+      clipSeconds_(scenes::playingSeconds(scene_.rig)), filtered_(std::move(filtered)) {}
 
 bool OpenScene::showTime(double timeSeconds) {
-    timeSeconds = std::min(timeSeconds, lastSeconds_);
+    timeSeconds = std::min(timeSeconds, clipSeconds_);
     if (!scenes::isPlaying(scene_) || timeSeconds == askedSeconds_) return false;
     askedSeconds_ = timeSeconds;
     if (timeSeconds == shownSeconds_) return false; // after one that was refused
@@ -74,8 +67,8 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
         pose(shownSeconds_);
         throw;
     }
-    load_.clip = nameOrNumber;
-    lastSeconds_ = lastSecondsOf(scene_.rig);
+    load_.clip = scene_.options.clip = nameOrNumber;
+    clipSeconds_ = scenes::playingSeconds(scene_.rig);
     askedSeconds_ = shownSeconds_ = 0.0;
     ++revision_;
     ++geometryRevision_;
@@ -318,7 +311,6 @@ void OpenScene::exchange(CameraEdit& edit) {
 void OpenScene::becomes(const std::string& file) {
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
-    load.clip = std::move(load_.clip);
     load.import = std::move(load_.import);
     load.import.variant.reset();
     load_ = std::move(load);

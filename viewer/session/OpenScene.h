@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/Clips.h"
@@ -28,9 +29,12 @@ public:
     bool isEdited() const { return !history_.isSaved(); }
     /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
-    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays,
-    /// and the clip that was asked for, which a scene file cannot choose.
+    /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
     void becomes(const std::string& file);
+    /// Gives the scene other options, and returns those that it had. It is no edit.
+    scenes::SceneOptions exchangeOptions(scenes::SceneOptions options) {
+        return std::exchange(scene_.options, std::move(options));
+    }
     const scenes::LoadOptions& load() const { return load_; }
     const scenes::Scene& scene() const { return scene_; }
 
@@ -59,7 +63,7 @@ public:
     /// lies too far away; the pose before then stays, and the next time is tried anew.
     bool showTime(double timeSeconds);
     /// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
-    double clipSeconds() const { return std::max(lastSeconds_, 0.0); }
+    double clipSeconds() const { return clipSeconds_; }
     /// Plays another clip, as --clip takes it, from its beginning. Throws InputError where that does not exist, or
     /// moves something too far away; the one before then stays.
     void playClip(const std::string& nameOrNumber);
@@ -147,7 +151,7 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0;
     History history_;
-    double lastSeconds_;        ///< when the last key of a clip that plays is; without one long ago
+    double clipSeconds_;        ///< as clipSeconds() says
     double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused
     double shownSeconds_ = 0.0; ///< of the clip
     std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 namespace tessera::viewer {
 namespace {
+
+constexpr std::string_view kTimeKey = "time"; ///< of its setting (engine::settingTable())
 
 /// Whether anything but a clip moves.
 bool movesByItself(const OpenScene& open) {
@@ -44,6 +48,16 @@ void passTime(State& state, double clockSeconds) {
         timeSeconds = clipSeconds;
         state.isPlaying = false;
     }
+}
+
+scenes::SceneOptions optionsToSave(const State& state) {
+    scenes::SceneOptions options = state.open->scene().options;
+    if (!canMove(state)) return options;
+    if (const double timeSeconds = state.active().settings.timeSeconds; timeSeconds == 0.0)
+        options.wishes.erase(std::string(kTimeKey));
+    else
+        options.wishes.insert_or_assign(std::string(kTimeKey), timeSeconds);
+    return options;
 }
 
 void chooseClip(State& state, const std::string& nameOrNumber) {

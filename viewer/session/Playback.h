@@ -18,6 +18,8 @@ bool isMoving(const State& state);
 void togglePlaying(State& state);
 /// So much of the clock's time is over. At its end a clip is repeated, with all else that moves, or comes to rest.
 void passTime(State& state, double clockSeconds);
+/// The options of a scene that is saved now: where something moves, it begins at the time that is shown.
+scenes::SceneOptions optionsToSave(const State& state);
 /// Plays a clip of the scene, as --clip takes it, from its beginning. Throws InputError where it moves something too
 /// far away; the clip before then stays.
 void chooseClip(State& state, const std::string& nameOrNumber);

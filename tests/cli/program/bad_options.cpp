@@ -48,7 +48,9 @@ TEST_F(BadOptions, unknownOptionsAndStrayWordsAreNamed) {
     expectRefused({"--nonsense"}, {"unknown option '--nonsense'", "tessera render --help"});
     expectRefused({"other"}, {"render: unexpected argument 'other'"});
     expectRefused({"-o", "b.png"}, {"--output"});
-    expectRefused({"--size"}, {"--size"});
+    expectRefused({"--size"}, {"render: --size lacks its value: give it as --size WxH; see tessera render --help"});
+    expectRefused({"--environment"}, {"--environment lacks its value: give it as --environment NAME; see"});
+    expectRefused({"--environment", "--quiet"}, {"--environment lacks its value: give it as --environment NAME; see"});
     expectError(kBadInput, {"--nonsense"}, {"unknown option '--nonsense'", "tessera --help"});
     expectError(kBadInput, {"render"}, {"render: ", "required", "tessera render --help"});
     expectError(kBadInput, {"render", "room"}, {"--output is required"});

@@ -74,6 +74,23 @@ TEST_F(PlayedClips, framesOfASequenceAreThePicturesOfTheirTimes) {
     runGood({"compare", "slide.gltf", "--size", "64x32", "--time", "0.3", "--against", "reference"});
 }
 
+TEST_F(PlayedClips, framesBehindTheEndOfAClipAreToldOfAndShowItAgainWhereItIsRepeated) {
+    EXPECT_THAT(runGood(command({"--frames", "6", "--fps", "2", "-o", "f_%d.exr"})),
+                HasSubstr("\nframes 3 to 5 lie behind the clip's end at 1 s, where it stands still; --loop begins it "
+                          "again\n"));
+    EXPECT_EQ(text("f_5.exr"), text("f_2.exr"));
+    EXPECT_THAT(runGood(command({"--frames", "3:3", "--fps", "2", "-o", "f_%d.exr"})), HasSubstr("\nframe 3 lies "));
+    const std::string said = runGood(command({"--frames", "6", "--fps", "2", "--loop", "-o", "l_%d.exr"}));
+    EXPECT_THAT(said, testing::Not(HasSubstr("--loop")));
+    for (int frame = 0; frame < 6; ++frame)
+        EXPECT_EQ(text(fmt::format("l_{}.exr", frame)), text(fmt::format("f_{}.exr", frame % 2))) << frame;
+    EXPECT_THAT(runGood(command({"--frames", "3", "--fps", "2", "-o", "f_%d.exr"})), testing::Not(HasSubstr("--loop")))
+        << "the last shows the end itself";
+    EXPECT_THAT(run(command({"--frames", "1", "--loop", "--clip", "none", "-o", "n_%d.exr"})).err,
+                HasSubstr("--loop changes nothing. No clip plays"));
+    expectError(kBadInput, command({"--loop", "-o", "a.exr"}), {"--loop needs --frames"});
+}
+
 using PlayedClipsSlow = PlayedClips;
 TEST_F(PlayedClipsSlow, framesThatAreKilledAnywhereAndStartedAgainAreTheSame) {
     const auto words = [](const std::string& name) {

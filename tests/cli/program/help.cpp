@@ -117,7 +117,7 @@ TEST_F(Help, versionTellsTheCommitAndTheDriver) {
 
 TEST_F(Help, theSchemaOfScenesHoldsEverySettingAndNoOther) {
     const Json options = Json::parse(runGood({"scenes", "--schema"}))["definitions"]["options"];
-    std::set<std::string> keys{"defaultLight"};
+    std::set<std::string> keys{"clip", "defaultLight"};
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.isWishable) keys.emplace(setting.key);
     for (const auto& [key, schema] : options["properties"].items()) EXPECT_EQ(keys.erase(key), 1u) << key;

@@ -65,7 +65,33 @@ TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
     for (const std::string& nothing :
          Words{"#if 0\n" + signature + " {}\n#endif\n", signature + ";\n", "void hookSurface(int a) {}\n"}) {
         folder_.write("shine.glsl", nothing);
-        expectError(kBadInput, command({}), {refused, "write " + signature, "outside of conditionals"});
+        expectError(
+            kBadInput, command({}),
+            {"/shine.glsl:", ": the driver refuses this hook: ", "write " + signature, "outside of conditionals"});
+    }
+}
+
+/// The driver gives neither a place in any file.
+TEST_F(HookedSquare, recursionAndVariablesInAreTheHooksFault) {
+    const std::string signature = "void hookSurface(inout HookedSurface surface, HookInputs inputs)";
+    folder_.write("shine.glsl", "float twice(float x)\n{\n    return x > 9.0 ? x : twice(2.0 * x);\n}\n" + signature +
+                                    "\n{\n    surface.emission = vec3(twice(hook.red));\n}\n");
+    expectError(kBadInput, command({}),
+                {"/shine.glsl:1: the driver refuses this hook: ", "twice", "GLSL has no recursion"});
+    folder_.write("shine.glsl", "\nin float glow;\n" + signature + "\n{\n    surface.emission = vec3(glow);\n}\n");
+    expectError(kBadInput, command({}),
+                {"/shine.glsl:2: the driver refuses this hook: ", "glow", "no variables in or out of its own"});
+}
+
+TEST_F(HookedSquare, aFieldThatIsNotThereIsAnsweredByThoseThatAre) {
+    for (const char* mistaken : {"surface.colour = vec3(1.0)", "surface.emission = vec3(hook.blue)"}) {
+        folder_.write("shine.glsl", std::string("void hookSurface(inout HookedSurface surface, HookInputs inputs)\n{\n"
+                                                "    ") +
+                                        mistaken + ";\n}\n");
+        expectError(kBadInput, command({}),
+                    {"/shine.glsl:3: ", "HookedSurface has color, emission, alpha, metallic",
+                     "hook has timeSeconds, "
+                     "red, green"});
     }
 }
 

@@ -97,11 +97,11 @@ TEST(LightCorners, whatIsNoOutlineIsNamed) {
              {cornersOf({{0, 0}, {1, 0}, {0, 1}, {1, 0}}), "1 and 3 lie in one place; keep one"},
              {cornersOf({{0, 0}, {2, 0}, {1, 0}}), "fold back at number 1; no area lies between the two edges"},
              {cornersOf({{0, 0}, {1, 1}, {1, 0}, {0, 1}}),
-              "cross or touch: the edges behind number 0 and behind number 2 meet"},
+              "let the edge from number 0 to 1 meet that from number 2 to 3; move one of them"},
              {cornersOf({{0, 0}, {2, 0}, {2, 2}, {1, 0}, {0, 2}}),
-              "cross or touch: the edges behind number 0 and behind number 2 meet"},
+              "let the edge from number 0 to 1 meet that from number 2 to 3; move one of them"},
              {cornersOf({{0, 0}, {4, 0}, {4, 1}, {3, 1}, {1, 0}, {0, 1}}),
-              "cross or touch: the edges behind number 0 and behind number 3 meet"},
+              "let the edge from number 0 to 1 meet that from number 3 to 4; move one of them"},
          })
         EXPECT_EQ(cornersProblem(corners), problem);
     LightCorners broken;

@@ -388,53 +388,6 @@ TEST(Poses, lightsThatAreLeftOutAreLeftAlone) {
     EXPECT_NO_THROW(checkScene(scene));
 }
 
-// ---- Clips ---------------------------------------------------------------------------------------------------------
-
-TEST(Clips, areChosenByNameThenByNumber) {
-    Scene scene = riggedScene();
-    scene.rig.clips.push_back(scene.rig.clips[0]);
-    scene.rig.clips[1].name = "0";
-    playClip(scene, "0");
-    EXPECT_EQ(scene.rig.playing, std::vector{1});
-    EXPECT_EQ(clipText(scene), "clip 1 '0' of 2, 1 s");
-    playClip(scene, "bend");
-    EXPECT_EQ(scene.rig.playing, std::vector{0});
-    playClip(scene, "1");
-    EXPECT_EQ(scene.rig.playing, std::vector{1});
-    playClip(scene, "none");
-    EXPECT_FALSE(isPlaying(scene));
-    EXPECT_EQ(clipText(scene), "no clip of 2");
-    try {
-        playClip(scene, "bent");
-        FAIL() << "nothing was refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'bend'"));
-    }
-}
-
-TEST(Clips, thoseWithoutDurationAreCalledPoses) {
-    Scene scene = riggedScene();
-    Clip& clip = scene.rig.clips.at(0);
-    for (AnimationSampler& sampler : clip.samplers) {
-        sampler.timesSeconds = {0.0f};
-        sampler.values.resize(sampler.valuesPerKey() * std::size_t(sampler.width));
-    }
-    playClip(scene, "0");
-    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, a pose without duration");
-    clip.channels.clear();
-    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, which moves nothing");
-}
-
-TEST(Clips, aSceneWithoutAnyHasNoPoses) {
-    Scene scene = tinyScene();
-    const std::uint64_t before = fingerprint(scene);
-    EXPECT_FALSE(hasPoses(scene));
-    EXPECT_EQ(clipText(scene), "");
-    EXPECT_NO_THROW(playClip(scene, "none"));
-    poseScene(scene, 3.0);
-    EXPECT_EQ(fingerprint(scene), before);
-}
-
 TEST(Pose, theLinksOfLightsThatStayOutlastThoseThatAreDeleted) {
     Rig rig;
     for (const int light : {0, 1, 3, 4}) rig.lights.push_back({light, 10 + light});

@@ -36,6 +36,12 @@ TEST(MapLog, linesWithoutAKnownPlaceStay) {
     EXPECT_EQ(mapLog(log, kFiles), log);
 }
 
+// What Mesa says of a function that calls itself.
+TEST(MapLog, lineZeroIsNoPlace) {
+    EXPECT_EQ(mapLog("0:0(0): error: function `float f(float)' has static recursion\nERROR: 0:0: x", kFiles),
+              "error: function `float f(float)' has static recursion\nerror: x");
+}
+
 TEST(MapLog, warningsStandBehindAllElse) {
     EXPECT_EQ(
         errorsFirst("a.glsl:9: warning: `x' used uninitialized\na.glsl:2: error: no type\nb.glsl:3: warning C7: y\n"

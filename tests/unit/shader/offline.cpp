@@ -17,7 +17,7 @@
 #include "engine/HookProgram.h"
 #include "engine/PrepareView.h"
 #include "engine/Renderer.h"
-#include "renderer/shader/ProgramDesc.h"
+#include "renderer/shader/HookFault.h"
 #include "scenes/Load.h"
 #include "shaders/shared/slots.h"
 #include "tests/support/Sweep.h"
@@ -161,6 +161,9 @@ void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
     waving.movesVertices = true;
     const shader::ProgramDesc moving = engine::hookProgram(engine::kHookVertices, waving);
     programs.emplace(moving.key(), moving);
+    // What tells whether a hook is at fault must never be.
+    for (const shader::ProgramDesc& desc : {shader::withEmptyHook(asking), shader::withEmptyHook(moving)})
+        programs.emplace(desc.key(), desc);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {
             frame::FrameSettings settings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include <gtest/gtest.h>
 
@@ -89,17 +90,29 @@ TEST(Contours, ofTooManyTheLongestStay) {
     EXPECT_EQ(glm::distance(contours.at(0)[0], contours.at(0)[1]), 400.0f);
 }
 
-TEST(Contours, theLongestStaysWhateverItsPoints) {
-    constexpr int kTeeth = 2100, kDeep = 8;
+/// Of a comb of so many columns, two a tooth and two a gap.
+void expectCombStays(int columns) {
+    constexpr int kDeep = 8;
     const auto comb = [](int x, int y) { return y >= 1 && y < 3 + (x / 2 % 2) * kDeep; };
-    const auto contours = contoursWhere({2 * kTeeth, 20}, comb);
+    const auto contours = contoursWhere({columns, 20}, comb);
     ASSERT_EQ(contours.size(), 2u) << "above the comb and below it";
     std::size_t points = 0;
     for (const Contour& contour : contours) {
         points += contour.size();
-        EXPECT_EQ(std::abs(contour.back().x - contour.front().x), float(2 * kTeeth));
+        EXPECT_EQ(std::abs(contour.back().x - contour.front().x), float(columns));
     }
     EXPECT_LE(points, kMostContourPoints);
+}
+TEST(Contours, theLongestStaysWhateverItsPoints) {
+    expectCombStays(4200);
+}
+
+/// The farthest point of a comb is the first tooth, then the next one, and so on: whoever looks at all that is left
+/// each time looks at 2e10 points here, for minutes. Linear work takes a few hundredths of a second.
+TEST(Contours, theTimeGrowsWithThePointsWhateverTheyAre) {
+    const std::clock_t begin = std::clock();
+    expectCombStays(200'000);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 5.0);
 }
 
 } // namespace

@@ -192,13 +192,16 @@ TEST(OpenScene, aPlacedCameraStandsStill) {
     EXPECT_EQ(open.scene().cameras[0], placed);
 }
 
-TEST(OpenScene, savingKeepsTheClipThatWasAskedFor) {
+TEST(OpenScene, savingKeepsTheClipThatWasChosen) {
     scenes::LoadOptions load;
     load.clip = "bend";
     load.lights = 1;
     OpenScene open("rigged.gltf", load, riggedAndSeen(), {});
+    open.playClip("none");
+    EXPECT_EQ(open.scene().options.clip, "none");
     open.becomes("/saved.json");
-    EXPECT_EQ(open.load().clip, "bend");
+    EXPECT_EQ(open.scene().options.clip, "none");
+    EXPECT_FALSE(open.load().clip) << "the file says it";
     EXPECT_FALSE(open.load().lights) << "the file has its lights";
 }
 
@@ -232,6 +235,7 @@ TEST(OpenScene, anotherClipBeginsAndNoneLeavesTheSceneByItself) {
     EXPECT_TRUE(open.showTime(1.0));
     EXPECT_THROW(open.playClip("no such clip"), InputError);
     EXPECT_EQ(open.load().clip, "0");
+    EXPECT_EQ(open.scene().options.clip, "0");
     EXPECT_TRUE(open.showTime(0.5)) << "the clip before still plays";
 }
 

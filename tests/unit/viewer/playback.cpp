@@ -79,5 +79,21 @@ TEST(Playback, anotherClipBeginsAtItsStart) {
     EXPECT_EQ(timeOf(state), 0.0);
 }
 
+TEST(Playback, aSavedSceneBeginsAtTheTimeThatIsShownWhereSomethingMoves) {
+    State state = clipShown();
+    scenes::SceneOptions options;
+    options.wishes["layout"] = "packed";
+    const scenes::SceneOptions fromTheBeginning = options;
+    options.wishes["time"] = 0.75;
+    state.open->exchangeOptions(options);
+    options.wishes["time"] = timeOf(state) = 0.25;
+    EXPECT_EQ(optionsToSave(state), options);
+    timeOf(state) = 0.0;
+    EXPECT_EQ(optionsToSave(state), fromTheBeginning);
+    state.open->playClip("none");
+    timeOf(state) = 0.5;
+    EXPECT_EQ(optionsToSave(state), state.open->scene().options) << "nothing moves";
+}
+
 } // namespace
 } // namespace tessera::viewer

@@ -2,159 +2,18 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <set>
 #include <utility>
 
-#include <draco/compression/encode.h>
 #include <gtest/gtest.h>
 
-#include "DracoStream.h"
+#include "DracoGrid.h"
 #include "tests/support/Sweep.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
 
-constexpr std::size_t kGridSide = 6, kGridVertices = kGridSide * kGridSide; ///< of the grid
 constexpr const char* kDracoPlace = "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: ";
-
-/// A vertex attribute of a document and of a stream.
-struct Attribute {
-    const char* name;
-    draco::GeometryAttribute::Type kind;
-    draco::DataType type;
-    int componentType;
-    std::size_t components;
-    bool normalized;
-    Bytes bytes; ///< of all vertices
-};
-
-/// A bumpy grid with all attributes that the importer reads.
-struct Grid {
-    std::vector<Attribute> attributes;
-    std::vector<std::uint16_t> corners;
-
-    Grid() {
-        using draco::GeometryAttribute;
-        std::vector<float> positions, normals, tangents, uv0, uv1, weights;
-        std::vector<std::uint8_t> colors, joints;
-        const auto add = [](auto& to, auto... values) {
-            (to.push_back(static_cast<typename std::decay_t<decltype(to)>::value_type>(values)), ...);
-        };
-        for (std::size_t y = 0; y < kGridSide; ++y)
-            for (std::size_t x = 0; x < kGridSide; ++x) {
-                const float u = static_cast<float>(x) / (kGridSide - 1), v = static_cast<float>(y) / (kGridSide - 1);
-                add(positions, 5.0f * u, 5.0f * v, 0.25f * static_cast<float>(x * y % 3));
-                const glm::vec3 normal = glm::normalize(glm::vec3(u - 0.5f, v - 0.5f, 1.0f));
-                const glm::vec3 tangent = glm::normalize(glm::cross(glm::vec3(0, 1, 0), normal));
-                add(normals, normal.x, normal.y, normal.z);
-                add(tangents, tangent.x, tangent.y, tangent.z, x < 3 ? 1.0f : -1.0f);
-                add(uv0, u, v);
-                add(uv1, v, 1.0f - u);
-                add(colors, 40 * x, 50 * y, 100, 255);
-                add(joints, x % 2, 1 - x % 2, 0, 0);
-                add(weights, 0.75f, 0.25f, 0.0f, 0.0f);
-            }
-        for (std::size_t y = 0; y + 1 < kGridSide; ++y)
-            for (std::size_t x = 0; x + 1 < kGridSide; ++x) {
-                const std::size_t a = y * kGridSide + x, b = a + 1, c = a + kGridSide, d = c + 1;
-                add(corners, a, b, c, c, b, d);
-            }
-        constexpr int kFloat = 5126, kByte = 5121;
-        const auto floats = [&](const char* name, GeometryAttribute::Type kind, std::size_t components, auto& values) {
-            attributes.push_back({name, kind, draco::DT_FLOAT32, kFloat, components, false, bytesOf(values)});
-        };
-        floats("POSITION", GeometryAttribute::POSITION, 3, positions);
-        floats("NORMAL", GeometryAttribute::NORMAL, 3, normals);
-        floats("TANGENT", GeometryAttribute::GENERIC, 4, tangents);
-        floats("TEXCOORD_0", GeometryAttribute::TEX_COORD, 2, uv0);
-        floats("TEXCOORD_1", GeometryAttribute::TEX_COORD, 2, uv1);
-        attributes.push_back({"COLOR_0", GeometryAttribute::COLOR, draco::DT_UINT8, kByte, 4, true, bytesOf(colors)});
-        attributes.push_back(
-            {"JOINTS_0", GeometryAttribute::GENERIC, draco::DT_UINT8, kByte, 4, false, bytesOf(joints)});
-        floats("WEIGHTS_0", GeometryAttribute::GENERIC, 4, weights);
-    }
-
-    /// A document that shows it without compression, on a skin of two joints.
-    Builder document() const {
-        Builder builder;
-        builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0}, {}, {}], "scenes": [{"nodes": [0, 1, 2]}],
-                          "skins": [{"joints": [1, 2]}]})");
-        builder.json["meshes"][0]["name"] = "grid";
-        Json& named = builder.primitive()["attributes"] = Json::object();
-        for (const Attribute& attribute : attributes)
-            named[attribute.name] = builder.add(std::vector<std::byte>(attribute.bytes), attribute.componentType,
-                                                std::array{"", "SCALAR", "VEC2", "VEC3", "VEC4"}[attribute.components],
-                                                kGridVertices, attribute.normalized);
-        builder.primitive()["indices"] = builder.add(corners, 5123, "SCALAR", corners.size());
-        return builder;
-    }
-
-    std::unique_ptr<draco::Mesh> mesh() const {
-        auto mesh = std::make_unique<draco::Mesh>();
-        mesh->set_num_points(kGridVertices);
-        for (const Attribute& attribute : attributes) {
-            const std::size_t bytesEach = attribute.bytes.size() / kGridVertices;
-            draco::GeometryAttribute layout;
-            layout.Init(attribute.kind, nullptr, static_cast<std::uint8_t>(attribute.components), attribute.type,
-                        attribute.normalized, static_cast<std::int64_t>(bytesEach), 0);
-            draco::PointAttribute& added = *mesh->attribute(mesh->AddAttribute(layout, true, kGridVertices));
-            for (std::uint32_t i = 0; i < kGridVertices; ++i)
-                added.SetAttributeValue(draco::AttributeValueIndex(i), attribute.bytes.data() + i * bytesEach);
-        }
-        for (std::size_t i = 0; i < corners.size(); i += 3)
-            mesh->AddFace(
-                {draco::PointIndex(corners[i]), draco::PointIndex(corners[i + 1]), draco::PointIndex(corners[i + 2])});
-        return mesh;
-    }
-
-    /// By names, in the order of mesh().
-    Json identifiers() const {
-        Json named = Json::object();
-        for (std::size_t i = 0; i < attributes.size(); ++i) named[attributes[i].name] = i;
-        return named;
-    }
-
-    Bytes encoded(draco::Encoder& encoder) const {
-        draco::EncoderBuffer buffer;
-        const draco::Status status = encoder.EncodeMeshToBuffer(*mesh(), &buffer);
-        EXPECT_TRUE(status.ok()) << status.error_msg_string();
-        return bytesOf(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
-    }
-    /// All bits of all values, and vertices and triangles in their order.
-    Bytes lossless() const {
-        draco::Encoder encoder;
-        encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
-        return encoded(encoder);
-    }
-    Bytes quantised(int method, int speed) const {
-        using draco::GeometryAttribute;
-        draco::Encoder encoder;
-        encoder.SetEncodingMethod(method);
-        encoder.SetSpeedOptions(speed, speed);
-        for (const auto& [kind, bits] :
-             {std::pair(GeometryAttribute::POSITION, 14), std::pair(GeometryAttribute::NORMAL, 10),
-              std::pair(GeometryAttribute::TEX_COORD, 12), std::pair(GeometryAttribute::GENERIC, 12)})
-            encoder.SetAttributeQuantization(kind, bits);
-        return encoded(encoder);
-    }
-};
-
-/// The document of a grid whose stream stands for all accessors' data.
-Builder compressed(const Grid& grid, const Bytes& stream) {
-    Builder builder = grid.document();
-    for (const auto& [name, accessor] : builder.primitive()["attributes"].items())
-        builder.json["accessors"][accessor.get<std::size_t>()].erase("bufferView");
-    builder.json["accessors"][builder.primitive()["indices"].get<std::size_t>()].erase("bufferView");
-    addDraco(builder, stream, grid.identifiers());
-    return builder;
-}
-
-/// Another stream in a document that compressed() made.
-void setStream(Builder& builder, const Bytes& stream) {
-    builder.json["buffers"].back() = {{"uri", dataUri(stream)}, {"byteLength", stream.size()}};
-    builder.json["bufferViews"].back()["byteLength"] = stream.size();
-}
 
 template <typename Vector>
 float mostApart(const Vector& a, const Vector& b) {
@@ -402,47 +261,6 @@ TEST(GltfDraco, anIndexBeyondTheVerticesIsRefused) {
     stream.at(16) = std::byte{7}; // behind the header, two counts and the method: the last index
     addDraco(builder, stream);
     EXPECT_NE(builder.error().find(kDracoPlace), std::string::npos) << builder.error();
-}
-
-// ---- Memory --------------------------------------------------------------------------------------------------------
-
-TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
-    const auto refusal = [](const Builder& builder) -> std::string {
-        try {
-            underLedger(importGltf, builder.folder.write("model.gltf", builder.json.dump()), 64 * kMiB);
-        } catch (const MemoryRefused& refused) {
-            return refused.what();
-        }
-        return "";
-    };
-    constexpr std::uint32_t kMany = 1u << 30;
-    Builder faces;
-    faces.primitive()["indices"] = faces.add(std::vector<std::uint16_t>{0, 1, 2}, 5123, "SCALAR", 3);
-    addDraco(faces, dracoTriangle({.faces = kMany}));
-    EXPECT_NE(faces.error().find("holds 1073741824 triangles, but accessor 1 says 3 indices"), std::string::npos)
-        << faces.error();
-    // Nothing says how many triangles a primitive without indices has.
-    faces.primitive().erase("indices");
-    EXPECT_NE(refusal(faces).find("/KHR_draco_mesh_compression: asks for 240.0 GiB"), std::string::npos)
-        << refusal(faces);
-
-    Builder vertices;
-    Json& stream = addDraco(vertices, dracoTriangle({.faces = 20000, .vertices = 60000, .components = 255}));
-    EXPECT_NE(vertices.error().find("holds 60000 vertices, but accessor 0 of POSITION says 3"), std::string::npos)
-        << vertices.error();
-    // Nor what an attribute holds that nobody names.
-    stream["attributes"] = Json::object();
-    EXPECT_NE(refusal(vertices).find("/KHR_draco_mesh_compression: asks for "), std::string::npos) << refusal(vertices);
-}
-
-TEST(GltfDraco, whatADecoderTookIsGivenBack) {
-    const Grid grid;
-    Builder builder = compressed(grid, grid.lossless());
-    const Json primitive = builder.primitive();
-    for (int i = 0; i < 20; ++i) builder.json["meshes"][0]["primitives"].push_back(primitive);
-    // Twenty decoders one after another, each of which has tables of 8 MiB.
-    EXPECT_EQ(underLedger(importGltf, builder.folder.write("model.gltf", builder.json.dump()), 32 * kMiB).meshes.size(),
-              21u);
 }
 
 } // namespace

@@ -91,7 +91,7 @@ TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
     const std::string polygon = R"("type": "polygon", "direction": [0, 0, 1])";
     EXPECT_EQ(error(polygon), "/lights/0: lacks the key 'corners'; add it");
     EXPECT_EQ(folder.errorBeyondSchemaOf(areaDocument(polygon + R"(, "corners": [[0, 0], [1, 1], [1, 0], [0, 1]])")),
-              "/lights/0/corners: cross or touch: the edges behind number 0 and behind number 2 meet");
+              "/lights/0/corners: let the edge from number 0 to 1 meet that from number 2 to 3; move one of them");
     EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 1]])"), "");
     EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1]])"), "");
     EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1, 1000001]])"), "");

@@ -117,6 +117,11 @@ TEST(SceneJsonOptions, wrongOptionsAreRefused) {
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"layout": ""}})"), "/options/layout: is empty; give a name");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"defaultLight": 1}})"),
               "/options/defaultLight: is a number; true or false is needed");
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {"clip": 1}})"),
+              "/options/clip: is a number; text is needed");
+    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "options": {"clip": "run"}})"),
+              "/options/clip: the scene has no clip, so none is called 'run'; leave it out");
+    EXPECT_EQ(folder.import(R"({"tessera": 1, "options": {"clip": "none"}})").options.clip, "none");
     const auto many = test::listOf(257, [](int i) { return fmt::format("\"k{}\": 1", i); });
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "options": {)" + many + "}}"),
               "/options: has 257 members; at most 256 are allowed");

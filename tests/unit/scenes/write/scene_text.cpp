@@ -302,6 +302,39 @@ TEST(SceneText, theVariantThatIsShownIsSavedAlsoBySavedFilesOfSavedFiles) {
     expectSameScene(saved(again, originAgain, second), again);
 }
 
+TEST(SceneText, theClipThatWasChosenIsSaved) {
+    const SceneFolder folder;
+    const std::string file = folder
+                                 .write("walker.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "animations": [
+            {"name": "walk", "samplers": [{"input": 1, "output": 2}],
+             "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]},
+            {"name": "run", "samplers": [{"input": 1, "output": 2}],
+             "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+        "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3},
+                      {"componentType": 5126, "type": "SCALAR", "count": 1},
+                      {"componentType": 5126, "type": "VEC3", "count": 1}]})")
+                                 .string();
+    const auto expectPlaying = [&](const LoadOptions& load, const std::vector<int>& playing) {
+        const Scene scene = loadScene(file, load);
+        EXPECT_EQ(scene.rig.playing, playing);
+        const Scene back = saved(scene, originOf(file, load, scene), folder.path() / "saved.json");
+        expectSameScene(back, scene);
+        EXPECT_EQ(back.rig.playing, playing);
+    };
+    expectPlaying({}, {0});
+    LoadOptions load;
+    load.clip = "run";
+    expectPlaying(load, {1});
+    load.clip = "none";
+    expectPlaying(load, {});
+    LoadOptions other;
+    other.clip = "walk";
+    EXPECT_EQ(loadScene((folder.path() / "saved.json").string(), other).rig.playing, std::vector<int>{0})
+        << "what a command says goes before";
+}
+
 TEST(SceneText, namesAreRelativeToTheNewFile) {
     const SceneFolder folder;
     const std::string bust = (folder.path() / "models" / "bust.obj").string();

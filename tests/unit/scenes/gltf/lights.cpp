@@ -1,0 +1,202 @@
+#include <numbers>
+
+#include "NodeBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+Builder withLight(const char* light, const char* node = "{}") {
+    Builder builder = withNodes("[{}]");
+    builder.merge(R"({"extensionsUsed": ["KHR_lights_punctual"]})");
+    builder.json["nodes"][0] = Json::parse(node);
+    builder.json["nodes"][0]["extensions"] = Json::parse(R"({"KHR_lights_punctual": {"light": 0}})");
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({Json::parse(light)});
+    return builder;
+}
+
+TEST(GltfLights, pointLightIsImportedExactly) {
+    const Scene scene =
+        withLight(R"({"type": "point", "name": "lamp", "color": [1, 0.5, 0.25], "intensity": 40, "range": 8})",
+                  R"({"translation": [1, 2, 3], "scale": [9, 9, 9]})")
+            .import();
+    const Light& light = scene.lights.at(0);
+    EXPECT_EQ(light.name, "lamp");
+    EXPECT_EQ(light.type, LightType::Point);
+    EXPECT_EQ(light.falloff, Falloff::InverseSquare);
+    EXPECT_EQ(light.color, glm::vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(light.intensity, 40.0f);
+    EXPECT_EQ(light.rangeMetres, 8.0f);
+    EXPECT_EQ(light.positionWS, glm::dvec3(1, 2, 3));
+    EXPECT_TRUE(light.enabled);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfLights, absentRangeIsInfinite) {
+    const Light light = withLight(R"({"type": "point"})").import().lights.at(0);
+    EXPECT_EQ(light.rangeMetres, kInfinity);
+    EXPECT_EQ(light.intensity, 1.0f);
+    EXPECT_EQ(light.name, "light 0");
+}
+
+TEST(GltfLights, directionIsMinusZOfTheNode) {
+    const char* node = R"({"rotation": [0, 0.7071067811865476, 0, 0.7071067811865476], "scale": [3, 2, 7]})";
+    expectNear(withLight(R"({"type": "directional", "intensity": 3})", node).import().lights.at(0).directionWS,
+               {-1, 0, 0});
+    const char* tilted = R"({"rotation": [0.7071067811865476, 0, 0, 0.7071067811865476]})";
+    expectNear(withLight(R"({"type": "directional"})", tilted).import().lights.at(0).directionWS, {0, 1, 0});
+}
+
+TEST(GltfLights, hugeAndTinyNestedScalesLeaveTheDirection) {
+    for (const char* scale : {"[1e38, 1e38, 1e38]", "[1e-38, 1e-38, 1e-38]"}) {
+        Builder builder = withLight(R"({"type": "spot", "spot": {}})");
+        Json& nodes = builder.json["nodes"];
+        Json lamp = nodes[0];
+        lamp["rotation"] = Json::parse("[0, 0.7071067811865476, 0, 0.7071067811865476]");
+        nodes = Json::array();
+        for (int i = 0; i < 6; ++i) nodes.push_back({{"scale", Json::parse(scale)}, {"children", {i + 1}}});
+        nodes.push_back(lamp);
+        const Scene scene = builder.import();
+        expectNear(scene.lights.at(0).directionWS, {-1, 0, 0});
+        EXPECT_TRUE(scene.warnings.empty()) << scale;
+    }
+}
+
+TEST(GltfLights, spotConesAreImportedExactly) {
+    const Light spot =
+        withLight(R"({"type": "spot", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}})").import().lights.at(0);
+    EXPECT_EQ(spot.type, LightType::Spot);
+    EXPECT_EQ(spot.innerConeRadians, 0.25f);
+    EXPECT_EQ(spot.outerConeRadians, 0.5f);
+    const Light wide = withLight(R"({"type": "spot", "spot": {}})").import().lights.at(0);
+    EXPECT_EQ(wide.innerConeRadians, 0.0f);
+    EXPECT_FLOAT_EQ(wide.outerConeRadians, static_cast<float>(std::numbers::pi / 4));
+}
+
+TEST(GltfLights, impossibleLightIsRefused) {
+    EXPECT_NE(
+        withLight(R"({"type": "lamp"})").error().find("lights/0/type: is 'lamp'; valid are directional, point, spot"),
+        std::string::npos);
+    EXPECT_NE(withLight(R"({"type": "point", "range": 0})").error().find("lights/0/range: must be greater than 0"),
+              std::string::npos);
+    EXPECT_NE(
+        withLight(R"({"type": "point", "intensity": -1})").error().find("intensity: is -1; it must be at least 0"),
+        std::string::npos);
+    EXPECT_NE(withLight(R"({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}})")
+                  .error()
+                  .find("0 <= inner < outer"),
+              std::string::npos);
+    EXPECT_NE(withLight(R"({"type": "spot"})").error().find("lights/0: the required property 'spot' is missing"),
+              std::string::npos);
+    Builder builder = withLight(R"({"type": "point"})");
+    builder.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+    EXPECT_NE(builder.error().find("points at /extensions/KHR_lights_punctual/lights/1, but there are only 1"),
+              std::string::npos);
+}
+
+TEST(GltfLights, orderIsThatOfTheNodes) {
+    Builder builder = withLight(R"({"type": "point"})");
+    builder.json["nodes"] = Json::parse(R"([{"children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 0}}},
+                                            {"extensions": {"KHR_lights_punctual": {"light": 1}}}])");
+    builder.json["scenes"][0]["nodes"] = Json::parse("[0, 1]");
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::parse(R"([{"type": "point", "name": "a"}, {"type": "point", "name": "b"}])");
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0].name, "b");
+    EXPECT_EQ(scene.lights[1].name, "a");
+}
+
+TEST(GltfLights, thoseThatBlenderExportedAreReadInWatts) {
+    const auto builderOf = [](const char* generator, const char* type) {
+        Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = type;
+        if (*generator != '\0') builder.json["asset"]["generator"] = generator;
+        return builder;
+    };
+    struct Case {
+        const char* generator;
+        const char* type;
+        float watts;
+    };
+    for (const Case& one :
+         {Case{"Khronos glTF Blender I/O v4.2.57", "point", 10.0f},
+          Case{"Khronos glTF Blender I/O v3.6.28", "directional", 10.0f},
+          Case{"Khronos glTF Blender I/O v3.3.11", "directional", 6830.0f},
+          Case{"Khronos glTF Blender I/O v3.3.11", "point", 10.0f}, Case{"Khronos glTF Blender I/O", "point", 10.0f},
+          Case{"Another Blender", "point", 6830.0f}, Case{"", "point", 6830.0f}}) {
+        SCOPED_TRACE(std::string(one.generator) + " " + one.type);
+        Builder builder = builderOf(one.generator, one.type);
+        const Scene scene = builder.import();
+        EXPECT_FLOAT_EQ(scene.lights.at(0).intensity, one.watts);
+        EXPECT_EQ(scene.notes.size(), std::string(one.generator).find("I/O") == std::string::npos ? 0u : 1u);
+        builder.wishes.lightUnits = LightUnits::Watt;
+        EXPECT_EQ(builder.import().lights.at(0).intensity, 6830.0f);
+        EXPECT_TRUE(builder.import().notes.empty());
+        builder.wishes.lightUnits = LightUnits::Lumen;
+        EXPECT_FLOAT_EQ(builder.import().lights.at(0).intensity, 10.0f);
+    }
+}
+
+TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
+    Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
+    builder.wishes.lightUnits = LightUnits::Lumen;
+    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const int values = builder.add(std::vector<float>{683, 1366}, 5126, "SCALAR", 2);
+    Json& animation = builder.json["animations"][0];
+    animation["samplers"][0] = {{"input", times}, {"output", values}};
+    for (const char* property : {"intensity", "range"}) { // of one sampler, and only one of them counts lumens
+        const std::string pointer = std::string("/extensions/KHR_lights_punctual/lights/0/") + property;
+        animation["channels"].push_back(
+            {{"sampler", 0},
+             {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
+    }
+    const Clip clip = builder.import().rig.clips.at(0);
+    ASSERT_EQ(clip.channels.size(), 2u);
+    for (const AnimationChannel& channel : clip.channels) {
+        const std::vector<float>& numbers = clip.samplers.at(std::size_t(channel.sampler)).values;
+        const bool isIntensity = channel.property == AnimatedProperty::LightIntensity;
+        EXPECT_FLOAT_EQ(numbers.at(1), isIntensity ? 2.0f : 1366.0f);
+    }
+}
+
+TEST(GltfLights, ofChannelsThatChangeTheSameThingTheLastCountsAndOnlyItIsCharged) {
+    // A light that many nodes carry, and as many channels that change it.
+    constexpr int kNodes = 2000, kChannels = 20000;
+    Builder builder = withLight(R"({"type": "point", "intensity": 3})");
+    const Json carrier = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+    for (int node = 1; node < kNodes; ++node) {
+        builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size());
+        builder.json["nodes"].push_back(carrier);
+    }
+    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    Json animation;
+    for (const float watts : {1.0f, 7.0f}) {
+        const int values = builder.add(std::vector<float>{watts, watts}, 5126, "SCALAR", 2);
+        animation["samplers"].push_back({{"input", times}, {"output", values}});
+    }
+    Json channel = {
+        {"sampler", 0},
+        {"target",
+         {{"path", "pointer"},
+          {"extensions",
+           {{"KHR_animation_pointer", {{"pointer", "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}}}}};
+    Json channels = Json::array();
+    for (int i = 0; i < kChannels; ++i) channels.push_back(channel);
+    // The same place, written another way.
+    channel["sampler"] = 1;
+    channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] =
+        "/extensions/KHR_lights_punctual/lights/00/intensity";
+    channels.push_back(channel);
+    animation["channels"] = channels;
+    builder.json["animations"] = Json::array({animation});
+    // 40 million channels of the scene would be refused.
+    const Scene scene = underLedger(importGltf, builder.folder.write("model.gltf", builder.json.dump()), 1024 * kMiB);
+    const Clip& clip = scene.rig.clips.at(0);
+    EXPECT_EQ(clip.channels.size(), scene.lights.size());
+    EXPECT_GE(clip.channels.size(), std::size_t(kNodes));
+    ASSERT_EQ(clip.samplers.size(), 1u) << "those that do not count are not read";
+    EXPECT_FLOAT_EQ(clip.samplers[0].values.at(0), 7.0f);
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
