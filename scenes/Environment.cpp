@@ -74,6 +74,12 @@ std::span<const BuiltinEnvironment> builtinEnvironments() {
     return kEnvironments;
 }
 
+EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view) {
+    const double intensity = double(environment.intensity) * double(view.intensity);
+    return {float(double(environment.rotationDegrees) + double(view.rotationDegrees)),
+            float(std::min(intensity, double(kMostRadiance)))};
+}
+
 glm::dvec2 placeInMap(const glm::dvec3& direction) {
     const double longitude = std::atan2(direction.x, -direction.z);
     return {0.5 + longitude / (2.0 * std::numbers::pi),

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,17 @@ struct Environment {
     float intensity = 1.0f;       ///< >= 0, multiplies the radiance, up to kMostRadiance
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
 };
+
+/// How a view turns and brightens an environment; where none does, a scene's wishes of kEnvironmentViewKeys may.
+struct EnvironmentView {
+    float rotationDegrees = 0.0f; ///< added to the environment's own
+    float intensity = 1.0f;       ///< multiplies the environment's own
+    bool operator==(const EnvironmentView&) const = default;
+};
+inline constexpr std::array<std::string_view, 2> kEnvironmentViewKeys{"environmentRotation", "environmentIntensity"};
+
+/// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
+EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view);
 
 /// Where a map holds a unit direction before it is turned: x from the left, y from the top, both 0..1. The middle looks
 /// along -Z, the top is +Y.

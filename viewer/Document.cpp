@@ -136,7 +136,7 @@ void Document::adoptRecovered(OpenScene& scene) {
     scene.markUnsaved();
     std::erase(state_.recent, identityOf(scene.source()));
     const std::filesystem::path left = scene.source();
-    recovery_.keep(scene);
+    recovery_.keep(scene, environmentSeenBy(state_.active()));
     Recovery::discard(left);
     log_.line("recovered " + left.string());
 }
@@ -232,7 +232,7 @@ void Document::saveAs(const std::string& path, glm::ivec2 size) {
 }
 
 std::optional<double> Document::keepAt() const {
-    if (!state_.open || !recovery_.isBehind(*state_.open)) return std::nullopt;
+    if (!state_.open || !recovery_.isBehind(*state_.open, environmentSeenBy(state_.active()))) return std::nullopt;
     return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_);
 }
 
@@ -241,14 +241,14 @@ void Document::keepEdits() {
     const double started = Window::nowSeconds();
     if (!at || started < *at) return;
     nextKeepAt_ = started + kFailedKeepSeconds;
-    recovery_.keep(*state_.open);
+    recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
     const double ended = Window::nowSeconds();
     nextKeepAt_ = ended + kKeepShare * (ended - started);
 }
 
 void Document::endWithEdits() {
     try {
-        if (state_.open) recovery_.keep(*state_.open);
+        if (state_.open) recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
     } catch (const std::exception& error) {
         options_.warn(error.what());
     }

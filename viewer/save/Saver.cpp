@@ -13,7 +13,6 @@
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/FreePath.h"
-#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 namespace {
@@ -54,10 +53,7 @@ void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
 }
 
 void Saver::scene(const std::string& path) {
-    OpenScene& open = *state_.open;
-    saveScene(path, open.scene(), open.origin());
-    open.becomes(std::filesystem::absolute(path).string());
-    noteRecent(state_.recent, open.source());
+    saveOpenScene(state_, path);
     tell(path);
 }
 

@@ -129,8 +129,7 @@ TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNotCountsAsMovedWhenItsFileI
     ASSERT_TRUE(open("room"));
     moveCamera();
     const std::string file = (folder_.path() / "saved.json").string();
-    saveScene(file, state_.open->scene(), state_.open->origin());
-    state_.open->becomes(file);
+    saveOpenScene(state_, file);
     const scenes::Camera saved = shown();
     ASSERT_TRUE(open("room"));
     ASSERT_TRUE(open(file));
