@@ -220,10 +220,15 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
-bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
+bool typeRow(State& state, scenes::Light& light, std::size_t index, double sceneSizeMetres) {
     scenes::LightType type = light.type;
-    bool changed = chooseNamed("Type", type);
-    if (changed) chooseType(light, type, sceneSizeMetres);
+    if (!chooseNamed("Type", type)) return false;
+    state.types.choose(state.open->scene().lights, index, light, type, sceneSizeMetres);
+    return true;
+}
+
+bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
+    bool changed = false;
     changed |= brightnessRows(light);
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const bool isAttenuated = light.falloff == scenes::Falloff::Attenuation;
@@ -311,7 +316,8 @@ void lightsPanel(State& state) {
         const double size = bounds.empty() || bounds.min == bounds.max ? 1.0 : glm::length(bounds.max - bounds.min);
         const auto index = std::size_t(state.selectedLight);
         scenes::Light edited = lights[index];
-        bool changed = lightRows(edited, timeSeconds, size);
+        bool changed = typeRow(state, edited, index, size);
+        changed |= lightRows(edited, timeSeconds, size);
         changed |= lightLifeRows(edited, timeSeconds, size);
         changed |= flickerRows(edited, index);
         if (changed) open.changeLight(index, std::move(edited), widgetGesture());
