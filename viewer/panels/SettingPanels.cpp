@@ -89,10 +89,12 @@ bool show(const Setting&, const engine::CameraKind&, Look&) {
     return false;
 }
 
-void settingRows(Look& look, engine::SettingPanel panel) {
+void settingRows(State& state, engine::SettingPanel panel) {
+    Look& look = state.active();
+    const scenes::Scene* const scene = state.open ? &state.open->scene() : nullptr;
     for (const Setting& setting : engine::settingTable()) {
         if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
-        const std::string idle = setting.whyIdle(look);
+        const std::string idle = setting.whyIdle(look, scene);
         ImGui::BeginDisabled(!idle.empty());
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
@@ -137,28 +139,28 @@ void environmentList(State& state) {
 } // namespace
 
 void framePanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::Frame);
+    settingRows(state, engine::SettingPanel::Frame);
 }
 
 void environmentPanel(State& state) {
     environmentList(state);
-    settingRows(state.active(), engine::SettingPanel::Environment);
+    settingRows(state, engine::SettingPanel::Environment);
 }
 
 void shadowsPanel(State& state, const Facts& facts) {
-    settingRows(state.active(), engine::SettingPanel::Shadows);
+    settingRows(state, engine::SettingPanel::Shadows);
     const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(state.activeSide)];
     if (shadows && state.open) shadowRows(state, *shadows);
 }
 
 void skinPanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::Skin);
+    settingRows(state, engine::SettingPanel::Skin);
     if (state.open && !scenes::anyScatters(state.open->scene()))
         paragraph("No material has subsurface scattering. Choose a method for one in the panel Materials.");
 }
 
 void viewPanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::View);
+    settingRows(state, engine::SettingPanel::View);
     scaleRows(state);
 }
 
