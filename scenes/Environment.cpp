@@ -63,7 +63,7 @@ Image builtinMap(const std::string& name, LoadLedger& ledger) {
         names.push_back(builtin.name);
         if (builtin.name != name) continue;
         ledger.charge(kBuiltinBytes, [&] { return name; });
-        return builtin.makeMap();
+        return builtin.makeMap(ledger.environmentTold());
     }
     throw InputError(fmt::format("there is no built-in environment '{}'; {}", name, suggestNames(name, names)));
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,8 +49,8 @@ glm::dvec3 directionInMap(const glm::dvec2& place);
 
 struct BuiltinEnvironment {
     std::string_view name;
-    std::string_view purpose; ///< one line: what it is for
-    Image (*makeMap)();
+    std::string_view purpose;                                  ///< one line: what it is for
+    Image (*makeMap)(const std::function<void(double)>& told); ///< `told` as LoadLedger::tellEnvironment() takes it
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 

@@ -166,6 +166,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     Scene scene;
     LoadLedger ledger(options.memoryLimitBytes, options.import);
+    ledger.tellEnvironment(options.environmentTold);
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {

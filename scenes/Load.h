@@ -34,6 +34,8 @@ struct LoadOptions {
     bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Width over height of the picture that a supplied camera is to fit the scene into; none: what the scene asks for.
     std::optional<double> aspect;
+    /// That of LoadLedger::tellEnvironment().
+    std::function<void(double)> environmentTold;
     /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
     /// Where a stop is requested, LoadStopped is thrown.
     std::stop_token stop;

@@ -158,16 +158,18 @@ void Document::adoptEnvironment() {
 }
 
 std::optional<Progress> Document::loadingProgress() const {
-    const auto nameOf = [](const std::string& source) { return std::filesystem::path(source).filename().string(); };
-    if (!state_.loading.empty()) {
-        const std::optional<double> share = scenes_.filteredShare();
-        const char* const what = share ? "Filtering the environment of" : "Loading";
-        return Progress{fmt::format("{} {}", what, nameOf(state_.loading)), share, false};
-    }
+    const auto progress = [](const std::optional<EnvironmentShare>& share, const char* of, const std::string& source,
+                             bool canCancel) {
+        const char* const verb = !share ? "Loading" : share->isFiltering ? "Filtering" : "Computing";
+        const std::string name = std::filesystem::path(source).filename().string();
+        return Progress{fmt::format("{} {}{}", verb, share ? of : "", name),
+                        share ? std::optional(share->done) : std::nullopt, canCancel};
+    };
+    if (!state_.loading.empty())
+        return progress(scenes_.environmentShare(), "the environment of ", state_.loading, false);
     const std::string choice = environments_.choice();
     if (choice.empty()) return std::nullopt;
-    const std::optional<double> share = environments_.filteredShare();
-    return Progress{fmt::format("{} {}", share ? "Filtering" : "Loading", nameOf(choice)), share, true};
+    return progress(environments_.share(), "", choice, true);
 }
 
 void Document::cancelEnvironment() {

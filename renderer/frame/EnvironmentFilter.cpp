@@ -162,6 +162,7 @@ double alphaOfLevel(int level, int levels) {
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
     const int side = filteredSideOf(map), levels = filteredLevelsOf(side);
     FilteredEnvironment result;
+    progress(0.0); // what comes before the levels takes a while too
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
     const Octahedron resampled = makeOctahedron(side, [&](int x, int y) {

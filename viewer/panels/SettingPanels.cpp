@@ -10,6 +10,7 @@
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Preferences.h"
@@ -115,7 +116,7 @@ void scaleRows(State& state) {
 }
 
 /// The maps to choose from, and what was dropped onto the window.
-void environmentList(State& state) {
+void environmentList(State& state, const Facts& facts) {
     std::string shown(scenes::kNoEnvironment);
     if (state.open && state.open->scene().environment) {
         const scenes::Environment* const environment = &*state.open->scene().environment;
@@ -132,8 +133,8 @@ void environmentList(State& state) {
     ImGui::EndDisabled();
     if (state.loadingEnvironment.empty())
         paragraph("or drop an .hdr or .exr file onto the window");
-    else
-        paragraph(fmt::format("Filtering {} ...", std::filesystem::path(state.loadingEnvironment).filename().string()));
+    else if (facts.background)
+        paragraph(progressText(*facts.background));
 }
 
 } // namespace
@@ -142,8 +143,8 @@ void framePanel(State& state) {
     settingRows(state, engine::SettingPanel::Frame);
 }
 
-void environmentPanel(State& state) {
-    environmentList(state);
+void environmentPanel(State& state, const Facts& facts) {
+    environmentList(state, facts);
     settingRows(state, engine::SettingPanel::Environment);
 }
 

@@ -19,7 +19,8 @@ public:
     /// all others to every call.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    std::optional<double> filteredShare() const { return loader_.filteredShare(); } ///< of SceneLoader
+    /// Of SceneLoader.
+    std::optional<EnvironmentShare> environmentShare() const { return loader_.environmentShare(); }
     /// Whether the load gave a scene and did not fail.
     bool hasScene() const { return loader_.hasScene(); }
     /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state

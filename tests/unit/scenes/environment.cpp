@@ -231,7 +231,7 @@ glm::dvec3 onGround(const Image& map) {
 
 TEST(Environment, builtInOnesLightAWhiteFloorAboutAsBrightAsWhite) {
     for (const BuiltinEnvironment& builtin : builtinEnvironments()) {
-        const Image map = builtin.makeMap();
+        const Image map = builtin.makeMap({});
         EXPECT_EQ(map.width, 2 * map.height);
         const glm::dvec3 white = onGround(map);
         EXPECT_GT(white.g, 0.5) << builtin.name;
