@@ -57,8 +57,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
 /// Begins the name of a built-in scene or environment where documents name files.
 inline constexpr std::string_view kBuiltinPrefix = "builtin:";
 
-/// The environment of a name as LoadOptions::environment has it; a built-in one goes before a file of its name. Throws
-/// InputError that names the file and its fault, or the nearest names.
+/// The environment of a name as LoadOptions::environment has it; a built-in one goes before a file of its name, and
+/// scene files' names of those count too. Throws InputError that names the file and its fault, or the nearest names.
 std::optional<Environment> environmentCalled(const std::string& name, LoadLedger& ledger,
                                              std::vector<std::string>& warnings);
 
