@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/AtomicFile.h"
+#include "viewer/save/SaveScene.h"
 #include "viewer/session/FileTypes.h"
 #include "viewer/session/SceneSource.h"
 
