@@ -31,13 +31,19 @@ struct Environment {
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
 };
 
-/// How a view turns and brightens an environment; where none does, a scene's wishes of kEnvironmentViewKeys may.
+/// How a view turns and brightens an environment.
 struct EnvironmentView {
     float rotationDegrees = 0.0f; ///< added to the environment's own
     float intensity = 1.0f;       ///< multiplies the environment's own
     bool operator==(const EnvironmentView&) const = default;
 };
-inline constexpr std::array<std::string_view, 2> kEnvironmentViewKeys{"environmentRotation", "environmentIntensity"};
+/// The wishes of a scene (SceneOptions) for such views, and what they are of the one that changes nothing.
+struct EnvironmentViewWish {
+    std::string_view key;
+    double unchanged;
+};
+inline constexpr std::array kEnvironmentViewWishes{EnvironmentViewWish{"environmentRotation", 0.0},
+                                                   EnvironmentViewWish{"environmentIntensity", 1.0}};
 
 /// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
 EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view);

@@ -107,11 +107,11 @@ Json hookValuesJson(const Hook& hook) {
 
 /// `isSeen`: the environment itself has what a view made of it.
 Json optionsJson(const Scene& scene, bool isSeen) {
-    const SceneOptions& options = scene.options;
+    SceneOptions options = scene.options;
+    if (isSeen) askForNoView(options);
     Json object = Json::object();
     for (const auto& [key, wish] : options.wishes)
-        if (!isSeen || std::ranges::find(kEnvironmentViewKeys, key) == kEnvironmentViewKeys.end())
-            object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
+        object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
     if (options.camera) object["camera"] = *options.camera;
     // Who takes away the last light wants the dark.
     const bool isDark = scene.lights.empty() && !scene.environment;
@@ -136,6 +136,12 @@ std::string textOf(const Json& document) {
 }
 
 } // namespace
+
+void askForNoView(SceneOptions& options) {
+    for (const EnvironmentViewWish& unchanged : kEnvironmentViewWishes)
+        if (const auto wish = options.wishes.find(unchanged.key); wish != options.wishes.end())
+            wish->second = unchanged.unchanged;
+}
 
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file,
                       const std::optional<EnvironmentView>& seen) {

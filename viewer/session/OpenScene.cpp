@@ -13,6 +13,7 @@
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
+#include "scenes/write/SceneText.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
@@ -349,9 +350,7 @@ void OpenScene::takeAsSeen(const scenes::EnvironmentView& seen) {
     history_.forEach([&](Edit& edit) {
         if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) take(surrounding->other.environment);
     });
-    for (const std::string_view key : scenes::kEnvironmentViewKeys)
-        if (const auto wish = scene_.options.wishes.find(key); wish != scene_.options.wishes.end())
-            scene_.options.wishes.erase(wish);
+    scenes::askForNoView(scene_.options);
     if (seen != scenes::EnvironmentView()) ++revision_;
 }
 
