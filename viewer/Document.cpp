@@ -220,6 +220,7 @@ bool Document::saveScene() {
     const std::string path = saver_.freeName(".json");
     if (!mayWrite(path)) return false;
     saver_.scene(path);
+    scenes_.noteSaved();
     return true;
 }
 
@@ -230,8 +231,9 @@ void Document::savePicture(glm::ivec2 size, const char* ending) {
 void Document::saveAs(const std::string& path, glm::ivec2 size) {
     if (!mayWrite(path)) return;
     const FileType* const type = fileTypeOf(path);
-    if (type != nullptr && type->saves == FileType::Saves::Scene) return saver_.scene(path);
-    saver_.picture(size, path);
+    if (type == nullptr || type->saves != FileType::Saves::Scene) return saver_.picture(size, path);
+    saver_.scene(path);
+    scenes_.noteSaved();
 }
 
 std::optional<double> Document::keepAt() const {

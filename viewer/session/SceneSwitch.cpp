@@ -78,6 +78,12 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     return scene;
 }
 
+void SceneSwitch::noteSaved() {
+    const FirstLook first = options_.lookOf(state_.open->scene(), state_.open->source(), false);
+    for (const scenes::EnvironmentViewWish& wish : scenes::kEnvironmentViewWishes)
+        engine::settingOf(wish.key).value.copy(base_, first.look);
+}
+
 void SceneSwitch::leave(const OpenScene& scene) {
     Left left{
         scene.camera(), scene.loadedCameras()[std::size_t(scene.camera())], scene.placed(), {}, scene.load().aspect};
