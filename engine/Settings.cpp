@@ -76,7 +76,8 @@ std::string Setting::panelLabel() const {
     return text;
 }
 
-std::string Setting::whyIdle(const ViewRequest& request) const {
+std::string Setting::whyIdle(const ViewRequest& request, const scenes::Scene* scene) const {
+    if (ofEnvironment && scene != nullptr && !scene->environment) return "There is no environment; choose a map";
     const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
     if (ofFilters == nullptr || filter.*ofFilters) return {};
     std::vector<std::string_view> able;

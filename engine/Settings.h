@@ -84,6 +84,7 @@ struct Setting {
     std::string_view refusal{};
     /// What of a shadow filter heeds it; null: it is heeded with any.
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
+    bool ofEnvironment = false;                          ///< it changes nothing of a scene without an environment
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
@@ -111,8 +112,9 @@ struct Setting {
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
-    /// Why it changes nothing with the request's shadow filter, with those that heed it; empty: it may.
-    std::string whyIdle(const ViewRequest& request) const;
+    /// Why it changes nothing with the request's shadow filter, with those that heed it, or of the scene, unless that
+    /// is null; empty: it may.
+    std::string whyIdle(const ViewRequest& request, const scenes::Scene* scene = nullptr) const;
     /// Whether the request's technique takes the requested value of this setting.
     bool isTaken(const ViewRequest& request) const;
 };

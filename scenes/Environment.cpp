@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numbers>
 
@@ -30,6 +31,16 @@ constexpr std::array kEnvironments = {
 constexpr std::uint64_t kBuiltinBytes =
     std::uint64_t(builtin::kMapWidth) * std::uint64_t(builtin::kMapHeight) * sizeof(glm::vec4) + (2u << 20);
 
+/// Of Rgba32Float, whose numbers are not below 0.
+bool isBlack(const Image& map) {
+    for (std::size_t offset = 0; offset < map.texels.size(); offset += sizeof(glm::vec4)) {
+        glm::vec3 texel;
+        std::memcpy(&texel, map.texels.data() + offset, sizeof(texel));
+        if (texel != glm::vec3(0.0f)) return false;
+    }
+    return true;
+}
+
 void warnOfMap(const RadianceMap& map, std::vector<std::string>& warnings) {
     const std::string who = fmt::format("the environment '{}'", map.image.name);
     if (map.hasFewBits)
@@ -37,6 +48,7 @@ void warnOfMap(const RadianceMap& map, std::vector<std::string>& warnings) {
                                  ".exr file");
     warnOfReplaced(who, map.replaced, warnings);
     const Image& image = map.image;
+    if (isBlack(image)) warnings.push_back(who + " is black everywhere and gives no light");
     // A map of one texel is the same everywhere.
     if (image.width != 2 * image.height && image.width * image.height > 1)
         warnings.push_back(fmt::format("{} is {}x{} texels, not twice as wide as high, and is stretched around the "
@@ -63,7 +75,7 @@ Image builtinMap(const std::string& name, LoadLedger& ledger) {
         names.push_back(builtin.name);
         if (builtin.name != name) continue;
         ledger.charge(kBuiltinBytes, [&] { return name; });
-        return builtin.makeMap();
+        return builtin.makeMap(ledger.environmentTold());
     }
     throw InputError(fmt::format("there is no built-in environment '{}'; {}", name, suggestNames(name, names)));
 }
@@ -72,6 +84,12 @@ Image builtinMap(const std::string& name, LoadLedger& ledger) {
 
 std::span<const BuiltinEnvironment> builtinEnvironments() {
     return kEnvironments;
+}
+
+EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view) {
+    const double intensity = double(environment.intensity) * double(view.intensity);
+    return {float(double(environment.rotationDegrees) + double(view.rotationDegrees)),
+            float(std::min(intensity, double(kMostRadiance)))};
 }
 
 glm::dvec2 placeInMap(const glm::dvec3& direction) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,23 @@ struct Environment {
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
 };
 
+/// How a view turns and brightens an environment.
+struct EnvironmentView {
+    float rotationDegrees = 0.0f; ///< added to the environment's own
+    float intensity = 1.0f;       ///< multiplies the environment's own
+    bool operator==(const EnvironmentView&) const = default;
+};
+/// The wishes of a scene (SceneOptions) for such views, and what they are of the one that changes nothing.
+struct EnvironmentViewWish {
+    std::string_view key;
+    double unchanged;
+};
+inline constexpr std::array kEnvironmentViewWishes{EnvironmentViewWish{"environmentRotation", 0.0},
+                                                   EnvironmentViewWish{"environmentIntensity", 1.0}};
+
+/// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
+EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view);
+
 /// Where a map holds a unit direction before it is turned: x from the left, y from the top, both 0..1. The middle looks
 /// along -Z, the top is +Y.
 glm::dvec2 placeInMap(const glm::dvec3& direction);
@@ -36,8 +55,8 @@ glm::dvec3 directionInMap(const glm::dvec2& place);
 
 struct BuiltinEnvironment {
     std::string_view name;
-    std::string_view purpose; ///< one line: what it is for
-    Image (*makeMap)();
+    std::string_view purpose;                                  ///< one line: what it is for
+    Image (*makeMap)(const std::function<void(double)>& told); ///< `told` as LoadLedger::tellEnvironment() takes it
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 

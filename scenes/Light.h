@@ -211,11 +211,11 @@ inline constexpr std::array kLightTypes{
     LightTypeInfo{LightType::Directional, "directional", "lx", LightReach::Everywhere, true},
     LightTypeInfo{LightType::Point, "point", "cd", LightReach::Sphere, false},
     LightTypeInfo{LightType::Spot, "spot", "cd", LightReach::Cone, true, kCones},
-    LightTypeInfo{LightType::Rectangle, "rectangle", "cd/m2", LightReach::Sphere, true, kSides, true, true},
-    LightTypeInfo{LightType::Disk, "disk", "cd/m2", LightReach::Sphere, true, {}, true, true},
-    LightTypeInfo{LightType::Sphere, "sphere", "cd/m2", LightReach::Sphere, false, {}, true},
-    LightTypeInfo{LightType::Tube, "tube", "cd/m2", LightReach::Sphere, true, kLength, true},
-    LightTypeInfo{LightType::Polygon, "polygon", "cd/m2", LightReach::Sphere, true, {}, true, true},
+    LightTypeInfo{LightType::Rectangle, "rectangle", "cd/m\xc2\xb2", LightReach::Sphere, true, kSides, true, true},
+    LightTypeInfo{LightType::Disk, "disk", "cd/m\xc2\xb2", LightReach::Sphere, true, {}, true, true},
+    LightTypeInfo{LightType::Sphere, "sphere", "cd/m\xc2\xb2", LightReach::Sphere, false, {}, true},
+    LightTypeInfo{LightType::Tube, "tube", "cd/m\xc2\xb2", LightReach::Sphere, true, kLength, true},
+    LightTypeInfo{LightType::Polygon, "polygon", "cd/m\xc2\xb2", LightReach::Sphere, true, {}, true, true},
 };
 consteval bool areLightTypesSound() {
     for (std::size_t i = 0; i < kLightTypes.size(); ++i) {

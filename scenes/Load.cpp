@@ -13,6 +13,7 @@
 #include "base/Error.h"
 #include "base/Extension.h"
 #include "base/Names.h"
+#include "scenes/AreaLight.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "scenes/Limits.h"
@@ -110,6 +111,22 @@ void shortenWarnings(std::vector<std::string>& warnings, const std::string& path
     warnings = std::move(kept);
 }
 
+/// Area lights that are on and have nothing to shine from.
+void warnOfDarkAreas(Scene& scene) {
+    std::size_t count = 0;
+    std::string first;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (!light.enabled || !infoOf(light.type).isArea || hasSurface(light)) continue;
+        if (count++ == 0) first = light.name.empty() ? fmt::format("number {}", i) : fmt::format("'{}'", light.name);
+    }
+    if (count == 1)
+        scene.warnings.push_back(fmt::format("the light {} has an area of 0 and stays dark; give it a size", first));
+    if (count > 1)
+        scene.warnings.push_back(
+            fmt::format("{} lights have an area of 0 and stay dark, first {}; give them a size", count, first));
+}
+
 void requireVariant(const Scene& scene, const std::string& nameOrPath, const ImportWishes& wishes) {
     if (!wishes.variant || std::ranges::find(scene.variants, *wishes.variant) != scene.variants.end()) return;
     if (scene.variants.empty())
@@ -146,16 +163,22 @@ Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadL
 std::optional<Environment> environmentCalled(const std::string& name, LoadLedger& ledger,
                                              std::vector<std::string>& warnings) {
     if (name == kNoEnvironment) return {};
+    if (name.starts_with(kBuiltinPrefix)) return loadEnvironment(name, ledger, warnings);
     const auto builtins = builtinEnvironments();
     if (std::ranges::find(builtins, name, &BuiltinEnvironment::name) != builtins.end())
         return loadEnvironment(std::string(kBuiltinPrefix) + name, ledger, warnings);
     std::error_code failure;
-    if (!std::filesystem::is_regular_file(name, failure)) {
+    const std::filesystem::file_status status = std::filesystem::status(name, failure);
+    if (std::filesystem::is_directory(status))
+        throw InputError(name + ": is a folder; give a picture file or a glTF model in it");
+    if (!std::filesystem::exists(status)) {
         std::vector<std::string_view> names{kNoEnvironment};
         for (const BuiltinEnvironment& builtin : builtins) names.push_back(builtin.name);
         throw InputError("no built-in environment or picture file is called '" + name + "'; " +
                          suggestNames(name, names));
     }
+    if (!std::filesystem::is_regular_file(status))
+        throw InputError(name + ": is not a regular file; name the picture itself");
     return loadEnvironment(name, ledger, warnings);
 }
 
@@ -166,6 +189,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     Scene scene;
     LoadLedger ledger(options.memoryLimitBytes, options.import);
+    ledger.tellEnvironment(options.environmentTold);
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {
@@ -177,6 +201,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     requireVariant(scene, nameOrPath, options.import);
+    warnOfDarkAreas(scene);
     shortenWarnings(scene.warnings, nameOrPath);
     shortenWarnings(scene.notes, nameOrPath);
     keepFirstWarnings(scene.warnings);

@@ -34,6 +34,8 @@ struct LoadOptions {
     bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Width over height of the picture that a supplied camera is to fit the scene into; none: what the scene asks for.
     std::optional<double> aspect;
+    /// That of LoadLedger::tellEnvironment().
+    std::function<void(double)> environmentTold;
     /// Asked before a scene is made or its file imported, and between the checks after; while a file is read it is not.
     /// Where a stop is requested, LoadStopped is thrown.
     std::stop_token stop;
@@ -55,8 +57,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options = {});
 /// Begins the name of a built-in scene or environment where documents name files.
 inline constexpr std::string_view kBuiltinPrefix = "builtin:";
 
-/// The environment of a name as LoadOptions::environment has it; a built-in one goes before a file of its name. Throws
-/// InputError that names the file and its fault, or the nearest names.
+/// The environment of a name as LoadOptions::environment has it; a built-in one goes before a file of its name, and
+/// scene files' names of those count too. Throws InputError that names the file and its fault, or the nearest names.
 std::optional<Environment> environmentCalled(const std::string& name, LoadLedger& ledger,
                                              std::vector<std::string>& warnings);
 

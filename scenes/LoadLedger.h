@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,10 +31,10 @@ public:
     using InputError::InputError;
 };
 
-/// How one load is to read models, the files it has read, and the memory it may take. Importers charge memory before
-/// they reserve it, so that a small file that asks for much is refused before the memory is gone. One load has one
-/// ledger: it cannot be copied, and no importer makes one of its own. What a command reads beside a loaded scene has a
-/// ledger that begins with what that scene takes.
+/// How one load is to read models, the files it has read, whom it tells how far it is, and the memory it may take.
+/// Importers charge memory before they reserve it, so that a small file that asks for much is refused before the memory
+/// is gone. One load has one ledger: it cannot be copied, and no importer makes one of its own. What a command reads
+/// beside a loaded scene has a ledger that begins with what that scene takes.
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().
@@ -59,6 +60,10 @@ public:
     /// For what a scene file says itself. Who asks for the load goes first, and files before those that they name.
     void wishVariant(std::optional<std::string> variant) { wishes_.variant = std::move(variant); }
 
+    /// Is called, unless it is empty, with the share of a built-in environment's map that is computed, from any thread.
+    void tellEnvironment(std::function<void(double)> told) { environmentTold_ = std::move(told); }
+    const std::function<void(double)>& environmentTold() const { return environmentTold_; }
+
     void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }
     const std::vector<std::string>& files() const { return files_; }
 
@@ -69,6 +74,7 @@ private:
     ImportWishes wishes_;
     std::uint64_t usedBytes_ = 0; ///< at most limitBytes_
     std::vector<std::string> files_;
+    std::function<void(double)> environmentTold_;
 };
 
 /// Bytes that parts of a scene hold.

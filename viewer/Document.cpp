@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/AtomicFile.h"
+#include "viewer/save/SaveScene.h"
 #include "viewer/session/FileTypes.h"
 #include "viewer/session/SceneSource.h"
 
@@ -136,7 +137,7 @@ void Document::adoptRecovered(OpenScene& scene) {
     scene.markUnsaved();
     std::erase(state_.recent, identityOf(scene.source()));
     const std::filesystem::path left = scene.source();
-    recovery_.keep(scene);
+    recovery_.keep(scene, environmentSeenBy(state_.active()));
     Recovery::discard(left);
     log_.line("recovered " + left.string());
 }
@@ -158,16 +159,18 @@ void Document::adoptEnvironment() {
 }
 
 std::optional<Progress> Document::loadingProgress() const {
-    const auto nameOf = [](const std::string& source) { return std::filesystem::path(source).filename().string(); };
-    if (!state_.loading.empty()) {
-        const std::optional<double> share = scenes_.filteredShare();
-        const char* const what = share ? "Filtering the environment of" : "Loading";
-        return Progress{fmt::format("{} {}", what, nameOf(state_.loading)), share, false};
-    }
+    const auto progress = [](const std::optional<EnvironmentShare>& share, const char* of, const std::string& source,
+                             bool canCancel) {
+        const char* const verb = !share ? "Loading" : share->isFiltering ? "Filtering" : "Computing";
+        const std::string name = std::filesystem::path(source).filename().string();
+        return Progress{fmt::format("{} {}{}", verb, share ? of : "", name),
+                        share ? std::optional(share->done) : std::nullopt, canCancel};
+    };
+    if (!state_.loading.empty())
+        return progress(scenes_.environmentShare(), "the environment of ", state_.loading, false);
     const std::string choice = environments_.choice();
     if (choice.empty()) return std::nullopt;
-    const std::optional<double> share = environments_.filteredShare();
-    return Progress{fmt::format("{} {}", share ? "Filtering" : "Loading", nameOf(choice)), share, true};
+    return progress(environments_.share(), "", choice, true);
 }
 
 void Document::cancelEnvironment() {
@@ -217,6 +220,7 @@ bool Document::saveScene() {
     const std::string path = saver_.freeName(".json");
     if (!mayWrite(path)) return false;
     saver_.scene(path);
+    scenes_.noteSaved();
     return true;
 }
 
@@ -227,12 +231,13 @@ void Document::savePicture(glm::ivec2 size, const char* ending) {
 void Document::saveAs(const std::string& path, glm::ivec2 size) {
     if (!mayWrite(path)) return;
     const FileType* const type = fileTypeOf(path);
-    if (type != nullptr && type->saves == FileType::Saves::Scene) return saver_.scene(path);
-    saver_.picture(size, path);
+    if (type == nullptr || type->saves != FileType::Saves::Scene) return saver_.picture(size, path);
+    saver_.scene(path);
+    scenes_.noteSaved();
 }
 
 std::optional<double> Document::keepAt() const {
-    if (!state_.open || !recovery_.isBehind(*state_.open)) return std::nullopt;
+    if (!state_.open || !recovery_.isBehind(*state_.open, environmentSeenBy(state_.active()))) return std::nullopt;
     return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_);
 }
 
@@ -241,14 +246,14 @@ void Document::keepEdits() {
     const double started = Window::nowSeconds();
     if (!at || started < *at) return;
     nextKeepAt_ = started + kFailedKeepSeconds;
-    recovery_.keep(*state_.open);
+    recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
     const double ended = Window::nowSeconds();
     nextKeepAt_ = ended + kKeepShare * (ended - started);
 }
 
 void Document::endWithEdits() {
     try {
-        if (state_.open) recovery_.keep(*state_.open);
+        if (state_.open) recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
     } catch (const std::exception& error) {
         options_.warn(error.what());
     }

@@ -161,6 +161,7 @@ double alphaOfLevel(int level) {
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
     const int halvings = filteredHalvingsOf(map), side = ENVIRONMENT_MOST_SIDE >> halvings;
     FilteredEnvironment result;
+    progress(0.0); // what comes before the levels takes a while too
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
     const Octahedron resampled = makeOctahedron(side, [&](int x, int y) {

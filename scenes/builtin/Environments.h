@@ -1,15 +1,18 @@
 #pragma once
+#include <functional>
+
 #include "scenes/Image.h"
 
-/// The built-in environments; their table stands in scenes/Environment.cpp. All are the same on every machine.
+/// The built-in environments; their table stands in scenes/Environment.cpp. All are the same on every machine. `told`
+/// is that of drawRadiance().
 namespace tessera::scenes::builtin {
 
 inline constexpr int kMapWidth = 1024, kMapHeight = 512; ///< texels
 
 /// A grey room with a warm key light, a broad fill, two strips behind and a soft light above, for a camera that looks
 /// along -(1, 0.7, 1).
-Image makeStudio();
+Image makeStudio(const std::function<void(double)>& told);
 /// A clear sky at a solar elevation of 38 degrees.
-Image makeSky();
+Image makeSky(const std::function<void(double)>& told);
 
 } // namespace tessera::scenes::builtin

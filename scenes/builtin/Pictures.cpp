@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -85,9 +86,10 @@ Image drawNormals(const std::string& name, int width, int height, const std::fun
     return image;
 }
 
-Image drawRadiance(const std::string& name, int width, int height,
-                   const std::function<glm::dvec3(int, int)>& radiance) {
+Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
+                   const std::function<void(double)>& told) {
     Image image = blank(name, TexelFormat::Rgba32Float, width, height);
+    std::atomic<int> rows = 0;
     const std::size_t rowBytes = static_cast<std::size_t>(width) * sizeof(glm::vec4);
     tbb::parallel_for(0, height, [&](int y) {
         std::byte* out = image.texels.data() + static_cast<std::size_t>(y) * rowBytes;
@@ -95,6 +97,7 @@ Image drawRadiance(const std::string& name, int width, int height,
             const glm::vec4 texel(glm::vec3(radiance(x, y)), 1.0f);
             std::memcpy(out, &texel, sizeof(texel));
         }
+        if (told) told(++rows / double(height));
     });
     return image;
 }

@@ -17,8 +17,10 @@ Image drawValues(const std::string& name, int width, int height, const std::func
 /// A 16-bit picture of unit vectors, stored as n/2 + 1/2.
 Image drawNormals(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& normal);
 
-/// A picture of linear numbers in fp32, opacity 1.
-Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance);
+/// A picture of linear numbers in fp32, opacity 1. Unless it is empty, `told` is called with the share that is done,
+/// from any thread.
+Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
+                   const std::function<void(double)>& told);
 
 /// The tangent-space normals of a height field that repeats in both directions (x right, y up: against the rows).
 /// `texelMetres` is the height field's spacing, heights are in metres.

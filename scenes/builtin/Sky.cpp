@@ -227,14 +227,15 @@ double sunShare(int x, int y, const glm::dvec3& sun) {
 
 } // namespace
 
-Image makeSky() {
+Image makeSky(const std::function<void(double)>& told) {
     const Sky sky;
     const glm::dvec3 sunRadiance = sky.sunRadiance();
-    return drawRadiance("sky", kMapWidth, kMapHeight, [&](int x, int y) {
+    const auto radiance = [&](int x, int y) {
         const glm::dvec3 direction = directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
         const bool isNearSun = glm::dot(direction, sky.sun()) > 0.99;
         return sky.radiance(direction) + (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
-    });
+    };
+    return drawRadiance("sky", kMapWidth, kMapHeight, radiance, told);
 }
 
 } // namespace tessera::scenes::builtin

@@ -58,10 +58,11 @@ glm::dvec3 studioRadiance(const glm::dvec3& direction) {
 
 } // namespace
 
-Image makeStudio() {
-    return drawRadiance("studio", kMapWidth, kMapHeight, [](int x, int y) {
+Image makeStudio(const std::function<void(double)>& told) {
+    const auto radiance = [](int x, int y) {
         return studioRadiance(directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight}));
-    });
+    };
+    return drawRadiance("studio", kMapWidth, kMapHeight, radiance, told);
 }
 
 } // namespace tessera::scenes::builtin

@@ -86,13 +86,14 @@ Json wishJson(const Value& value) {
     return value;
 }
 
-Json environmentJson(const Scene& scene, const fs::path& file) {
+Json environmentJson(const Scene& scene, const fs::path& file, const EnvironmentView& seen) {
     Json object = {{"background", write::numbers(scene.background)}, {"map", nullptr}};
     if (!scene.environment) return object;
     const Environment& environment = *scene.environment;
     object["map"] = nameIn(environment.source, file);
-    object["intensity"] = write::number(double(environment.intensity));
-    object["rotationDegrees"] = write::number(double(environment.rotationDegrees));
+    const EnvironmentView own = asSeen(environment, seen);
+    object["intensity"] = write::number(double(own.intensity));
+    object["rotationDegrees"] = write::number(double(own.rotationDegrees));
     return object;
 }
 
@@ -104,8 +105,10 @@ Json hookValuesJson(const Hook& hook) {
     return values;
 }
 
-Json optionsJson(const Scene& scene) {
-    const SceneOptions& options = scene.options;
+/// `isSeen`: the environment itself has what a view made of it.
+Json optionsJson(const Scene& scene, bool isSeen) {
+    SceneOptions options = scene.options;
+    if (isSeen) askForNoView(options);
     Json object = Json::object();
     for (const auto& [key, wish] : options.wishes)
         object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
@@ -135,7 +138,14 @@ std::string textOf(const Json& document) {
 
 } // namespace
 
-std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file) {
+void askForNoView(SceneOptions& options) {
+    for (const EnvironmentViewWish& unchanged : kEnvironmentViewWishes)
+        if (const auto wish = options.wishes.find(unchanged.key); wish != options.wishes.end())
+            wish->second = unchanged.unchanged;
+}
+
+std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file,
+                      const std::optional<EnvironmentView>& seen) {
     assert(scene.materials.size() == origin.materials.size() && scene.images.size() == origin.images);
     assert(scene.meshes.size() == origin.meshes && scene.nodes.size() == origin.nodes);
     assert(!scene.cameras.empty());
@@ -151,9 +161,9 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
         lights.push_back(write::lightJson(light, light.texture ? nameIn(light.texture->source, file) : ""));
     Json& cameras = document["cameras"] = Json::array();
     for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
-    document["environment"] = environmentJson(scene, file);
+    document["environment"] = environmentJson(scene, file, seen.value_or(EnvironmentView()));
     if (scene.hook && !scene.hook->parameters.empty()) document["hook"] = {{"values", hookValuesJson(*scene.hook)}};
-    document["options"] = optionsJson(scene);
+    document["options"] = optionsJson(scene, seen && scene.environment);
     try {
         return textOf(document);
     } catch (const nlohmann::json::type_error&) { // what dump() throws for text that is not UTF-8

@@ -71,6 +71,13 @@ TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {
     EXPECT_LT(differingShare(turned, expected, 4), 0.02);
     const Shot back = after(viewer, [&] { viewer.drag(from + half, from, "shift", 3); });
     EXPECT_LT(differingShare(back, before, 4), 0.02);
+    // What is saved lies as it is seen.
+    after(viewer, [&] { viewer.drag(from, from + half, "shift", 3); });
+    const std::size_t mark = viewer.mark();
+    viewer.key("ctrl+s");
+    const std::string file = savedFile(viewer.waitFor("saved ", mark));
+    const nlohmann::json environment = nlohmann::json::parse(shell("cat '" + file + "'")).at("environment");
+    EXPECT_NEAR(environment.at("rotationDegrees").get<double>(), 90.0, 1.0) << environment;
 }
 
 } // namespace

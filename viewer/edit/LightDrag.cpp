@@ -10,7 +10,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kLeastSineSquare = 1e-4; ///< of an axis and a line: 0.6 degrees
+constexpr double kLeastSineSquare = 1e-4; ///< of an axis or a plane and a line: 0.6 degrees
 
 /// The part of a vector across a unit direction.
 glm::dvec3 partAcross(const glm::dvec3& vectorWS, const glm::dvec3& directionWS) {
@@ -53,8 +53,10 @@ bool LightDrag::drag(scenes::Light& light, double timeSeconds, const PictureView
     const bool hasPosition = scenes::infoOf(before_.type).hasPosition();
     const scenes::Light shown = scenes::lightAtTime(before_, timeSeconds);
     const glm::dvec3 middleWS = hasPosition ? shown.positionWS : middleWS_;
-    if (handle_.parameter == nullptr)
+    if (handle_.turns())
         turn(light, middleWS, line);
+    else if (handle_.parameter == nullptr)
+        dragCorner(light, shown, line);
     else
         resize(light, timeSeconds, {middleWS, shown.directionWS}, line, isOneSided);
     return light != was;
@@ -69,6 +71,18 @@ void LightDrag::turn(scenes::Light& light, const glm::dvec3& middleWS, const Sig
     isBeside_ = point.isBeside;
     light.alongWS = before_.alongWS;
     turnLight(light, point.directionWS);
+}
+
+void LightDrag::dragCorner(scenes::Light& light, const scenes::Light& shown, const SightLine& line) const {
+    const double sine = glm::dot(line.directionWS, shown.directionWS);
+    if (sine * sine < kLeastSineSquare) return;
+    const double distanceMetres = glm::dot(shown.positionWS - line.originWS, shown.directionWS) / sine;
+    if (distanceMetres <= 0.0) return; // behind the line's origin
+    const glm::dvec3 fromMiddleWS = line.originWS + distanceMetres * line.directionWS - shown.positionWS;
+    const glm::dvec3 acrossWS = glm::cross(shown.directionWS, shown.alongWS);
+    const glm::dvec2 placeMetres(glm::dot(fromMiddleWS, shown.alongWS), glm::dot(fromMiddleWS, acrossWS));
+    constexpr glm::dvec2 kMost(scenes::kMostRadiusMetres);
+    moveCorner(light, std::size_t(handle_.corner), glm::vec2(glm::clamp(placeMetres, -kMost, kMost)));
 }
 
 std::optional<double> LightDrag::draggedMetres(const SightLine& axis, const SightLine& line) const {
@@ -101,6 +115,10 @@ void LightDrag::resize(scenes::Light& light, double timeSeconds, const SightLine
 std::string LightDrag::text(const scenes::Light& light) const {
     if (handle_.parameter != nullptr)
         return fmt::format("{} {:.3g} m", handle_.parameter->label, light.*handle_.parameter->member);
+    if (!handle_.turns()) {
+        const glm::vec2& corner = light.corners.metres[std::size_t(handle_.corner)];
+        return fmt::format("Corner {} at {:.3g}, {:.3g} m", handle_.corner, corner.x, corner.y);
+    }
     const auto shown = [](double value) { return std::abs(value) < 0.005 ? 0.0 : value; }; // no minus before a zero
     const glm::dvec3& direction = light.directionWS;
     return fmt::format("Direction {:.2f}, {:.2f}, {:.2f}", shown(direction.x), shown(direction.y), shown(direction.z));

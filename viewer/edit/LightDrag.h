@@ -32,11 +32,13 @@ public:
     bool drag(scenes::Light& light, double timeSeconds, const PictureView& view, const glm::dvec2& pointer,
               bool isOneSided);
 
-    /// What the handle sets: "Width 1.25 m".
+    /// What the handle sets: "Width 1.25 m", "Corner 0 at 0.5, -0.5 m".
     std::string text(const scenes::Light& light) const;
 
 private:
     void turn(scenes::Light& light, const glm::dvec3& middleWS, const SightLine& line);
+    /// To where the line meets the plane of the outline of the light as it is shown; not where that makes no outline.
+    void dragCorner(scenes::Light& light, const scenes::Light& shown, const SightLine& line) const;
     /// `axis` is the light's middle and direction, as it is shown.
     void resize(scenes::Light& light, double timeSeconds, const SightLine& axis, const SightLine& line,
                 bool isOneSided) const;

@@ -10,14 +10,16 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kArm = 70.0;       ///< from a light's middle or end to the handle of its direction
-constexpr double kMostArm = 0.2;    ///< the same, share of the picture's shorter side: it must not reach the viewer
-constexpr double kLeastAway = 20.0; ///< of handles from the light's middle, where its marker is
-constexpr double kLeastTurn = 40.0; ///< the same of its direction's, which stands clear of the others
-constexpr double kLeastWay = 1.0;   ///< from the middle, below which a direction's handle has no way of its own
-constexpr double kLeastSeen = 0.02; ///< sine to the line of sight of axes that can be dragged along: 1 degree
-constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
-constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
+constexpr double kArm = 70.0;        ///< from a light's middle or end to the handle of its direction
+constexpr double kMostArm = 0.2;     ///< the same, share of the picture's shorter side: it must not reach the viewer
+constexpr double kLeastAway = 20.0;  ///< of handles from the light's middle, where its marker is
+constexpr double kLeastTurn = 40.0;  ///< the same of its direction's, which stands clear of the others
+constexpr double kLeastApart = 20.0; ///< of handles from each other: a press takes what lies within 9
+constexpr double kMostAside = 200.0; ///< that a handle gives way to others
+constexpr double kLeastWay = 1.0;    ///< from the middle, below which what is dragged anywhere has no way outwards
+constexpr double kLeastSeen = 0.02;  ///< sine to the line of sight of axes that can be dragged along: 1 degree
+constexpr double kSunInset = 100.0;  ///< of a directional light's sun from the picture's right and upper side
+constexpr double kSunRoom = 3.0;     ///< insets that a picture is wide and high which has room for it
 constexpr int kCircleSteps = 48;
 
 using Outline = std::vector<glm::dvec3>;
@@ -111,29 +113,49 @@ private:
         return found != info.parameters.end() ? &*found : scenes::sizeParameter(info);
     }
 
-    /// Keeps a handle so far from the light's marker, which would be taken in its place. A sun is none.
+    bool isInPicture(const glm::dvec2& place) const {
+        return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
+               glm::all(glm::lessThanEqual(place, view_.size()));
+    }
+
+    /// Keeps a handle so far from the light's marker, which would be taken in its place, and outwards clear of the
+    /// handles before it. A sun has neither.
     void standOff(LightHandle& handle, double least) const {
         if (figure_.sun) return;
         const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
         if (!middle) return;
         const glm::dvec2 away = handle.truePlace - *middle;
-        if (glm::length(away) >= least * scale_) return;
         glm::dvec2 way = handle.way;
-        if (handle.parameter == nullptr) // towards the viewer or away: between sides that are level and upright
+        if (handle.parameter == nullptr) // at the middle: between sides that are level and upright
             way = glm::normalize(glm::length(away) < kLeastWay * scale_ ? glm::dvec2(1.0, -1.0) : away);
-        handle.place = *middle + least * scale_ * way;
+        if (glm::length(away) < least * scale_) handle.place = *middle + least * scale_ * way;
+        const auto isClear = [&](const glm::dvec2& place) {
+            return std::ranges::none_of(figure_.handles, [&](const LightHandle& other) {
+                return glm::distance(other.place, place) < kLeastApart * scale_;
+            });
+        };
+        constexpr double kStep = 0.25 * kLeastApart;
+        for (double aside = 0.0; aside <= kMostAside; aside += kStep) {
+            const glm::dvec2 place = handle.place + aside * scale_ * way;
+            if (!isClear(place)) continue;
+            if (isInPicture(place)) handle.place = place;
+            return;
+        }
     }
 
-    /// If the picture shows it, and a drag along its axis would change something.
+    /// If the picture shows it, and a drag would change something.
     void add(LightHandle handle) {
         handle.number = count_++;
         const std::optional<glm::dvec2> shown = view_.placeOf(handle.positionWS);
         if (!shown) return;
         handle.truePlace = handle.place = *shown;
-        if (handle.parameter == nullptr) {
+        const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.positionWS);
+        if (handle.turns()) {
             standOff(handle, kLeastTurn);
+        } else if (handle.parameter == nullptr) { // a corner, whose plane must not be seen from its edge
+            if (std::abs(glm::dot(light_.directionWS, towardsWS)) < kLeastSeen) return;
+            standOff(handle, kLeastAway);
         } else {
-            const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.positionWS);
             if (glm::length(glm::cross(handle.axisWS, towardsWS)) < kLeastSeen) return;
             const auto beyond =
                 view_.placeOf(handle.positionWS + *view_.metresPerUnit(handle.positionWS) * handle.axisWS);
@@ -141,9 +163,7 @@ private:
             handle.way = glm::normalize(*beyond - *shown);
             standOff(handle, kLeastAway);
         }
-        const bool isInside = glm::all(glm::greaterThanEqual(handle.place, glm::dvec2(0.0))) &&
-                              glm::all(glm::lessThanEqual(handle.place, view_.size()));
-        if (isInside) figure_.handles.push_back(handle);
+        if (isInPicture(handle.place)) figure_.handles.push_back(handle);
     }
 
     /// Handles on both sides of the middle that change a length along an axis.
@@ -215,6 +235,12 @@ private:
         Outline outline;
         for (const glm::vec2& corner : light_.corners.all())
             outline.push_back(figure_.middleWS + double(corner.x) * light_.alongWS + double(corner.y) * acrossWS);
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            LightHandle handle;
+            handle.corner = int(i);
+            handle.positionWS = outline[i];
+            add(handle);
+        }
         outline.push_back(outline.front());
         figure_.outlinesWS.push_back(outline);
     }

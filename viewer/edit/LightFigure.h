@@ -13,14 +13,18 @@ namespace tessera::viewer {
 /// A point of a light's outline that is dragged.
 struct LightHandle {
     int number = 0; ///< among those of its light, whether or not all of them can be taken
-    const scenes::LightParameter* parameter = nullptr; ///< that it changes; null: the light's direction
-    glm::dvec3 axisWS{0.0};                            ///< unit, from the light's middle: the way it is dragged
-    bool isRound = false; ///< it is where lines of sight touch the surface, and keeps to them
-    double share = 1.0;   ///< of the parameter that lies between middle and handle: all of a radius, half of a side
+    const scenes::LightParameter* parameter = nullptr; ///< that it changes; null: a corner, or the light's direction
+    int corner = scenes::kNone;                        ///< that it moves, in the plane of the light's outline
+    glm::dvec3 axisWS{0.0}; ///< unit, from the light's middle: the way it is dragged; none of a corner
+    bool isRound = false;   ///< it is where lines of sight touch the surface, and keeps to them
+    double share = 1.0;     ///< of the parameter that lies between middle and handle: all of a radius, half of a side
     glm::dvec3 positionWS{0.0};
     glm::dvec2 truePlace{0.0}; ///< of positionWS
-    glm::dvec2 place{0.0};     ///< where it is drawn and taken: not too near to the light's marker
-    glm::dvec2 way{0.0};       ///< unit: the way it is dragged in the picture; none of a direction
+    glm::dvec2 place{0.0};     ///< where it is drawn and taken: not too near to the light's marker and to other handles
+    glm::dvec2 way{0.0};       ///< unit: the way it is dragged in the picture; none of what is dragged anywhere
+
+    /// Whether it is the direction's.
+    bool turns() const { return parameter == nullptr && corner == scenes::kNone; }
 };
 
 struct LightFigure {

@@ -86,7 +86,26 @@ void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMe
     if (!(light.radiusMetres > 0.0f))
         light.radiusMetres = float(std::min(kFirstRadiusShare * sceneSizeMetres, scenes::kMostRadiusMetres));
     if (scenes::infoOf(type).hasCorners() && !scenes::hasSurface(light)) light.corners = {};
-    turnLight(light, light.directionWS);
+    constexpr double kSquare = 1e-12; // cosine, of rounding: what was square stays as it is
+    const bool isSquare = std::abs(glm::dot(light.alongWS, light.directionWS)) <= kSquare;
+    if (scenes::infoOf(type).isTurned() && !isSquare && !layLight(light, light.alongWS))
+        light.alongWS = scenes::usualAlong(light.directionWS);
+}
+
+void TypeChooser::choose(const Lights& lights, std::size_t index, scenes::Light& changed, scenes::LightType type,
+                         double sceneSizeMetres) {
+    const bool wasArea = scenes::infoOf(changed.type).isArea, isArea = scenes::infoOf(type).isArea;
+    const std::string label = lightLabel(lights, index);
+    const scenes::Falloff falloff = changed.falloff;
+    const float radiusMetres = changed.radiusMetres;
+    chooseType(changed, type, sceneSizeMetres);
+    if (wasArea == isArea) return;
+    if (isArea) {
+        before_ = {index, label, falloff, radiusMetres, changed.radiusMetres};
+    } else if (before_ && before_->index == index && before_->label == label) {
+        changed.falloff = before_->falloff;
+        if (changed.radiusMetres == before_->givenMetres) changed.radiusMetres = before_->radiusMetres;
+    }
 }
 
 bool moveCorner(scenes::Light& light, std::size_t corner, const glm::vec2& placeMetres) {

@@ -34,8 +34,28 @@ std::optional<int> indexAfter(int index, std::size_t first, std::size_t taken, s
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);
 
 /// Gives a light a type. One that becomes an area light falls off as such, and gets a radius where it has none: a
-/// hundredth of the scene's size; one that becomes a polygon a square where its outline holds next to no area.
+/// hundredth of the scene's size; one that becomes a polygon a square where its outline holds next to no area. All else
+/// stays, also what the type has no use for.
 void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres);
+
+/// Gives lights types like that, so that a light that became an area light and is none any more gets back how it fell
+/// off, and that it had no radius, unless it was given another one since. Of the light that became one last.
+class TypeChooser {
+public:
+    void choose(const Lights& lights, std::size_t index, scenes::Light& changed, scenes::LightType type,
+                double sceneSizeMetres);
+    /// Another scene has other lights.
+    void forget() { before_.reset(); }
+
+private:
+    struct Before {
+        std::size_t index;
+        std::string label; ///< another light of that index has another one
+        scenes::Falloff falloff;
+        float radiusMetres, givenMetres;
+    };
+    std::optional<Before> before_;
+};
 
 /// Moves a corner of a polygon; false, and no change, where its corners would make no outline.
 bool moveCorner(scenes::Light& light, std::size_t corner, const glm::vec2& placeMetres);

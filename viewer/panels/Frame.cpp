@@ -51,7 +51,7 @@ constexpr Section kSections[] = {
     {"Lights", false, [](State& state, const Facts&) { lightsPanel(state); }, Selected::Light},
     {"Materials", false, [](State& state, const Facts&) { materialsPanel(state); }, Selected::Material},
     {"View", true, [](State& state, const Facts&) { viewPanel(state); }},
-    {"Environment", false, [](State& state, const Facts&) { environmentPanel(state); }},
+    {"Environment", false, environmentPanel},
     {"Camera", false, [](State& state, const Facts&) { cameraPanel(state); }},
     {"Animation", true, [](State& state, const Facts&) { animationPanel(state); }, {}, hasMovement},
     {"Save", false, [](State& state, const Facts&) { savePanel(state); }},

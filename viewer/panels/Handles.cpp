@@ -60,7 +60,7 @@ public:
     void handle(const LightHandle& handle, bool isPointed) {
         const ImVec2 place = at(handle.place);
         const auto fill = [&](float radius, ImU32 ink) {
-            if (handle.parameter == nullptr)
+            if (handle.turns())
                 list_.AddCircleFilled(place, radius, ink);
             else
                 list_.AddRectFilled({place.x - radius, place.y - radius}, {place.x + radius, place.y + radius}, ink);

@@ -145,12 +145,47 @@ bool lightParameterRow(const scenes::LightParameter& parameter, scenes::Light& l
     return slider(parameter.label, value, parameter.least, parameter.most);
 }
 
+/// How large what shines is, or how soft shadows are.
+bool sizeRow(scenes::Light& light, double sceneSizeMetres) {
+    const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
+    const scenes::LightParameter* const size = scenes::sizeParameter(info);
+    if (size == nullptr) return false;
+    const bool changed = lightParameterRow(*size, light, kMostRadiusShare * sceneSizeMetres);
+    tip(info.isArea ? "Of what shines, and softens its shadows" : "Softens the light's shadows");
+    return changed;
+}
+
+bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
+    bool changed = false;
+    const auto most = float(scenes::kMostRadiusMetres);
+    for (std::size_t i = 0; i < light.corners.count; ++i) {
+        const std::string label = fmt::format("Corner {}", i);
+        row(label.c_str());
+        glm::vec2 corner = light.corners.metres[i];
+        const bool moved = edit(corner, -most, most, [&](glm::vec2& place) {
+            return ImGui::DragFloat2(("##" + label).c_str(), &place.x, float(0.001 * sceneSizeMetres), -most, most,
+                                     "%.3g m");
+        });
+        if (moved) changed |= moveCorner(light, i, corner);
+    }
+    row("Corners");
+    const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+    if (ImGui::Button("Add##corner", {width, 0.0f})) changed |= addCorner(light);
+    tip("One more, in the middle of the last edge");
+    ImGui::SameLine();
+    if (ImGui::Button("Remove##corner", {width, 0.0f})) changed |= removeCorner(light);
+    tip("Takes the last one away; three are the least");
+    return changed;
+}
+
 bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const std::span<const scenes::LightParameter> parameters = info.parameters;
     bool changed = false;
     for (const scenes::LightParameter& parameter : parameters)
         changed |= lightParameterRow(parameter, light, kMostSurfaceShare * sceneSizeMetres);
+    if (info.hasCorners()) changed |= cornerRows(light, sceneSizeMetres);
+    if (info.isArea) changed |= sizeRow(light, sceneSizeMetres);
     if (info.isFlat) {
         row("Shines");
         changed |= ImGui::Checkbox("from both sides##light", &light.isTwoSided);
@@ -168,28 +203,6 @@ bool parameterRows(scenes::Light& light, double sceneSizeMetres) {
         if (parameter.within != nullptr)
             light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
     return true;
-}
-
-bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
-    bool changed = false;
-    const auto most = float(scenes::kMostRadiusMetres);
-    for (std::size_t i = 0; i < light.corners.count; ++i) {
-        const std::string label = fmt::format("Corner {}", i);
-        row(label.c_str());
-        glm::vec2 corner = light.corners.metres[i];
-        const bool moved = edit(corner, -most, most, [&](glm::vec2& place) {
-            return ImGui::DragFloat2(("##" + label).c_str(), &place.x, float(0.001 * sceneSizeMetres), -most, most,
-                                     "%.3g m");
-        });
-        if (moved) changed |= moveCorner(light, i, corner);
-    }
-    row("");
-    if (ImGui::Button("Add a corner")) changed |= addCorner(light);
-    tip("In the middle of the last edge");
-    ImGui::SameLine();
-    if (ImGui::Button("Remove the last")) changed |= removeCorner(light);
-    tip("Three corners are the least");
-    return changed;
 }
 
 bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
@@ -220,23 +233,24 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
-bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
+bool typeRow(State& state, scenes::Light& light, std::size_t index, double sceneSizeMetres) {
     scenes::LightType type = light.type;
-    bool changed = chooseNamed("Type", type);
-    if (changed) chooseType(light, type, sceneSizeMetres);
+    if (!chooseNamed("Type", type)) return false;
+    state.types.choose(state.open->scene().lights, index, light, type, sceneSizeMetres);
+    return true;
+}
+
+bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
+    bool changed = false;
     changed |= brightnessRows(light);
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const bool isAttenuated = light.falloff == scenes::Falloff::Attenuation;
     if (info.hasPosition()) changed |= isAttenuated ? attenuationRow(light) : rangeRow(light);
     changed |= parameterRows(light, sceneSizeMetres);
     changed |= placeRows(light, timeSeconds, sceneSizeMetres);
-    if (info.hasCorners()) changed |= cornerRows(light, sceneSizeMetres);
     row("Shadow");
     changed |= ImGui::Checkbox("casts##light", &light.castsShadow);
-    const scenes::LightParameter* size = scenes::sizeParameter(info);
-    if (size == nullptr) return changed;
-    changed |= lightParameterRow(*size, light, kMostRadiusShare * sceneSizeMetres);
-    tip(info.isArea ? "Of what shines, and softens its shadows" : "Softens the light's shadows");
+    if (!info.isArea) changed |= sizeRow(light, sceneSizeMetres);
     return changed;
 }
 
@@ -311,7 +325,8 @@ void lightsPanel(State& state) {
         const double size = bounds.empty() || bounds.min == bounds.max ? 1.0 : glm::length(bounds.max - bounds.min);
         const auto index = std::size_t(state.selectedLight);
         scenes::Light edited = lights[index];
-        bool changed = lightRows(edited, timeSeconds, size);
+        bool changed = typeRow(state, edited, index, size);
+        changed |= lightRows(edited, timeSeconds, size);
         changed |= lightLifeRows(edited, timeSeconds, size);
         changed |= flickerRows(edited, index);
         if (changed) open.changeLight(index, std::move(edited), widgetGesture());

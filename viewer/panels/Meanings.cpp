@@ -35,6 +35,7 @@ constexpr Meaning kMeanings[] = {
     {"Surface", "Whether pictures show what shines"},
     {"Position", "In the scene, metres; or drag its marker in the picture"},
     {"Direction", "In which it shines; or drag its round handle in the picture"},
+    {"Corners", "How many the outline has, 3 to 8"},
     {"Width along", "Where its width runs"},
     {"Corners along", "Where the first numbers of its corners run"},
     {"Shadow", "Whether shadows fall"},

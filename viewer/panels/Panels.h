@@ -9,7 +9,7 @@ namespace tessera::viewer {
 void scenePanel(State& state);
 void framePanel(State& state);
 void viewPanel(State& state);
-void environmentPanel(State& state);
+void environmentPanel(State& state, const Facts& facts);
 void shadowsPanel(State& state, const Facts& facts);
 void skinPanel(State& state);
 void cameraPanel(State& state);

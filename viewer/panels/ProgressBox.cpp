@@ -21,8 +21,7 @@ void drawProgress(const Progress& progress, const PictureArea& area, float scale
     list.AddRectFilled(corner, end, kBox, pad);
     list.PushClipRect(corner, end, true);
     const float left = corner.x + pad, right = end.x - pad;
-    const std::string words =
-        progress.share ? fmt::format("{}: {:.0f} %", progress.text, 100.0 * *progress.share) : progress.text + " ...";
+    const std::string words = progressText(progress);
     list.AddText({left, corner.y + pad}, kWords, words.c_str());
     const float railY = corner.y + 2.0f * pad + em;
     if (progress.share) {
@@ -32,6 +31,11 @@ void drawProgress(const Progress& progress, const PictureArea& area, float scale
     }
     if (progress.canCancel) list.AddText({left, railY + rail + pad}, kWords, "Esc cancels");
     list.PopClipRect();
+}
+
+std::string progressText(const Progress& progress) {
+    if (!progress.share) return progress.text + " ...";
+    return fmt::format("{}: {:.0f} %", progress.text, 100.0 * *progress.share);
 }
 
 /// Tiles are lit one by one, so that a single object has shares.

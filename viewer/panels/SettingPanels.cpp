@@ -10,6 +10,7 @@
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/Preferences.h"
@@ -89,10 +90,12 @@ bool show(const Setting&, const engine::CameraKind&, Look&) {
     return false;
 }
 
-void settingRows(Look& look, engine::SettingPanel panel) {
+void settingRows(State& state, engine::SettingPanel panel) {
+    Look& look = state.active();
+    const scenes::Scene* const scene = state.open ? &state.open->scene() : nullptr;
     for (const Setting& setting : engine::settingTable()) {
         if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
-        const std::string idle = setting.whyIdle(look);
+        const std::string idle = setting.whyIdle(look, scene);
         ImGui::BeginDisabled(!idle.empty());
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
@@ -113,7 +116,7 @@ void scaleRows(State& state) {
 }
 
 /// The maps to choose from, and what was dropped onto the window.
-void environmentList(State& state) {
+void environmentList(State& state, const Facts& facts) {
     std::string shown(scenes::kNoEnvironment);
     if (state.open && state.open->scene().environment) {
         const scenes::Environment* const environment = &*state.open->scene().environment;
@@ -130,35 +133,35 @@ void environmentList(State& state) {
     ImGui::EndDisabled();
     if (state.loadingEnvironment.empty())
         paragraph("or drop an .hdr or .exr file onto the window");
-    else
-        paragraph(fmt::format("Filtering {} ...", std::filesystem::path(state.loadingEnvironment).filename().string()));
+    else if (facts.background)
+        paragraph(progressText(*facts.background));
 }
 
 } // namespace
 
 void framePanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::Frame);
+    settingRows(state, engine::SettingPanel::Frame);
 }
 
-void environmentPanel(State& state) {
-    environmentList(state);
-    settingRows(state.active(), engine::SettingPanel::Environment);
+void environmentPanel(State& state, const Facts& facts) {
+    environmentList(state, facts);
+    settingRows(state, engine::SettingPanel::Environment);
 }
 
 void shadowsPanel(State& state, const Facts& facts) {
-    settingRows(state.active(), engine::SettingPanel::Shadows);
+    settingRows(state, engine::SettingPanel::Shadows);
     const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(state.activeSide)];
     if (shadows && state.open) shadowRows(state, *shadows);
 }
 
 void skinPanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::Skin);
+    settingRows(state, engine::SettingPanel::Skin);
     if (state.open && !scenes::anyScatters(state.open->scene()))
         paragraph("No material has subsurface scattering. Choose a method for one in the panel Materials.");
 }
 
 void viewPanel(State& state) {
-    settingRows(state.active(), engine::SettingPanel::View);
+    settingRows(state, engine::SettingPanel::View);
     scaleRows(state);
 }
 

@@ -6,6 +6,8 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Extension.h"
+#include "viewer/session/Playback.h"
+#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 namespace {
@@ -23,9 +25,33 @@ std::string savedStem(const std::string& source) {
                                                                                           : stem;
 }
 
-void saveScene(const std::string& path, const scenes::Scene& scene, const scenes::SceneOrigin& origin) {
+scenes::EnvironmentView environmentSeenBy(const Look& look) {
+    const frame::EnvironmentSettings& settings = look.settings.environment;
+    return {settings.rotationDegrees, settings.intensity};
+}
+
+void saveScene(const std::string& path, const scenes::Scene& scene, const scenes::SceneOrigin& origin,
+               const scenes::EnvironmentView& seen) {
     if (extensionOf(path) != ".json") throw InputError(path + ": edited scenes are saved as .json; give such a name");
-    writeFileAtomically(path, scenes::sceneText(scene, origin, path));
+    writeFileAtomically(path, scenes::sceneText(scene, origin, path, seen));
+}
+
+void saveOpenScene(State& state, const std::string& path) {
+    OpenScene& open = *state.open;
+    const scenes::EnvironmentView seen = environmentSeenBy(state.active());
+    scenes::SceneOptions before = open.exchangeOptions(optionsToSave(state));
+    try {
+        saveScene(path, open.scene(), open.origin(), seen);
+    } catch (...) {
+        open.exchangeOptions(std::move(before));
+        throw;
+    }
+    open.becomes(std::filesystem::absolute(path).string(), seen);
+    if (open.scene().environment)
+        for (Look& look : state.looks)
+            for (const scenes::EnvironmentViewWish& wish : scenes::kEnvironmentViewWishes)
+                engine::settingOf(wish.key).reset(look);
+    noteRecent(state.recent, open.source());
 }
 
 } // namespace tessera::viewer

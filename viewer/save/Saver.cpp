@@ -14,8 +14,6 @@
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/FreePath.h"
-#include "viewer/session/Playback.h"
-#include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
 namespace {
@@ -56,16 +54,7 @@ void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
 }
 
 void Saver::scene(const std::string& path) {
-    OpenScene& open = *state_.open;
-    scenes::SceneOptions before = open.exchangeOptions(optionsToSave(state_));
-    try {
-        saveScene(path, open.scene(), open.origin());
-    } catch (...) {
-        open.exchangeOptions(std::move(before));
-        throw;
-    }
-    open.becomes(std::filesystem::absolute(path).string());
-    noteRecent(state_.recent, open.source());
+    saveOpenScene(state_, path);
     tell(path);
 }
 

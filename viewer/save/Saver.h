@@ -15,8 +15,7 @@ public:
     /// The active side's picture at full resolution, as `tessera render` writes it; by the name's end as a display
     /// shows it, or its radiance.
     void picture(glm::ivec2 sizePixels, const std::string& path);
-    /// The scene with its edits and current camera. From then on that file is the open scene, and the first of the
-    /// recent ones.
+    /// saveOpenScene().
     void scene(const std::string& path);
     /// The command line that renders the active side's picture. A scene that was edited is saved under a free name
     /// first.

@@ -12,15 +12,18 @@
 namespace tessera::viewer {
 namespace {
 
-ChosenEnvironment loaded(const std::string& name, std::atomic<double>& share) {
+ChosenEnvironment loaded(const std::string& name, EnvironmentProgress& progress) {
     ChosenEnvironment chosen;
     chosen.name = name;
     try {
         scenes::LoadLedger ledger;
+        ledger.tellEnvironment([&progress](double done) { progress.tell({false, done}); });
         chosen.environment = scenes::environmentCalled(name, ledger, chosen.warnings);
         if (chosen.environment)
-            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
-                chosen.environment->map, frame::cacheFolder(), [&share](double done) { raiseShare(share, done); }));
+            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(
+                frame::cachedEnvironment(chosen.environment->map, frame::cacheFolder(), [&progress](double done) {
+                    progress.tell({true, done});
+                }));
     } catch (const std::bad_alloc&) {
         chosen.error = name + ": the memory is not enough for it; close other programs or choose a smaller picture";
     } catch (const std::exception& error) {
@@ -62,9 +65,9 @@ void EnvironmentJob::load(const std::stop_token& stop) {
             if (!isBusy_) return;
             name = choice_;
             generation = loading_ = generation_;
-            share_ = kNoShare;
+            progress_.begin();
         }
-        ChosenEnvironment chosen = loaded(name, share_);
+        ChosenEnvironment chosen = loaded(name, progress_);
         {
             const std::lock_guard lock(mutex_);
             if (generation != generation_) continue;
@@ -80,9 +83,9 @@ std::string EnvironmentJob::choice() const {
     return choice_;
 }
 
-std::optional<double> EnvironmentJob::filteredShare() const {
+std::optional<EnvironmentShare> EnvironmentJob::share() const {
     const std::lock_guard lock(mutex_);
-    return loading_ == generation_ ? shareOf(share_) : std::nullopt;
+    return loading_ == generation_ ? progress_.latest() : std::nullopt;
 }
 
 bool EnvironmentJob::hasResult() const {

@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,7 +10,7 @@
 
 #include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Scene.h"
-#include "viewer/session/FilteredShare.h"
+#include "viewer/session/EnvironmentShare.h"
 
 namespace tessera::viewer {
 
@@ -39,8 +38,8 @@ public:
     void discard();
     /// What was chosen and not taken yet; empty: nothing.
     std::string choice() const;
-    /// How much of it is filtered; none where it is still being read, or kept from an earlier time.
-    std::optional<double> filteredShare() const;
+    /// How far it is; none where it is being read, or kept from an earlier time.
+    std::optional<EnvironmentShare> share() const;
     bool hasResult() const;
     /// The result of the latest choice, once.
     std::optional<ChosenEnvironment> take();
@@ -51,10 +50,10 @@ private:
 
     std::function<void()> done_;
     mutable std::mutex mutex_;
-    std::atomic<double> share_ = kNoShare;
+    EnvironmentProgress progress_;
     bool isBusy_ = false;
     std::uint64_t generation_ = 0; ///< of the choice
-    std::uint64_t loading_ = 0;    ///< the one under way, of which `share_` tells
+    std::uint64_t loading_ = 0;    ///< the one under way, of which `progress_` tells
     std::string choice_;
     std::optional<ChosenEnvironment> result_;
     std::jthread thread_; ///< last: it ends before what it writes to

@@ -12,6 +12,7 @@
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
+#include "scenes/write/SceneText.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
@@ -308,7 +309,8 @@ void OpenScene::exchange(CameraEdit& edit) {
 
 // ---- The file and the camera ----
 
-void OpenScene::becomes(const std::string& file) {
+void OpenScene::becomes(const std::string& file, const scenes::EnvironmentView& seen) {
+    if (scene_.environment) takeAsSeen(seen);
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
     load.import = std::move(load_.import);
@@ -327,6 +329,21 @@ void OpenScene::becomes(const std::string& file) {
         jump->other.placed = {}; // the file's camera is what it starts as now
         jump->other.rig.startAt(rig_.start(), rig_.home());
     });
+}
+
+void OpenScene::takeAsSeen(const scenes::EnvironmentView& seen) {
+    const auto take = [&seen](std::optional<scenes::Environment>& environment) {
+        if (!environment) return;
+        const scenes::EnvironmentView own = scenes::asSeen(*environment, seen);
+        environment->rotationDegrees = own.rotationDegrees;
+        environment->intensity = own.intensity;
+    };
+    take(scene_.environment);
+    history_.forEach([&](Edit& edit) {
+        if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) take(surrounding->other.environment);
+    });
+    scenes::askForNoView(scene_.options);
+    if (seen != scenes::EnvironmentView()) ++revision_;
 }
 
 void OpenScene::place(const scenes::CameraChange& change) {

@@ -30,7 +30,8 @@ public:
     /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
     /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
-    void becomes(const std::string& file);
+    /// What a view makes of the environment is the file's own, and of those that undoing brings back.
+    void becomes(const std::string& file, const scenes::EnvironmentView& seen = {});
     /// Gives the scene other options, and returns those that it had. It is no edit.
     scenes::SceneOptions exchangeOptions(scenes::SceneOptions options) {
         return std::exchange(scene_.options, std::move(options));
@@ -127,6 +128,8 @@ private:
     void exchange(EnvironmentEdit& edit);
     void exchange(CameraEdit& edit);
     CameraView view() const { return {camera_, placed_, rig_}; }
+    /// Makes what a view makes of environments their own.
+    void takeAsSeen(const scenes::EnvironmentView& seen);
     /// Keeps where the camera was before a jump that has begun.
     void keepJump(std::string what, CameraView before);
     /// Whether the camera that is shown goes where the scene has it.

@@ -10,19 +10,22 @@
 namespace tessera::viewer {
 namespace {
 
-SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& options, std::atomic<double>& share) {
+SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& options, EnvironmentProgress& progress) {
     SceneLoader::Result result;
     result.source = source;
     result.load = options;
     result.load.stop = {}; // it is this load's
     const gpu::CpuTimer clock;
     try {
-        result.scene = scenes::loadScene(source, options);
+        scenes::LoadOptions telling = options;
+        telling.environmentTold = [&progress](double done) { progress.tell({false, done}); };
+        result.scene = scenes::loadScene(source, telling);
         result.origin = scenes::originOf(source, options, *result.scene);
         if (result.scene->environment)
-            result.filtered = std::make_shared<frame::FilteredEnvironment>(
-                frame::cachedEnvironment(result.scene->environment->map, frame::cacheFolder(),
-                                         [&share](double done) { raiseShare(share, done); }));
+            result.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
+                result.scene->environment->map, frame::cacheFolder(), [&progress](double done) {
+                    progress.tell({true, done});
+                }));
     } catch (const std::bad_alloc&) {
         result.scene.reset();
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";
@@ -62,10 +65,10 @@ void SceneLoader::work() {
             if (!isWorking_) return;
             request = *std::exchange(waiting_, std::nullopt);
             stop_ = std::stop_source();
-            share_ = kNoShare;
+            progress_.begin();
             request.options.stop = stop_.get_token();
         }
-        Result result = load(request.source, request.options, share_);
+        Result result = load(request.source, request.options, progress_);
         {
             const std::lock_guard lock(mutex_);
             if (request.options.stop.stop_requested()) continue;
@@ -75,9 +78,9 @@ void SceneLoader::work() {
     }
 }
 
-std::optional<double> SceneLoader::filteredShare() const {
+std::optional<EnvironmentShare> SceneLoader::environmentShare() const {
     const std::lock_guard lock(mutex_);
-    return isWorking_ && !waiting_ ? shareOf(share_) : std::nullopt;
+    return isWorking_ && !waiting_ ? progress_.latest() : std::nullopt;
 }
 
 bool SceneLoader::hasResult() const {

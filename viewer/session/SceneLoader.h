@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -10,7 +9,7 @@
 #include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneOrigin.h"
-#include "viewer/session/FilteredShare.h"
+#include "viewer/session/EnvironmentShare.h"
 
 namespace tessera::viewer {
 
@@ -36,8 +35,8 @@ public:
     SceneLoader& operator=(const SceneLoader&) = delete;
 
     void start(const std::string& source, const scenes::LoadOptions& options);
-    /// How much of the environment of the scene under way is filtered; none where something else is done.
-    std::optional<double> filteredShare() const;
+    /// How far the environment of the scene under way is; none where something else is done.
+    std::optional<EnvironmentShare> environmentShare() const;
     /// The result of the latest start(), once.
     std::optional<Result> take();
     bool hasResult() const;
@@ -52,7 +51,7 @@ private:
     void work();
 
     std::function<void()> done_;
-    std::atomic<double> share_ = kNoShare;
+    EnvironmentProgress progress_;
     mutable std::mutex mutex_; ///< of all below but the thread
     std::optional<Request> waiting_;
     std::stop_source stop_; ///< of the load under way

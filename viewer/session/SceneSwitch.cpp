@@ -70,11 +70,18 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     }
     comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
+    state_.types.forget();
     state_.notice = {};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
     noteRecent(state_.recent, result->source);
     return scene;
+}
+
+void SceneSwitch::noteSaved() {
+    const FirstLook first = options_.lookOf(state_.open->scene(), state_.open->source(), false);
+    for (const scenes::EnvironmentViewWish& wish : scenes::kEnvironmentViewWishes)
+        engine::settingOf(wish.key).value.copy(base_, first.look);
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {

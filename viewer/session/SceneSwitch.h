@@ -19,13 +19,17 @@ public:
     /// all others to every call.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    std::optional<double> filteredShare() const { return loader_.filteredShare(); } ///< of SceneLoader
+    /// Of SceneLoader.
+    std::optional<EnvironmentShare> environmentShare() const { return loader_.environmentShare(); }
     /// Whether the load gave a scene and did not fail.
     bool hasScene() const { return loader_.hasScene(); }
     /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state
     /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
     /// nothing has changed but that no scene waits.
     std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
+    /// To be called after the open scene was saved: how its file lets its environment be seen is no choice of the
+    /// user's for other scenes.
+    void noteSaved();
     /// Discards the result.
     void discard();
     /// Writes the preferences when the window is closed. Failures are warnings.

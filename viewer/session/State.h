@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/edit/LightList.h"
 #include "viewer/edit/Scatter.h"
 #include "viewer/session/FileDialog.h"
 #include "viewer/session/Look.h"
@@ -95,7 +96,8 @@ struct State {
     std::set<int> selectedLights;      ///< several, where that one is among them
     int selectedMaterial = scenes::kNone;
     Selected selectedLast = Selected::Light;
-    Scatter scatter; ///< settings of the next scattering
+    Scatter scatter;   ///< settings of the next scattering
+    TypeChooser types; ///< of the open scene's lights
 
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened

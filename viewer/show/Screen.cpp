@@ -9,6 +9,7 @@
 #include "renderer/gpu/Timer.h"
 #include "renderer/graph/Execute.h"
 #include "viewer/session/Inspection.h"
+#include "viewer/show/EditedFeatures.h"
 
 namespace tessera::viewer {
 namespace {
@@ -73,15 +74,22 @@ void Screen::open(const OpenScene& scene) {
     materialRevision_ = scene.materialRevision();
     environmentRevision_ = scene.environmentRevision();
     forget();
-    kinds_.reset(); // its programs are yet to be compiled
+    features_.reset();
+    kind_.reset(); // its programs are yet to be compiled
     pace_ = {};
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
 
 bool Screen::isNewKind(const Wanted& wanted) const {
-    return !kinds_ || !isOfKind((*kinds_)[0], wanted.looks[0]) ||
-           (wanted.sides == 2 && !isOfKind((*kinds_)[1], wanted.looks[1]));
+    return !kind_ || !isOfKind(kind_->looks[0], wanted.looks[0]) ||
+           (wanted.sides == 2 && !isOfKind(kind_->looks[1], wanted.looks[1])) ||
+           kind_->features != featuresAfter(wanted.sceneEdits);
+}
+
+const frame::FeatureSet& Screen::featuresAfter(std::uint64_t sceneEdits) const {
+    if (!features_ || features_->sceneEdits != sceneEdits) features_ = {sceneEdits, editedFeatures(scene_->scene())};
+    return features_->features;
 }
 
 bool Screen::spreadsAnew(const Wanted& wanted) const {
@@ -195,7 +203,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     if (wanted.sides == 2) std::swap(waiting_, pictures_[0]);
     drawn_ = wanted;
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
-    kinds_ = wanted.looks;
+    kind_ = {wanted.looks, featuresAfter(wanted.sceneEdits)};
     drawnScale_ = isLacking ? std::min(scale, kScales[1]) : scale;
     if (isLacking) { // whatever took it away
         spreadFor_.reset();

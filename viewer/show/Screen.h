@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "renderer/frame/Features.h"
 #include "renderer/gpu/Commands.h"
 #include "viewer/session/State.h"
 #include "viewer/show/Difference.h"
@@ -65,8 +66,8 @@ public:
     double predictedMs(double scale) const { return resolution_.predictedMs(scale); }
     /// Of the pictures that draw() draws, which one; for its `givesUp`.
     int drawingSide() const { return drawingSide_; }
-    /// Whether what is wanted is of another kind than what was drawn last, so that shaders may have to be compiled
-    /// first.
+    /// Whether what is wanted is of another kind than what was drawn last, by its looks or by edits of the scene, so
+    /// that shaders may have to be compiled first.
     bool isNewKind(const Wanted& wanted) const;
     /// Whether light that spreads over surfaces is to be computed anew, which a whole picture takes seconds for.
     bool spreadsAnew(const Wanted& wanted) const;
@@ -112,6 +113,8 @@ public:
 private:
     void tellSpreadLight(const Wanted& drawn);
     void forgetSpreadLight();
+    /// Of the scene with so many edits, which it has.
+    const frame::FeatureSet& featuresAfter(std::uint64_t sceneEdits) const;
 
     static constexpr double kSlowMs = 250.0;
 
@@ -126,12 +129,23 @@ private:
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
-    SpreadLight spreadLight_;                  ///< of this scene
-    SpreadPace pace_;                          ///< likewise
-    std::optional<Wanted> spreadFor_;          ///< its light is there, as far as it is seen
-    bool isAllSpread_ = false;                 ///< light is there for all cameras,
-    bool isAllTooMuch_ = false;                ///< or would take too much memory
-    std::optional<std::array<Look, 2>> kinds_; ///< kind of the pictures drawn last of this scene
+    SpreadLight spreadLight_;         ///< of this scene
+    SpreadPace pace_;                 ///< likewise
+    std::optional<Wanted> spreadFor_; ///< its light is there, as far as it is seen
+    bool isAllSpread_ = false;        ///< light is there for all cameras,
+    bool isAllTooMuch_ = false;       ///< or would take too much memory
+    /// What decides the programs of pictures, by the scene's edits.
+    struct Features {
+        std::uint64_t sceneEdits = 0;
+        frame::FeatureSet features;
+    };
+    mutable std::optional<Features> features_; ///< as they were asked for last, of this scene
+    /// Kind of the pictures drawn last of this scene.
+    struct Kind {
+        std::array<Look, 2> looks;
+        frame::FeatureSet features;
+    };
+    std::optional<Kind> kind_;
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling

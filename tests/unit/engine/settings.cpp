@@ -212,6 +212,21 @@ TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }
 
+TEST(Settings, ofAnEnvironmentSayWhereASceneHasNone) {
+    const ViewRequest request;
+    scenes::Scene scene;
+    for (const std::string_view key : {"environmentLight", "environmentSamples", "environmentCompensation",
+                                       "environmentRotation", "environmentIntensity", "backdrop"})
+        EXPECT_EQ(settingOf(key).whyIdle(request, &scene), "There is no environment; choose a map") << key;
+    EXPECT_EQ(settingOf("refraction").whyIdle(request, &scene), "") << "glass shows surfaces too";
+    EXPECT_EQ(settingOf("environmentRotation").whyIdle(request), "") << "of no scene";
+    scene.environment.emplace();
+    for (const Setting& setting : settingTable())
+        if (setting.panel == SettingPanel::Environment) {
+            EXPECT_EQ(setting.whyIdle(request, &scene), "") << setting.name;
+        }
+}
+
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;

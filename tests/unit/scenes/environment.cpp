@@ -1,9 +1,13 @@
 #include "scenes/Environment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <numbers>
+
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -186,6 +190,52 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     EXPECT_EQ(loadScene(saved, options).environment.value().source, "builtin:sky");
 }
 
+TEST(Environment, aNameIsThatOfABuiltInOneAsSceneFilesWriteItTooAndOfAFileAlone) {
+    const test::SceneFolder folder;
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    EXPECT_EQ(environmentCalled("builtin:studio", ledger, warnings).value().source, "builtin:studio");
+    const auto problem = [&](const std::string& name) {
+        return test::inputErrorOf([&] { environmentCalled(name, ledger, warnings); });
+    };
+    EXPECT_EQ(problem("builtin:sea"), "there is no built-in environment 'sea'; valid are studio, sky");
+    const std::string path = folder.path().string();
+    EXPECT_EQ(problem(path), path + ": is a folder; give a picture file or a glTF model in it");
+    const std::string pipe = (folder.path() / "pipe.hdr").string();
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(problem(pipe), pipe + ": is not a regular file; name the picture itself"); // and does not wait for it
+    EXPECT_TRUE(problem(path + "/none.hdr").starts_with("no built-in environment or picture file is called '"));
+}
+
+TEST(Environment, aBlackMapIsToldOnceAndNoOtherIs) {
+    test::TempFolder folder;
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    loadEnvironment(folder.write("night.pfm", pfm(4, 2, std::vector<float>(24, 0.0f))).string(), ledger, warnings);
+    EXPECT_EQ(warnings, std::vector<std::string>{"the environment 'night.pfm' is black everywhere and gives no light"});
+    warnings.clear();
+    std::vector<float> dim(24, 0.0f);
+    dim.back() = 1e-30f; // the last texel's blue
+    loadEnvironment(folder.write("dim.pfm", pfm(4, 2, dim)).string(), ledger, warnings);
+    EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Environment, whoAsksIsToldHowMuchOfABuiltInMapIsComputed) {
+    LoadLedger ledger;
+    std::mutex mutex;
+    std::vector<double> shares;
+    ledger.tellEnvironment([&](double share) {
+        const std::lock_guard lock(mutex);
+        shares.push_back(share);
+    });
+    std::vector<std::string> warnings;
+    const Environment studio = loadEnvironment("builtin:studio", ledger, warnings);
+    std::ranges::sort(shares); // threads tell in any order
+    ASSERT_EQ(shares.size(), std::size_t(studio.map.height));
+    EXPECT_EQ(shares.front(), 1.0 / studio.map.height);
+    EXPECT_EQ(shares.back(), 1.0);
+}
+
 TEST(Environment, wrongOnesAreRefusedByName) {
     const test::SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "environment": {"map": "builtin:sea"}})"),
@@ -231,7 +281,7 @@ glm::dvec3 onGround(const Image& map) {
 
 TEST(Environment, builtInOnesLightAWhiteFloorAboutAsBrightAsWhite) {
     for (const BuiltinEnvironment& builtin : builtinEnvironments()) {
-        const Image map = builtin.makeMap();
+        const Image map = builtin.makeMap({});
         EXPECT_EQ(map.width, 2 * map.height);
         const glm::dvec3 white = onGround(map);
         EXPECT_GT(white.g, 0.5) << builtin.name;

@@ -31,15 +31,15 @@ protected:
         return result.value_or(ChosenEnvironment());
     }
     EnvironmentJob& job() { return job_; }
-    std::optional<double> shareAtEnd() const { return shareAtEnd_; } ///< filtered when the latest result was there
+    std::optional<EnvironmentShare> shareAtEnd() const { return shareAtEnd_; } ///< when the latest result was there
 
 private:
     std::mutex mutex_;
     std::condition_variable changed_;
     int results_ = 0, taken_ = 0;
-    std::optional<double> shareAtEnd_;
+    std::optional<EnvironmentShare> shareAtEnd_;
     EnvironmentJob job_{[this] {
-        const std::optional<double> share = job_.filteredShare();
+        const std::optional<EnvironmentShare> share = job_.share();
         const std::lock_guard lock(mutex_);
         shareAtEnd_ = share;
         ++results_;
@@ -60,21 +60,41 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
 }
 
-TEST_F(EnvironmentJobTest, itTellsHowMuchIsFilteredOfTheChoiceAlone) {
+TEST_F(EnvironmentJobTest, itTellsHowFarTheChoiceAloneIs) {
     const char* const kept = std::getenv("XDG_CACHE_HOME");
     const std::string before = kept != nullptr ? kept : "";
     const tessera::test::TempFolder folder; // where nothing is kept yet
     setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
-    EXPECT_FALSE(job().filteredShare());
+    EXPECT_FALSE(job().share());
     chosen("studio");
-    EXPECT_GT(shareAtEnd().value_or(0.0), 0.9);
-    EXPECT_FALSE(job().filteredShare()) << "it was taken";
+    ASSERT_TRUE(shareAtEnd());
+    EXPECT_TRUE(shareAtEnd()->isFiltering);
+    EXPECT_GT(shareAtEnd()->done, 0.9);
+    EXPECT_FALSE(job().share()) << "it was taken";
+    chosen("studio");
+    EXPECT_EQ(shareAtEnd(), (EnvironmentShare{false, 1.0})) << "its map was computed, and what it filters to was kept";
     chosen("none");
     EXPECT_FALSE(shareAtEnd()) << "there is nothing to filter";
     if (kept != nullptr)
         setenv("XDG_CACHE_HOME", before.c_str(), 1);
     else
         unsetenv("XDG_CACHE_HOME");
+}
+
+TEST(EnvironmentProgress, isTheMostThatWasToldAndFilteringComesAfterComputing) {
+    EnvironmentProgress progress;
+    EXPECT_FALSE(progress.latest());
+    progress.tell({false, 0.5});
+    progress.tell({false, 0.25}); // of another thread
+    EXPECT_EQ(progress.latest(), (EnvironmentShare{false, 0.5}));
+    progress.tell({false, 1.0});
+    progress.tell({true, 0.0});
+    EXPECT_EQ(progress.latest(), (EnvironmentShare{true, 0.0}));
+    progress.tell({false, 1.0});
+    progress.tell({true, 0.5});
+    EXPECT_EQ(progress.latest(), (EnvironmentShare{true, 0.5}));
+    progress.begin();
+    EXPECT_FALSE(progress.latest());
 }
 
 TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {

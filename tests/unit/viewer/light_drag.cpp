@@ -113,6 +113,33 @@ TEST(LightDrag, ofOneSideTheOppositeOneStays) {
         }
 }
 
+TEST(LightDrag, aCornerGoesWithThePointerInItsPlaneAndNotWhereItMakesNoOutline) {
+    const scenes::Light light = draggedLight(scenes::LightType::Polygon);
+    for (const PictureView& view : dragViews())
+        for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
+            if (handle.turns()) continue;
+            SCOPED_TRACE(handle.corner);
+            const glm::dvec2 way(12.0, -15.0);
+            const scenes::Light moved = draggedBy(light, view, handle, way);
+            scenes::Light expected = light; // nothing but that corner
+            expected.corners.metres[std::size_t(handle.corner)] = moved.corners.metres[std::size_t(handle.corner)];
+            EXPECT_TRUE(moved == expected);
+            // Of 1000 pixels; the corner is rounded to single precision.
+            EXPECT_LT(glm::distance(sameHandle(moved, view, handle.number).truePlace, handle.truePlace + way), 0.01);
+            const scenes::Light back = draggedBy(light, view, handle, {0.0, 0.0});
+            const std::size_t i = std::size_t(handle.corner);
+            EXPECT_LT(glm::distance(back.corners.metres[i], light.corners.metres[i]), 1e-6f);
+            // Beyond the edge from the next corner to the opposite one, which the edge before it would cross.
+            const auto placeOf = [&](int number) { return sameHandle(light, view, number % 4).truePlace; };
+            const glm::dvec2 middle = view.placeOf(light.positionWS).value();
+            const glm::dvec2 edge = 0.5 * (placeOf(handle.number + 1) + placeOf(handle.number + 2));
+            scenes::Light crossed = light;
+            LightDrag drag(light, lightFigure(light, view, 1.0), handle, view, handle.truePlace);
+            EXPECT_FALSE(drag.drag(crossed, 0.0, view, middle + 1.3 * (edge - middle), false));
+            EXPECT_TRUE(crossed == light);
+        }
+}
+
 TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
     for (const PictureView& view : dragViews())
         for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
@@ -120,7 +147,7 @@ TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
             SCOPED_TRACE(type.name);
             const scenes::Light light = draggedLight(type.type);
             const LightFigure figure = lightFigure(light, view, 1.0);
-            const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+            const auto handle = std::ranges::find(figure.handles, true, &LightHandle::turns);
             ASSERT_NE(handle, figure.handles.end());
             const glm::dvec3 armWS = handle->positionWS - figure.middleWS;
             scenes::Light turned = light;
@@ -153,7 +180,7 @@ TEST(LightDrag, aDirectionAtTheViewerIsTurnedTheWayThePointerGoes) {
             light.directionWS = side * view.towardsViewerWS(light.positionWS);
             light.alongWS = scenes::usualAlong(light.directionWS);
             const LightFigure figure = lightFigure(light, view, 1.0);
-            const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+            const auto handle = std::ranges::find(figure.handles, true, &LightHandle::turns);
             ASSERT_NE(handle, figure.handles.end());
             scenes::Light turned = light;
             LightDrag drag(light, figure, *handle, view, handle->place); // which is beside its true place
@@ -179,6 +206,10 @@ TEST(LightDrag, itsWordsNameTheMeasureAndItsUnit) {
         texts.push_back(LightDrag(light, figure, handle, view, handle.place).text(light));
     EXPECT_EQ(texts, (std::vector<std::string>{"Width 0.8 m", "Width 0.8 m", "Height 0.5 m", "Height 0.5 m",
                                                "Direction 0.00, -1.00, 0.00"}));
+    light = draggedLight(scenes::LightType::Polygon);
+    const LightFigure ofPolygon = lightFigure(light, view, 1.0);
+    const LightHandle& corner = ofPolygon.handles.at(1);
+    EXPECT_EQ(LightDrag(light, ofPolygon, corner, view, corner.place).text(light), "Corner 1 at 0.5, -0.5 m");
 }
 
 } // namespace

@@ -25,12 +25,12 @@ std::vector<PictureView> twoViews() {
 TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
     using Type = scenes::LightType;
     const std::map<Type, std::size_t> ofShape{
-        {Type::Rectangle, 4}, {Type::Disk, 4}, {Type::Sphere, 4}, {Type::Tube, 4}};
+        {Type::Rectangle, 4}, {Type::Disk, 4}, {Type::Sphere, 4}, {Type::Tube, 4}, {Type::Polygon, 4}};
     for (const PictureView& view : twoViews())
         for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
             SCOPED_TRACE(type.name);
             const LightFigure figure = lightFigure(askewLight(type.type), view, 1.0);
-            const auto turning = std::ranges::count(figure.handles, nullptr, &LightHandle::parameter);
+            const auto turning = std::ranges::count(figure.handles, true, &LightHandle::turns);
             EXPECT_EQ(turning, type.hasDirection ? 1 : 0);
             const std::size_t shaping = figure.handles.size() - std::size_t(turning);
             EXPECT_EQ(shaping, ofShape.contains(type.type) ? ofShape.at(type.type) : 0u);
@@ -54,11 +54,11 @@ TEST(LightFigure, theHandlesOfEveryTypeAreThoseOfTheDocument) {
         std::vector<std::string> square;
         std::string round;
         for (const LightHandle& handle : lightFigure(askewLight(type.type), twoViews()[0], 1.0).handles) {
-            if (handle.parameter == nullptr) {
+            if (handle.turns()) {
                 round = "direction";
                 continue;
             }
-            std::string label = handle.parameter->label;
+            std::string label = handle.parameter != nullptr ? handle.parameter->label : "corners";
             label[0] = char(std::tolower(static_cast<unsigned char>(label[0])));
             if (std::ranges::find(square, label) == square.end()) square.push_back(label);
         }
@@ -163,13 +163,13 @@ TEST(LightFigure, aDirectionTowardsTheViewerOrAwayIsTakenBesideTheMarker) {
                 light.alongWS = scenes::usualAlong(light.directionWS);
                 const LightFigure figure = lightFigure(light, view, 1.0);
                 const glm::dvec2 marker = view.placeOf(light.positionWS).value();
-                const auto handle = std::ranges::find(figure.handles, nullptr, &LightHandle::parameter);
+                const auto handle = std::ranges::find(figure.handles, true, &LightHandle::turns);
                 ASSERT_NE(handle, figure.handles.end());
                 EXPECT_LT(glm::distance(handle->truePlace, marker), 1e-6);
                 // A press takes what is nearest within 9, of all handles and the marker.
                 EXPECT_GT(glm::distance(handle->place, marker), 18.0);
                 for (const LightHandle& other : figure.handles)
-                    if (other.parameter != nullptr) {
+                    if (!other.turns()) {
                         EXPECT_GT(glm::distance(handle->place, other.place), 18.0);
                     }
             }
@@ -204,8 +204,7 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     wide.directionWS = twoViews()[0].towardsViewerWS(wide.positionWS);
     wide.alongWS = twoViews()[0].rightWS();
     wide.widthMetres = wide.heightMetres = 100.0f;
-    for (const LightHandle& handle : lightFigure(wide, twoViews()[0], 1.0).handles)
-        EXPECT_EQ(handle.parameter, nullptr);
+    for (const LightHandle& handle : lightFigure(wide, twoViews()[0], 1.0).handles) EXPECT_TRUE(handle.turns());
     const PictureView away({test::perspective({5.0, 0.0, 0.0}, {9.0, 0.0, 0.0})}, kFigurePicture);
     EXPECT_TRUE(lightFigure(light, away, 1.0).handles.empty());
     // From inside nothing is seen of a sphere's outline.
@@ -214,6 +213,49 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     const LightFigure inside = lightFigure(around, along, 1.0);
     EXPECT_TRUE(inside.handles.empty());
     EXPECT_TRUE(inside.outlinesWS.empty());
+}
+
+TEST(LightFigure, noHandleLiesOnAnotherWhateverTheShapesSizeAndTurn) {
+    // Radii and sides from less than a pixel to more than the arm of a direction, and directions all around.
+    for (const PictureView& view : twoViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes())
+            for (double metres = 0.001; metres < 1.0; metres *= 1.13)
+                for (int turn = 0; turn < 12; ++turn) {
+                    SCOPED_TRACE(fmt::format("{} of {} m, turn {}", type.name, metres, turn));
+                    const double height = turn / 6.0 - 0.9, angle = 2.0 * turn;
+                    scenes::Light light = askewLight(type.type);
+                    light.directionWS = glm::normalize(glm::dvec3(std::cos(angle), height, std::sin(angle)));
+                    if (turn % 4 == 0) light.directionWS = -view.towardsViewerWS(light.positionWS);
+                    light.alongWS = scenes::usualAlong(light.directionWS);
+                    light.radiusMetres = light.lengthMetres = light.widthMetres = float(metres);
+                    light.heightMetres = float(0.7 * metres);
+                    for (std::size_t i = 0; i < light.corners.count; ++i) light.corners.metres[i] *= float(metres);
+                    const std::vector<LightHandle> handles = lightFigure(light, view, 1.0).handles;
+                    for (std::size_t i = 0; i < handles.size(); ++i)
+                        for (std::size_t other = 0; other < i; ++other) // a press takes what lies within 9
+                            ASSERT_GT(glm::distance(handles[i].place, handles[other].place), 18.0)
+                                << handles[i].number << " and " << handles[other].number;
+                }
+}
+
+TEST(LightFigure, aPolygonHasAHandleAtEachCornerUnlessItIsSeenFromItsEdge) {
+    scenes::Light light = askewLight(scenes::LightType::Polygon);
+    ASSERT_TRUE(light.corners.add({-0.7f, 0.1f}));
+    for (const PictureView& view : twoViews()) {
+        const LightFigure figure = lightFigure(light, view, 1.0);
+        const auto outlineWS = figure.outlinesWS.at(0);
+        ASSERT_EQ(figure.handles.size(), 6u);
+        for (std::size_t i = 0; i < 5; ++i) {
+            EXPECT_EQ(figure.handles[i].corner, int(i));
+            EXPECT_EQ(figure.handles[i].positionWS, outlineWS[i]);
+            EXPECT_EQ(pointerShapeOf(figure.handles[i]), PointerShape::AnyWay);
+        }
+        EXPECT_TRUE(figure.handles[5].turns());
+    }
+    light.directionWS = {0.0, -1.0, 0.0};
+    light.alongWS = {1.0, 0.0, 0.0};
+    const PictureView along({test::perspective({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}, kFigurePicture);
+    for (const LightHandle& handle : lightFigure(light, along, 1.0).handles) EXPECT_TRUE(handle.turns());
 }
 
 TEST(LightFigure, theNearestHandleWithinReachIsTaken) {

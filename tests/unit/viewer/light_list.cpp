@@ -200,6 +200,67 @@ TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     EXPECT_EQ(light.radiusMetres, 0.125f) << "it has one already";
 }
 
+/// A light of a type with all that lights can have, and without a radius where it shines without one.
+scenes::Light lightOfAll(const scenes::LightTypeInfo& type) {
+    scenes::Light light;
+    light.name = "lamp";
+    light.type = type.type;
+    light.color = {0.1f, 0.2f, 0.3f};
+    light.directionWS = glm::normalize(glm::dvec3(0.8, 0.1, 0.2));
+    light.alongWS = scenes::usualAlong(light.directionWS);
+    light.radiusMetres = type.isArea ? 0.3f : 0.0f;
+    light.falloff = type.isArea ? scenes::Falloff::InverseSquare : scenes::Falloff::Attenuation;
+    light.attenuation = {1.0f, 0.5f, 0.25f};
+    light.rangeMetres = 7.0f;
+    light.widthMetres = 0.7f;
+    light.heightMetres = 0.4f;
+    light.lengthMetres = 1.7f;
+    light.corners.metres[1] = {0.9f, -0.8f};
+    light.isTwoSided = true;
+    scenes::LightKeys& keys = light.keyframes.emplace_back();
+    keys.of = scenes::LightKeyed::Direction;
+    keys.timesSeconds = {1.0};
+    keys.values = {light.directionWS};
+    return light;
+}
+
+TEST(LightList, aTypeThatComesBackBringsAllThatTheLightHad) {
+    for (const scenes::LightTypeInfo& first : scenes::lightTypes())
+        for (const scenes::LightTypeInfo& second : scenes::lightTypes())
+            for (const scenes::LightTypeInfo& third : scenes::lightTypes()) {
+                const Lights lights{lightOfAll(first)};
+                scenes::Light light = lights[0];
+                TypeChooser chooser;
+                for (const scenes::LightType type : {second.type, third.type, first.type})
+                    chooser.choose(lights, 0, light, type, 10.0);
+                EXPECT_TRUE(light == lights[0]) << first.name << ", " << second.name << ", " << third.name;
+            }
+}
+
+TEST(LightList, whatWasChangedMeanwhileStaysAndOtherLightsGetNothing) {
+    Lights lights{lightOfAll(scenes::infoOf(scenes::LightType::Point)), scenes::Light()};
+    lights[1].name = "other";
+    TypeChooser chooser;
+    scenes::Light light = lights[0], other = lights[1];
+    chooser.choose(lights, 0, light, scenes::LightType::Disk, 10.0);
+    light.radiusMetres = 0.75f;
+    light.widthMetres = 2.5f;
+    other.type = scenes::LightType::Disk;
+    other.radiusMetres = 0.5f;
+    chooser.choose(lights, 1, other, scenes::LightType::Point, 10.0);
+    EXPECT_EQ(other.falloff, scenes::Falloff::InverseSquare);
+    EXPECT_EQ(other.radiusMetres, 0.5f);
+    chooser.choose(lights, 0, light, scenes::LightType::Point, 10.0);
+    EXPECT_EQ(light.radiusMetres, 0.75f);
+    EXPECT_EQ(light.widthMetres, 2.5f);
+    EXPECT_EQ(light.falloff, scenes::Falloff::Attenuation);
+    // Another scene.
+    chooser.choose(lights, 0, light, scenes::LightType::Disk, 10.0);
+    chooser.forget();
+    chooser.choose(lights, 0, light, scenes::LightType::Point, 10.0);
+    EXPECT_EQ(light.falloff, scenes::Falloff::InverseSquare);
+}
+
 TEST(LightList, cornersOfAPolygonNeverMakeNoOutline) {
     scenes::Light light;
     light.type = scenes::LightType::Polygon; // a square of 1 m

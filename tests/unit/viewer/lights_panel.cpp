@@ -1,4 +1,5 @@
 // The rows of a light, by its type.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,50 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
         EXPECT_EQ(isIn(text, "Range"), type.hasPosition()) << text;
         EXPECT_NE(text.find(fmt::format(" {} }}\n", type.unit)), std::string::npos) << type.unit << " in" << text;
     }
+}
+
+TEST_F(LightRows, ofWhatShinesStandTogetherBeforeAllElse) {
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+        scenes::Scene scene = scenes::loadScene("room", {});
+        scene.lights.assign(1, {});
+        scene.lights[0].type = type.type;
+        State state = test::stateOf(std::move(scene));
+        state.selectedLight = 0;
+        const std::string text = textOf([&] { lightsPanel(state); });
+        const auto at = [&](const std::string& label) {
+            return std::min(text.find("\n" + label + " "), text.find("\n" + label + "\n"));
+        };
+        std::vector<std::string> shape;
+        for (const scenes::LightParameter& parameter : type.parameters) shape.emplace_back(parameter.label);
+        if (type.hasCorners()) shape.insert(shape.end(), {"Corner 0", "Corner 3", "Corners"});
+        const scenes::LightParameter* const size = scenes::sizeParameter(type);
+        if (size != nullptr && type.isArea) shape.emplace_back(size->label);
+        for (const std::string& label : shape) {
+            EXPECT_LT(at(label), at(type.isArea ? "Surface" : "Shadow")) << type.name << " " << label << text;
+            if (type.hasPosition()) {
+                EXPECT_LT(at(label), at("Position")) << type.name << " " << label << text;
+            }
+        }
+        if (size != nullptr && !type.isArea) {
+            EXPECT_GT(at(size->label), at("Shadow")) << "it softens shadows: " << text;
+        }
+    }
+}
+
+TEST_F(LightRows, areNotWiderThanThePanel) {
+    const auto contentWidth = [&](scenes::LightType type) {
+        scenes::Scene scene = scenes::loadScene("room", {});
+        scene.lights.assign(1, {});
+        scene.lights[0].type = type;
+        State state = test::stateOf(std::move(scene));
+        state.selectedLight = 0;
+        show([&] { lightsPanel(state); });
+        return ImGui::FindWindowByName("panel")->ContentSize.x;
+    };
+    // Those of a rectangle fill the panel's width.
+    const float panelWidth = contentWidth(scenes::LightType::Rectangle);
+    for (const scenes::LightTypeInfo& type : scenes::lightTypes())
+        EXPECT_LE(contentWidth(type.type), panelWidth) << type.name;
 }
 
 TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {

@@ -105,7 +105,7 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
         const std::array<std::string, 5> texts{textOf([&] { framePanel(state); }),
                                                textOf([&] { shadowsPanel(state, {}); }),
                                                textOf([&] { viewPanel(state); }), textOf([&] { skinPanel(state); }),
-                                               textOf([&] { environmentPanel(state); })};
+                                               textOf([&] { environmentPanel(state, {}); })};
         for (const engine::Setting& setting : engine::settingTable()) {
             const bool isShown[] = {
                 setting.panel == engine::SettingPanel::Frame, setting.panel == engine::SettingPanel::Shadows,

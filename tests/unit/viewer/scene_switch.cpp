@@ -21,9 +21,10 @@ using testing::HasSubstr;
 class SceneSwitchTest : public testing::Test {
 protected:
     SceneSwitchTest() {
-        options_.lookOf = [this](const scenes::Scene& scene, const std::string&, bool first) {
+        options_.lookOf = [this](const scenes::Scene& scene, const std::string& source, bool first) {
             firsts_.push_back(first);
             FirstLook look;
+            engine::takeWishes(scene, source, look.look);
             if (!first) return look;
             if (saidCamera_ >= int(scene.cameras.size())) throw InputError("no such camera");
             look.look.settings.camera = saidCamera_;
@@ -129,13 +130,37 @@ TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNotCountsAsMovedWhenItsFileI
     ASSERT_TRUE(open("room"));
     moveCamera();
     const std::string file = (folder_.path() / "saved.json").string();
-    saveScene(file, state_.open->scene(), state_.open->origin());
-    state_.open->becomes(file);
+    saveOpenScene(state_, file);
     const scenes::Camera saved = shown();
     ASSERT_TRUE(open("room"));
     ASSERT_TRUE(open(file));
     EXPECT_EQ(shown(), saved);
     EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
+}
+
+TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOfOtherScenes) {
+    folder_.write("even.pfm", "PF\n1 1\n-1.0\n" + std::string(12, '?')); // 0.747 thrice
+    const auto turned = [&](const std::string& name, int degrees) {
+        return folder_
+            .write(name, R"({"tessera": 1, "base": {"file": "builtin:room"}, "environment": {"map": "even.pfm"},
+                "options": {"environmentRotation": )" +
+                             std::to_string(degrees) + "}}")
+            .string();
+    };
+    const auto degrees = [&] { return state_.looks[0].settings.environment.rotationDegrees; };
+    const auto seen = [&] { return state_.open->scene().environment.value().rotationDegrees + degrees(); };
+    ASSERT_TRUE(open(turned("a.json", 25)));
+    EXPECT_EQ(degrees(), 25.0f);
+    for (Look& look : state_.looks) look.settings.environment.rotationDegrees = 40.0f;
+    const std::string file = (folder_.path() / "saved.json").string();
+    saveOpenScene(state_, file);
+    switch_.noteSaved();
+    EXPECT_EQ(seen(), 40.0f);
+    ASSERT_TRUE(open(turned("b.json", 10)));
+    EXPECT_EQ(degrees(), 10.0f) << "as it asks for itself";
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(seen(), 40.0f);
+    EXPECT_EQ(degrees(), 0.0f);
 }
 
 TEST_F(SceneSwitchTest, aCameraThatTheFileLacksIsNotRestored) {

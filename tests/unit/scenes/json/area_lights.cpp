@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "scenes/AreaLight.h"
@@ -137,6 +139,25 @@ TEST(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
     EXPECT_LT(glm::distance(light.directionWS, glm::dvec3(-1, 0, 0)), 1e-12);
     EXPECT_LT(glm::distance(light.alongWS, glm::dvec3(0, 0, -1)), 1e-12);
     EXPECT_EQ(light.widthMetres, 2.0f) << "scales change directions alone";
+}
+
+TEST(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreToldInOneLine) {
+    const SceneFolder folder;
+    const auto warningsOf = [&](const std::string& lights) {
+        return loadScene(folder.write("areas.json", R"({"tessera": 1, "lights": [)" + lights + "]}").string()).warnings;
+    };
+    const auto panel = [](const char* name, const char* more) {
+        return fmt::format(
+            R"({{"name": "{}", "type": "rectangle", "position": [0, 0, 0], "direction": [0, 0, 1], {}}})", name, more);
+    };
+    const auto isOf = [](const std::string& warning) { return warning.find("area of 0") != std::string::npos; };
+    const std::string good = panel("lamp", R"("width": 0.001)"), off = panel("off", R"("width": 0, "enabled": false)"),
+                      flat = panel("sign", R"("width": 0)"), gone = panel("door", R"("height": 0)");
+    EXPECT_EQ(std::ranges::count_if(warningsOf(good + "," + off), isOf), 0);
+    const std::vector<std::string> ofOne = warningsOf(good + "," + flat), ofTwo = warningsOf(flat + "," + gone);
+    EXPECT_EQ(std::ranges::count(ofOne, "the light 'sign' has an area of 0 and stays dark; give it a size"), 1);
+    EXPECT_EQ(std::ranges::count(ofTwo, "2 lights have an area of 0 and stay dark, first 'sign'; give them a size"), 1);
+    EXPECT_EQ(std::ranges::count_if(ofTwo, isOf), 1);
 }
 
 TEST(SceneJsonAreaLights, anIncludedPolygonIsMirroredWithItsPart) {
