@@ -1,0 +1,251 @@
+// What the split sum does between its exact cases: known answers that the reference's wide bars do not hold, and faults
+// in shaders that each of them alone must see.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "shaders/shared/environment.h"
+#include "shaders/shared/models.h"
+#include "tests/image/GlassTest.h"
+#include "tests/support/ShaderMutant.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using namespace test;
+
+/// Each error is in parts of what is allowed.
+class EnvironmentLobes : public EnvironmentTest {
+public:
+    double errorOfMirrorBlend(const shader::SourceTree& shaders);
+    double errorOfBounces(const shader::SourceTree& shaders);
+    double errorOfBrushing(const shader::SourceTree& shaders);
+    double errorOfStreak(const shader::SourceTree& shaders);
+    double errorOfBrushedGlass(const shader::SourceTree& shaders);
+
+protected:
+    static scenes::Material whiteMetal() {
+        scenes::Material metal;
+        metal.metallic = 1.0f;
+        return metal;
+    }
+    /// Of these alphas along and across the tangent: alpha is the square of roughness, and the larger one lies
+    /// strength^2 of the way from it to 1 (KHR_materials_anisotropy).
+    static void brush(scenes::Material& material, double along, double across) {
+        material.perceptualRoughness = float(std::sqrt(across));
+        material.anisotropyStrength = float(std::sqrt((along - across) / (1.0 - across)));
+    }
+    /// A quad so far away that one direction sees all of the picture.
+    static scenes::Scene flatQuad(const scenes::Material& material, double cosView = 1.0) {
+        scenes::Scene scene = quadScene(material);
+        scenes::Camera& camera = scene.cameras[0];
+        camera.projection = scenes::Projection::Orthographic;
+        camera.halfHeightMetres = 0.05;
+        const double sine = std::sqrt(1.0 - cosView * cosView);
+        camera.worldFromCamera = glm::dmat4(1.0);
+        camera.worldFromCamera[0] = {cosView, 0.0, -sine, 0.0};
+        camera.worldFromCamera[2] = {sine, 0.0, cosView, 0.0};
+        camera.worldFromCamera[3] = {2.0 * sine, 0.0, 2.0 * cosView, 1.0};
+        return scene;
+    }
+    /// Red of its middle; forward stores no surface, and so rounds no alpha.
+    double shown(const scenes::Scene& scene, const shader::SourceTree& shaders, bool compensates = false) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {2, 2};
+        settings.environment.compensates = compensates;
+        return double(engine::Renderer(context(), scene, shaders).render(Technique::Forward, settings).radiance[0]);
+    }
+};
+
+/// Below the first level (0.01 - alpha) / 0.009 of a lobe is a mirror. Seen straight on all look where the sun stands,
+/// whose texel a mirror shows, and the first level half as bright at most.
+double EnvironmentLobes::errorOfMirrorBlend(const shader::SourceTree& shaders) {
+    constexpr double kSun = 100.0;
+    scenes::Scene scene = flatQuad(whiteMetal());
+    // Odd sides: the middle of a texel looks along +z where the map is turned by half a turn.
+    scene.environment =
+        environmentOf(255, 127, [](int x, int y) { return glm::dvec3(x == 127 && y == 63 ? kSun : 0.0); });
+    scene.environment->rotationDegrees = 180.0f;
+    const auto ofAlpha = [&](double alpha) {
+        scene.materials[0].perceptualRoughness = float(std::sqrt(alpha));
+        return shown(scene, shaders);
+    };
+    const double mirror = ofAlpha(ALPHA_MIN), least = ofAlpha(ENVIRONMENT_LEAST_ALPHA);
+    constexpr double kAllowed = 1e-3 * kSun; // angles in fp32 are good to a thousandth of a texel
+    double worst = std::max(std::abs(mirror - kSun), 2.0 * kAllowed * std::max(least / mirror - 0.5, 0.0));
+    for (const double share : {0.2, 0.5, 0.8}) {
+        const double wanted = share * mirror + (1.0 - share) * least;
+        worst = std::max(worst, std::abs(ofAlpha(ENVIRONMENT_LEAST_ALPHA - 0.009 * share) - wanted));
+    }
+    return worst / kAllowed;
+}
+
+/// A grey metal in even light: what it reflects once, F0 A + B of the published table (shading.md section 6), times
+/// what comes back, 1 + F' lost / (1 - F' lost), with the mean F' of its Fresnel factor (Fdez-Aguera 2019).
+double EnvironmentLobes::errorOfBounces(const shader::SourceTree& shaders) {
+    constexpr double kStraight = 0.5, kMean = kStraight + (1.0 - kStraight) / 21.0;
+    constexpr double kRoughness[] = {0.5, 0.75, 1.0}, kCosines[] = {0.1, 0.5, 1.0};
+    constexpr double kA[3][3] = {{.7519, .8349, .9158}, {.7958, .6547, .6268}, {.7363, .4477, .3067}};
+    constexpr double kB[3][3] = {{.1397, .0223, .0}, {.0526, .0085, .0}, {.0239, .0030, .0}};
+    double worst = 0.0;
+    for (int r = 0; r < 3; ++r)
+        for (int m = 0; m < 3; ++m) {
+            scenes::Scene scene = flatQuad(whiteMetal(), kCosines[m]);
+            scene.materials[0].baseColor = glm::vec4(glm::vec3(float(kStraight)), 1.0f);
+            scene.materials[0].perceptualRoughness = float(kRoughness[r]);
+            scene.environment = evenEnvironment(1.0);
+            const double once = kStraight * kA[r][m] + kB[r][m], lost = 1.0 - kA[r][m] - kB[r][m];
+            const double wanted = once * (1.0 + kMean * lost / (1.0 - kMean * lost));
+            worst = std::max(worst, std::abs(shown(scene, shaders, true) - wanted));
+        }
+    return worst / 1.5e-3; // of the lobe's table 1e-3, of what comes back half of it
+}
+
+/// Of a lobe seen straight on, the mean of x^2 - y^2 over the directions of its light, x along the tangent. By facets
+/// of all slopes, as their density weighs them, times height-correlated masking with the alpha along the light (Heitz
+/// 2014).
+double stretchOfLobe(double along, double across) {
+    constexpr int kRings = 400, kTurns = 96;
+    double sum = 0.0, weights = 0.0;
+    for (int i = 0; i < kRings; ++i)
+        for (int j = 0; j < kTurns; ++j) {
+            const double below = (i + 0.5) / kRings, radius = std::sqrt(below / (1.0 - below));
+            const double turn = 2.0 * std::numbers::pi * (j + 0.5) / kTurns;
+            const glm::dvec3 half =
+                glm::normalize(glm::dvec3(along * radius * std::cos(turn), across * radius * std::sin(turn), 1.0));
+            const glm::dvec3 light(2.0 * half.z * half.x, 2.0 * half.z * half.y, 2.0 * half.z * half.z - 1.0);
+            if (!(light.z > 0.0)) continue;
+            const double slope2 =
+                (along * along * light.x * light.x + across * across * light.y * light.y) / (light.z * light.z);
+            const double weight = 2.0 / (1.0 + std::sqrt(1.0 + slope2));
+            weights += weight;
+            sum += weight * (light.x * light.x - light.y * light.y);
+        }
+    return sum / weights;
+}
+
+/// In light of 1 + x^2 - y^2 a lobe that is long along x gains, and would lose the same if its axes were swapped. The
+/// split sum weighs its taps by the cosine in place of masking, and so finds 0.8 of that; taps as wide as can be 0.27.
+double EnvironmentLobes::errorOfBrushing(const shader::SourceTree& shaders) {
+    constexpr double kAlong = 0.7, kAcross = 0.16, kFound = 0.8, kAllowed = 0.2;
+    scenes::Scene scene = flatQuad(whiteMetal());
+    brush(scene.materials[0], kAlong, kAcross);
+    scene.environment = evenEnvironment(1.0);
+    const double even = shown(scene, shaders);
+    scene.environment = environmentOf(kSkyWidth, kSkyHeight, [](int x, int y) {
+        const glm::dvec3 towards = scenes::directionInMap({(x + 0.5) / kSkyWidth, (y + 0.5) / kSkyHeight});
+        return glm::dvec3(1.0 + towards.x * towards.x - towards.y * towards.y);
+    });
+    const double found = (shown(scene, shaders) / even - 1.0) / stretchOfLobe(kAlong, kAcross);
+    return std::abs(found - kFound) / kAllowed;
+}
+
+/// A lamp of 5 x 5 texels, 7 degrees wide, in the streak that a brushed metal makes of it: how far it falls between two
+/// places that are brighter. Taps as wide as their gaps leave 0.14, as levels between two keep the peak of the sharper;
+/// taps as narrow as the shorter axis are dots, and leave 0.94.
+double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
+    constexpr double kAllowed = 0.4;
+    constexpr int kStreakPixels = 64;
+    constexpr TiltedPlane kPlane{0.35, 50.0, 1.4, kStreakPixels};
+    scenes::Material metal = whiteMetal();
+    brush(metal, 0.4, 0.01);
+    scenes::Scene scene = kPlane.sceneOf(metal);
+    // Where the normal looks, which the viewer sees mirrored where the plane faces him.
+    const glm::ivec2 lamp(scenes::placeInMap(kPlane.normal()) * glm::dvec2(kSkyWidth, kSkyHeight));
+    scene.environment = skyOf([&](int x, int y) {
+        const int across = std::min(std::abs(x - lamp.x % kSkyWidth), kSkyWidth - std::abs(x - lamp.x % kSkyWidth));
+        return across <= 2 && std::abs(y - lamp.y) <= 2 ? 100.0 : 0.0;
+    });
+    int row = 0;
+    for (int y = 0; y < kStreakPixels; ++y)
+        if (glm::dot(kPlane.toViewer(kStreakPixels / 2, y), kPlane.normal()) >
+            glm::dot(kPlane.toViewer(kStreakPixels / 2, row), kPlane.normal()))
+            row = y;
+    frame::FrameSettings settings;
+    settings.sizePixels = {kStreakPixels, kStreakPixels};
+    const std::vector<float> radiance =
+        engine::Renderer(context(), scene, shaders).render(Technique::Forward, settings).radiance;
+    std::vector<double> streak;
+    for (int x = 0; x < kStreakPixels; ++x)
+        streak.push_back(double(radiance[std::size_t(4 * (row * kStreakPixels + x))]));
+    double deepest = 0.0;
+    for (auto at = streak.begin(); at != streak.end(); ++at) {
+        const double beside = std::min(*std::max_element(streak.begin(), at + 1), *std::max_element(at, streak.end()));
+        if (beside > 0.0) deepest = std::max(deepest, 1.0 - *at / beside);
+    }
+    return deepest / kAllowed;
+}
+
+/// A brushed sheet passes what the table says that a lobe of the root of its alphas' mean square does not reflect:
+/// 0.5 E(0.5) here, by specularFactor and an index without bound (shading.md section 6).
+double EnvironmentLobes::errorOfBrushedGlass(const shader::SourceTree& shaders) {
+    double worst = 0.0;
+    for (const auto& [cosView, albedo] : {std::pair(1.0, .6879), {0.5, .6982}, {0.25, .7652}}) {
+        scenes::Material glass = clearGlass();
+        glass.specularFactor = 0.5f;
+        glass.ior = 0.0f;
+        brush(glass, 0.7, 0.1);
+        scenes::Scene scene = flatQuad(glass, cosView);
+        scene.background = glm::vec3(1.0f);
+        worst = std::max(worst, std::abs(shown(scene, shaders) - (1.0 - 0.5 * albedo)));
+    }
+    return worst / 1e-3; // of the table
+}
+
+TEST_F(EnvironmentLobes, belowTheFirstLevelAreMirrorsByTheShareThatTheDocumentSays) {
+    EXPECT_LE(errorOfMirrorBlend({}), 1.0);
+}
+TEST_F(EnvironmentLobes, ofGreyMetalsGetBackWhatFdezAgueraSays) {
+    EXPECT_LE(errorOfBounces({}), 1.0);
+}
+TEST_F(EnvironmentLobes, ofBrushedMetalsAreLongAlongTheLargerAlpha) {
+    EXPECT_LE(errorOfBrushing({}), 1.0);
+}
+TEST_F(EnvironmentLobes, ofBrushedMetalsShowALampAsAStreakWithoutDots) {
+    EXPECT_LE(errorOfStreak({}), 1.0);
+}
+TEST_F(EnvironmentLobes, ofBrushedGlassKeepWhatTheTableSaysOfTheirMeanAlpha) {
+    EXPECT_LE(errorOfBrushedGlass({}), 1.0);
+}
+
+struct LobeFault {
+    const char* fault;
+    const char* file; ///< below shaders/
+    const char* from;
+    const char* to;
+    double (EnvironmentLobes::*errorOf)(const shader::SourceTree& shaders); ///< the one that must see it
+};
+
+constexpr LobeFault kLobeFaults[] = {
+    {"the share of a mirror squared", "lib/reflectance/mirrors.glsl", "(ENVIRONMENT_LEAST_ALPHA - ALPHA_MIN), 0.0);",
+     "(ENVIRONMENT_LEAST_ALPHA - ALPHA_MIN), 0.0);\n    share *= share;", &EnvironmentLobes::errorOfMirrorBlend},
+    {"bounces without their Fresnel factor", "lib/reflectance/lobes.glsl", "once * mean * lost /", "once * lost /",
+     &EnvironmentLobes::errorOfBounces},
+    {"a brushed lobe across its axis", "lib/environment/environment_filtered.glsl",
+     "surface.alphaBitangent ? surface.tangentLS : across", "surface.alphaBitangent ? across : surface.tangentLS",
+     &EnvironmentLobes::errorOfBrushing},
+    {"taps as wide as can be", "lib/environment/environment_filtered.glsl", "min(max(narrow, gap / 1.28), 1.0)", "1.0",
+     &EnvironmentLobes::errorOfBrushing},
+    {"taps as narrow as the shorter axis", "lib/environment/environment_filtered.glsl", "max(narrow, gap / 1.28)",
+     "narrow", &EnvironmentLobes::errorOfStreak},
+    {"glass by one of two alphas", "lib/lighting/transmission.glsl", "float alpha = lobeAlpha(seen.surface), ofMirror",
+     "float alpha = seen.surface.alpha, ofMirror", &EnvironmentLobes::errorOfBrushedGlass},
+};
+
+TEST_F(EnvironmentLobes, everyFaultIsSeenByItsKnownAnswer) {
+    for (const LobeFault& fault : kLobeFaults) {
+        const ShaderMutant shaders;
+        shaders.replace(fault.file, fault.from, fault.to);
+        const double error = (this->*fault.errorOf)(shaders.tree());
+        fmt::print("{:38} {:.1f} times what is allowed\n", fault.fault, error);
+        EXPECT_FALSE(error <= 1.5) << fault.fault; // NaN counts as seen
+    }
+}
+
+} // namespace
+} // namespace tessera
