@@ -175,12 +175,12 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
     for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);
-    // The rougher a lobe, the smaller the level of a large map: about as much work for each.
+    // The smaller a level, the more samples: about as much work for each. Narrow lobes need fewer.
     double work = 0.0, done = 0.0;
-    const auto samplesOf = [](int level) {
-        constexpr int kLeastSamples = 32, kMostSamples = 1024;
-        const int narrower = filteredSide(0, 0) / filteredSide(0, level);
-        return std::min(kLeastSamples * narrower * narrower, kMostSamples);
+    const auto samplesOf = [halvings](int level) {
+        constexpr int kLeastSamples = 32, kMostSamples = 1024, kMostOfNarrow = 256, kFirstWide = 6;
+        const int narrower = filteredSide(0, 0) / filteredSide(halvings, level);
+        return std::min(kLeastSamples * narrower * narrower, level < kFirstWide ? kMostOfNarrow : kMostSamples);
     };
     const auto workOf = [&](int level) {
         const int rows = filteredSide(halvings, level) + 1;

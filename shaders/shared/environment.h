@@ -7,8 +7,8 @@
 #define ENVIRONMENT_SPLIT_SUM 1
 #define ENVIRONMENT_SAMPLED 2
 
-// Alpha of level 0 of the filtered map; the last has alpha 1, and each in between the same times the one before. Below the
-// first lobes see the map itself.
+// Alpha of level 0 of the filtered map; the last has alpha 1, and each in between the same times the one before. Below
+// the first lobes see the map itself.
 #define ENVIRONMENT_LEAST_ALPHA 0.01
 #define ENVIRONMENT_LEVELS 10
 // Texels along the square that large maps are filtered from; smaller ones are from one that is halved a few times.
@@ -38,8 +38,8 @@ SHARED_FUNCTION float filteredPlace(float alpha) {
     return place;
 }
 
-// Cells along the square of a level of the filtered map, which has a texel at each of their corners: as many as its lobe
-// needs, the same for two levels each, but no more than the map has.
+// Cells along the square of a level of the filtered map, which has a texel at each of their corners: as many as its
+// lobe needs, the same for two levels each, but no more than the map has.
 SHARED_FUNCTION int filteredSide(int halvings, int level) {
     return (ENVIRONMENT_MOST_SIDE / 2) >> max(halvings, level / 2);
 }

@@ -177,8 +177,7 @@ TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
     ASSERT_EQ(filtered.levels.size(), std::size_t(kLevels));
     EXPECT_NEAR(alphaOfLevel(0), ENVIRONMENT_LEAST_ALPHA, 1e-12);
     EXPECT_EQ(alphaOfLevel(kLevels - 1), 1.0);
-    for (int i = 0; i < kLevels; ++i)
-        EXPECT_NEAR(shared::filteredPlace(float(alphaOfLevel(i))), float(i), 1e-5f);
+    for (int i = 0; i < kLevels; ++i) EXPECT_NEAR(shared::filteredPlace(float(alphaOfLevel(i))), float(i), 1e-5f);
     const std::vector<glm::vec4> atlas = atlasOf(filtered);
     const glm::ivec2 size = atlasTexels(halvings);
     ASSERT_EQ(atlas.size(), std::size_t(size.x) * std::size_t(size.y));

@@ -56,7 +56,7 @@ TEST(EditedFeatures, changeWithEditsThatNeedOtherPrograms) {
     expectOther("shadows", [](scenes::Scene& its) { its.lights[0].castsShadow = true; });
     expectOther("another model", [](scenes::Scene& its) {
         for (scenes::Material& material : its.materials)
-            material.model = material.model == scenes::MaterialModel::Lambert ? scenes::MaterialModel::Phong
+            material.model = material.model == scenes::MaterialModel::Lambert ? scenes::MaterialModel::BlinnPhong
                                                                               : scenes::MaterialModel::Lambert;
     });
 }
