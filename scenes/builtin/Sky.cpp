@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,31 +78,39 @@ glm::dvec3 sunlight(double radius, double cosine) {
     return glm::exp(-depth);
 }
 
-/// A table over height and the sun's cosine to the zenith, interpolated.
+/// A table over height and the sun's cosine to the zenith, from `low` to `high`, interpolated.
 class Table {
 public:
     template <typename Function>
-    explicit Table(const Function& value) : values_(std::size_t(kSide) * kSide) {
-        tbb::parallel_for(0, kSide, [&](int row) {
-            for (int column = 0; column < kSide; ++column)
-                values_[std::size_t(row) * kSide + std::size_t(column)] =
-                    value(kGroundRadius + heightOf(row / (kSide - 1.0)), -1.0 + 2.0 * column / (kSide - 1.0));
+    Table(double low, double high, const Function& value)
+        : low_(low), columns_(std::max(2, int(std::ceil((high - low) / kStep)) + 1)),
+          values_(std::size_t(kRows) * std::size_t(columns_)) {
+        tbb::parallel_for(0, kRows, [&](int row) {
+            for (int column = 0; column < columns_; ++column)
+                values_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)] =
+                    value(kGroundRadius + heightOf(row / (kRows - 1.0)), std::min(low + kStep * column, 1.0));
         });
     }
     glm::dvec3 at(double radius, double cosine) const {
         const double height = std::clamp((radius - kGroundRadius) / (kAirRadius - kGroundRadius), 0.0, 1.0);
-        const glm::dvec2 place = double(kSide - 1) * glm::dvec2(0.5 * (cosine + 1.0), std::sqrt(height));
-        const glm::dvec2 cell = glm::min(glm::floor(place), glm::dvec2(kSide - 2.0)), share = place - cell;
+        const glm::dvec2 place((cosine - low_) / kStep, (kRows - 1.0) * std::sqrt(height));
+        const glm::dvec2 last(columns_ - 2.0, kRows - 2.0);
+        const glm::dvec2 cell = glm::clamp(glm::floor(place), glm::dvec2(0.0), last);
+        const glm::dvec2 share = glm::clamp(place - cell, 0.0, 1.0);
         const auto value = [&](int x, int y) {
-            return values_[(std::size_t(cell.y) + std::size_t(y)) * kSide + std::size_t(cell.x) + std::size_t(x)];
+            const std::size_t row = std::size_t(cell.y) + std::size_t(y), column = std::size_t(cell.x) + std::size_t(x);
+            return values_[row * std::size_t(columns_) + column];
         };
         return glm::mix(glm::mix(value(0, 0), value(1, 0), share.x), glm::mix(value(0, 1), value(1, 1), share.x),
                         share.y);
     }
 
 private:
-    static constexpr int kSide = 64;
+    static constexpr int kRows = 64;
+    static constexpr double kStep = 2.0 / 63.0;
     static double heightOf(double share) { return share * share * (kAirRadius - kGroundRadius); }
+    double low_;
+    int columns_;
     std::vector<glm::dvec3> values_;
 };
 
@@ -153,17 +162,40 @@ glm::dvec3 scatteredAgain(double radius, double cosine, const Table& sunlit) {
 class Sky {
 public:
     Sky()
-        : sun_(toSun()), sunlit_(sunlight),
-          again_([this](double radius, double cosine) { return scatteredAgain(radius, cosine, sunlit_); }) {
+        : sun_(toSun()), sunlit_(-1.0, 1.0, sunlight),
+          again_(std::sin(kSunElevation - kFarthest), std::sin(kSunElevation + kFarthest),
+                 [this](double radius, double cosine) { return scatteredAgain(radius, cosine, sunlit_); }) {
         groundRadiance_ = kGroundAlbedo / pi * groundIrradiance();
     }
 
-    /// Without the sun's disk.
-    glm::dvec3 radiance(const glm::dvec3& direction) const {
-        glm::dvec3 share;
-        const glm::dvec3 scattered = airlight(direction, share);
-        return meetsGround(kEye, direction.y) ? scattered + share * groundRadiance_ : scattered;
-    }
+    /// Light from the air towards the eye but for the phase functions, and the share of light that comes through.
+    struct Airlight {
+        glm::dvec3 rayleigh{0.0}, mie{0.0}, again{0.0}, share{1.0};
+    };
+    /// Along all directions of an elevation: it hardly changes with the azimuth, so few directions tell all.
+    class Ring {
+    public:
+        Ring(const Sky& sky, double upward) : sky_(sky) {
+            for (int i = 0; i < int(lights_.size()); ++i)
+                lights_[std::size_t(i)] = sky.airlight(sky.ringDirection(upward, i / kCells * 2.0 - 1.0));
+        }
+        /// Without the sun's disk, in a direction of this elevation.
+        glm::dvec3 radiance(const glm::dvec3& direction) const {
+            const double sunward = sky_.sunwardOf(direction);
+            const double place = 0.5 * (sunward + 1.0) * kCells,
+                         cell = std::clamp(std::floor(place), 0.0, kCells - 1.0);
+            const Airlight &a = lights_[std::size_t(cell)], &b = lights_[std::size_t(cell) + 1];
+            const double share = place - cell;
+            return sky_.radianceOf({glm::mix(a.rayleigh, b.rayleigh, share), glm::mix(a.mie, b.mie, share),
+                                    glm::mix(a.again, b.again, share), glm::mix(a.share, b.share, share)},
+                                   direction);
+        }
+
+    private:
+        static constexpr double kCells = 16.0;
+        const Sky& sky_;
+        std::array<Airlight, std::size_t(kCells) + 1> lights_;
+    };
     /// Of the sun's disk, seen from the ground.
     glm::dvec3 sunRadiance() const {
         const double solidAngle = 2.0 * pi * (1.0 - std::cos(kSunRadius));
@@ -173,37 +205,62 @@ public:
 
 private:
     static constexpr double kEye = kGroundRadius + kEyeHeight;
+    /// How far the zenith turns along a ray through the air at the most: a level one leaves it after 10 degrees.
+    static constexpr double kFarthest = 15.0 * pi / 180.0;
 
-    /// Light from the air; `share` is what reaches the eye of what lies behind it.
-    glm::dvec3 airlight(const glm::dvec3& direction, glm::dvec3& share) const {
-        constexpr int kSteps = 48;
+    /// The cosine of a direction's azimuth from the sun's.
+    double sunwardOf(const glm::dvec3& direction) const {
+        const glm::dvec2 level(direction.x, direction.z);
+        const double length = glm::length(level);
+        return length > 0.0
+                   ? std::clamp(glm::dot(level / length, glm::normalize(glm::dvec2(sun_.x, sun_.z))), -1.0, 1.0)
+                   : 0.0;
+    }
+    glm::dvec3 ringDirection(double upward, double sunward) const {
+        const glm::dvec2 ahead = glm::normalize(glm::dvec2(sun_.x, sun_.z)), aside(-ahead.y, ahead.x);
+        const glm::dvec2 level = std::sqrt(std::max(1.0 - upward * upward, 0.0)) *
+                                 (sunward * ahead + std::sqrt(std::max(1.0 - sunward * sunward, 0.0)) * aside);
+        return {level.x, upward, level.y};
+    }
+
+    glm::dvec3 radianceOf(const Airlight& light, const glm::dvec3& direction) const {
+        const glm::dvec3 scattered = scatteredTo(light, direction);
+        return meetsGround(kEye, direction.y) ? scattered + light.share * groundRadiance_ : scattered;
+    }
+    glm::dvec3 scatteredTo(const Airlight& light, const glm::dvec3& direction) const {
         const double cosine = glm::dot(direction, sun_), g = kMieAsymmetry;
         const double rayleighPhase = 3.0 / (16.0 * pi) * (1.0 + cosine * cosine);
         // Source: Cornette and Shanks 1992, "Physically reasonable analytic expression for the single-scattering phase
         // function".
         const double miePhase = 3.0 / (8.0 * pi) * ((1.0 - g * g) * (1.0 + cosine * cosine)) /
                                 ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * cosine, 1.5));
-        glm::dvec3 light(0.0);
-        share = glm::dvec3(1.0);
+        return kSunIrradiance * (light.rayleigh * rayleighPhase + light.mie * miePhase + light.again);
+    }
+
+    Airlight airlight(const glm::dvec3& direction) const {
+        constexpr int kSteps = 48;
+        Airlight light;
         alongRay(direction, kEye, sun_, kSteps, [&](double r, double sunCosine, const glm::dvec3& length) {
             const Air air = airAt(r - kGroundRadius);
-            light += length * ((air.rayleigh * rayleighPhase + air.mie * miePhase) * sunlit_.at(r, sunCosine) +
-                               air.scattering * again_.at(r, sunCosine));
-            share -= air.extinction * length;
+            const glm::dvec3 sunlit = length * sunlit_.at(r, sunCosine);
+            light.rayleigh += air.rayleigh * sunlit;
+            light.mie += air.mie * sunlit;
+            light.again += length * air.scattering * again_.at(r, sunCosine);
+            light.share -= air.extinction * length;
         });
-        return kSunIrradiance * light;
+        return light;
     }
 
     /// Of level ground, by the sun and the sky.
     glm::dvec3 groundIrradiance() const {
-        glm::dvec3 irradiance = kSunIrradiance * sun_.y * sunlight(kEye, sun_.y), share;
+        glm::dvec3 irradiance = kSunIrradiance * sun_.y * sunlight(kEye, sun_.y);
         constexpr int kRows = 16, kColumns = 32;
         for (int i = 0; i < kRows * kColumns; ++i) {
             // Even in the square of the sine: each has the same part in the irradiance.
             const double sine2 = (i / kColumns + 0.5) / kRows, turn = 2.0 * pi * (i % kColumns + 0.5) / kColumns;
             const double level = std::sqrt(sine2);
-            irradiance += pi / (kRows * kColumns) *
-                          airlight({level * std::cos(turn), std::sqrt(1.0 - sine2), level * std::sin(turn)}, share);
+            const glm::dvec3 direction(level * std::cos(turn), std::sqrt(1.0 - sine2), level * std::sin(turn));
+            irradiance += pi / (kRows * kColumns) * scatteredTo(airlight(direction), direction);
         }
         return irradiance;
     }
@@ -230,10 +287,14 @@ double sunShare(int x, int y, const glm::dvec3& sun) {
 Image makeSky(const std::function<void(double)>& told) {
     const Sky sky;
     const glm::dvec3 sunRadiance = sky.sunRadiance();
+    std::vector<Sky::Ring> rings;
+    rings.reserve(kMapHeight);
+    for (int y = 0; y < kMapHeight; ++y) rings.emplace_back(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
     const auto radiance = [&](int x, int y) {
         const glm::dvec3 direction = directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
         const bool isNearSun = glm::dot(direction, sky.sun()) > 0.99;
-        return sky.radiance(direction) + (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
+        return rings[std::size_t(y)].radiance(direction) +
+               (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
     };
     return drawRadiance("sky", kMapWidth, kMapHeight, radiance, told);
 }
