@@ -152,8 +152,9 @@ Mesh fruit() {
 }
 
 Mesh lampStand() {
+    constexpr double kSocketMetres = 0.014; // around the lamp's end
     Profile profile = roundedFoot(0.04, 0.004);
-    profile.lineTo({0.04, 0.008}).lineTo({0.0, 0.012});
+    profile.lineTo({0.04, 0.008}).lineTo({kSocketMetres, 0.012}).lineTo({kSocketMetres, 0.034}).lineTo({0.0, 0.034});
     Mesh mesh;
     appendLathe(mesh, profile, kSlices);
     return mesh;
