@@ -32,7 +32,9 @@ void main()
     kept = vec4(0.0);
 #if VIEW == VIEW_FINAL
     if (material.transmission.x > 0.0) {
-        ThroughSurface through = lightThrough(surface, viewpoint, gl_FragCoord.xy);
+        // Along the ray of the pixel's centre: what is seen through a surface that bends nothing is this pixel's.
+        Viewpoint middle = viewpointFromDepth(gl_FragCoord.xy, place.depth);
+        ThroughSurface through = lightThrough(surface, middle, gl_FragCoord.xy);
         precise vec3 shown = coverage * (viewed + through.radiance);
         precise vec3 behind = coverage * through.kept + (1.0 - coverage);
         radiance.rgb = shown;
