@@ -37,8 +37,10 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
                 ->group(std::string(group));
         if (setting.key == "time")
             command
-                .add_option("--clip", options.clip,
-                            "The clip of the scene that plays, by name or counted from 0, or none [that of the scene, else its first]")
+                .add_option(
+                    "--clip", options.clip,
+                    "The clip of the scene that plays, by name or counted from 0, or none [that of the scene, else "
+                    "its first]")
                 ->type_name("NAME")
                 ->group(std::string(group));
         if (setting.key == "time")
