@@ -215,10 +215,9 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
-    // Each colour's rays inside and behind a body, which go behind something in every other step at most.
-    const std::size_t raysBehind = spec.blursBehindGlass ? REFRACTION_LOBE_RAYS : 1;
+    // Each colour's ray inside and behind a body, which goes behind something in every other step at most.
     if (spec.showsBehindGlass || spec.drawsFarSides)
-        spec.iterations += 3 * (1 + raysBehind) * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
+        spec.iterations += 6 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
     return spec;
 }
 

@@ -5,7 +5,6 @@
 
 #define REFRACTION_STEPS 256   // of a ray over the screen, at most; fewer pixels take as many steps
 #define REFRACTION_HALVINGS 10 // of the step in which it goes behind a surface
-#define REFRACTION_LOBE_RAYS 5 // of a rough body or sheet
 
 // Levels of the picture, of which each has half the rows and columns of the one before; 0 is the picture itself.
 #define BEHIND_COARSEST 6

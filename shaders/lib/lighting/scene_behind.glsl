@@ -269,7 +269,7 @@ vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 
 // What a ray from a body meets: rgb of surfaces, times a, the share of it that they cover; 0 where it leaves the screen or
 // meets none. `bodyDepth` is that of the body's near side. Light spreads around the ray by a GGX lobe of `alpha`.
-vec4 metBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
+vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
 {
     ScreenHit hit = screenHit(kOpaqueLayer, screenRay(originLS, directionLS), bodyDepth);
     if (!hit.isMet) return vec4(0.0);
@@ -277,33 +277,5 @@ vec4 metBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
     if (alpha > ALPHA_MIN) return blurredBehind(hit.place, alpha, originLS);
 #endif
     return sharpBehind(hit.place, bodyDepth);
-}
-
-#if HAS_BLURRED_SCENE_BEHIND
-// Rays for the lobe of a rough body: one in the middle and four around it, so that what only some of them meet fades. The
-// disk of blurredBehind() is parted among them: a fifth of its area each, four in a ring.
-const float kRayAlpha = 0.447; // of the lobe's alpha
-const float kRingSlope = 1.5;  // in units of alpha
-#endif
-
-// The same, by several rays where the body is rough.
-vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
-{
-#if HAS_BLURRED_SCENE_BEHIND
-    bool isRough = alpha > ALPHA_MIN;
-    vec3 first = kRingSlope * alpha * anyPerpendicular(directionLS), second = cross(directionLS, first);
-    precise vec4 sum = vec4(0.0);
-    int rays = isRough ? REFRACTION_LOBE_RAYS : 1;
-    for (int k = 0; k < rays; ++k) {
-        vec3 aside = k == 0 ? vec3(0.0) : (k & 1) == 1 ? first : second;
-        precise vec3 ray = directionLS + (k > 2 ? -aside : aside);
-        vec3 unit = k == 0 ? directionLS : safeNormalize(ray, directionLS);
-        sum += metBehind(originLS, unit, bodyDepth, isRough ? kRayAlpha * alpha : alpha);
-    }
-    precise vec4 mean = sum * (1.0 / float(rays));
-    return mean;
-#else
-    return metBehind(originLS, directionLS, bodyDepth, alpha);
-#endif
 }
 #endif
