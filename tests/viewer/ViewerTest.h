@@ -54,7 +54,12 @@ protected:
         return kPictureCorner + sizePixels / 2 + glm::ivec2(-70, 71) * sizePixels.y / 778;
     }
 
+    /// Fills the screen: a window is 1280x800 at first where there is room for it.
     DrivenViewer open(std::vector<std::string> arguments, const std::map<std::string, std::string>& environment = {}) {
+        if (screenPixels().x > 1280)
+            for (const std::string& word :
+                 {std::string("--window"), fmt::format("{}x{}", screenPixels().x, screenPixels().y)})
+                arguments.push_back(word);
         return DrivenViewer(*desktop_, folder_.path(), arguments, environment);
     }
     /// What the window shows of the picture, of the size that the viewer drew.

@@ -9,7 +9,7 @@ using ViewerWindow = ViewerTest;
 TEST_F(ViewerWindow, anySizeDownToOnePixelSurvivesAndComesBackWhole) {
     DrivenViewer viewer = open({"room"});
     const Shot first = pictureIn(viewer, viewer.waitForWhole(0));
-    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(301, 30), glm::ivec2(800, 600), glm::ivec2(2, 700)}) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(301, 30), glm::ivec2(700, 500), glm::ivec2(2, 700)}) {
         viewer.resize(size);
         viewer.pause(0.4);
     }
