@@ -17,9 +17,9 @@ void addThing(Scene& scene, const std::string& name, Mesh mesh, const glm::dmat4
     addNode(scene, name, worldFromThing, {{meshIndex, addMaterial(scene, material)}});
 }
 
-/// A wall so thin that it bends no light; its colour is what passes.
+/// A wall so thin that it bends no light; its colour is what passes. A rough one would not show other glass behind it.
 Material sheetGlass(const std::string& name, const glm::vec3& color) {
-    Material glass = metallicRoughness(name, color, 0.0f, 0.12f);
+    Material glass = metallicRoughness(name, color, 0.0f, 0.0f);
     glass.transmission = 1.0f;
     return glass;
 }
