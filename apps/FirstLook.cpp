@@ -47,6 +47,8 @@ viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences&
 FrameOptions forAnyScene(FrameOptions said) {
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.isOfScene) said.settings.erase(std::string(setting.key));
+    // Its environment is turned and brightened as that command says; files that were saved of it have that already.
+    for (const std::string_view key : scenes::kEnvironmentViewKeys) said.settings.erase(std::string(key));
     said.pose = {};
     said.lights.reset();
     said.import.variant.reset();

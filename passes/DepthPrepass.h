@@ -9,8 +9,8 @@ namespace tessera::passes {
 /// Reads   the scene
 /// Writes  depth D32F, reverse-Z, cleared to 0; on request shading_depth RG32F, the depth at which the fragment of
 ///         each sample is lit (shaders/lib/raster/shading_place.glsl) and the same negated, cleared to (0, -2). Both
-///         are of FrameSpec::samples. With several samples a fragment is lit once, at the pixel's centre, which may lie
-///         outside the depths of its samples
+///         are of FrameSpec::samples. With several samples a fragment is lit once, in the middle of those that its
+///         triangle covers, at a depth that need be none of theirs
 /// Space   lighting space, through the vertex function that every pass shares
 struct DepthPrepass {
     struct Params {

@@ -37,13 +37,8 @@ struct EnvironmentView {
     float intensity = 1.0f;       ///< multiplies the environment's own
     bool operator==(const EnvironmentView&) const = default;
 };
-/// The wishes of a scene (SceneOptions) for such views, and what they are of the one that changes nothing.
-struct EnvironmentViewWish {
-    std::string_view key;
-    double unchanged;
-};
-inline constexpr std::array kEnvironmentViewWishes{EnvironmentViewWish{"environmentRotation", 0.0},
-                                                   EnvironmentViewWish{"environmentIntensity", 1.0}};
+/// The settings that say so, which are wishes of a scene (SceneOptions) too.
+inline constexpr std::array<std::string_view, 2> kEnvironmentViewKeys{"environmentRotation", "environmentIntensity"};
 
 /// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
 EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view);

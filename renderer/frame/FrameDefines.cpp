@@ -10,7 +10,7 @@ namespace tessera::frame {
 
 namespace {
 
-/// What GLSL makes an array of. No driver is asked for a program that none draws with: it has all in the middle.
+/// What GLSL makes an array of. Where no driver was asked, nothing is drawn either: all samples lie in the middle.
 std::string samplePlaces(const FrameSpec& spec) {
     std::vector<glm::vec2> places = spec.settings.samplePlaces;
     places.resize(std::size_t(spec.samples), glm::vec2(0.5f));

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kEmptyHook = "lib/material/empty_hook.glsl";
 constexpr const char* kHookRemedy =
-    "GLSL has no recursion, and a hook no variables in or out of its own; write void hookSurface(inout HookedSurface "
+    "GLSL has no recursion, and a hook declares no in or out variables; write void hookSurface(inout HookedSurface "
     "surface, HookInputs inputs), void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv) or both, each "
     "once and outside of conditionals";
 
@@ -39,9 +39,9 @@ bool isInName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// Where a name stands in a line by itself; npos: nowhere.
-std::size_t placeOfName(std::string_view line, std::string_view name) {
-    for (std::size_t at = line.find(name); at != std::string_view::npos; at = line.find(name, at + 1)) {
+/// Where a name stands in a line by itself, from a place on; npos: nowhere.
+std::size_t placeOfName(std::string_view line, std::string_view name, std::size_t from = 0) {
+    for (std::size_t at = line.find(name, from); at != std::string_view::npos; at = line.find(name, at + 1)) {
         const std::size_t end = at + name.size();
         if ((at == 0 || !isInName(line[at - 1])) && (end == line.size() || !isInName(line[end]))) return at;
     }
@@ -90,8 +90,9 @@ std::optional<std::size_t> lineOfFirst(const std::vector<std::string>& names, co
 
 bool isAskedForAsField(const std::string& name, const std::vector<std::string>& code) {
     return std::ranges::any_of(code, [&](const std::string& line) {
-        const std::size_t at = placeOfName(line, name);
-        return at != std::string_view::npos && at > 0 && line[at - 1] == '.';
+        for (std::size_t at = placeOfName(line, name); at != std::string_view::npos; at = placeOfName(line, name, at + 1))
+            if (at > 0 && line[at - 1] == '.') return true;
+        return false;
     });
 }
 

@@ -11,8 +11,8 @@ inline constexpr int kMapWidth = 1024, kMapHeight = 512; ///< texels
 
 /// A grey room with a warm key light, a broad fill, two strips behind and a soft light above, for a camera that looks
 /// along -(1, 0.7, 1).
-Image makeStudio(const std::function<void(double)>& told = [](double) {});
+Image makeStudio(const std::function<void(double)>& told = {});
 /// A clear sky at a solar elevation of 38 degrees.
-Image makeSky(const std::function<void(double)>& told = [](double) {});
+Image makeSky(const std::function<void(double)>& told = {});
 
 } // namespace tessera::scenes::builtin

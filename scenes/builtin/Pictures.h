@@ -19,9 +19,8 @@ Image drawNormals(const std::string& name, int width, int height, const std::fun
 
 /// A picture of linear numbers in fp32, opacity 1. Unless it is empty, `told` is called with the share that is done,
 /// from any thread.
-Image drawRadiance(
-    const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
-    const std::function<void(double)>& told = [](double) {});
+Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
+                   const std::function<void(double)>& told = {});
 
 /// The tangent-space normals of a height field that repeats in both directions (x right, y up: against the rows).
 /// `texelMetres` is the height field's spacing, heights are in metres.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -287,13 +288,14 @@ double sunShare(int x, int y, const glm::dvec3& sun) {
 Image makeSky(const std::function<void(double)>& told) {
     const Sky sky;
     const glm::dvec3 sunRadiance = sky.sunRadiance();
-    std::vector<Sky::Ring> rings;
-    rings.reserve(kMapHeight);
-    for (int y = 0; y < kMapHeight; ++y) rings.emplace_back(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
+    std::vector<std::optional<Sky::Ring>> rings(kMapHeight);
+    tbb::parallel_for(0, kMapHeight, [&](int y) {
+        rings[std::size_t(y)].emplace(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
+    });
     const auto radiance = [&](int x, int y) {
         const glm::dvec3 direction = directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
         const bool isNearSun = glm::dot(direction, sky.sun()) > 0.99;
-        return rings[std::size_t(y)].radiance(direction) +
+        return rings[std::size_t(y)]->radiance(direction) +
                (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
     };
     return drawRadiance("sky", kMapWidth, kMapHeight, radiance, told);

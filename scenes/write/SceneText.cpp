@@ -139,9 +139,7 @@ std::string textOf(const Json& document) {
 } // namespace
 
 void askForNoView(SceneOptions& options) {
-    for (const EnvironmentViewWish& unchanged : kEnvironmentViewWishes)
-        if (const auto wish = options.wishes.find(unchanged.key); wish != options.wishes.end())
-            wish->second = unchanged.unchanged;
+    for (const std::string_view key : kEnvironmentViewKeys) options.wishes.erase(std::string(key));
 }
 
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file,

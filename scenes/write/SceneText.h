@@ -17,8 +17,7 @@ namespace tessera::scenes {
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file,
                       const std::optional<EnvironmentView>& seen = {});
 
-/// Where options ask for a view of the environment, they then ask for the one that changes nothing: those of a base
-/// that asks for another would count otherwise.
+/// Takes the wishes away for a view that turns or brightens the environment. A file with options has none of its base's.
 void askForNoView(SceneOptions& options);
 
 } // namespace tessera::scenes

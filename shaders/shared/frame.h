@@ -26,7 +26,7 @@ struct ViewConstants {
     vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
                          // distance or nearly so, else 0; w by how much of a pixel a rasteriser moves vertices before
                          // it finds depths, z the same in metres: a metre ahead of the eye, or (orthographic) anywhere
-    uvec4 sizePixels;    // x width, y height of the picture; z samples of a pixel, 0 where it is not a camera's
+    uvec4 sizePixels;    // x width, y height of the picture; z samples of a pixel, 0 where nobody has said
 };
 
 // vec4 that the structs take. passes/fullscreen.vert hands all of them to the fragments where the driver is one of

@@ -83,8 +83,8 @@ float distanceToLine(const glm::vec2& point, const glm::vec2& begin, const glm::
     return glm::distance(point, begin + share * along);
 }
 
-/// Leaves out points that lie within so many pixels of the line between those that stay. The ends of pieces do, so the
-/// time grows with the number of points, whatever they are.
+/// Leaves out points that lie within so many pixels of the line between those that stay. The ends of pieces of
+/// kPieceSides stay, so that the time grows with the number of points, whatever they are.
 /// Source: Douglas and Peucker 1973, "Algorithms for the reduction of the number of points required to represent a
 /// digitized line or its caricature".
 Contour smoothed(const Contour& contour, float pixels) {

@@ -49,8 +49,7 @@ void saveOpenScene(State& state, const std::string& path) {
     open.becomes(std::filesystem::absolute(path).string(), seen);
     if (open.scene().environment)
         for (Look& look : state.looks)
-            for (const scenes::EnvironmentViewWish& wish : scenes::kEnvironmentViewWishes)
-                engine::settingOf(wish.key).reset(look);
+            for (const std::string_view key : scenes::kEnvironmentViewKeys) engine::settingOf(key).reset(look);
     noteRecent(state.recent, open.source());
 }
 

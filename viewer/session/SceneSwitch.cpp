@@ -80,8 +80,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
 
 void SceneSwitch::noteSaved() {
     const FirstLook first = options_.lookOf(state_.open->scene(), state_.open->source(), false);
-    for (const scenes::EnvironmentViewWish& wish : scenes::kEnvironmentViewWishes)
-        engine::settingOf(wish.key).value.copy(base_, first.look);
+    for (const std::string_view key : scenes::kEnvironmentViewKeys)
+        engine::settingOf(key).value.copy(base_, first.look);
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {

@@ -10,8 +10,8 @@ struct ShadingPlace {
 // With several samples, a pixel is lit once for all those that a triangle covers: in the middle of them. The pixel's own
 // centre may lie beside the triangle, where its plane goes on behind what stands next to it, or past the horizon; light
 // and shadow there are not the triangle's. Samples are those that the triangle covers, whatever the depth test leaves
-// (ARB_post_depth_coverage has the other kind), so a prepass does not move the place. The sum loses its digits only where
-// a triangle seen edge-on is steep; it then stays in the view.
+// (ARB_post_depth_coverage has the other kind), so a prepass does not move the place. Where a triangle
+// seen edge-on is so steep that the sum loses its digits, kLeastDepth keeps it before the horizon.
 ShadingPlace shadingPlace()
 {
     const vec2 kPlaces[SAMPLES] = vec2[](SAMPLE_PLACES); // from the pixel's lower left corner

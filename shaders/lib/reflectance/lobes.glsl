@@ -44,8 +44,8 @@ float lobeAlpha(Surface surface)
 
 #if HAS_GGX_MODELS
 #if HAS_ANISOTROPY
-// lobeShares() of two alphas, by some of the facets that the viewer sees: no table holds both. Within 0.04 of the truth for
-// any alphas from 0.01 to 1, and 0.015 of glass (docs/environment.md). The golden ratio spreads points evenly.
+// lobeShares() of two alphas, by some of the facets that the viewer sees: no table holds both. How far off they are stands in
+// docs/environment.md. The golden ratio spreads points evenly.
 vec2 sharesOfTwoAlphas(SeenSurface seen)
 {
     const int kFacets = 24;

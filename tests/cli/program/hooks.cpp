@@ -80,7 +80,7 @@ TEST_F(HookedSquare, recursionAndVariablesInAreTheHooksFault) {
                 {"/shine.glsl:1: the driver refuses this hook: ", "twice", "GLSL has no recursion"});
     folder_.write("shine.glsl", "\nin float glow;\n" + signature + "\n{\n    surface.emission = vec3(glow);\n}\n");
     expectError(kBadInput, command({}),
-                {"/shine.glsl:2: the driver refuses this hook: ", "glow", "no variables in or out of its own"});
+                {"/shine.glsl:2: the driver refuses this hook: ", "glow", "declares no in or out variables"});
 }
 
 TEST_F(HookedSquare, aFieldThatIsNotThereIsAnsweredByThoseThatAre) {

@@ -22,7 +22,7 @@ protected:
                         .write("tint.glsl", "// twice() doubles\n/* glow\n*/\nin float glow;\n"
                                             "float twice(float x) { return twice(2.0 * x); }\n"
                                             "void hookSurface(inout HookedSurface surface, HookInputs inputs)\n{\n"
-                                            "    surface.colour = vec3(hook.speed);\n}\n")
+                                            "    float speed = hook.speed; surface.colour = vec3(speed);\n}\n")
                         .string();
         hook.parameters = {{"red"}, {"green"}};
         desc = {"lit", "a.vert", "a.frag", "", frame::hookDefines(frame::hookShape(hook))};

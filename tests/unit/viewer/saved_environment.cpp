@@ -16,7 +16,7 @@ namespace {
 /// Sums and products of these are exact in single precision.
 constexpr scenes::EnvironmentView kChosenView{45.0f, 2.0f};
 
-/// Of a scene whose file is more than edits, so that what is saved names it as its base and has its options too.
+/// Of a scene whose file is more than edits, so that what is saved names it as its base.
 class SavedEnvironment : public testing::Test {
 protected:
     SavedEnvironment() {
