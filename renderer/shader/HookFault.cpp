@@ -90,7 +90,8 @@ std::optional<std::size_t> lineOfFirst(const std::vector<std::string>& names, co
 
 bool isAskedForAsField(const std::string& name, const std::vector<std::string>& code) {
     return std::ranges::any_of(code, [&](const std::string& line) {
-        for (std::size_t at = placeOfName(line, name); at != std::string_view::npos; at = placeOfName(line, name, at + 1))
+        for (std::size_t at = placeOfName(line, name); at != std::string_view::npos;
+             at = placeOfName(line, name, at + 1))
             if (at > 0 && line[at - 1] == '.') return true;
         return false;
     });

@@ -30,7 +30,7 @@ using EnvironmentTruthSlow = EnvironmentTruth;
 constexpr double kEvenError = 0.01;            ///< noise of samples and of the reference, tables between their places
 constexpr double kInnerReflectionError = 0.02; ///< tables where total reflection begins
 constexpr double kTwoAlphasError = 0.12;       ///< the table of one alpha, the mean of two
-constexpr double kFacetsError = 0.02;          ///< of 24 for a lobe of two alphas
+constexpr double kFacetsError = 0.025;         ///< of 24 for a lobe of two alphas
 constexpr double kLeastError = 1e-5;           ///< absolute, where next to nothing is reflected
 
 TEST_F(EnvironmentTruth, theBackdropIsThatOfTheReferenceInEveryPixel) {
@@ -217,6 +217,13 @@ std::vector<EvenCase> evenCases() {
     steel.material.perceptualRoughness = 0.5f;
     steel.material.anisotropyStrength = 0.7f;
     steel.splitSumError = kFacetsError;
+    for (int degrees = 0; degrees <= 90; degrees += 15) {
+        EvenCase& brass = add(fmt::format("brushed by {} degrees", degrees), MaterialModel::MetallicRoughness, 1.0f);
+        brass.material.perceptualRoughness = 0.3f;
+        brass.material.anisotropyStrength = 0.42f; // alphas of 0.09 and 0.25
+        brass.material.anisotropyRotationRadians = glm::radians(float(degrees));
+        brass.splitSumError = kFacetsError;
+    }
     return cases;
 }
 

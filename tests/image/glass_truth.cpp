@@ -284,14 +284,15 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
 
 /// The same of a lobe with two alphas, which no table holds: 24 of its facets stand for it.
 TEST_F(GlassTruth, ofTwoAlphasPassesWhatItsLobeDoesNotReflect) {
-    constexpr double kStraight = 0.04, kLeastCosine = 0.05, kLeeway = 0.015;
+    constexpr double kStraight = 0.04, kLeastCosine = 0.05;
+    constexpr double kLeeway = 0.0125; // of alphas and angles at random 24 facets are off by 0.0102
     Scene scene = kSteepGlass.sceneOf(clearGlass());
     scene.background = glm::vec3(1.0f);
     engine::Renderer renderer(context(), scene);
     const glm::dvec3 normal = kSteepGlass.normal();
-    for (const double roughness : {0.3, 0.5})
+    for (const double roughness : {0.15, 0.3, 0.5})
         for (const double strength : {0.6, 1.0})
-            for (const double turnDegrees : {0.0, 60.0, 90.0}) {
+            for (const double turnDegrees : {0.0, 3.0, 30.0, 60.0, 87.0, 90.0}) {
                 Material& glass = scene.materials[0];
                 glass.perceptualRoughness = float(roughness);
                 glass.anisotropyStrength = float(strength);

@@ -45,7 +45,8 @@ float lobeAlpha(Surface surface)
 #if HAS_GGX_MODELS
 #if HAS_ANISOTROPY
 // lobeShares() of two alphas, by some of the facets that the viewer sees: no table holds both. How far off they are stands in
-// docs/environment.md. The golden ratio spreads points evenly.
+// docs/environment.md. The golden ratio spreads points evenly; the steeper facets are, the more of them stand for as much,
+// since those vary most.
 vec2 sharesOfTwoAlphas(SeenSurface seen)
 {
     const int kFacets = 24;
@@ -54,14 +55,15 @@ vec2 sharesOfTwoAlphas(SeenSurface seen)
     vec2 alpha = vec2(surface.alpha, surface.alphaBitangent);
     precise vec2 sum = vec2(0.0);
     for (int k = 0; k < kFacets; ++k) {
-        precise vec2 point = vec2((float(k) + 0.5) / float(kFacets), fract(0.5 + float(k) * kGoldenShare));
+        precise float inward = (float(k) + 0.5) / float(kFacets);
+        precise vec2 point = vec2(1.0 - inward * inward, fract(0.5 + float(k) * kGoldenShare));
         vec3 toLight = visibleReflection(point, alpha, seen.toViewer, surface.normalLS, surface.tangentLS);
         precise float nl = dot(surface.normalLS, toLight);
         if (!(nl > 0.0)) continue;
         Directions directions = directionsOn(seen, toLight, nl);
-        // D V n.l over the density of the facets, G1(v) D / (4 n.v).
-        precise float share =
-            2.0 * visibilityOfMetallicRoughness(seen, directions) * nl * (seen.nv + seen.viewerLength);
+        // D V n.l over the density of the facets, G1(v) D / (4 n.v), and of the points.
+        precise float share = 4.0 * inward * visibilityOfMetallicRoughness(seen, directions) * nl
+                              * (seen.nv + seen.viewerLength);
         precise float rise = 1.0 - directions.lh, rise2 = rise * rise;
         sum += share * vec2(1.0, rise2 * rise2 * rise);
     }

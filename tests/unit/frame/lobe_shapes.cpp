@@ -156,9 +156,9 @@ TEST(LobeShapes, areAsGoodBetweenEntriesAsAtThem) {
     EXPECT_LT(between, 1.01 * atEntries);
 }
 
-/// The least distance that a shape of four numbers can have: no step aside comes nearer by more than the fit's end. So
-/// a table that is damaged or made of another lobe is seen where no closed form is known.
-TEST(LobeShapes, areTheNearestThatTheirFourNumbersCanBe) {
+/// A small step aside in any of the four numbers comes no nearer by more than the fit's end. Of narrow lobes some
+/// numbers hardly matter, and are held by their neighbours alone (changeSmoothlyFromEntryToEntry).
+TEST(LobeShapes, areNoFartherThanAStepAside) {
     constexpr double kStep = 0.02, kFitsEnd = 0.003;
     for (int row = 4; row < LOBE_SHAPES_SIDE; row += 9)
         for (int column = 1; column < LOBE_SHAPES_SIDE; column += 9) {
