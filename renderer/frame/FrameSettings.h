@@ -146,8 +146,9 @@ struct FrameSettings {
     std::optional<glm::ivec2> wholePixels; ///< of the picture that this one stands in for while something moves; shadow
                                            ///< maps are as fine as for that one; open: it is whole itself
     int samples = 1;                       ///< of a pixel, one of kSampleCounts
-    std::vector<glm::vec2> samplePlaces;   ///< as the driver places them, `samples` or more; none where no driver was asked
-    int camera = 0;                        ///< index into Scene::cameras
+    std::vector<glm::vec2>
+        samplePlaces; ///< as the driver places them, `samples` or more; none where no driver was asked
+    int camera = 0;   ///< index into Scene::cameras
     double timeSeconds = 0.0;
     glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
     GBufferLayout layout;

@@ -17,7 +17,8 @@ namespace tessera::scenes {
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file,
                       const std::optional<EnvironmentView>& seen = {});
 
-/// Takes the wishes away for a view that turns or brightens the environment. A file with options has none of its base's.
+/// Takes the wishes away for a view that turns or brightens the environment. A file with options has none of its
+/// base's.
 void askForNoView(SceneOptions& options);
 
 } // namespace tessera::scenes
