@@ -260,7 +260,7 @@ TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
     }
     frame::FrameSettings settings;
     settings.sizePixels = {columns * kCellPixels, kRows * kCellPixels};
-    settings.environment.samples = 1024;
+    settings.environment.samples = 4096;
     const validation::ReferencePicture truth = validation::referencePicture(
         scene, settings, [] {}, validation::Leeway::None);
     engine::Renderer renderer(context(), scene);

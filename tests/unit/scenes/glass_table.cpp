@@ -39,7 +39,7 @@ TEST(GlassTable, showsSheetsAndBodiesOfManyColoursInTheStudio) {
     }
     EXPECT_EQ(sheets, 6);
     EXPECT_EQ(absorbing, 5);
-    EXPECT_EQ(roughnesses.size(), 2u) << "clear and frosted";
+    EXPECT_EQ(roughnesses.size(), 3u) << "sheets, clear bodies and a frosted one";
     EXPECT_TRUE(std::ranges::all_of(scene.lights, [](const Light& light) { return infoOf(light.type).isArea; }));
     EXPECT_EQ(underLedger(builtin::makeGlass, withLights(1)).lights.size(), 1u);
 }
