@@ -22,7 +22,7 @@ namespace tessera::frame {
 namespace {
 
 /// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 9, kLobeVersion = 6;
+constexpr std::uint64_t kEnvironmentVersion = 10, kLobeVersion = 6;
 
 /// Of words and bytes; another one in the place of any single word gives another hash for sure.
 class WordHash {

@@ -175,12 +175,12 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
     for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);
-    // The smaller a level, the more samples: about as much work for each. Narrow lobes need fewer.
+    // The smaller a level, the more samples: about as much work for each of a large map.
     double work = 0.0, done = 0.0;
     const auto samplesOf = [halvings](int level) {
-        constexpr int kLeastSamples = 32, kMostSamples = 1024, kMostOfNarrow = 256, kFirstWide = 6;
+        constexpr int kLeastSamples = 32, kLeastOfSmallMaps = 256, kMostSamples = 1024;
         const int narrower = filteredSide(0, 0) / filteredSide(halvings, level);
-        return std::min(kLeastSamples * narrower * narrower, level < kFirstWide ? kMostOfNarrow : kMostSamples);
+        return std::clamp(kLeastSamples * narrower * narrower, halvings > 0 ? kLeastOfSmallMaps : 0, kMostSamples);
     };
     const auto workOf = [&](int level) {
         const int rows = filteredSide(halvings, level) + 1;
