@@ -1,0 +1,97 @@
+// The file that a filtered environment is kept in.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/frame/ComputedCache.h"
+#include "renderer/frame/EnvironmentFilter.h"
+#include "tests/support/TempFolder.h"
+#include "tests/unit/frame/GreyMap.h"
+
+namespace tessera::frame {
+namespace {
+
+using test::greyMap;
+
+TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
+    test::TempFolder folder;
+    const scenes::Image map = greyMap(32, 16, [](int x, int y) { return x + 0.1 * y; });
+    const FilteredEnvironment fresh = cachedEnvironment(map, folder.path());
+    const auto file = *std::filesystem::directory_iterator(folder.path());
+    bool computed = false;
+    const auto note = [&](double) { computed = true; };
+    const FilteredEnvironment again = cachedEnvironment(map, folder.path(), note);
+    EXPECT_FALSE(computed);
+    ASSERT_EQ(again.levels.size(), fresh.levels.size());
+    for (std::size_t i = 0; i < fresh.levels.size(); ++i) EXPECT_EQ(again.levels[i].corners, fresh.levels[i].corners);
+    EXPECT_EQ(again.irradiance.corners, fresh.irradiance.corners);
+    std::filesystem::resize_file(file.path(), 1000);
+    EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
+    EXPECT_TRUE(computed);
+    // One bit is enough, in the middle as in the last number.
+    const auto size = std::streamoff(std::filesystem::file_size(file.path()));
+    for (const std::streamoff at : {size / 2, size - 1}) {
+        computed = false;
+        std::fstream bytes(file.path(), std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekg(at);
+        const int byte = bytes.get();
+        bytes.seekp(at).put(char(byte ^ 1));
+        bytes.close();
+        EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
+        EXPECT_TRUE(computed) << at;
+    }
+    // Another map of the same shape has another file.
+    computed = false;
+    cachedEnvironment(greyMap(32, 16, [](int x, int) { return x; }), folder.path(), note);
+    EXPECT_TRUE(computed);
+}
+
+/// Of the size that people's maps have.
+TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAgainATwentiethOfASecond) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr double kSlower = 20.0; // sanitizers take several times as long
+#else
+    constexpr double kSlower = 1.0;
+#endif
+    constexpr double kCores = 2.0, kMostSeconds = 5.0, kMostSecondsAgain = 0.05;
+    test::TempFolder folder;
+    const scenes::Image map =
+        greyMap(2048, 1024, [](int x, int y) { return 1.0 + std::sin(0.01 * x) * std::cos(0.03 * y); });
+    const std::clock_t start = std::clock(); // of all threads together: other programs do not count
+    const FilteredEnvironment fresh = cachedEnvironment(map, folder.path());
+    const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / kCores;
+    double secondsAgain = kMostSeconds;
+    for (int round = 0; round < 5; ++round) {
+        const auto began = std::chrono::steady_clock::now();
+        EXPECT_EQ(cachedEnvironment(map, folder.path()).irradiance.corners, fresh.irradiance.corners);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+        secondsAgain = std::min(secondsAgain, took.count());
+    }
+    fmt::print("filtered in {:.2f} s, read again in {:.1f} ms\n", seconds, 1e3 * secondsAgain);
+    EXPECT_LE(seconds, kSlower * kMostSeconds);
+    EXPECT_LE(secondsAgain, kSlower * kMostSecondsAgain);
+}
+
+TEST(EnvironmentCache, aFolderThatCannotBeWrittenIsToldOnce) {
+    takeCacheFault(); // of other tests
+    test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "file";
+    std::ofstream(file) << "in the way";
+    const scenes::Image map = greyMap(32, 16, [](int x, int) { return 2.0 + x; });
+    const FilteredEnvironment fresh = filterEnvironment(map);
+    EXPECT_EQ(cachedEnvironment(map, file / "cache").irradiance.corners, fresh.irradiance.corners);
+    const std::string fault = takeCacheFault();
+    EXPECT_NE(fault.find((file / "cache").string()), std::string::npos) << fault;
+    EXPECT_NE(fault.find("Not a directory"), std::string::npos) << fault;
+    EXPECT_EQ(takeCacheFault(), "");
+    cachedEnvironment(map, file / "cache");
+    EXPECT_EQ(takeCacheFault(), "") << "it was said";
+}
+
+} // namespace
+} // namespace tessera::frame
