@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "viewer/panels/Frame.h"
 
@@ -99,6 +100,18 @@ protected:
         std::string text;
         show([&] { text = logged(panel); });
         return text;
+    }
+    /// Presses at the right ends of all sliders of a panel that is so high.
+    template <typename Panel>
+    void pressSliders(float heightPixels, const Panel& panel) {
+        for (float y = 20.0f; y < heightPixels; y += 10.0f) {
+            ImGui::GetIO().MousePos = {280.0f, y};
+            for (const bool isDown : {false, true, false}) {
+                ImGui::GetIO().MouseDown[0] = isDown;
+                show(panel);
+            }
+            ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the press opened
+        }
     }
     /// What the first window of the interface says.
     std::string firstWindowText(State& state, const Facts& facts) {

@@ -1,5 +1,4 @@
 // The panel of the environment, with and without one.
-#include <imgui_internal.h>
 
 #include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
@@ -17,14 +16,7 @@ TEST_F(EnvironmentPanel, takesNoValueWhereThereIsNoEnvironment) {
         if (isThere) scene.environment.emplace().source = "builtin:studio";
         State state = test::stateOf(std::move(scene));
         const Look before = state.looks[0];
-        for (float y = 20.0f; y < 320.0f; y += 10.0f) { // across all sliders, near their right ends
-            ImGui::GetIO().MousePos = {280.0f, y};
-            for (const bool isDown : {false, true, false}) {
-                ImGui::GetIO().MouseDown[0] = isDown;
-                show([&] { environmentPanel(state, {}); });
-            }
-            ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the click opened
-        }
+        pressSliders(320.0f, [&] { environmentPanel(state, {}); });
         for (const char* key : {"environmentRotation", "environmentIntensity"})
             EXPECT_NE(engine::settingOf(key).value.equal(state.looks[0], before), isThere) << key;
     }

@@ -15,7 +15,18 @@
 namespace tessera::viewer {
 namespace {
 
-class LightRows : public test::PanelTest {};
+class LightRows : public test::PanelTest {
+protected:
+    /// The panel of a scene with one light, which is selected.
+    std::string textOfLight(scenes::LightType type) {
+        scenes::Scene scene = scenes::loadScene("room", {});
+        scene.lights.assign(1, {});
+        scene.lights[0].type = type;
+        State state = test::stateOf(std::move(scene));
+        state.selectedLight = 0;
+        return textOf([&] { lightsPanel(state); });
+    }
+};
 
 TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
     const auto isIn = [](const std::string& text, const std::string& label) {
@@ -23,12 +34,7 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
                text.find("\n" + label + "\n") != std::string::npos;
     };
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
-        scenes::Scene scene = scenes::loadScene("room", {});
-        scene.lights.assign(1, {});
-        scene.lights[0].type = type.type;
-        State state = test::stateOf(std::move(scene));
-        state.selectedLight = 0;
-        const std::string text = textOf([&] { lightsPanel(state); });
+        const std::string text = textOfLight(type.type);
         const auto hasRow = [&](const scenes::LightParameter& parameter) { return isIn(text, parameter.label); };
         for (const scenes::LightTypeInfo& other : scenes::lightTypes()) {
             for (const scenes::LightParameter& parameter : other.parameters)
@@ -49,12 +55,7 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
 
 TEST_F(LightRows, ofWhatShinesStandTogetherBeforeAllElse) {
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
-        scenes::Scene scene = scenes::loadScene("room", {});
-        scene.lights.assign(1, {});
-        scene.lights[0].type = type.type;
-        State state = test::stateOf(std::move(scene));
-        state.selectedLight = 0;
-        const std::string text = textOf([&] { lightsPanel(state); });
+        const std::string text = textOfLight(type.type);
         const auto at = [&](const std::string& label) {
             return std::min(text.find("\n" + label + " "), text.find("\n" + label + "\n"));
         };

@@ -58,14 +58,7 @@ TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
         State state;
         state.looks[0].settings.shadowFilter = filter.filter;
         const Look before = state.looks[0];
-        for (float y = 20.0f; y < 250.0f; y += 10.0f) { // across all sliders, near their right ends
-            ImGui::GetIO().MousePos = {280.0f, y};
-            for (const bool isDown : {false, true, false}) {
-                ImGui::GetIO().MouseDown[0] = isDown;
-                show([&] { shadowsPanel(state, {}); });
-            }
-            ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the click opened
-        }
+        pressSliders(250.0f, [&] { shadowsPanel(state, {}); });
         for (const engine::Setting& setting : engine::settingTable()) {
             if (!std::holds_alternative<engine::NumberKind>(setting.value.kind)) continue;
             const bool isSlid = setting.panel == engine::SettingPanel::Shadows && setting.whyIdle(before).empty();
