@@ -1,5 +1,4 @@
 // The panel of the environment, with and without one.
-
 #include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
