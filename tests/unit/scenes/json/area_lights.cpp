@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes/AreaLight.h"
+#include "scenes/Load.h"
 #include "scenes/import/SceneJsonLights.h"
 #include "scenes/write/ElementJson.h"
 #include "tests/support/Random.h"
