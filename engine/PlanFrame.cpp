@@ -119,8 +119,11 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
     if (std::string unseen = unseenSpread(scene, prepared); !unseen.empty())
         plan.choices.push_back({"width of spread light", "less than a texel", std::move(unseen)});
     if (std::string missing = frame::missingTextures(prepared.spec); !missing.empty())
-        plan.choices.push_back(
-            {"textures", fmt::format("{} left out", prepared.spec.withoutTextures.size()), std::move(missing)});
+        plan.choices.push_back({"textures",
+                                prepared.spec.withoutTextures.empty()
+                                    ? "none of materials left out"
+                                    : fmt::format("{} left out", prepared.spec.withoutTextures.size()),
+                                std::move(missing)});
     for (const std::string& warning : scene.warnings) plan.choices.push_back({"scene", scene.name, warning});
 }
 
@@ -194,13 +197,25 @@ graph::Plan planFrame(const scenes::Scene& scene, Technique technique, const fra
     return planViews(scene, {&view, 1});
 }
 
-std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
-                                               const frame::FrameSettings& settings) {
-    const frame::PreparedView prepared = prepareView(scene, technique, settings);
+namespace {
+
+std::vector<shader::ProgramDesc> programsOfView(Technique technique, const frame::PreparedView& prepared, bool cull) {
     const ViewSource view{technique, prepared.spec};
     graph::Graph graph;
     declareFrame(graph, {&view, 1});
-    return graph::compile(graph, {.cull = false}).programs;
+    return graph::compile(graph, {.cull = cull}).programs;
+}
+
+} // namespace
+
+std::vector<shader::ProgramDesc> framePrograms(const scenes::Scene& scene, Technique technique,
+                                               const frame::FrameSettings& settings) {
+    return programsOfView(technique, prepareView(scene, technique, settings), false);
+}
+
+std::vector<shader::ProgramDesc> Renderer::programsOf(Technique technique, const frame::FrameSettings& settings) const {
+    const frame::FrameSettings own = settingsOn(context_.capabilities(), settings);
+    return programsOfView(technique, prepareView(shown_, technique, own, bounds_), own.prune);
 }
 
 } // namespace tessera::engine

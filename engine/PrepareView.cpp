@@ -271,13 +271,12 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     prepared.camera.constants.sizePixels.z = glm::uint(samples);
     if (frame::showsLitPicture(settings.view)) prepared.seenLights = frame::packSeenLights(seenLights, prepared.camera);
     const auto makeSpec = [&](const frame::PackedLights& lights) {
-        return frame::makeFrameSpec(scene, lights, settings);
+        return frame::makeFrameSpec(scene, lights, settings, prepared.seenLights.size());
     };
     lightView(scene, settings, makeSpec, prepared);
     frame::FrameSpec& spec = prepared.spec;
     spec.samples = samples;
     spec.background = prepared.camera.constants.background;
-    spec.seenLights = prepared.seenLights.size();
     spec.showsLightPictures = spec.seenLights > 0 && std::ranges::any_of(seenLights, [](const frame::SeenLight& seen) {
                                   return seen.picture >= 0;
                               });

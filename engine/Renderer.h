@@ -96,6 +96,10 @@ public:
         draw({&view, 1});
     }
 
+    /// The programs that draw() would use for a view; what is kept of earlier frames may spare it some of them. Throws
+    /// InputError as draw() does.
+    std::vector<shader::ProgramDesc> programsOf(Technique technique, const frame::FrameSettings& settings) const;
+
     /// The picture of a view of the latest draw(), counted from 0.
     RenderedFrame download(std::size_t view = 0) const;
     /// The same where it is, until the next draw(): radiance RGBA32F, and display RGBA8 where the settings asked for

@@ -50,8 +50,12 @@ struct Harmonics {
 Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     const std::size_t count = std::size_t(order + 1) * std::size_t(order + 2) / 2;
     Harmonics sum{std::vector<glm::dvec3>(count, glm::dvec3(0.0)), std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
-    // By column, cosine and sine of m times its longitude.
-    std::vector<glm::dvec2> turns(std::size_t(map.width));
+    // By column, cosine and sine of its longitude and of m times that.
+    std::vector<glm::dvec2> longitudes(std::size_t(map.width)), turns(std::size_t(map.width));
+    for (int x = 0; x < map.width; ++x) {
+        const double longitude = 2.0 * pi * ((x + 0.5) / map.width - 0.5);
+        longitudes[std::size_t(x)] = {std::cos(longitude), std::sin(longitude)};
+    }
     for (int row = 0; row < map.height; ++row) {
         const double cosine = 0.5 * (map.cosineOfRow(row) + map.cosineOfRow(row + 1));
         const std::vector<double> p = legendre(order, cosine, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)));
@@ -59,16 +63,10 @@ Harmonics harmonicsOf(const LatitudeMap& map, int order) {
         for (int m = 0; m <= order; ++m) {
             glm::dvec3 c(0.0), s(0.0);
             for (int x = 0; x < map.width; ++x) {
-                const double longitude = 2.0 * pi * ((x + 0.5) / map.width - 0.5);
+                const glm::dvec2& one = longitudes[std::size_t(x)];
                 glm::dvec2& turn = turns[std::size_t(x)];
-                if (m == 0) {
-                    turn = {1.0, 0.0};
-                } else if (row == 0 && m == 1) {
-                    turn = {std::cos(longitude), std::sin(longitude)};
-                } else {
-                    const double cosOne = std::cos(longitude), sinOne = std::sin(longitude);
-                    turn = {turn.x * cosOne - turn.y * sinOne, turn.x * sinOne + turn.y * cosOne};
-                }
+                turn = m == 0 ? glm::dvec2(1.0, 0.0)
+                              : glm::dvec2(turn.x * one.x - turn.y * one.y, turn.x * one.y + turn.y * one.x);
                 const glm::dvec3 light(glm::vec3(map.at(x, row)));
                 c += turn.x * light;
                 s += turn.y * light;

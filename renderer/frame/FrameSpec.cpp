@@ -89,7 +89,12 @@ bool anyOpaque(const scenes::Scene& scene) {
                                [](const scenes::Material* material) { return !scenes::isTransparent(*material); });
 }
 
-/// Decides what glass shows of what is behind it, once the features of surfaces are known.
+/// Whether there is anything that glass may show by rays: surfaces, or those of area lights.
+bool showsAnyOpaque(const scenes::Scene& scene, const FrameSpec& spec) {
+    return spec.seenLights > 0 || anyOpaque(scene);
+}
+
+/// Decides what glass shows of what is behind it, once the features of surfaces and the lights that are seen are known.
 void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const FrameSettings& settings = spec.settings;
     const auto mayBe = [&](bool (*isOne)(const scenes::Material&)) {
@@ -101,7 +106,7 @@ void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const bool maySheetScatter =
         isLit && mayBe([](const scenes::Material& one) { return !scenes::hasBody(one) && mayScatter(one); });
     const RefractionInfo& refraction = infoOf(settings.refraction);
-    spec.showsBehindGlass = (mayBend || maySheetScatter) && refraction.showsScene && anyOpaque(scene);
+    spec.showsBehindGlass = (mayBend || maySheetScatter) && refraction.showsScene && showsAnyOpaque(scene, spec);
     spec.drawsFarSides = mayBend && refraction.farSide == RefractionInfo::FarSide::BackFaces;
     spec.blursBehindGlass = spec.showsBehindGlass && mayBe(mayScatter);
     spec.scattersBySheets =
@@ -123,7 +128,7 @@ std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& s
     if (std::ranges::none_of(scenes::materialsInUse(scene), looksBehind))
         return "no material that transmits has a thickness or is rough";
     if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
-    if (!anyOpaque(scene)) return "every surface is transparent";
+    if (!showsAnyOpaque(scene, spec)) return "every surface is transparent, and no light is seen";
     if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
     return "a shader of this driver samples too few textures";
 }
@@ -168,9 +173,10 @@ std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights,
 namespace {
 
 FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
-                   const FeatureSet& surfaces) {
+                   const FeatureSet& surfaces, std::size_t seenLights) {
     FrameSpec spec;
     spec.settings = settings;
+    spec.seenLights = seenLights;
     spec.lights = lights.texels.size();
     spec.shadowedLights = lights.shadowed;
     spec.features = surfaces;
@@ -223,19 +229,20 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
 
 } // namespace
 
-FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings) {
+FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
+                        std::size_t seenLights) {
     FeatureSet surfaces = surfaceFeatures(scene, settings.prune, settings.subsurface);
     // Not kept where nothing asks for it, since there is no atlas then.
     if (!showsLitPicture(settings.view) || !scenes::anySpreads(scene, settings.subsurface))
         surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
-    return makeSpec(scene, lights, settings, surfaces);
+    return makeSpec(scene, lights, settings, surfaces, seenLights);
 }
 
 FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
                             const FrameSettings& settings) {
     FeatureSet surfaces = settings.prune ? enteringFeatures(scene, object.material, object.mesh) : allFeatures();
     surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
-    FrameSpec spec = makeSpec(scene, lights, settings, surfaces);
+    FrameSpec spec = makeSpec(scene, lights, settings, surfaces, 0);
     spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
     spec.channels.clear();
     spec.showsEnvironment = false;

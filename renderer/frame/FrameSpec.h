@@ -47,6 +47,7 @@ struct FrameSpec {
 
     /// Slots that materials have textures in and shaders have no room for, the last first.
     std::vector<scenes::TextureSlot> withoutTextures;
+    bool hasNoRoomBehindGlass = false; ///< glass shows no surfaces for lack of textures, and would else
 
     /// By cell of the view's SpreadLightAtlas, what the texels of an object that light spreads over are lit with.
     std::vector<FrameSpec> spreadingViews;
@@ -95,7 +96,8 @@ struct FrameSpec {
         return {format, settings.sizePixels.x, settings.sizePixels.y, samples};
     }
 };
-FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings);
+FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
+                        std::size_t seenLights = 0);
 
 /// That of an object that light spreads over, as the view of `settings` needs it; the lights are those that reach it.
 FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,

@@ -74,8 +74,10 @@ std::size_t sampledTextures(const FrameSpec& spec) {
 
 void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
     for (const bool read : {false, true}) {
-        if (read && sampledTextures(spec) > std::size_t(spec.settings.texturesAStage))
+        if (read && sampledTextures(spec) > std::size_t(spec.settings.texturesAStage)) {
+            spec.hasNoRoomBehindGlass = spec.showsBehindGlass || spec.drawsFarSides;
             spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = spec.drawsFarSides = false;
+        }
         for (const scenes::TextureSlotInfo& info : std::views::reverse(scenes::kTextureSlots)) {
             // Without a normal map other features would have to go too.
             const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;
@@ -88,12 +90,17 @@ void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
 }
 
 std::string missingTextures(const FrameSpec& spec) {
-    if (spec.withoutTextures.empty()) return "";
-    std::vector<std::string_view> names;
-    for (const TextureSlot slot : std::views::reverse(spec.withoutTextures)) names.push_back(infoOf(slot).what);
+    std::vector<std::string> parts;
+    if (spec.hasNoRoomBehindGlass) parts.emplace_back("left out: the surfaces behind bodies of glass and rough sheets");
+    if (!spec.withoutTextures.empty()) {
+        std::vector<std::string_view> names;
+        for (const TextureSlot slot : std::views::reverse(spec.withoutTextures)) names.push_back(infoOf(slot).what);
+        parts.push_back(fmt::format("left out, so that factors hold everywhere: {}", fmt::join(names, ", ")));
+    }
+    if (parts.empty()) return "";
     return fmt::format("a shader of this driver samples at most {} textures, and the scene's materials and lights need "
-                       "more; left out, so that factors hold everywhere: {}",
-                       spec.settings.texturesAStage, fmt::join(names, ", "));
+                       "more; {}",
+                       spec.settings.texturesAStage, fmt::join(parts, "; "));
 }
 
 } // namespace tessera::frame

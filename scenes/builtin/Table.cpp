@@ -28,7 +28,7 @@ std::span<const BuiltinScene> builtinScenes() {
                      builtin::makeDiffusionTruth, kMiB},
         BuiltinScene{"lamps", "reading hall at night, 1000 lights with an area: for benchmarks", builtin::makeLamps,
                      4 * kMiB},
-        BuiltinScene{"studio", "products of seven materials, lit by lights of every shape", builtin::makeProductStudio,
+        BuiltinScene{"studio", "products of seven materials, lit by lights of four shapes", builtin::makeProductStudio,
                      4 * kMiB},
         BuiltinScene{"glass", "bottles, tumblers, a prism and coloured panes on a table in the studio",
                      builtin::makeGlass, 16 * kMiB},

@@ -293,6 +293,36 @@ TEST_F(AreaLightTruth, aSphereFillsOfTheRoughestLobeWhatItsClosedFormSays) {
     }
 }
 
+/// A point in the plane of a flat light, within its outline, sees it in half of all directions; one beside it nowhere.
+/// That is the limit of points before it, whichever side they are on. The reference has it by hemispheres.
+TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatItsFootSees) {
+    for (const LightType type : kAreaTypes) {
+        if (!scenes::infoOf(type).isFlat) continue;
+        for (const double aside : {0.0, 3.0}) {
+            SCOPED_TRACE(testing::Message() << scenes::infoOf(type).name << ", " << aside << " m aside");
+            scenes::Light light = areaLight(type, {0.0, aside, 0.0}, {1.0, 0.0, 0.0}, 1.0f);
+            light.isTwoSided = true;
+            const double wanted = aside == 0.0 ? 0.5 * pi : 0.0;
+            EXPECT_NEAR(seen(matte(), {light}), wanted, 1e-5);
+            scenes::Light before = light;
+            before.positionWS.x = -1e-5; // it shines towards +x
+            EXPECT_NEAR(seen(matte(), {before}), wanted, 1e-3);
+            light.isTwoSided = false;
+            EXPECT_EQ(seen(matte(), {light}), 0.0) << "its plane belongs to its back";
+
+            scenes::Scene scene = quadScene(matte());
+            light.isTwoSided = true;
+            light.isSeen = false;
+            scene.lights = {light};
+            scene.cameras[0].projection = scenes::Projection::Orthographic;
+            scene.cameras[0].halfHeightMetres = 1e-4;
+            frame::FrameSettings settings;
+            settings.sizePixels = {3, 3};
+            EXPECT_NEAR(double(validation::referencePicture(scene, settings).picture.rgba[4 * 4]), wanted, 1e-4);
+        }
+    }
+}
+
 /// Just above the size at which outlines count as places, on a surface that they graze: (r/d)^2 cos.
 TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
     for (const double cosine : {0.1, 0.3, 0.7})

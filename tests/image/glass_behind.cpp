@@ -154,6 +154,33 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     }
 }
 
+/// Nothing opaque is drawn then, and yet there is something to be seen.
+TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
+    for (const double roughness : {0.0, 0.2}) {
+        Scene scene = quadScene(bareGlass(1.5, roughness));
+        scene.cameras[0].projection = scenes::Projection::Orthographic;
+        scene.cameras[0].halfHeightMetres = 1.0;
+        scenes::Light& lamp = scene.lights.emplace_back();
+        lamp.type = scenes::LightType::Rectangle;
+        lamp.positionWS = {0.0, 0.0, -0.5};
+        lamp.directionWS = {0.0, 0.0, 1.0};
+        lamp.alongWS = {1.0, 0.0, 0.0};
+        lamp.widthMetres = lamp.heightMetres = 1.0f;
+        lamp.intensity = 2.0f;
+        frame::FrameSettings settings;
+        settings.sizePixels = {16, 16};
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        const std::size_t middle = 4 * (8 * 16 + 8);
+        EXPECT_GT(seen[middle], 1.5f) << roughness;
+        EXPECT_NEAR(seen[middle], truth.picture.rgba[middle], roughness > 0.0 ? 0.05 : 1e-4) << roughness;
+        scene.lights[0].isSeen = false;
+        EXPECT_LT(renderer.render(Technique::Deferred, settings).radiance[middle], 0.2f) << roughness;
+    }
+}
+
 /// By the median error of the pixels that bodies fill; docs/glass.md tells which pixels are farther from it.
 TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Scene scene = scenes::loadScene("glass");

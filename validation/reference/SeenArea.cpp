@@ -67,9 +67,11 @@ SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const glm::dvec3 middle = shining.positionRWS - positionRWS;
     glm::dvec3 front = light.directionWS;
     const double radius = double(light.radiusMetres);
+    bool isInPlane = false;
     if (scenes::infoOf(light.type).isFlat) {
         const double before = -glm::dot(middle, front);
-        if (before == 0.0 || (before < 0.0 && !light.isTwoSided)) return;
+        if (!(before > 0.0) && !light.isTwoSided) return;
+        isInPlane = before == 0.0;
         if (before < 0.0) front = -front;
     }
     if (light.type == LightType::Rectangle) {
@@ -83,6 +85,13 @@ SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
         addTube(middle, light);
     } else if (light.type == LightType::Polygon) {
         addPolygon(middle, light, front);
+    }
+    if (isInPlane) {
+        // As from just before it: within its outline it fills half of all directions, elsewhere none.
+        const bool isInOne = std::ranges::any_of(
+            patches_, [](const Patch& patch) { return isWithin(patch, patch.frame.in(-patch.middle)); });
+        patches_.clear();
+        if (isInOne) patches_.push_back({Shape::Cone, middle, frameOf(-front), glm::dvec2(0.0), 1.0});
     }
     std::erase_if(patches_, [](const Patch& patch) { return !(patch.area() > 0.0); });
     double all = 0.0;
@@ -202,6 +211,14 @@ double SeenArea::density(const glm::dvec3& direction) const {
     return sum;
 }
 
+bool SeenArea::isWithin(const Patch& patch, const glm::dvec3& place) {
+    if (patch.shape == Shape::Triangle)
+        return isInTriangle(glm::dvec2(place), {glm::dvec2(0.0), patch.sides[0], patch.sides[1]});
+    if (patch.shape == Shape::Rectangle)
+        return std::abs(place.x) <= 0.5 * patch.sizeMetres.x && std::abs(place.y) <= 0.5 * patch.sizeMetres.y;
+    return glm::length(glm::dvec2(place)) <= patch.sizeMetres.x;
+}
+
 double SeenArea::density(const Patch& patch, const glm::dvec3& direction) {
     const Frame& frame = patch.frame;
     if (patch.shape == Shape::Cone) {
@@ -225,12 +242,7 @@ double SeenArea::density(const Patch& patch, const glm::dvec3& direction) {
         if (!(cosine > 0.0)) return 0.0;
         distance = -glm::dot(patch.middle, frame.z) / cosine;
         const glm::dvec3 place = frame.in(distance * direction - patch.middle);
-        const bool isInside = patch.shape == Shape::Triangle
-                                  ? isInTriangle(glm::dvec2(place), {glm::dvec2(0.0), patch.sides[0], patch.sides[1]})
-                              : patch.shape == Shape::Rectangle ? std::abs(place.x) <= 0.5 * patch.sizeMetres.x &&
-                                                                      std::abs(place.y) <= 0.5 * patch.sizeMetres.y
-                                                                : glm::length(glm::dvec2(place)) <= patch.sizeMetres.x;
-        if (!isInside) return 0.0;
+        if (!isWithin(patch, place)) return 0.0;
     }
     return cosine > 0.0 ? distance * distance / (cosine * patch.area()) : 0.0;
 }

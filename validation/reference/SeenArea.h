@@ -59,6 +59,8 @@ private:
     void addSphere(const glm::dvec3& middle, double radiusMetres);
     void addTube(const glm::dvec3& middle, const scenes::Light& light);
     void addPolygon(const glm::dvec3& middle, const scenes::Light& light, const glm::dvec3& front);
+    /// Whether a place in the frame of a flat patch lies within its outline, whatever its height.
+    static bool isWithin(const Patch& patch, const glm::dvec3& place);
     static double density(const Patch& patch, const glm::dvec3& direction);
 
     std::vector<Patch> patches_;

@@ -26,6 +26,8 @@ public:
     /// The same along any other ray, from its origin on.
     std::optional<Met> ahead(const Ray& ray, double depthMetres) const;
 
+    bool areThere() const { return !shown_.empty(); }
+
     /// A box around each of them, wherever the camera looks.
     static std::vector<scenes::Box3> boxesRWS(std::span<const ShiningLight> lights);
 

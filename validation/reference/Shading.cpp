@@ -125,7 +125,7 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
 void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                          SurfaceMemo& memo, Lit& lit) const {
     const glm::dvec3 share = transmitted(point, toViewer);
-    const bool showsScene = settings_.bodiesShowScene && !sight_.objects().opaque().empty();
+    const bool showsScene = settings_.bodiesShowScene && sight_.hasOpaque();
     const bool looksBehind = point.hasBody || (settings_.bodiesShowScene && point.passingAlpha > kSmallestAlpha);
     if (!looksBehind || (!showsScene && !surroundings_.showsThroughBodies())) {
         lit.passed = share * leftByBody(point, glm::dvec3(point.bodyMetres));

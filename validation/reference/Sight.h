@@ -28,6 +28,8 @@ public:
     std::span<const ShiningLight> lights() const { return lights_; }
     const Objects& objects() const { return objects_; }
     const Textures& textures() const { return textures_; }
+    /// Whether ahead() may meet anything.
+    bool hasOpaque() const { return !objects_.opaque().empty() || seenLights_.areThere(); }
 
     /// As if no light had a surface.
     Seen surfacesOf(const Ray& ray) const;

@@ -123,7 +123,7 @@ bool PictureDrawing::spreadSlice(Screen::Reach reach) {
 bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
     constexpr int kFrames = 2; // the interface of this frame is laid out already
     if (announcements_ >= kFrames) return false;
-    facts_.isPreparing = screen_.isNewKind(wanted_);
+    facts_.isPreparing = screen_.lacksPrograms(wanted_);
     facts_.isSpreading = !facts_.isPreparing && stay != Screen::Stay::Passes && screen_.spreadsAnew(wanted_);
     if (!facts_.isPreparing && !facts_.isSpreading) return false;
     facts_.progress = announced();
@@ -186,7 +186,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const double startedAt = Window::nowSeconds();
     nextTold_ = startedAt + kQuietSeconds;
     const bool isNewKind = screen_.isNewKind(wanted_);
-    if (isNewKind) facts_.progress = announced(); // until it is given up, or told how far it is
+    if (screen_.lacksPrograms(wanted_)) facts_.progress = announced(); // until it is given up, or told how far it is
     try {
         Screen::Drawn drawn = screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
         if (drawn.gaveUp) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/Error.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
 #include "renderer/graph/Execute.h"
 #include "viewer/session/Inspection.h"
-#include "viewer/show/EditedFeatures.h"
 
 namespace tessera::viewer {
 namespace {
@@ -74,22 +74,34 @@ void Screen::open(const OpenScene& scene) {
     materialRevision_ = scene.materialRevision();
     environmentRevision_ = scene.environmentRevision();
     forget();
-    features_.reset();
-    kind_.reset(); // its programs are yet to be compiled
+    programs_.reset();
+    known_.clear(); // its renderer has yet to compile them
+    kind_.reset();
     pace_ = {};
     latestMs_ = 0.0;
     resolution_.restart(context_.capabilities().isSoftware ? kSoftwareGuess : 1.0);
 }
 
 bool Screen::isNewKind(const Wanted& wanted) const {
-    return !kind_ || !isOfKind(kind_->looks[0], wanted.looks[0]) ||
-           (wanted.sides == 2 && !isOfKind(kind_->looks[1], wanted.looks[1])) ||
-           kind_->features != featuresAfter(wanted.sceneEdits);
+    return !kind_ || !isOfKind((*kind_)[0], wanted.looks[0]) ||
+           (wanted.sides == 2 && !isOfKind((*kind_)[1], wanted.looks[1])) || lacksPrograms(wanted);
 }
 
-const frame::FeatureSet& Screen::featuresAfter(std::uint64_t sceneEdits) const {
-    if (!features_ || features_->sceneEdits != sceneEdits) features_ = {sceneEdits, editedFeatures(scene_->scene())};
-    return features_->features;
+bool Screen::lacksPrograms(const Wanted& wanted) const {
+    return !std::ranges::includes(known_, programsOf(wanted));
+}
+
+const std::set<std::string>& Screen::programsOf(const Wanted& wanted) const {
+    if (programs_ && programs_->wanted == wanted) return programs_->keys;
+    Programs& programs = programs_.emplace(Programs{wanted, {}});
+    try {
+        for (const Look& look : looksOf(wanted))
+            for (const shader::ProgramDesc& program : renderer_->programsOf(look.technique, look.settings))
+                programs.keys.insert(program.key());
+    } catch (const InputError&) {
+        programs.keys.clear(); // drawing it fails likewise, and tells why
+    }
+    return programs.keys;
 }
 
 bool Screen::spreadsAnew(const Wanted& wanted) const {
@@ -203,7 +215,9 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
     if (wanted.sides == 2) std::swap(waiting_, pictures_[0]);
     drawn_ = wanted;
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
-    kind_ = {wanted.looks, featuresAfter(wanted.sceneEdits)};
+    kind_ = wanted.looks;
+    const std::set<std::string>& programsDrawn = programsOf(wanted);
+    known_.insert(programsDrawn.begin(), programsDrawn.end());
     drawnScale_ = isLacking ? std::min(scale, kScales[1]) : scale;
     if (isLacking) { // whatever took it away
         spreadFor_.reset();

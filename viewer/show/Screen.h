@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
-#include "renderer/frame/Features.h"
 #include "renderer/gpu/Commands.h"
 #include "viewer/session/State.h"
 #include "viewer/show/Difference.h"
@@ -66,8 +66,9 @@ public:
     double predictedMs(double scale) const { return resolution_.predictedMs(scale); }
     /// Of the pictures that draw() draws, which one; for its `givesUp`.
     int drawingSide() const { return drawingSide_; }
-    /// Whether what is wanted is of another kind than what was drawn last, by its looks or by edits of the scene, so
-    /// that shaders may have to be compiled first.
+    /// Whether programs have to be compiled before what is wanted is drawn.
+    bool lacksPrograms(const Wanted& wanted) const;
+    /// Whether it lacks some, or is of another kind than what was drawn last: it takes a time that none before tells.
     bool isNewKind(const Wanted& wanted) const;
     /// Whether light that spreads over surfaces is to be computed anew, which a whole picture takes seconds for.
     bool spreadsAnew(const Wanted& wanted) const;
@@ -113,8 +114,8 @@ public:
 private:
     void tellSpreadLight(const Wanted& drawn);
     void forgetSpreadLight();
-    /// Of the scene with so many edits, which it has.
-    const frame::FeatureSet& featuresAfter(std::uint64_t sceneEdits) const;
+    /// By their keys, those of all sides.
+    const std::set<std::string>& programsOf(const Wanted& wanted) const;
 
     static constexpr double kSlowMs = 250.0;
 
@@ -134,18 +135,14 @@ private:
     std::optional<Wanted> spreadFor_; ///< its light is there, as far as it is seen
     bool isAllSpread_ = false;        ///< light is there for all cameras,
     bool isAllTooMuch_ = false;       ///< or would take too much memory
-    /// What decides the programs of pictures, by the scene's edits.
-    struct Features {
-        std::uint64_t sceneEdits = 0;
-        frame::FeatureSet features;
+    /// Of what is wanted.
+    struct Programs {
+        Wanted wanted;
+        std::set<std::string> keys;
     };
-    mutable std::optional<Features> features_; ///< as they were asked for last, of this scene
-    /// Kind of the pictures drawn last of this scene.
-    struct Kind {
-        std::array<Look, 2> looks;
-        frame::FeatureSet features;
-    };
-    std::optional<Kind> kind_;
+    mutable std::optional<Programs> programs_; ///< as they were asked for last, of this scene
+    std::set<std::string> known_;              ///< programs of the pictures that were drawn of this scene
+    std::optional<std::array<Look, 2>> kind_;  ///< of the pictures drawn last of this scene
     std::optional<Wanted> drawn_, failed_;
     double drawnScale_ = 0.0;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling

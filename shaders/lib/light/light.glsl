@@ -106,11 +106,17 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise vec3 direction = toLight * (sqrt(held2) * inverse2);
 #if HAS_LIGHT_SHAPES
     float share = shareTowards(index, kind, direction, attenuation);
-    reaches = reaches && share > 0.0;
+    bool shines = share > 0.0;
+#if HAS_AREA_LIGHTS
+    // In its plane a flat light that shines from both sides shows nothing of its middle and yet fills half of all
+    // directions where the point lies within it.
+    if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) shines = shines || shinesFromBothSides(attenuation.w);
+#endif
+    reaches = reaches && shines;
 #if HAS_AREA_LIGHTS
     // Never more than a hemisphere of its radiance.
     if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) {
-        precise float seenShare = share / (distance2 + share * kInversePi);
+        precise float seenShare = share / (held2 + share * kInversePi);
         share = 1.0;
         falloff = (window * window) * seenShare;
     }

@@ -277,7 +277,7 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
 // Goes all the way, or until the light is hidden. A walk that could go on after that was ended by Mesa.
 void walkOn(ShadowRay ray, inout CasterWalk walk)
 {
-    // CASTER_STEPS (renderer/frame/FrameSpec.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
+    // CASTER_STEPS (renderer/frame/FrameDefines.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
     // together and ends the loops when there are too many.
 #define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);
     while (goesOn(walk)) {
