@@ -82,6 +82,12 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
     return state;
 }
 
+/// Whether what is drawn later covers what was drawn before.
+bool isLayered(gpu::Blend blend) {
+    return blend == gpu::Blend::AlphaPremultiplied || blend == gpu::Blend::AlphaStraight ||
+           blend == gpu::Blend::Transmitting;
+}
+
 std::uint64_t newRevision() {
     static std::atomic<std::uint64_t> latest = 0;
     return ++latest;
@@ -323,7 +329,18 @@ void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, con
         gpu::setState(own);
         if (batch.material != boundMaterial) bindMaterial(batch.material);
         boundMaterial = batch.material;
-        gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
+        const auto drawBatch = [&] {
+            gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
+        };
+        // Of a surface with two sides what faces away is behind what faces the camera, as long as it is convex.
+        if (isLayered(own.blend) && own.cullFace == gpu::CullFace::None) {
+            own.cullFace = gpu::CullFace::Front;
+            gpu::setState(own);
+            drawBatch();
+            own.cullFace = gpu::CullFace::Back;
+            gpu::setState(own);
+        }
+        drawBatch();
     }
 }
 

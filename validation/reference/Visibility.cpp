@@ -137,9 +137,10 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     trace(trees_->transparent.get(), trees_->objects, query);
-    // Objects lie in their order of drawing, so their addresses tell it; Embree may offer a candidate twice.
+    // Objects lie in their order of drawing, so their addresses tell it, and of each those triangles come first that
+    // face away; Embree may offer a candidate twice.
     const auto drawnBefore = [](const Hit& a, const Hit& b) {
-        return std::pair(a.object, a.triangle) < std::pair(b.object, b.triangle);
+        return std::tuple(a.object, a.frontFacing, a.triangle) < std::tuple(b.object, b.frontFacing, b.triangle);
     };
     std::sort(hits.begin(), hits.end(), drawnBefore);
     hits.erase(std::unique(hits.begin(), hits.end(), isSame), hits.end());
