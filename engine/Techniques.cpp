@@ -304,7 +304,7 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     ForwardPass::Inputs inputs{wiring.surfaces, wiring.lighting, seenDepth, opaque.radiance, {}, {}};
     if (wiring.passingLobes) inputs.lighting.lobes.table = wiring.passingLobes;
     if (wiring.spec.showsBehindGlass)
-        inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance}).behind;
+        inputs.behind = BehindGlassPass::add(wiring.graph, wiring.spec, {opaque.radiance, seenDepth}).behind;
     if (wiring.spec.drawsFarSides)
         inputs.farSides = FarSidesPass::add(wiring.graph, wiring.spec, {wiring.surfaces}).farSides;
     return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};

@@ -1,7 +1,8 @@
 #include "passes/BehindGlassPass.h"
 
-#include <string>
+#include <optional>
 
+#include "renderer/frame/FrameDefines.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -9,36 +10,27 @@ namespace tessera::passes {
 
 namespace {
 
-/// A step that makes one texture from another, of the same program for every texel.
-struct BehindStep {
-    graph::TextureHandle source, made;
+struct PictureStep {
+    graph::TextureHandle radiance, picture;
+    std::optional<graph::TextureHandle> depth, centreDepth; ///< with several samples a pixel
 };
 
-BehindStep addBehindStep(graph::Graph& graph, const char* name, const shader::ProgramDesc& program,
-                         graph::TextureHandle source, const graph::TextureDesc& sourceDesc,
-                         const graph::TextureDesc& madeDesc) {
-    return graph.addPass<BehindStep>(
-        name,
-        [&](graph::PassBuilder& pass, BehindStep& step) {
-            pass.program(program);
-            pass.expect(source, sourceDesc);
-            step.source = pass.read(source);
-            step.made = pass.create(name, madeDesc);
-        },
-        [](const BehindStep& step, const graph::PassContext& context) {
-            context.bindTargets();
-            gpu::setState({});
-            gpu::useProgram(context.program());
-            gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(step.source));
-            gpu::drawFullscreenTriangle();
-        });
+struct LevelsStep {
+    graph::TextureHandle picture, levels;
+};
+
+/// Every texel from what is bound.
+void drawTexels(const graph::PassContext& context) {
+    context.bindTargets();
+    gpu::setState({});
+    gpu::useProgram(context.program());
+    gpu::drawFullscreenTriangle();
 }
 
 } // namespace
 
 shader::ProgramDesc BehindGlassPass::pictureProgram(const frame::FrameSpec& spec) {
-    return shader::screenProgram("behind_glass", "passes/behind_glass.frag",
-                                 {{"SAMPLES", std::to_string(spec.samples)}});
+    return shader::screenProgram("behind_glass", "passes/behind_glass.frag", frame::sampleDefines(spec));
 }
 
 shader::ProgramDesc BehindGlassPass::levelsProgram() {
@@ -47,14 +39,39 @@ shader::ProgramDesc BehindGlassPass::levelsProgram() {
 
 BehindGlassPass::Outputs BehindGlassPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
     constexpr graph::Format kFormat = graph::Format::Rgba32Float;
-    Outputs out;
-    out.behind.picture = addBehindStep(graph, "behind_glass", pictureProgram(spec), inputs.radiance,
-                                       spec.renderTarget(kFormat), spec.texture(kFormat))
-                             .made;
+    const auto picture = graph.addPass<PictureStep>(
+        "behind_glass",
+        [&](graph::PassBuilder& pass, PictureStep& step) {
+            pass.program(pictureProgram(spec));
+            pass.expect(inputs.radiance, spec.renderTarget(kFormat));
+            step.radiance = pass.read(inputs.radiance);
+            step.picture = pass.create("behind_glass", spec.texture(kFormat));
+            if (spec.samples == 1) return;
+            pass.expect(inputs.depth, spec.renderTarget(graph::Format::Depth32Float));
+            step.depth = pass.read(inputs.depth);
+            step.centreDepth = pass.create("behind_glass_depth", spec.texture(graph::Format::R32Float));
+        },
+        [](const PictureStep& step, const graph::PassContext& context) {
+            gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(step.radiance));
+            if (step.depth) gpu::bindTexture(TEXTURE_UNIT_DEPTH, context.texture(*step.depth));
+            drawTexels(context);
+        });
+    Outputs out{{picture.picture, {}, picture.centreDepth}};
     if (spec.blursBehindGlass)
-        out.behind.levels = addBehindStep(graph, "behind_glass_levels", levelsProgram(), out.behind.picture,
-                                          spec.texture(kFormat), spec.behindLevels())
-                                .made;
+        out.behind.levels = graph
+                                .addPass<LevelsStep>(
+                                    "behind_glass_levels",
+                                    [&](graph::PassBuilder& pass, LevelsStep& step) {
+                                        pass.program(levelsProgram());
+                                        pass.expect(picture.picture, spec.texture(kFormat));
+                                        step.picture = pass.read(picture.picture);
+                                        step.levels = pass.create("behind_glass_levels", spec.behindLevels());
+                                    },
+                                    [](const LevelsStep& step, const graph::PassContext& context) {
+                                        gpu::bindTexture(TEXTURE_UNIT_RADIANCE, context.texture(step.picture));
+                                        drawTexels(context);
+                                    })
+                                .levels;
     return out;
 }
 

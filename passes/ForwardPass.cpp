@@ -72,7 +72,7 @@ ForwardPass::Outputs ForwardPass::add(graph::Graph& graph, const frame::FrameSpe
             out.lighting.bind(context);
             if (out.behind) {
                 out.behind->bind(context);
-                gpu::bindTexture(TEXTURE_UNIT_BEHIND_DEPTH, context.texture(out.depth));
+                gpu::bindTexture(TEXTURE_UNIT_BEHIND_DEPTH, context.texture(out.behind->depth.value_or(out.depth)));
             }
             if (out.farSides) gpu::bindTexture(TEXTURE_UNIT_FAR_SIDES, context.texture(*out.farSides));
             gpu::drawInBands([&] {

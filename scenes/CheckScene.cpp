@@ -126,6 +126,8 @@ void checkCamera(const CheckedElement& element, const Camera& camera) {
     element.require(problem.empty(), problem);
 }
 
+} // namespace
+
 void checkEnvironment(const Scene& scene, const Environment& environment) {
     const CheckedElement element{scene, "environment", 0, environment.map.name};
     checkImage(element, environment.map);
@@ -150,6 +152,8 @@ void checkEnvironment(const Scene& scene, const Environment& environment) {
                                 "its intensity",
                                 most, kMostRadiance));
 }
+
+namespace {
 
 void checkSceneWide(const Scene& scene) {
     const auto require = [&](bool holds, const std::string& problem) {

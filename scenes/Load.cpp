@@ -163,10 +163,17 @@ Scene makeBuiltin(const BuiltinScene& builtin, const LoadOptions& options, LoadL
 std::optional<Environment> environmentCalled(const std::string& name, LoadLedger& ledger,
                                              std::vector<std::string>& warnings) {
     if (name == kNoEnvironment) return {};
-    if (name.starts_with(kBuiltinPrefix)) return loadEnvironment(name, ledger, warnings);
+    const auto checked = [&](const std::string& source) {
+        Environment environment = loadEnvironment(source, ledger, warnings);
+        Scene bare;
+        bare.name = name;
+        checkEnvironment(bare, environment);
+        return environment;
+    };
+    if (name.starts_with(kBuiltinPrefix)) return checked(name);
     const auto builtins = builtinEnvironments();
     if (std::ranges::find(builtins, name, &BuiltinEnvironment::name) != builtins.end())
-        return loadEnvironment(std::string(kBuiltinPrefix) + name, ledger, warnings);
+        return checked(std::string(kBuiltinPrefix) + name);
     std::error_code failure;
     const std::filesystem::file_status status = std::filesystem::status(name, failure);
     if (std::filesystem::is_directory(status))
@@ -179,7 +186,7 @@ std::optional<Environment> environmentCalled(const std::string& name, LoadLedger
     }
     if (!std::filesystem::is_regular_file(status))
         throw InputError(name + ": is not a regular file; name the picture itself");
-    return loadEnvironment(name, ledger, warnings);
+    return checked(name);
 }
 
 Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {

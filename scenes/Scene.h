@@ -139,5 +139,7 @@ void checkPlaces(const Scene& scene);
 /// Throws InputError unless every index is in range, every attribute has its mesh's length and every number is finite
 /// (a light's infinite range and a camera's infinite far plane excepted). The text names the scene and the element.
 void checkScene(const Scene& scene);
+/// The same of an environment that is to become a scene's.
+void checkEnvironment(const Scene& scene, const Environment& environment);
 
 } // namespace tessera::scenes

@@ -81,10 +81,10 @@ void noteFault(const std::filesystem::path& file, const std::string& reason) {
     CacheFault& fault = cacheFault();
     const std::lock_guard lock(fault.mutex);
     if (std::exchange(fault.isNoted, true)) return;
-    fault.text =
-        fmt::format("{} cannot be kept, so that it is computed anew each time: {}; make its folder writable, or "
-                    "name another with XDG_CACHE_HOME",
-                    file.string(), reason);
+    // What to do about a file that somebody named does not help with one that nobody did.
+    fault.text = fmt::format("{} cannot be kept, so that it is computed anew each time: {}; make its folder writable, "
+                             "or name another with XDG_CACHE_HOME",
+                             file.string(), reason.substr(0, reason.find("; ")));
 }
 
 void write(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
@@ -94,6 +94,11 @@ void write(const std::filesystem::path& file, std::uint64_t key, const Parts& pa
         bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
     try {
         std::filesystem::create_directories(file.parent_path());
+        // A pipe would wait for its other end, and a link leads to a file that is not the cache's.
+        const std::filesystem::file_status status = std::filesystem::symlink_status(file);
+        if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+            !std::filesystem::is_directory(status))
+            std::filesystem::remove(file);
         writeFileAtomically(file.string(), bytes);
     } catch (const std::filesystem::filesystem_error& error) { // it is computed anew next time
         noteFault(file, error.code().message());

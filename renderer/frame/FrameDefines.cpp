@@ -21,14 +21,20 @@ std::string samplePlaces(const FrameSpec& spec) {
 
 } // namespace
 
+Defines sampleDefines(const FrameSpec& spec) {
+    Defines defines{{"SAMPLES", std::to_string(spec.samples)}};
+    if (spec.samples > 1) defines.emplace_back("SAMPLE_PLACES", samplePlaces(spec));
+    return defines;
+}
+
 Defines frameDefines(const FrameSpec& spec) {
     Defines defines = featureDefines(spec.features);
     defines.emplace_back("VIEW", std::to_string(shaderView(spec.settings.view)));
     defines.emplace_back("FILTER_EXACT", spec.settings.filter == TextureFilter::Exact ? "1" : "0");
     defines.emplace_back("LIGHTS_PER_ROUND", std::to_string(lightsPerRound(spec.lights)));
     defines.emplace_back("SPECULAR_OFF", spec.settings.specular ? "0" : "1");
-    defines.emplace_back("SAMPLES", std::to_string(spec.samples));
-    if (spec.samples > 1) defines.emplace_back("SAMPLE_PLACES", samplePlaces(spec));
+    const Defines ofSamples = sampleDefines(spec);
+    defines.insert(defines.end(), ofSamples.begin(), ofSamples.end());
     if (spec.features[Feature::ShadowMaps]) {
         defines.emplace_back("SHADOW_FILTER", std::to_string(int(spec.settings.shadowFilter)));
         defines.emplace_back("SHADOW_CASCADES", std::to_string(spec.settings.shadowMaps.cascades));

@@ -195,7 +195,9 @@ void GBufferHandles::bind(const graph::PassContext& context) const {
 BehindHandles BehindHandles::read(graph::PassBuilder& pass, const FrameSpec& spec) const {
     pass.expect(picture, spec.texture(Format::Rgba32Float));
     if (levels) pass.expect(*levels, spec.behindLevels());
-    return {pass.read(picture), readWhereThere(pass, levels, Access::Sampled)};
+    if (depth) pass.expect(*depth, spec.texture(Format::R32Float));
+    return {pass.read(picture), readWhereThere(pass, levels, Access::Sampled),
+            readWhereThere(pass, depth, Access::Sampled)};
 }
 
 void BehindHandles::bind(const graph::PassContext& context) const {

@@ -175,6 +175,8 @@ struct GBufferHandles {
 struct BehindHandles {
     graph::TextureHandle picture;
     std::optional<graph::TextureHandle> levels; ///< where some bodies blur it: FrameSpec::behindLevels()
+    /// Of its surfaces at the centres of pixels, R32F; none with one sample a pixel, whose depth buffer is that.
+    std::optional<graph::TextureHandle> depth;
 
     BehindHandles read(graph::PassBuilder& pass, const FrameSpec& spec) const;
     void bind(const graph::PassContext& context) const;

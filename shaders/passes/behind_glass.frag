@@ -1,9 +1,12 @@
 // The picture that bodies of glass look up: rgb of what covers the pixel, times a, the share that it covers. What is seen
 // where nothing was drawn is left out.
 #include "shared/slots.h"
+#include "lib/raster/depth_step.glsl"
 
 #if SAMPLES > 1
 layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2DMS radianceImage;
+layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2DMS depthImage;
+layout(location = 1) out float behindDepth;
 #else
 layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2D radianceImage;
 #endif
@@ -14,6 +17,31 @@ vec4 covered(vec4 radiance)
     return radiance.a > 0.0 ? vec4(radiance.rgb * radiance.a, radiance.a) : vec4(0.0);
 }
 
+#if SAMPLES > 1
+float firstDepth(ivec2 pixel)
+{
+    return texelFetch(depthImage, clamp(pixel, ivec2(0), textureSize(depthImage) - 1), 0).r;
+}
+
+// At the pixel's centre, where rays are held against it, of the surface that its first sample shows. It lies between the
+// depths of the samples.
+float depthAtCentre(ivec2 pixel)
+{
+    const vec2 kPlaces[SAMPLES] = vec2[](SAMPLE_PLACES); // from the pixel's lower left corner
+    float first = firstDepth(pixel), least = first, most = first;
+    if (!(first > 0.0)) return first;
+    for (int i = 1; i < SAMPLES; ++i) {
+        float depth = texelFetch(depthImage, pixel, i).r;
+        least = depth > 0.0 ? min(least, depth) : least;
+        most = max(most, depth);
+    }
+    vec2 slope = vec2(stepOnSurface(firstDepth(pixel - ivec2(1, 0)), first, firstDepth(pixel + ivec2(1, 0))),
+                      stepOnSurface(firstDepth(pixel - ivec2(0, 1)), first, firstDepth(pixel + ivec2(0, 1))));
+    precise float centre = first - dot(slope, kPlaces[0] - 0.5);
+    return clamp(centre, least, most);
+}
+#endif
+
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -22,6 +50,7 @@ void main()
     for (int i = 1; i < SAMPLES; ++i) sum += covered(texelFetch(radianceImage, pixel, i));
     precise vec4 mean = sum * (1.0 / float(SAMPLES));
     behind = mean;
+    behindDepth = depthAtCentre(pixel);
 #else
     behind = covered(texelFetch(radianceImage, pixel, 0));
 #endif

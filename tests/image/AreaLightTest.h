@@ -29,4 +29,22 @@ inline scenes::Material twoSidedMetal(double metallic, double perceptualRoughnes
     return metal;
 }
 
+/// A coat over a dielectric.
+inline scenes::Material coatedSheet() {
+    scenes::Material material = twoSidedMetal(0.0, 0.6);
+    material.name = "coated sheet";
+    material.clearcoat = 1.0f;
+    material.clearcoatPerceptualRoughness = 0.3f;
+    return material;
+}
+
+inline scenes::Material velvet() {
+    scenes::Material material = twoSidedMetal(0.0, 1.0);
+    material.name = "velvet";
+    material.baseColor = glm::vec4(glm::vec3(0.2f), 1.0f);
+    material.sheenColor = glm::vec3(0.8f);
+    material.sheenPerceptualRoughness = 0.5f;
+    return material;
+}
+
 } // namespace tessera::test

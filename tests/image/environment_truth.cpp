@@ -1,17 +1,14 @@
 // Light from everywhere against the reference and published tables.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "shaders/shared/environment.h"
+#include "tests/image/AreaLightTest.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
-#include "tests/unit/docs/Tables.h"
 
 namespace tessera {
 namespace {
@@ -20,18 +17,25 @@ using engine::Technique;
 using frame::EnvironmentLight;
 using namespace test;
 
-class EnvironmentTruth : public EnvironmentTest {
-protected:
-    void expectSamplesAgree();
-};
-using EnvironmentTruthSlow = EnvironmentTruth;
-
 // Of light that is the same everywhere, in parts of what is reflected of it; measured as 0.006, 0.005 and 0.1.
 constexpr double kEvenError = 0.01;            ///< noise of samples and of the reference, tables between their places
 constexpr double kInnerReflectionError = 0.02; ///< tables where total reflection begins
 constexpr double kTwoAlphasError = 0.12;       ///< the table of one alpha, the mean of two
 constexpr double kFacetsError = 0.025;         ///< of 24 for a lobe of two alphas
 constexpr double kLeastError = 1e-5;           ///< absolute, where next to nothing is reflected
+
+struct EvenCase {
+    std::string name;
+    scenes::Material material;
+    double splitSumError = kEvenError, sampledError = kEvenError;
+};
+
+class EnvironmentTruth : public EnvironmentTest {
+protected:
+    void expectSamplesAgree();
+    void expectEven(const std::vector<EvenCase>& cases, bool compensates);
+};
+using EnvironmentTruthSlow = EnvironmentTruth;
 
 TEST_F(EnvironmentTruth, theBackdropIsThatOfTheReferenceInEveryPixel) {
     scenes::Scene scene = quadScene(unlit());
@@ -149,12 +153,6 @@ TEST_F(EnvironmentTruthSlow, samplesAgreeWithTheReferenceWithinThreeStandardErro
     expectSamplesAgree();
 }
 
-struct EvenCase {
-    std::string name;
-    scenes::Material material;
-    double splitSumError = kEvenError;
-};
-
 /// Materials of every model, with black below lobes that are to be seen alone.
 std::vector<EvenCase> evenCases() {
     using scenes::MaterialModel;
@@ -227,13 +225,11 @@ std::vector<EvenCase> evenCases() {
     return cases;
 }
 
-/// In the light of a map that is the same everywhere both ways to find it are exact but for their tables and their
-/// noise, so that what a surface reflects is known to one number, whatever its lobe.
-TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
+/// Both ways to find light against the reference, where it is the same from everywhere.
+void EnvironmentTruth::expectEven(const std::vector<EvenCase>& cases, bool compensates) {
     constexpr int kCellPixels = 4;
     constexpr double kCosines[] = {0.9, 0.5, 0.15};
     constexpr int kRows = int(std::size(kCosines));
-    const std::vector<EvenCase> cases = evenCases();
     const int columns = int(cases.size());
     // A square a cell of a metre, seen along -z; each tilts about x and is as long as it then looks short.
     scenes::Scene scene = quadScene({});
@@ -261,6 +257,7 @@ TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
     frame::FrameSettings settings;
     settings.sizePixels = {columns * kCellPixels, kRows * kCellPixels};
     settings.environment.samples = 4096;
+    settings.environment.compensates = compensates;
     const validation::ReferencePicture truth = validation::referencePicture(
         scene, settings, [] {}, validation::Leeway::None);
     engine::Renderer renderer(context(), scene);
@@ -279,149 +276,81 @@ TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
             for (int row = 0; row < kRows; ++row) {
                 const EvenCase& one = cases[std::size_t(column)];
                 const double reflected = meanOf(truth.picture.rgba, column, row);
-                const double error = light == EnvironmentLight::SplitSum ? one.splitSumError : kEvenError;
+                const double error = light == EnvironmentLight::SplitSum ? one.splitSumError : one.sampledError;
                 EXPECT_NEAR(meanOf(seen, column, row), reflected, error * reflected + kLeastError)
                     << infoOf(light).name << ", " << one.name << ", cosine " << kCosines[row];
             }
     }
 }
 
-class EnvironmentSlow : public EnvironmentTest {};
-
-/// Of one channel of a picture of ballUnderSky().
-struct BallFigures {
-    double relMse, noise; ///< noise of the reference, as relMse
-    double meanError;     ///< the mean over pixels whose mean square relMse is
-    double brightest;     ///< over the reference, in 999 of 1000 pixels at most
-    double pixels;
-};
-BallFigures ballFigures(const std::vector<float>& seen, const validation::ReferencePicture& truth) {
-    double errors = 0.0, squares = 0.0, noise = 0.0;
-    std::vector<double> over;
-    for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
-        if (truth.picture.covered[i] == 0) continue;
-        const double own = double(seen[4 * i]), other = double(truth.picture.rgba[4 * i]);
-        const double relative = (own - other) / (other + 0.01);
-        errors += relative;
-        squares += relative * relative;
-        noise += truth.surroundings[i].variance.x / ((other + 0.01) * (other + 0.01));
-        over.push_back(own / std::max(other, 1e-3));
-    }
-    const double count = double(over.size());
-    std::ranges::sort(over);
-    return {squares / count, noise / count, errors / count, over[over.size() * 999 / 1000], count};
+/// In the light of a map that is the same everywhere both ways to find it are exact but for their tables and their
+/// noise, so that what a surface reflects is known to one number, whatever its lobe.
+TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
+    expectEven(evenCases(), false);
 }
 
-/// By how much more light a ball shows than the reference, on a picture of its own: a highlight of roughness 0.125 is
-/// a hundredth of the ball wide. Where that is half a pixel the sum hangs on where pixels happen to lie, by 20 % and
-/// more; with 200 of them across it is within 0.2 % of that of any finer picture.
-double biasOfBall(engine::Renderer& renderer, const scenes::Scene& scene, frame::FrameSettings settings) {
-    settings.sizePixels = {200, 200};
-    reference::Settings wanted = validation::referenceSettings(scene, settings);
-    wanted.leeway = false;
-    wanted.environmentPaths = 64; // of 31,000 pixels together: noise of 2e-4
-    const reference::Rendered truth = reference::render(scene, wanted);
-    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-    double shown = 0.0, light = 0.0;
-    for (std::size_t i = 0; i < truth.radiance.size(); ++i) {
-        if (truth.covered[i] == 0) continue;
-        shown += double(seen[4 * i]);
-        light += truth.radiance[i].x;
-    }
-    return shown / light - 1.0;
+/// What is reflected between microfacets leaves through the layers above them: left out, a coat is off by 21 % with
+/// samples, and coat and sheen together by 76 % with the split sum.
+TEST_F(EnvironmentTruth, layersLieOverWhatCompensationAdds) {
+    std::vector<EvenCase> cases;
+    for (const bool isCoated : {false, true})
+        for (const float sheen : {0.0f, 0.8f}) {
+            EvenCase& one = cases.emplace_back(EvenCase{fmt::format("coat {}, sheen {}", isCoated, sheen), {}});
+            one.material.metallic = 1.0f;
+            one.material.perceptualRoughness = 1.0f;
+            one.material.clearcoat = isCoated ? 1.0f : 0.0f;
+            one.material.clearcoatPerceptualRoughness = 0.2f;
+            one.material.sheenColor = glm::vec3(sheen);
+            one.material.sheenPerceptualRoughness = 0.5f;
+            // Each layer weakens by its mean over all light what the reference weakens light by light.
+            if (isCoated || sheen > 0.0f) one.splitSumError = one.sampledError = 0.05;
+        }
+    expectEven(cases, true);
 }
 
-struct StatedError {
-    double bias, relMse;
-};
-/// Of the table of docs/environment.md: a row's errors, environment by environment. Empty for a row that it lacks.
-std::vector<StatedError> statedErrors(const std::string& row) {
-    const std::string document = textOf(kRepository / "docs/environment.md"), start = "\n| " + row + " |";
-    std::vector<StatedError> errors;
-    const std::size_t at = document.find(start);
-    if (at == std::string::npos) return errors;
-    const std::size_t first = at + start.size();
-    std::istringstream cells(document.substr(first, document.find('\n', first) - first));
-    for (std::string cell; std::getline(cells, cell, '|');) {
-        StatedError& error = errors.emplace_back();
-        EXPECT_EQ(std::sscanf(cell.c_str(), " %lf %%, %lf", &error.bias, &error.relMse), 2) << row << ": " << cell;
-        error.bias *= 0.01;
-    }
-    return errors;
-}
-
-/// The errors that docs/environment.md tells, by which the split sum is judged, and its other bars: a bias of a
-/// hundredth on matte surfaces, and no fireflies. Samples err by their noise alone.
-TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
-    const std::pair<const char*, scenes::Environment> environments[] = {
-        {"studio", builtinEnvironment("studio")},
-        {"sky", builtinEnvironment("sky")},
-        {"sun", environmentOf(512, 256, [](int x, int y) { return glm::dvec3(x == 60 && y == 70 ? 1e5 : 0.1); })},
-        {"squares",
-         environmentOf(512, 256, [](int x, int y) { return glm::dvec3((x / 32 + y / 32) % 2 == 0 ? 1.0 : 0.05); })},
-        {"even", evenEnvironment(1.0)}};
-    struct Row {
-        std::string name;
-        scenes::Material material;
+/// A coat has a normal of its own, here tilted by 37 degrees towards +x: it mirrors what lies at 74 degrees from the
+/// surface's normal, on one side.
+TEST_F(EnvironmentTruth, aCoatSeesWhatItsOwnNormalMirrors) {
+    scenes::Material coat;
+    coat.metallic = 0.0f;
+    coat.specularFactor = 0.0f;
+    coat.baseColor = {0.0f, 0.0f, 0.0f, 1.0f}; // the coat is all there is
+    coat.clearcoat = 1.0f;
+    coat.texture(scenes::TextureSlot::ClearcoatNormal).image = 0;
+    scenes::Scene scene = quadScene(coat);
+    scene.images = {uniformImage({204, 128, 230, 255})}; // 0.6, 0, 0.8
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 0.5;
+    frame::FrameSettings settings;
+    settings.sizePixels = {8, 8};
+    settings.filter = frame::TextureFilter::Exact;
+    settings.environment.samples = 1024;
+    const auto expectAsReference = [&](double error, const std::string& what) {
+        const validation::ReferencePicture truth = validation::referencePicture(
+            scene, settings, [] {}, validation::Leeway::None);
+        engine::Renderer renderer(context(), scene);
+        const float seen = renderer.render(Technique::Deferred, settings).radiance[4 * (4 * 8 + 4)];
+        const float wanted = truth.picture.rgba[4 * (4 * 8 + 4)];
+        EXPECT_GT(wanted, 0.01f) << what;
+        EXPECT_NEAR(seen, wanted, error * double(wanted)) << what;
     };
-    std::vector<Row> rows(1);
-    rows[0].name = "matte";
-    rows[0].material.model = scenes::MaterialModel::Lambert;
-    for (const double roughness : {0.0, 0.125, 0.25, 0.5, 0.75, 1.0}) {
-        Row& row = rows.emplace_back();
-        row.name = fmt::format("metal, roughness {}", roughness);
-        row.material.metallic = 1.0f;
-        row.material.perceptualRoughness = float(roughness);
-    }
-    // The page rounds errors to a digit, which may be half as much less than what it stands for.
-    constexpr double kRounded = 1.5;
-    // Half of the last digit of a bias, and three standard errors of the reference: 1e-2 a pixel of 1200.
-    constexpr double kLeastBias = 1.5e-3;
-    constexpr double kRoundingError = 1e-5; // of sums in single precision, where light is even
-    for (std::size_t column = 0; column < std::size(environments); ++column) {
-        const auto& [name, environment] = environments[column];
-        for (const Row& row : rows) {
-            SCOPED_TRACE(fmt::format("{}, {}", name, row.name));
-            scenes::Scene scene = ballUnderSky(row.material);
-            scene.environment = environment;
-            frame::FrameSettings settings;
-            settings.sizePixels = {40, 40};
-            settings.environment.backdrop = frame::Backdrop::Off;
-            const validation::ReferencePicture truth = validation::referencePicture(
-                scene, settings, [] {}, validation::Leeway::None);
-            engine::Renderer renderer(context(), scene);
-            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-            const BallFigures ball = ballFigures(seen, truth);
-            const double bias = biasOfBall(renderer, scene, settings);
-            std::printf("%-8s %-22s bias %+.2e relMSE %.2e (noise of the reference %.1e) brightest %.2f\n", name,
-                        row.name.c_str(), bias, ball.relMse, ball.noise, ball.brightest);
-            // A lobe of the wrong shape is up to 5.4 times too bright at an edge; a firefly of that sun would be 1e2
-            // and more.
-            EXPECT_LE(ball.brightest, 8.0);
-            // The reference is close enough to tell by how much the split sum errs where that is much.
-            EXPECT_LE(ball.noise, std::max(0.1 * ball.relMse, 4e-4));
-            if (row.material.model == scenes::MaterialModel::Lambert) {
-                EXPECT_LE(std::abs(bias), 0.01);
-                EXPECT_LE(ball.relMse, 3e-3); // most of it where the sun stands at the horizon
-            }
-            if (row.material.perceptualRoughness == 0.0f) continue; // a mirror: EnvironmentMirrors
-            const std::vector<StatedError> stated = statedErrors(row.name);
-            ASSERT_EQ(stated.size(), std::size(environments));
-            EXPECT_LE(std::abs(bias), kRounded * std::abs(stated[column].bias) + kLeastBias);
-            EXPECT_LE(ball.relMse, kRounded * stated[column].relMse);
-            settings.environment.light = EnvironmentLight::Sampled;
-            settings.environment.samples = 256;
-            const BallFigures sampled = ballFigures(renderer.render(Technique::Deferred, settings).radiance, truth);
-            // Pixels that take the same run of the map's samples err alike.
-            const double alone =
-                std::min(sampled.pixels, double(1 << ENVIRONMENT_SAMPLES_LOG2) / settings.environment.samples);
-            const double standardError = std::sqrt((sampled.relMse - sampled.meanError * sampled.meanError) / alone);
-            std::printf("%-8s %-22s sampled %+.2e, standard error %.1e\n", name, row.name.c_str(), sampled.meanError,
-                        standardError);
-            EXPECT_LE(std::abs(sampled.meanError), 3.0 * standardError + kRoundingError);
-            EXPECT_LE(standardError, 5e-3); // so small that 2 % too much or too little would show
+    // Light grows along +x: ahead of the surface it is half as bright as where the coat looks.
+    for (const float roughness : {0.0f, 0.3f}) {
+        scene.materials[0].clearcoatPerceptualRoughness = roughness;
+        scene.environment = environmentOf(64, 32, [](int x, int y) {
+            return glm::dvec3(1.0 + 0.95 * scenes::directionInMap({(x + 0.5) / 64.0, (y + 0.5) / 32.0}).x);
+        });
+        for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+            settings.environment.light = light;
+            // The lobe leans towards the normal, and light is steep.
+            expectAsReference(roughness > 0.0f && light == EnvironmentLight::SplitSum ? 0.05 : 0.01,
+                              fmt::format("{}, roughness {}", infoOf(light).name, roughness));
         }
     }
+    scene.environment.reset();
+    scene.lights = {areaLight(scenes::LightType::Sphere, {2.0 * 0.96, 0.0, 2.0 * 0.28}, {0.0, 0.0, -1.0}, 3.0f)};
+    scene.lights[0].isSeen = false;
+    expectAsReference(0.1, "a sphere");
 }
 
 } // namespace

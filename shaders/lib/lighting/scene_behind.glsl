@@ -3,6 +3,7 @@
 // the screen a ray is straight, and its depth-buffer values grow evenly along it, as those of planes do.
 #pragma once
 #include "shared/refraction.h"
+#include "lib/raster/depth_step.glsl"
 #include "lib/surface/camera.glsl"
 
 #if HAS_SCENE_BEHIND
@@ -10,11 +11,7 @@ layout(binding = TEXTURE_UNIT_BEHIND) uniform sampler2D behindPicture;
 #if HAS_BLURRED_SCENE_BEHIND
 layout(binding = TEXTURE_UNIT_BEHIND_LEVELS) uniform sampler2D behindLevels;
 #endif
-#if SAMPLES > 1
-layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2DMS behindDepth;
-#else
 layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2D behindDepth;
-#endif
 #endif
 #if HAS_BACK_FACES
 layout(binding = TEXTURE_UNIT_FAR_SIDES) uniform sampler2D farSides; // xyz normal, w depth
@@ -38,7 +35,7 @@ ivec2 pixelBehind(vec2 place)
     return clamp(ivec2(floor(place)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
 }
 
-// As stored, 0 where nothing is. Of several samples the first one stands for the pixel.
+// As stored, 0 where nothing is.
 float depthBehind(int layer, ivec2 pixel)
 {
     pixel = clamp(pixel, ivec2(0), ivec2(view.sizePixels.xy) - 1);
@@ -134,11 +131,10 @@ bool isMet(int layer, ScreenRay ray, vec3 before, vec3 after)
     return gap <= kBehindPixels * pixelMetres + kBehindSlopes * slope;
 }
 
-// The smaller of a pixel's steps in depth to its neighbours along an axis: that on its own surface.
+// Along an axis, on a pixel's own surface.
 float depthStep(int layer, ivec2 pixel, ivec2 axis, float depth)
 {
-    precise float forward = depthBehind(layer, pixel + axis) - depth, back = depth - depthBehind(layer, pixel - axis);
-    return abs(forward) < abs(back) ? forward : back;
+    return stepOnSurface(depthBehind(layer, pixel - axis), depth, depthBehind(layer, pixel + axis));
 }
 
 // Where a ray meets the plane of the surface that the pixel of `after` shows; `after` itself where that lies elsewhere.

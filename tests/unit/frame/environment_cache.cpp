@@ -5,6 +5,8 @@
 #include <ctime>
 #include <fstream>
 
+#include <sys/stat.h>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +51,24 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     computed = false;
     cachedEnvironment(greyMap(32, 16, [](int x, int) { return x; }), folder.path(), note);
     EXPECT_TRUE(computed);
+}
+
+TEST(EnvironmentCache, whatIsNoFileInItsPlaceIsReplacedAndNeitherFollowedNorWaitedFor) {
+    test::TempFolder folder;
+    const scenes::Image map = greyMap(32, 16, [](int x, int y) { return x + 0.1 * y; });
+    const FilteredEnvironment fresh = cachedEnvironment(map, folder.path() / "cache");
+    const std::filesystem::path file = std::filesystem::directory_iterator(folder.path() / "cache")->path();
+    const std::filesystem::path own = folder.path() / "precious";
+    std::ofstream(own) << "mine";
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink(own, file);
+    EXPECT_EQ(cachedEnvironment(map, folder.path() / "cache").irradiance.corners, fresh.irradiance.corners);
+    EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file)));
+    EXPECT_EQ(std::filesystem::file_size(own), 4u);
+    std::filesystem::remove(file);
+    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+    EXPECT_EQ(cachedEnvironment(map, folder.path() / "cache").irradiance.corners, fresh.irradiance.corners);
+    EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file)));
 }
 
 /// Of the size that people's maps have.

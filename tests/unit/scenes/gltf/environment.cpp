@@ -12,6 +12,7 @@
 #include "base/Srgb.h"
 #include "scenes/Environment.h"
 #include "scenes/Load.h"
+#include "scenes/LoadLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -369,6 +370,16 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     };
     EXPECT_EQ(loaded(""), 3.0f);
     EXPECT_EQ(loaded(R"(, "intensity": 0.5)"), 0.5f);
+    lightOf(builder)["intensity"] = 1e38;
+    LoadLedger ledger;
+    std::vector<std::string> warnings;
+    const std::string bright = builder.folder.write("bright.gltf", builder.json.dump()).string();
+    try {
+        environmentCalled(bright, ledger, warnings); // as the window calls it, without a scene
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("at most 1e+30 can be shown"));
+    }
     builder.json["scenes"][0].erase("extensions");
     options.environment = builder.folder.write("dark.gltf", builder.json.dump()).string();
     try {
