@@ -175,5 +175,26 @@ TEST_F(GlassBackFaces, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
     EXPECT_GT(reflected, kBehindPixels);
 }
 
+/// The base of the prism on the table of the scene glass reflects all light, and the rays that leave it begin at the
+/// depth of the table: held against that of another place of the pixel, one of three pixels there showed the table.
+TEST_F(GlassBackFaces, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
+    const scenes::Scene scene = scenes::loadScene("glass");
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {640, 360};
+    settings.refraction = frame::Refraction::BackFaces;
+    const std::vector<float> one = renderer.render(Technique::Forward, settings).radiance;
+    settings.samples = 4;
+    const std::vector<float> four = renderer.render(Technique::Forward, settings).radiance;
+    std::size_t others = 0, all = 0;
+    for (int y = 228; y < 234; ++y) // within the picture of that base
+        for (int x = 147; x < 163; ++x) {
+            const std::size_t red = 4 * (std::size_t(y) * 640 + std::size_t(x));
+            others += std::abs(one[red] - four[red]) > 0.1f * one[red] ? 1 : 0;
+            ++all;
+        }
+    EXPECT_EQ(others, 0u) << "of " << all;
+}
+
 } // namespace
 } // namespace tessera
