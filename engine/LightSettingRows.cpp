@@ -129,6 +129,18 @@ std::vector<Setting> environmentSettings() {
          .panel = SettingPanel::Environment,
          .entersLight = false,
          .value = choice(in(&FrameSettings::refraction), frame::refractionTable(), &frame::RefractionInfo::refraction)},
+        {.name = "glass depth",
+         .flag = "--glass-depth",
+         .key = "glassDepth",
+         .type = "N",
+         .help =
+             "How many bodies and sheets of glass a ray that another has bent meets in turn, in the reference alone: "
+             "techniques show opaque surfaces and lights behind glass",
+         .group = "Environment",
+         .panel = SettingPanel::None,
+         .sameCost = true,
+         .entersLight = false,
+         .value = choice(in(&FrameSettings::glassDepth), frame::kGlassDepths)},
     };
 }
 

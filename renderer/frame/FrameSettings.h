@@ -104,6 +104,7 @@ struct RefractionInfo {
     enum class FarSide : std::uint8_t { None, Parallel, BackFaces } farSide; ///< where rays leave a body
 };
 std::span<const RefractionInfo> refractionTable();
+inline constexpr int kGlassDepths[] = {0, 1, 2, 4, 8};
 const RefractionInfo& infoOf(Refraction refraction);
 
 /// What of an environment is seen behind the scene.
@@ -168,6 +169,7 @@ struct FrameSettings {
     DiffusionSettings diffusion;
     EnvironmentSettings environment;
     Refraction refraction = Refraction::OneSide;
+    int glassDepth = 0; ///< of the reference alone (its Settings.h): glass behind glass; one of kGlassDepths
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     float snapPixels = 0.0f; ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets

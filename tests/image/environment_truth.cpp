@@ -153,6 +153,36 @@ TEST_F(EnvironmentTruthSlow, samplesAgreeWithTheReferenceWithinThreeStandardErro
     expectSamplesAgree();
 }
 
+/// Of a map of few texels, each far from its neighbours: what a direction weighs hangs on which texel it lies in.
+TEST_F(EnvironmentTruth, samplesOfCoarseMapsAreWeighedByTheTexelThatTheyLieIn) {
+    scenes::Scene scene = quadScene({});
+    scene.cameras[0].projection = scenes::Projection::Orthographic;
+    scene.cameras[0].halfHeightMetres = 0.5;
+    scene.environment = environmentOf(
+        16, 8, [](int x, int y) { return glm::dvec3((y % 3 == 0 ? 40.0 : 0.1) + (x % 5 == 2 ? 20.0 : 0.0)); });
+    scene.environment->rotationDegrees = 180.0f; // so that the quad sees the map's middle
+    frame::FrameSettings settings;
+    settings.sizePixels = {16, 16};
+    settings.environment.light = EnvironmentLight::Sampled;
+    settings.environment.samples = 1024;
+    for (const float roughness : {0.4f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f}) {
+            scene.materials[0].metallic = metallic;
+            scene.materials[0].perceptualRoughness = roughness;
+            const validation::ReferencePicture truth = validation::referencePicture(
+                scene, settings, [] {}, validation::Leeway::None);
+            engine::Renderer renderer(context(), scene);
+            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+            double own = 0.0, wanted = 0.0;
+            for (std::size_t i = 0; i < seen.size(); i += 4) {
+                own += double(seen[i]);
+                wanted += double(truth.picture.rgba[i]);
+            }
+            // 256 pixels of 3 x 1024 samples each, and as many of the reference.
+            EXPECT_NEAR(own / wanted, 1.0, 3e-3) << "roughness " << roughness << ", metallic " << metallic;
+        }
+}
+
 /// Materials of every model, with black below lobes that are to be seen alone.
 std::vector<EvenCase> evenCases() {
     using scenes::MaterialModel;

@@ -310,5 +310,30 @@ TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsABodyDoesAndBendsNone) {
             }
 }
 
+/// Two panes that bend nothing and reflect nothing before a wall: each pane takes its colour from what passes. The
+/// reference with glass behind glass has both, without it the nearer one alone, as the renderer has.
+TEST_F(GlassBehindTruth, behindGlassIsInTheReferenceAsDeepAsItIsAskedFor) {
+    Material near = bareGlass(1.0), far = bareGlass(1.0);
+    near.baseColor = {0.5f, 0.75f, 1.0f, 1.0f};
+    far.baseColor = {0.8f, 0.4f, 0.2f, 1.0f};
+    Scene scene = coveredByGlass(checkedWall(), far);
+    placeQuad(scene.nodes.back(), -1.0, 4.0);
+    const std::vector<float> plain = drawn(checkedWall(), seeing(Refraction::OneSide));
+    const Scene behindOne = coveredByGlass(std::move(scene), near);
+    for (const int depth : {0, 1, 2}) {
+        frame::FrameSettings settings = seeing(Refraction::OneSide);
+        settings.glassDepth = depth;
+        const validation::ReferencePicture truth = validation::referencePicture(
+            behindOne, settings, [] {}, validation::Leeway::None);
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const double left = double(near.baseColor[c]) * (depth > 0 ? double(far.baseColor[c]) : 1.0);
+                    ASSERT_NEAR(at(truth.picture.rgba, x, y)[c], left * at(plain, x, y)[c], 1e-5)
+                        << depth << " at " << x << ", " << y;
+                }
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -30,6 +30,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.environmentIntensity = double(settings.environment.intensity);
     result.environmentRotationDegrees = double(settings.environment.rotationDegrees);
     result.bodiesShowScene = infoOf(settings.refraction).showsScene;
+    result.glassDepth = settings.glassDepth;
     using FarSide = frame::RefractionInfo::FarSide;
     const FarSide farSide = infoOf(settings.refraction).farSide;
     result.farSide = farSide == FarSide::Parallel    ? reference::FarSide::Parallel

@@ -58,6 +58,9 @@ struct Settings {
     bool bodiesShowScene = false;    ///< bodies of what transmits show opaque surfaces too, where they bend rays to
     FarSide farSide = FarSide::None; ///< of those bodies, where rays leave them
     int bodyPaths = 32;              ///< of the lobe of a rough one, to surfaces
+    /// How many bodies and sheets a ray that one has bent may meet in turn, and shows with all that they pass. The
+    /// renderer's rays meet none.
+    int glassDepth = 0;
     int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
     double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
     int shadowRings = 16;        ///< on the disk of a light with a size, four times as many rays each

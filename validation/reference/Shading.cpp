@@ -55,8 +55,10 @@ Shading::Shading(const scenes::Scene& scene, const Settings& settings, const Sig
 
 Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) const {
     const Seen& seen = shown.seen;
-    Lit all{surroundings_.isSeen() ? surroundings_.radianceOf(glm::normalize(shown.ray.direction))
-                                   : glm::dvec3(scene_.background)};
+    const bool isEnvironmentSeen =
+        shown.throughBodyPaths > 0 ? surroundings_.showsThroughBodies() : surroundings_.isSeen();
+    Lit all{isEnvironmentSeen ? surroundings_.radianceOf(glm::normalize(shown.ray.direction))
+                              : glm::dvec3(scene_.background)};
     if (seen.light) all.radiance = seen.light->factor * lights_[seen.light->light].color;
     if (seen.opaque) all = litSurface(shown, 0, nudge, shadows);
     for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
@@ -125,28 +127,29 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
 void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                          SurfaceMemo& memo, Lit& lit) const {
     const glm::dvec3 share = transmitted(point, toViewer);
-    const bool showsScene = settings_.bodiesShowScene && sight_.hasOpaque();
+    const bool showsScene = settings_.bodiesShowScene && (sight_.hasOpaque() || glassLeft(shown) > 0);
     const bool looksBehind = point.hasBody || (settings_.bodiesShowScene && point.passingAlpha > kSmallestAlpha);
     if (!looksBehind || (!showsScene && !surroundings_.showsThroughBodies())) {
         lit.passed = share * leftByBody(point, glm::dvec3(point.bodyMetres));
         return;
     }
-    if (!memo.throughBody) memo.throughBody = throughBody(point, shown.ray, hit, toViewer, showsScene, shown.seed);
+    if (!memo.throughBody) memo.throughBody = throughBody(point, shown, hit, toViewer, showsScene);
     glm::dvec3 wayMetres;
     for (int c = 0; c < 3; ++c) wayMetres[c] = memo.throughBody->wayMetres[c].value_or(point.bodyMetres);
     lit.radiance += share * leftByBody(point, wayMetres) * memo.throughBody->radiance;
 }
 
-BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
-                               bool showsScene, std::uint32_t seed) const {
+BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, const Hit& entry,
+                               const glm::dvec3& toViewer, bool showsScene) const {
+    const Ray& ray = shown.ray;
     const double depthMetres = entry.depthMetres;
     const auto meetsAny = [&](const Ray& inside, double metres) {
         const Seen seen = sight_.ahead(inside);
         return (seen.opaque && seen.opaque->depthMetres <= metres) || (seen.light && seen.light->depthMetres <= metres);
     };
     const auto around = [&](const glm::dvec3& originRWS, const glm::dvec3& direction) {
-        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, seed);
-        return sceneAround(ray, depthMetres, originRWS, direction, point.passingAlpha, seed);
+        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, shown.seed);
+        return sceneAround(shown, entry, originRWS, direction, point.passingAlpha);
     };
     if (!point.hasBody) return {around(ray.at(depthMetres), -toViewer), {}};
     const auto along = [&](double ior, std::optional<double>& wayMetres) {
@@ -185,29 +188,42 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Ray& ray, const 
     return found;
 }
 
-/// Opaque surfaces and lights around a direction, and what is seen between them: the environment that lights the
-/// scene, else the background.
-glm::dvec3 Shading::sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS,
-                                const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
-    const auto meetsAny = [&](const glm::dvec3& way) {
-        const Seen seen = sight_.ahead(bentRay(ray, depthMetres, originRWS, way));
-        return seen.opaque || seen.light;
-    };
+/// What a bent ray meets; of glass, while any may be met, also all that stands before it, but for a body itself of
+/// which no far side was found.
+Seen Shading::aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) const {
+    if (glassLeft(shown) < 1) return sight_.ahead(bent);
+    // The surface that a ray leaves is not met again.
+    const double least = 1e-6 * std::max(entry.depthMetres, 1.0);
+    Seen seen = sight_.aheadThroughGlass(bent, least);
+    if (settings_.farSide != FarSide::BackFaces)
+        std::erase_if(seen.transparent, [&](const Hit& hit) { return hit.object == entry.object; });
+    return seen;
+}
+
+/// Surfaces and lights around a direction, and what is seen between them: the environment that lights the scene, else
+/// the background.
+glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, const glm::dvec3& originRWS,
+                                const glm::dvec3& direction, double alpha) const {
+    const auto aheadAlong = [&](const Ray& bent) { return aheadOf(shown, entry, bent); };
+    const auto isAny = [](const Seen& seen) { return seen.opaque || seen.light || !seen.transparent.empty(); };
+    const auto rayAlong = [&](const glm::dvec3& way) { return bentRay(shown.ray, entry.depthMetres, originRWS, way); };
     const bool hasEnvironment = surroundings_.showsThroughBodies();
+    // Rough bodies behind one another would cost the product of their paths.
+    const int paths = shown.throughBodyPaths > 0 ? std::max(settings_.bodyPaths / 8, 4) : settings_.bodyPaths;
     const glm::dvec3 surfaces =
-        Surroundings::meanAround(direction, alpha, seed, settings_.bodyPaths, [&](const glm::dvec3& way) {
-            const Ray bent = bentRay(ray, depthMetres, originRWS, way);
-            Shown shown{bent, sight_.ahead(bent), seed, nullptr, {}};
-            if (const auto& met = shown.seen.light) return met->factor * lights_[met->light].color;
-            if (!shown.seen.opaque) return hasEnvironment ? glm::dvec3(0.0) : glm::dvec3(scene_.background);
+        Surroundings::meanAround(direction, alpha, shown.seed, paths, [&](const glm::dvec3& way) {
+            const Ray bent = rayAlong(way);
+            Shown met{bent, aheadAlong(bent), shown.seed, nullptr, {}};
+            if (!isAny(met.seen)) return hasEnvironment ? glm::dvec3(0.0) : glm::dvec3(scene_.background);
             // A rough body shows many surfaces in a pixel.
-            shown.throughBodyPaths = alpha <= kSmallestAlpha
-                                         ? settings_.environmentPaths
-                                         : std::max(settings_.environmentPaths / settings_.bodyPaths, 16);
-            return litSurface(shown, 0, Nudge(), Shadows::Exact).radiance;
+            met.throughBodyPaths =
+                alpha <= kSmallestAlpha ? settings_.environmentPaths : std::max(settings_.environmentPaths / paths, 16);
+            met.glassLeft = glassLeft(shown) - 1;
+            return shade(met).radiance;
         });
     if (!hasEnvironment) return surfaces;
-    return surfaces + surroundings_.around(direction, alpha, seed, meetsAny);
+    return surfaces + surroundings_.around(direction, alpha, shown.seed,
+                                           [&](const glm::dvec3& way) { return isAny(aheadAlong(rayAlong(way))); });
 }
 
 /// What all lights below the horizon give.

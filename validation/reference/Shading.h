@@ -35,6 +35,7 @@ struct Shown {
     std::vector<SurfaceMemo> memos;   ///< by surface, the opaque one first; those that were lit
     /// Of the environment, where it is seen along a ray that a body bent; 0: by the camera.
     int throughBodyPaths = 0;
+    int glassLeft = 0; ///< of Settings::glassDepth, along such a ray
 
     bool hasUndecidedShadows() const;
 };
@@ -62,10 +63,15 @@ private:
     SurfacePoint nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const;
     void addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                     SurfaceMemo& memo, Lit& lit) const;
-    BodyLight throughBody(const SurfacePoint& point, const Ray& ray, const Hit& entry, const glm::dvec3& toViewer,
-                          bool showsScene, std::uint32_t seed) const;
-    glm::dvec3 sceneAround(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction,
-                           double alpha, std::uint32_t seed) const;
+    /// How many bodies and sheets rays may meet that this one's surfaces bend.
+    int glassLeft(const Shown& shown) const {
+        return shown.throughBodyPaths > 0 ? shown.glassLeft : settings_.glassDepth;
+    }
+    BodyLight throughBody(const SurfacePoint& point, const Shown& shown, const Hit& entry, const glm::dvec3& toViewer,
+                          bool showsScene) const;
+    glm::dvec3 sceneAround(const Shown& shown, const Hit& entry, const glm::dvec3& originRWS,
+                           const glm::dvec3& direction, double alpha) const;
+    Seen aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) const;
     glm::dvec3 passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,
                           const glm::dvec3& toViewer, Shadows shadows, SurfaceMemo& memo) const;
     Occlusion::Answer shadowOf(std::size_t light, const Hit& hit, const SurfacePoint& point,

@@ -66,6 +66,15 @@ Seen Sight::ahead(const Ray& ray) const {
     return seen;
 }
 
+Seen Sight::aheadThroughGlass(const Ray& ray, double fromMetres) const {
+    Seen seen = ahead(ray);
+    const double end = seen.opaque  ? seen.opaque->depthMetres
+                       : seen.light ? seen.light->depthMetres
+                                    : std::numeric_limits<double>::infinity();
+    seen.transparent = visibility_.transparentAhead(ray, fromMetres, end);
+    return seen;
+}
+
 Layers Sight::layersOf(const Ray& ray) const {
     const Seen seen = surfacesOf(ray);
     Layers found;

@@ -37,6 +37,8 @@ public:
     Seen withLight(const Ray& ray, const Seen& surfaces) const;
     /// The opaque surface or light that any other ray meets from its origin on, however near or far from the camera.
     Seen ahead(const Ray& ray) const;
+    /// The same with the transparent surfaces before it but for those so near the origin, the farthest first.
+    Seen aheadThroughGlass(const Ray& ray, double fromMetres) const;
     /// Where a ray inside a body leaves the object.
     std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const {
         return visibility_.farSideAhead(ray, object);

@@ -147,6 +147,21 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     return hits;
 }
 
+std::vector<Hit> Visibility::transparentAhead(const Ray& ray, double fromMetres, double depthMetres) const {
+    std::vector<Hit> hits;
+    if (!trees_->transparent) return hits;
+    Query query = trees_->queryOf(ray, depthMetres);
+    query.nearMetres = fromMetres;
+    query.farMetres = depthMetres;
+    query.all = &hits;
+    trace(trees_->transparent.get(), trees_->objects, query);
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+        return std::tuple(-a.depthMetres, a.object, a.triangle) < std::tuple(-b.depthMetres, b.object, b.triangle);
+    });
+    hits.erase(std::unique(hits.begin(), hits.end(), isSame), hits.end());
+    return hits;
+}
+
 std::vector<Hit> Visibility::opaqueBefore(const Ray& ray, double depthMetres) const {
     std::vector<Hit> hits;
     Query query = trees_->queryOf(ray, depthMetres);

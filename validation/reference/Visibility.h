@@ -26,6 +26,9 @@ public:
     /// Where a ray inside a body leaves the object: the nearest of its triangles ahead that show the ray their back.
     std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const;
 
+    /// Transparent surfaces along any other ray, from a depth on, not behind another, the farthest first.
+    std::vector<Hit> transparentAhead(const Ray& ray, double fromMetres, double depthMetres) const;
+
     /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; masks have no holes.
     std::vector<Hit> opaqueBefore(const Ray& ray, double depthMetres) const;
 
