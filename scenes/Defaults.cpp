@@ -21,10 +21,24 @@ namespace {
 constexpr double kNearShare = 1e-3;
 constexpr const char* kDefaultEnvironment = "studio";
 
+std::string studioSource() {
+    return std::string(kBuiltinPrefix) + kDefaultEnvironment;
+}
+
 const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
     const std::optional<std::string>& wish = scene.options.camera;
     return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
+}
+
+/// The turn of a built-in studio that stands around the scene's camera as around that of a scene without one, which
+/// looks along longitude -45 degrees.
+float degreesAroundCamera(const Scene& scene) {
+    const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
+    constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
+    if (std::hypot(forwardWS.x, forwardWS.z) <= kLevel * glm::length(forwardWS)) return 0.0f;
+    const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
+    return float(std::remainder(-45.0 - longitude, 360.0));
 }
 
 /// Of the size that the scene's options ask for, else that of most screens.
@@ -60,16 +74,36 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
 
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
-    scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + kDefaultEnvironment, ledger, scene.warnings);
-    // Stands around the camera as it does around that of a scene without one, which looks along longitude -45 degrees.
-    const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
-    constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
-    if (std::hypot(forwardWS.x, forwardWS.z) > kLevel * glm::length(forwardWS)) {
-        const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
-        scene.environment->rotationDegrees = float(std::remainder(-45.0 - longitude, 360.0));
-    }
+    scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
+    scene.environment->rotationDegrees = degreesAroundCamera(scene);
     scene.options.wishes.try_emplace("backdrop", "blurred");
     scene.supplied.light = true;
+}
+
+OwnEnvironment ownEnvironmentOf(const Scene& scene) {
+    OwnEnvironment own;
+    if (!scene.environment) {
+        own.studioDegrees = chosenStudioDegrees(scene);
+    } else if (scene.supplied.light) {
+        own.studioDegrees = scene.environment->rotationDegrees;
+    } else {
+        own.source = scene.environment->source;
+        own.view = {scene.environment->rotationDegrees, scene.environment->intensity};
+    }
+    return own;
+}
+
+float chosenStudioDegrees(const Scene& scene) {
+    return scene.supplied.camera ? degreesAroundCamera(scene) : 0.0f;
+}
+
+void layAs(const OwnEnvironment& own, Environment& chosen) {
+    if (!own.source.empty()) {
+        chosen.rotationDegrees = own.view.rotationDegrees;
+        if (chosen.source == own.source) chosen.intensity = own.view.intensity;
+    } else if (chosen.source == studioSource()) {
+        chosen.rotationDegrees = own.studioDegrees;
+    }
 }
 
 void addDefaultExposure(Scene& scene) {

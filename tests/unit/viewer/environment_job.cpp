@@ -129,5 +129,24 @@ TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     EXPECT_FALSE(open.filteredEnvironment());
 }
 
+TEST_F(EnvironmentJobTest, aSuppliedStudioChosenAgainStandsAroundTheCameraAsBefore) {
+    const tessera::test::TempFolder folder; // a flat model is seen face-on, so the studio is turned
+    const std::string file = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+    OpenScene open(file, {}, scenes::loadScene(file), scenes::SceneOrigin());
+    const float supplied = open.scene().environment.value().rotationDegrees;
+    EXPECT_NEAR(supplied, -45.0f, 1e-4f); // rounding of an angle in single precision
+    open.takeEnvironment(chosen("sky"));
+    EXPECT_EQ(open.scene().environment.value().rotationDegrees, 0.0f) << "it was supplied, and is no scene's own";
+    open.takeEnvironment(chosen("studio"));
+    EXPECT_EQ(open.scene().environment.value().rotationDegrees, supplied);
+    scenes::LoadOptions load;
+    load.environment = "studio";
+    EXPECT_EQ(scenes::loadScene(file, load).environment.value().rotationDegrees, supplied) << "on the command line too";
+    load.environment = "none";
+    OpenScene dark(file, load, scenes::loadScene(file, load), scenes::SceneOrigin());
+    dark.takeEnvironment(chosen("studio"));
+    EXPECT_EQ(dark.scene().environment.value().rotationDegrees, supplied);
+}
+
 } // namespace
 } // namespace tessera::viewer
