@@ -115,6 +115,14 @@ void scaleRows(State& state) {
     slider("Picture scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
+/// One line in any state, so that rows below stay where the pointer is.
+void loadingLine(const State& state, const Facts& facts) {
+    if (state.loadingEnvironment.empty()) return ImGui::TextDisabled("or drop an .hdr or .exr file");
+    const std::string text =
+        progressText(facts.background.value_or(Progress{"Loading", {}, false}), ImGui::GetContentRegionAvail().x);
+    ImGui::TextUnformatted(text.c_str());
+}
+
 /// The maps to choose from, and what was dropped onto the window.
 void environmentList(State& state, const Facts& facts) {
     std::string shown(scenes::kNoEnvironment);
@@ -131,10 +139,7 @@ void environmentList(State& state, const Facts& facts) {
     if (const auto picked = choose("Map", shown, choices, now))
         state.requests.environment = std::string(choices[*picked].name);
     ImGui::EndDisabled();
-    if (state.loadingEnvironment.empty())
-        paragraph("or drop an .hdr or .exr file onto the window");
-    else if (facts.background)
-        paragraph(progressText(*facts.background));
+    loadingLine(state, facts);
 }
 
 } // namespace

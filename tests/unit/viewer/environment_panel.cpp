@@ -2,6 +2,8 @@
 #include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
+#include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
 namespace {
@@ -34,6 +36,48 @@ TEST_F(EnvironmentPanel, tellsHowFarOneIsThatIsLoaded) {
     EXPECT_FALSE(says("drop an .hdr or .exr file"));
     facts.background = {"Loading sky", {}, true};
     EXPECT_TRUE(says("Loading sky ..."));
+}
+
+TEST_F(EnvironmentPanel, keepsItsRowsInPlaceWhileOneIsLoadedWhateverItIsCalled) {
+    State state = test::stateOf(scenes::loadScene("room"));
+    Facts facts;
+    const auto bottom = [&] {
+        float y = 0.0f;
+        show([&] {
+            environmentPanel(state, facts);
+            y = ImGui::GetCursorPosY();
+        });
+        return y;
+    };
+    const float before = bottom();
+    const std::string name = "kloofendal_" + std::string(80, 'x') + "_8k.hdr";
+    state.loadingEnvironment = name;
+    EXPECT_EQ(bottom(), before) << "nothing is told yet";
+    std::string kept;
+    for (const double share : {0.0, 0.09, 0.31, 1.0}) {
+        facts.background = {"Filtering " + name, share, true};
+        EXPECT_EQ(bottom(), before) << share;
+        const std::string text = progressText(*facts.background, 250.0f);
+        EXPECT_TRUE(text.starts_with("Filtering kl")) << text;
+        const std::string words = text.substr(0, text.find(": "));
+        EXPECT_TRUE(words.ends_with("8k.hdr")) << text;
+        if (kept.empty()) kept = words;
+        EXPECT_EQ(words, kept) << "figures grow, and move nothing else";
+        EXPECT_LE(ImGui::CalcTextSize(text.c_str()).x, 250.0f);
+    }
+    facts.background = {"Loading " + name, {}, true};
+    EXPECT_EQ(bottom(), before);
+}
+
+TEST_F(EnvironmentPanel, textsAreShortenedByWholeLettersOfTheirMiddleAloneWhereTheyAreTooLong) {
+    show([] {
+        const std::string umlauts = "\xc3\xa4\xc3\xb6\xc3\xbc\xc3\xa4\xc3\xb6\xc3\xbc";
+        const float whole = ImGui::CalcTextSize(umlauts.c_str()).x; // of six letters
+        EXPECT_EQ(shortened(umlauts, whole), umlauts);
+        EXPECT_EQ(shortened(umlauts, whole - 0.5f), "\xc3\xa4...\xc3\xbc") << "as wide as five";
+        EXPECT_EQ(shortened(umlauts, 0.0f), "...");
+        EXPECT_EQ(shortened("", 0.0f), "");
+    });
 }
 
 } // namespace
