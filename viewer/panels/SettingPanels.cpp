@@ -118,9 +118,11 @@ void scaleRows(State& state) {
 /// One line in any state, so that rows below stay where the pointer is.
 void loadingLine(const State& state, const Facts& facts) {
     if (state.loadingEnvironment.empty()) return ImGui::TextDisabled("or drop an .hdr or .exr file");
-    const std::string text =
-        progressText(facts.background.value_or(Progress{"Loading", {}, false}), ImGui::GetContentRegionAvail().x);
-    ImGui::TextUnformatted(text.c_str());
+    const Progress progress = facts.background.value_or(Progress{"Loading", {}, false});
+    const std::string cancel = progress.canCancel ? " (Esc)" : "";
+    const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(cancel.c_str()).x;
+    ImGui::TextUnformatted((progressText(progress, width) + cancel).c_str());
+    if (progress.canCancel) tip("Esc leaves the environment as it is");
 }
 
 /// The maps to choose from, and what was dropped onto the window.

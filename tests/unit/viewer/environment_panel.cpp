@@ -32,10 +32,23 @@ TEST_F(EnvironmentPanel, tellsHowFarOneIsThatIsLoaded) {
     EXPECT_TRUE(says("drop an .hdr or .exr file"));
     state.loadingEnvironment = "sky";
     facts.background = {"Computing sky", 0.449, true};
-    EXPECT_TRUE(says("Computing sky: 45 %"));
+    EXPECT_TRUE(says("Computing sky: 45 % (Esc)"));
     EXPECT_FALSE(says("drop an .hdr or .exr file"));
     facts.background = {"Loading sky", {}, true};
     EXPECT_TRUE(says("Loading sky ..."));
+}
+
+TEST_F(EnvironmentPanel, aLoadThatEscCancelsGoesBeforeThePictureThatItWillReplace) {
+    Facts facts;
+    EXPECT_FALSE(facts.told());
+    facts.progress = {"Drawing the whole picture", 0.5, true};
+    EXPECT_EQ(facts.told(), facts.progress);
+    facts.background = {"Loading sky", {}, true};
+    EXPECT_EQ(facts.told(), facts.background);
+    facts.background->canCancel = false; // a scene
+    EXPECT_EQ(facts.told(), facts.progress);
+    facts.progress.reset();
+    EXPECT_EQ(facts.told(), facts.background);
 }
 
 TEST_F(EnvironmentPanel, keepsItsRowsInPlaceWhileOneIsLoadedWhateverItIsCalled) {
