@@ -114,14 +114,15 @@ void addDefaultExposure(Scene& scene) {
     scene.supplied.exposureEV = stops;
 }
 
-std::string suppliedText(const Scene& scene) {
+std::string suppliedText(const Scene& scene, Advice advice) {
+    const bool isOptions = advice == Advice::Options;
     const auto& [camera, light, exposureEV] = scene.supplied;
     std::string lacks, given;
     if (light) {
         lacks = "no light";
-        given = fmt::format("lit by the built-in environment '{}' (--environment chooses another, --no-default-light "
-                            "leaves it dark)",
-                            kDefaultEnvironment);
+        given = fmt::format("lit by the built-in environment '{}' ({})", kDefaultEnvironment,
+                            isOptions ? "--environment chooses another, --no-default-light leaves it dark"
+                                      : "the panel Environment chooses another or none");
     }
     if (camera) {
         lacks += light ? " and no camera" : "no camera";
@@ -129,9 +130,12 @@ std::string suppliedText(const Scene& scene) {
     }
     std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
-        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV (--exposure chooses another{})",
+        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV ({} chooses another{})",
                             text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV,
-                            exposureEV > 0 ? ", --environment studio adds light from all around" : "");
+                            isOptions ? "--exposure" : "the panel View",
+                            exposureEV <= 0 ? ""
+                            : isOptions     ? ", --environment studio adds light from all around"
+                                            : ", a map of the panel Environment adds light from all around");
     return text;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -42,8 +43,11 @@ void layAs(const OwnEnvironment& own, Environment& chosen);
 /// needed (Exposure.h): its format has none, and what writes it may count in any unit.
 void addDefaultExposure(Scene& scene);
 
+/// What chooses others than those that a scene was given: options of the command line, or the viewer's panels.
+enum class Advice : std::uint8_t { Options, Panels };
+
 /// One line for people: which camera, light and exposure the scene was given, and what chooses others. Empty where it
 /// was given none.
-std::string suppliedText(const Scene& scene);
+std::string suppliedText(const Scene& scene, Advice advice = Advice::Options);
 
 } // namespace tessera::scenes

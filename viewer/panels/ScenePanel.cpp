@@ -81,7 +81,8 @@ void scenePanel(State& state) {
     fact("Lights", fmt::format("{}", scene.lights.size()));
     fact("Materials", fmt::format("{}", scene.materials.size()));
     hookRows(*state.open);
-    if (const std::string supplied = scenes::suppliedText(scene); !supplied.empty()) paragraph(supplied);
+    if (const std::string supplied = scenes::suppliedText(scene, scenes::Advice::Panels); !supplied.empty())
+        paragraph(supplied);
     for (const std::string& note : scene.notes) paragraph(note);
     for (const std::string& warning : scene.warnings) paragraph(warning);
 }
