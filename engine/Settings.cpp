@@ -35,6 +35,20 @@ std::string refusalOf(const Setting& setting, const ViewRequest& request) {
                        fmt::join(able, ", "));
 }
 
+/// Why a choice of a table leaves a setting without effect, with those that heed it; empty: it heeds it, or `heeds` is
+/// null, as of a setting that any heeds.
+template <typename Info>
+std::string whyUnheeded(bool Info::*heeds, std::span<const Info> table, const Info& chosen, std::string_view called) {
+    if (heeds == nullptr || chosen.*heeds) return {};
+    std::vector<std::string_view> able;
+    for (const Info& info : table)
+        if (info.*heeds) able.push_back(info.name);
+    std::string names(able.front());
+    for (std::size_t i = 1; i < able.size(); ++i)
+        names += fmt::format("{}{}", i + 1 < able.size() ? ", " : " and ", able[i]);
+    return fmt::format("Only {} {} it; {} is {}", names, able.size() == 1 ? "heeds" : "heed", called, chosen.name);
+}
+
 // ---- What scenes ask for -------------------------------------------------------------------------------------------
 
 std::string_view typeOf(const scenes::Wish& wish) {
@@ -78,16 +92,12 @@ std::string Setting::panelLabel() const {
 
 std::string Setting::whyIdle(const ViewRequest& request, const scenes::Scene* scene) const {
     if (ofEnvironment && scene != nullptr && !scene->environment) return "There is no environment; choose a map";
-    const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
-    if (ofFilters == nullptr || filter.*ofFilters) return {};
-    std::vector<std::string_view> able;
-    for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable())
-        if (info.*ofFilters) able.push_back(info.name);
-    std::string names(able.front());
-    for (std::size_t i = 1; i < able.size(); ++i)
-        names += fmt::format("{}{}", i + 1 < able.size() ? ", " : " and ", able[i]);
-    return fmt::format("Only {} {} it; the shadow filter is {}", names, able.size() == 1 ? "heeds" : "heed",
-                       filter.name);
+    std::string why =
+        whyUnheeded(ofFilters, frame::shadowFilterTable(), infoOf(request.settings.shadowFilter), "the shadow filter");
+    if (why.empty())
+        why = whyUnheeded(ofLights, frame::environmentLightTable(), infoOf(request.settings.environment.light),
+                          "the environment light");
+    return why;
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

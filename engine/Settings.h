@@ -84,6 +84,8 @@ struct Setting {
     std::string_view refusal{};
     /// What of a shadow filter heeds it; null: it is heeded with any.
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
+    /// What of a way to find the environment's light heeds it; null: it is heeded with any.
+    bool frame::EnvironmentLightInfo::*ofLights = nullptr;
     bool ofEnvironment = false;                          ///< it changes nothing of a scene without an environment
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
@@ -112,8 +114,8 @@ struct Setting {
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
-    /// Why it changes nothing with the request's shadow filter, with those that heed it, or of the scene, unless that
-    /// is null; empty: it may.
+    /// Why it changes nothing with the request's shadow filter or environment light, with those that heed it, or of the
+    /// scene, unless that is null; empty: it may.
     std::string whyIdle(const ViewRequest& request, const scenes::Scene* scene = nullptr) const;
     /// Whether the request's technique takes the requested value of this setting.
     bool isTaken(const ViewRequest& request) const;

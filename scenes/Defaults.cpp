@@ -21,10 +21,24 @@ namespace {
 constexpr double kNearShare = 1e-3;
 constexpr const char* kDefaultEnvironment = "studio";
 
+std::string studioSource() {
+    return std::string(kBuiltinPrefix) + kDefaultEnvironment;
+}
+
 const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
     const std::optional<std::string>& wish = scene.options.camera;
     return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
+}
+
+/// The turn of a built-in studio that stands around the scene's camera as around that of a scene without one, which
+/// looks along longitude -45 degrees.
+float degreesAroundCamera(const Scene& scene) {
+    const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
+    constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
+    if (std::hypot(forwardWS.x, forwardWS.z) <= kLevel * glm::length(forwardWS)) return 0.0f;
+    const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
+    return float(std::remainder(-45.0 - longitude, 360.0));
 }
 
 /// Of the size that the scene's options ask for, else that of most screens.
@@ -60,16 +74,36 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
 
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
-    scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + kDefaultEnvironment, ledger, scene.warnings);
-    // Stands around the camera as it does around that of a scene without one, which looks along longitude -45 degrees.
-    const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
-    constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
-    if (std::hypot(forwardWS.x, forwardWS.z) > kLevel * glm::length(forwardWS)) {
-        const double longitude = glm::degrees(std::atan2(forwardWS.x, -forwardWS.z));
-        scene.environment->rotationDegrees = float(std::remainder(-45.0 - longitude, 360.0));
-    }
+    scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
+    scene.environment->rotationDegrees = degreesAroundCamera(scene);
     scene.options.wishes.try_emplace("backdrop", "blurred");
     scene.supplied.light = true;
+}
+
+OwnEnvironment ownEnvironmentOf(const Scene& scene) {
+    OwnEnvironment own;
+    if (!scene.environment) {
+        own.studioDegrees = chosenStudioDegrees(scene);
+    } else if (scene.supplied.light) {
+        own.studioDegrees = scene.environment->rotationDegrees;
+    } else {
+        own.source = scene.environment->source;
+        own.view = {scene.environment->rotationDegrees, scene.environment->intensity};
+    }
+    return own;
+}
+
+float chosenStudioDegrees(const Scene& scene) {
+    return scene.supplied.camera ? degreesAroundCamera(scene) : 0.0f;
+}
+
+void layAs(const OwnEnvironment& own, Environment& chosen) {
+    if (!own.source.empty()) {
+        chosen.rotationDegrees = own.view.rotationDegrees;
+        if (chosen.source == own.source) chosen.intensity = own.view.intensity;
+    } else if (chosen.source == studioSource()) {
+        chosen.rotationDegrees = own.studioDegrees;
+    }
 }
 
 void addDefaultExposure(Scene& scene) {
@@ -80,14 +114,15 @@ void addDefaultExposure(Scene& scene) {
     scene.supplied.exposureEV = stops;
 }
 
-std::string suppliedText(const Scene& scene) {
+std::string suppliedText(const Scene& scene, Advice advice) {
+    const bool isOptions = advice == Advice::Options;
     const auto& [camera, light, exposureEV] = scene.supplied;
     std::string lacks, given;
     if (light) {
         lacks = "no light";
-        given = fmt::format("lit by the built-in environment '{}' (--environment chooses another, --no-default-light "
-                            "leaves it dark)",
-                            kDefaultEnvironment);
+        given = fmt::format("lit by the built-in environment '{}' ({})", kDefaultEnvironment,
+                            isOptions ? "--environment chooses another, --no-default-light leaves it dark"
+                                      : "the panel Environment chooses another or none");
     }
     if (camera) {
         lacks += light ? " and no camera" : "no camera";
@@ -95,9 +130,12 @@ std::string suppliedText(const Scene& scene) {
     }
     std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
-        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV (--exposure chooses another{})",
+        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV ({} chooses another{})",
                             text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV,
-                            exposureEV > 0 ? ", --environment studio adds light from all around" : "");
+                            isOptions ? "--exposure" : "the panel View",
+                            exposureEV <= 0 ? ""
+                            : isOptions     ? ", --environment studio adds light from all around"
+                                            : ", a map of the panel Environment adds light from all around");
     return text;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -22,12 +23,31 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
 /// that of addDefaultCamera().
 void addDefaultLight(Scene& scene, LoadLedger& ledger);
 
+/// What is kept of a scene's own environment where another map takes its place.
+struct OwnEnvironment {
+    std::string source;         ///< as Environment::source; empty: there is none of its own, or one was supplied
+    EnvironmentView view;       ///< how it lies and shines
+    float studioDegrees = 0.0f; ///< turn of a built-in studio where there is none
+};
+OwnEnvironment ownEnvironmentOf(const Scene& scene);
+
+/// The turn of a built-in studio that is chosen for a scene without an environment: around a supplied camera it stands
+/// as one that addDefaultLight() gives; else 0.
+float chosenStudioDegrees(const Scene& scene);
+
+/// Turns a map that was chosen in the place of a scene's own environment as that is turned. The scene's own map, chosen
+/// again, is as bright as before too. Where there was none of its own, a built-in studio gets the turn above.
+void layAs(const OwnEnvironment& own, Environment& chosen);
+
 /// A model that is lit by lights of its own alone gets the exposure that fits what its camera sees, where that is
 /// needed (Exposure.h): its format has none, and what writes it may count in any unit.
 void addDefaultExposure(Scene& scene);
 
+/// What chooses others than those that a scene was given: options of the command line, or the viewer's panels.
+enum class Advice : std::uint8_t { Options, Panels };
+
 /// One line for people: which camera, light and exposure the scene was given, and what chooses others. Empty where it
 /// was given none.
-std::string suppliedText(const Scene& scene);
+std::string suppliedText(const Scene& scene, Advice advice = Advice::Options);
 
 } // namespace tessera::scenes

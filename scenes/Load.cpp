@@ -204,6 +204,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         if (options.lights) keepLights(scene, static_cast<std::size_t>(*options.lights));
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
+    OwnEnvironment own = ownEnvironmentOf(scene);
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
@@ -230,6 +231,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     }
     goOn(options);
     addDefaultCamera(scene, options.aspect);
+    own.studioDegrees = chosenStudioDegrees(scene);
+    if (options.environment && scene.environment) layAs(own, *scene.environment);
     // Who asks for no lights, or chooses an environment or none, gets what was asked for.
     if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
         !options.environment)

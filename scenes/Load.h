@@ -19,7 +19,8 @@ class LoadLedger;
 struct LoadOptions {
     std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
     bool defaultLight = true;  ///< light a scene without lights by the studio, unless all is unlit
-    /// Takes the place of the scene's own: a built-in one's name, a picture file, or kNoEnvironment.
+    /// Takes the place of the scene's own, and its turn (layAs()): a built-in one's name, a picture file, or
+    /// kNoEnvironment.
     std::optional<std::string> environment;
     /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it those that the scene's
     /// options call so, else the first of each model.

@@ -61,6 +61,7 @@ public:
     void wishVariant(std::optional<std::string> variant) { wishes_.variant = std::move(variant); }
 
     /// Is called, unless it is empty, with the share of a built-in environment's map that is computed, from any thread.
+    /// What it throws ends the load, and is thrown.
     void tellEnvironment(std::function<void(double)> told) { environmentTold_ = std::move(told); }
     const std::function<void(double)>& environmentTold() const { return environmentTold_; }
 

@@ -11,6 +11,7 @@
 #include "base/AtomicFile.h"
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/FileTypes.h"
+#include "viewer/session/MapChoices.h"
 #include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
@@ -155,6 +156,7 @@ void Document::adoptEnvironment() {
     if (!chosen->warnings.empty()) state_.notice = {fmt::format("{}", fmt::join(chosen->warnings, "; ")), false};
     log_.line("environment " + chosen->name);
     state_.open->takeEnvironment(std::move(*chosen));
+    noteMap(state_.maps, state_.open->scene());
     pulse_.settle();
 }
 

@@ -50,7 +50,8 @@ public:
     explicit Viewer(const ViewerOptions& options)
         : log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
           drawing_(state_, facts_, screen_, window_, log_, pulse_,
-                   {[this](const std::string& text) { fail(text); }, [this] { tellProgress(); }}),
+                   {[this](const std::string& text) { fail(text); }, [this] { tellProgress(); },
+                    [this] { return document_.hasResult(); }}),
           saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
           document_({options, state_, facts_, window_, log_, pulse_, screen_, drawing_, saver_, measurements_},
                     [this](const std::string& text) { fail(text); }) {
@@ -120,19 +121,14 @@ private:
         facts_.background = document_.loadingProgress();
         backgroundToldAt_ = now() + kBackgroundSeconds;
     }
-    bool isCancellable() const {
-        const std::optional<Progress>& told = facts_.progress ? facts_.progress : facts_.background;
-        return told && told->canCancel;
-    }
-    void cancel() {
-        if (facts_.progress) return drawing_.cancel();
-        document_.cancelEnvironment();
-    }
+    bool isCancellable() const { return facts_.told() && facts_.told()->canCancel; }
+    void cancel() { facts_.isLoadFirst() ? document_.cancelEnvironment() : drawing_.cancel(); }
     /// In the middle of a picture that takes long.
     void tellProgress() {
         const gpu::BetweenBands between;
+        noteBackground();
         paint();
-        gui_.drawOver([this](ImDrawList& list) { drawProgress(*facts_.progress, area_, uiScale(), list); });
+        gui_.drawOver([this](ImDrawList& list) { drawProgress(*facts_.told(), area_, uiScale(), list); });
         present();
     }
 

@@ -17,7 +17,7 @@ namespace tessera::frame {
 std::optional<std::filesystem::path> cacheFolder();
 
 /// As filterEnvironment(), from a file of the folder where an earlier call left it for a map of the same texels, else
-/// left there.
+/// left there, unless `progress` throws.
 FilteredEnvironment cachedEnvironment(
     const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
     const std::function<void(double)>& progress = [](double) {});

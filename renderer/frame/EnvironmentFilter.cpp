@@ -163,6 +163,7 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     FilteredEnvironment result;
     progress(0.0); // what comes before the levels takes a while too
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
+    progress(0.0);
     // Each texel by 4 x 4 places of it, which no texel of the map falls between.
     const Octahedron resampled = makeOctahedron(side, [&](int x, int y) {
         constexpr int kPlaces = 4;
@@ -172,6 +173,7 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
                 Octahedron::codeOfTexel(kPlaces * x + i % kPlaces, kPlaces * y + i / kPlaces, kPlaces * side)));
         return sum / double(kPlaces * kPlaces);
     });
+    progress(0.0);
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
     for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);

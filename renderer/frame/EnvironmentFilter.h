@@ -25,7 +25,7 @@ int filteredHalvingsOf(const scenes::Image& map);
 double alphaOfLevel(int level);
 
 /// Filters a map on all cores: some seconds for 2048 x 1024 texels. `progress` is called with the share that is done,
-/// from any thread.
+/// from any thread; what it throws ends the work, and is thrown.
 FilteredEnvironment filterEnvironment(
     const scenes::Image& map, const std::function<void(double)>& progress = [](double) {});
 

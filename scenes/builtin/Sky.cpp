@@ -290,6 +290,7 @@ Image makeSky(const std::function<void(double)>& told) {
     const glm::dvec3 sunRadiance = sky.sunRadiance();
     std::vector<std::optional<Sky::Ring>> rings(kMapHeight);
     tbb::parallel_for(0, kMapHeight, [&](int y) {
+        if (told) told(0.0); // which may end it
         rings[std::size_t(y)].emplace(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
     });
     const auto radiance = [&](int x, int y) {

@@ -120,5 +120,29 @@ TEST_F(ViewerProgressSlow, aLoadThatFiltersAnEnvironmentSaysSoUntilThePictureIsT
     EXPECT_FALSE(hasBox(viewer));
 }
 
+TEST_F(ViewerProgressSlow, escGivesUpAnEnvironmentThatIsLoadedBeforeThePictureThatIsDrawnMeanwhile) {
+    constexpr std::size_t kTexels = 2048 * 1024; // which take seconds to filter
+    folder_.write("grey.hdr",
+                  "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1024 +X 2048\n" + std::string(4 * kTexels, '\x80'));
+    DrivenViewer viewer = open(kSlowScene, {{"XDG_CACHE_HOME", (folder_.path() / "cache").string()}});
+    viewer.waitFor("progress Drawing the whole picture ", 0, 120.0);
+    std::size_t mark = viewer.mark();
+    viewer.key("ctrl+o");
+    viewer.waitFor("asks what to open", mark);
+    viewer.pause(0.7);
+    viewer.type("grey.hdr");
+    viewer.pause(0.3);
+    mark = viewer.mark();
+    viewer.key("Return");
+    viewer.waitFor("loading environment ", mark);
+    viewer.pause(0.3);
+    viewer.key("Escape");
+    viewer.waitFor("cancelled environment ", mark);
+    viewer.waitForWhole(mark);
+    const std::vector<std::string> lines = viewer.lines();
+    for (std::size_t i = mark; i < lines.size(); ++i)
+        EXPECT_FALSE(lines[i].starts_with("cancelled scale") || lines[i].starts_with("environment ")) << lines[i];
+}
+
 } // namespace
 } // namespace tessera::test

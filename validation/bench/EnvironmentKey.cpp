@@ -8,10 +8,11 @@ using frame::EnvironmentLight;
 
 std::span<const EnvironmentSetting> environmentSettingTable() {
     static constexpr EnvironmentSetting table[] = {
-        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return light == EnvironmentLight::Sampled; },
+        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return infoOf(light).heedsSamples; },
          "the environment's light is not sampled"},
         {"environmentCompensation", "compensation {}",
-         [](EnvironmentLight light) { return light != EnvironmentLight::Off; }, "there is no light of the environment"},
+         [](EnvironmentLight light) { return infoOf(light).heedsCompensation; },
+         "there is no light of the environment"},
     };
     return table;
 }

@@ -24,6 +24,13 @@ std::string withoutNumber(const std::string& name) {
     return isNumber ? name.substr(0, space) : name;
 }
 
+/// Of a rectangle: a polygon's x runs along its width.
+scenes::LightCorners cornersOfSides(const scenes::Light& light) {
+    scenes::LightCorners corners; // of a square of 1 m
+    for (glm::vec2& corner : corners.metres) corner *= glm::vec2(light.widthMetres, light.heightMetres);
+    return corners;
+}
+
 bool setCorners(scenes::Light& light, const scenes::LightCorners& corners) {
     if (!scenes::cornersProblem(corners).empty()) return false;
     light.corners = corners;
@@ -80,32 +87,49 @@ std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index) {
 
 void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres) {
     constexpr double kFirstRadiusShare = 0.01; // of the scene's size
+    const bool hadSides = scenes::infoOf(light.type).hasSides();
     light.type = type;
     if (!scenes::infoOf(type).isArea) return;
     light.falloff = scenes::Falloff::InverseSquare;
     if (!(light.radiusMetres > 0.0f))
         light.radiusMetres = float(std::min(kFirstRadiusShare * sceneSizeMetres, scenes::kMostRadiusMetres));
-    if (scenes::infoOf(type).hasCorners() && !scenes::hasSurface(light)) light.corners = {};
+    if (scenes::infoOf(type).hasCorners()) {
+        if (hadSides && light.corners == scenes::LightCorners()) light.corners = cornersOfSides(light);
+        if (!scenes::hasSurface(light)) light.corners = {};
+    }
     constexpr double kSquare = 1e-12; // cosine, of rounding: what was square stays as it is
     const bool isSquare = std::abs(glm::dot(light.alongWS, light.directionWS)) <= kSquare;
     if (scenes::infoOf(type).isTurned() && !isSquare && !layLight(light, light.alongWS))
         light.alongWS = scenes::usualAlong(light.directionWS);
 }
 
-void TypeChooser::choose(const Lights& lights, std::size_t index, scenes::Light& changed, scenes::LightType type,
-                         double sceneSizeMetres) {
-    const bool wasArea = scenes::infoOf(changed.type).isArea, isArea = scenes::infoOf(type).isArea;
-    const std::string label = lightLabel(lights, index);
-    const scenes::Falloff falloff = changed.falloff;
-    const float radiusMetres = changed.radiusMetres;
+void TypeChooser::choose(std::size_t index, scenes::Light& changed, scenes::LightType type, double sceneSizeMetres) {
+    const scenes::LightTypeInfo& was = scenes::infoOf(changed.type);
+    const scenes::LightTypeInfo& is = scenes::infoOf(type);
+    const auto known = before_.find(index);
+    if (was.hasCorners() && !is.hasCorners() && known != before_.end() && changed.corners == known->second.givenCorners)
+        changed.corners = known->second.corners;
+    const scenes::Light before = changed;
     chooseType(changed, type, sceneSizeMetres);
-    if (wasArea == isArea) return;
-    if (isArea) {
-        before_ = {index, label, falloff, radiusMetres, changed.radiusMetres};
-    } else if (before_ && before_->index == index && before_->label == label) {
-        changed.falloff = before_->falloff;
-        if (changed.radiusMetres == before_->givenMetres) changed.radiusMetres = before_->radiusMetres;
+    if (!was.hasCorners() && is.hasCorners()) {
+        before_[index].corners = before.corners;
+        before_[index].givenCorners = changed.corners;
     }
+    if (!was.isArea && is.isArea) {
+        before_[index].falloff = before.falloff;
+        before_[index].radiusMetres = before.radiusMetres;
+        before_[index].givenMetres = changed.radiusMetres;
+    } else if (was.isArea && !is.isArea && known != before_.end()) {
+        changed.falloff = known->second.falloff;
+        if (changed.radiusMetres == known->second.givenMetres) changed.radiusMetres = known->second.radiusMetres;
+    }
+}
+
+void TypeChooser::follow(std::size_t first, std::size_t taken, std::size_t put) {
+    std::map<std::size_t, Before> after;
+    for (const auto& [index, before] : before_)
+        if (const auto now = indexAfter(int(index), first, taken, put)) after.emplace(std::size_t(*now), before);
+    before_ = std::move(after);
 }
 
 bool moveCorner(scenes::Light& light, std::size_t corner, const glm::vec2& placeMetres) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,27 +35,29 @@ std::optional<int> indexAfter(int index, std::size_t first, std::size_t taken, s
 std::optional<int> toggledSolo(std::optional<int> solo, std::size_t index);
 
 /// Gives a light a type. One that becomes an area light falls off as such, and gets a radius where it has none: a
-/// hundredth of the scene's size; one that becomes a polygon a square where its outline holds next to no area. All else
-/// stays, also what the type has no use for.
+/// hundredth of the scene's size. A rectangle that becomes a polygon keeps its corners, unless the polygon's were set
+/// before; an outline that holds next to no area becomes a square. All else stays, also what the type has no use for.
 void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMetres);
 
 /// Gives lights types like that, so that a light that became an area light and is none any more gets back how it fell
-/// off, and that it had no radius, unless it was given another one since. Of the light that became one last.
+/// off, and that it had no radius, and one that is no polygon any more which corners it had, unless it was given others
+/// since. Of each light, by its index.
 class TypeChooser {
 public:
-    void choose(const Lights& lights, std::size_t index, scenes::Light& changed, scenes::LightType type,
-                double sceneSizeMetres);
-    /// Another scene has other lights.
-    void forget() { before_.reset(); }
+    void choose(std::size_t index, scenes::Light& changed, scenes::LightType type, double sceneSizeMetres);
+    /// Stays with the lights after `put` came in the place of `taken` from `first` on.
+    void follow(std::size_t first, std::size_t taken, std::size_t put);
+    /// Others are there now.
+    void forget() { before_.clear(); }
 
 private:
+    /// What a light had before it became of a type that needs more, and what it was given then.
     struct Before {
-        std::size_t index;
-        std::string label; ///< another light of that index has another one
-        scenes::Falloff falloff;
-        float radiusMetres, givenMetres;
+        scenes::Falloff falloff = scenes::Falloff::InverseSquare;
+        float radiusMetres = 0.0f, givenMetres = 0.0f;
+        scenes::LightCorners corners, givenCorners;
     };
-    std::optional<Before> before_;
+    std::map<std::size_t, Before> before_;
 };
 
 /// Moves a corner of a polygon; false, and no change, where its corners would make no outline.

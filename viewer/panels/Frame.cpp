@@ -241,8 +241,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawInspector(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
-        const std::optional<Progress>& progress = facts.progress ? facts.progress : facts.background;
-        if (progress) drawProgress(*progress, area, scale, *ImGui::GetBackgroundDrawList());
+        if (facts.told()) drawProgress(*facts.told(), area, scale, *ImGui::GetBackgroundDrawList());
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

@@ -236,7 +236,7 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
 bool typeRow(State& state, scenes::Light& light, std::size_t index, double sceneSizeMetres) {
     scenes::LightType type = light.type;
     if (!chooseNamed("Type", type)) return false;
-    state.types.choose(state.open->scene().lights, index, light, type, sceneSizeMetres);
+    state.types.choose(index, light, type, sceneSizeMetres);
     return true;
 }
 

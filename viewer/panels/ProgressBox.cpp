@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/panels/Widgets.h"
+
 namespace tessera::viewer {
 
 void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list) {
@@ -21,7 +23,7 @@ void drawProgress(const Progress& progress, const PictureArea& area, float scale
     list.AddRectFilled(corner, end, kBox, pad);
     list.PushClipRect(corner, end, true);
     const float left = corner.x + pad, right = end.x - pad;
-    const std::string words = progressText(progress);
+    const std::string words = progressText(progress, right - left);
     list.AddText({left, corner.y + pad}, kWords, words.c_str());
     const float railY = corner.y + 2.0f * pad + em;
     if (progress.share) {
@@ -33,9 +35,10 @@ void drawProgress(const Progress& progress, const PictureArea& area, float scale
     list.PopClipRect();
 }
 
-std::string progressText(const Progress& progress) {
-    if (!progress.share) return progress.text + " ...";
-    return fmt::format("{}: {:.0f} %", progress.text, 100.0 * *progress.share);
+std::string progressText(const Progress& progress, float widthPixels) {
+    const float mostEnd = ImGui::CalcTextSize(": 100 %").x;
+    const std::string end = progress.share ? fmt::format(": {:.0f} %", 100.0 * *progress.share) : " ...";
+    return shortened(progress.text, widthPixels - mostEnd) + end;
 }
 
 /// Tiles are lit one by one, so that a single object has shares.

@@ -12,8 +12,9 @@ namespace tessera::viewer {
 /// what it drew before.
 void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list);
 
-/// "Filtering sky: 45 %", or "Loading sky ..." where nobody knows the share.
-std::string progressText(const Progress& progress);
+/// "Filtering sky: 45 %", or "Loading sky ..." where nobody knows the share, on one line of a width (shortened()); what
+/// is left of a name does not depend on the share.
+std::string progressText(const Progress& progress, float widthPixels);
 
 /// "spreading light: 1 of 3 objects, 45 %"
 std::string spreadText(const engine::SpreadProgress& progress);

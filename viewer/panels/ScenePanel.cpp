@@ -8,6 +8,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/SceneSource.h"
 
@@ -68,7 +69,8 @@ void scenePanel(State& state) {
     if (ImGui::Button("Open ... (Ctrl+O)", {-FLT_MIN, 0.0f})) state.requests.askWhatToOpen = true;
     tip("A scene, a model or an environment of your own");
     if (!state.loading.empty()) {
-        paragraph(fmt::format("Loading {} ...", shortName(state.loading)));
+        const Progress loading{"Loading " + shortName(state.loading), {}, false};
+        ImGui::TextUnformatted(progressText(loading, ImGui::GetContentRegionAvail().x).c_str());
     } else {
         ImGui::TextDisabled("or drop a file anywhere onto the window");
     }
@@ -79,7 +81,8 @@ void scenePanel(State& state) {
     fact("Lights", fmt::format("{}", scene.lights.size()));
     fact("Materials", fmt::format("{}", scene.materials.size()));
     hookRows(*state.open);
-    if (const std::string supplied = scenes::suppliedText(scene); !supplied.empty()) paragraph(supplied);
+    if (const std::string supplied = scenes::suppliedText(scene, scenes::Advice::Panels); !supplied.empty())
+        paragraph(supplied);
     for (const std::string& note : scene.notes) paragraph(note);
     for (const std::string& warning : scene.warnings) paragraph(warning);
 }

@@ -2,17 +2,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "scenes/InUse.h"
-#include "scenes/Load.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/MapChoices.h"
 #include "viewer/session/Preferences.h"
 
 namespace tessera::viewer {
@@ -115,26 +114,38 @@ void scaleRows(State& state) {
     slider("Picture scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
-/// The maps to choose from, and what was dropped onto the window.
-void environmentList(State& state, const Facts& facts) {
-    std::string shown(scenes::kNoEnvironment);
-    if (state.open && state.open->scene().environment) {
-        const scenes::Environment* const environment = &*state.open->scene().environment;
-        shown = std::filesystem::path(environment->source).filename().string();
-        if (shown.starts_with(scenes::kBuiltinPrefix)) shown.erase(0, scenes::kBuiltinPrefix.size());
+/// One line in any state, so that rows below stay where the pointer is.
+void loadingLine(const State& state, const Facts& facts) {
+    if (state.loadingEnvironment.empty()) {
+        ImGui::TextDisabled("Open ... above, or drop .hdr or .exr");
+        return tip("A picture of all directions: choose Open ... in the list (Ctrl+O), or drop the file anywhere onto "
+                   "the window");
     }
-    std::vector<Choice> choices{{scenes::kNoEnvironment, "nothing but lights"}};
-    for (const scenes::BuiltinEnvironment& builtin : scenes::builtinEnvironments())
-        choices.push_back({builtin.name, builtin.purpose});
-    const auto now = std::size_t(std::ranges::find(choices, shown, &Choice::name) - choices.begin());
+    const Progress progress = facts.background.value_or(Progress{"Loading", {}, false});
+    const std::string cancel = progress.canCancel ? " (Esc)" : "";
+    const float width = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(cancel.c_str()).x;
+    ImGui::TextUnformatted((progressText(progress, width) + cancel).c_str());
+    if (progress.canCancel) tip("Esc leaves the environment as it is");
+}
+
+/// The maps to choose from, and the dialog for others.
+void environmentList(State& state, const Facts& facts) {
+    std::string source;
+    if (state.open && state.open->scene().environment) source = state.open->scene().environment->source;
+    const std::vector<MapChoice> maps = mapChoices(state);
+    const auto now = std::size_t(std::ranges::find(maps, source, &MapChoice::source) - maps.begin());
+    std::vector<Choice> choices;
+    for (const MapChoice& map : maps) choices.push_back({map.label, map.meaning});
+    choices.push_back({"Open ... (Ctrl+O)", "An .hdr or .exr file of your own"});
     ImGui::BeginDisabled(!state.open);
-    if (const auto picked = choose("Map", shown, choices, now))
-        state.requests.environment = std::string(choices[*picked].name);
+    if (const auto picked = choose("Map", now < maps.size() ? maps[now].label : source, choices, now)) {
+        if (*picked < maps.size())
+            state.requests.environment = maps[*picked].name;
+        else
+            state.requests.askWhatToOpen = true;
+    }
     ImGui::EndDisabled();
-    if (state.loadingEnvironment.empty())
-        paragraph("or drop an .hdr or .exr file onto the window");
-    else if (facts.background)
-        paragraph(progressText(*facts.background));
+    loadingLine(state, facts);
 }
 
 } // namespace

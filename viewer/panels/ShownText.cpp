@@ -19,6 +19,7 @@ void visitShownText(const State& state, const TextVisitor& visit) {
     visit(state.loading);
     visit(state.loadingEnvironment);
     for (const std::string& file : state.recent) visit(file);
+    for (const std::string& file : state.maps) visit(file);
     if (state.question) visit(state.question->scene);
     if (state.open) {
         const scenes::Scene& scene = state.open->scene();

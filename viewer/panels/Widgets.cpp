@@ -1,10 +1,12 @@
 #include "viewer/panels/Widgets.h"
 
+#include <algorithm>
 #include <cfloat>
 
 #include <imgui.h>
 
 #include "base/OneLine.h"
+#include "base/Utf8.h"
 #include "viewer/panels/Meanings.h"
 
 namespace tessera::viewer {
@@ -152,6 +154,28 @@ std::string labelOf(std::string_view name) {
         label += sign;
     }
     return label;
+}
+
+std::string shortened(std::string_view words, float widthPixels) {
+    const std::string line = oneLine(words);
+    const auto fits = [widthPixels](const std::string& text) {
+        return ImGui::CalcTextSize(text.c_str()).x <= widthPixels;
+    };
+    if (fits(line)) return line;
+    std::vector<std::size_t> begins; // of its letters
+    for (std::size_t at = 0; at < line.size();
+         at += std::max<std::size_t>(letterBytes(std::string_view(line).substr(at)), 1))
+        begins.push_back(at);
+    begins.push_back(line.size());
+    const auto keeping = [&](std::size_t letters) {
+        return line.substr(0, begins[(letters + 1) / 2]) + "..." + line.substr(begins[begins.size() - 1 - letters / 2]);
+    };
+    std::size_t kept = 0, tooMany = begins.size() - 1;
+    while (kept + 1 < tooMany) {
+        const std::size_t tried = (kept + tooMany) / 2;
+        (fits(keeping(tried)) ? kept : tooMany) = tried;
+    }
+    return keeping(kept);
 }
 
 void closeOnEscape() {

@@ -65,6 +65,10 @@ void colorSwatch(const glm::vec3& linear, float sidePixels);
 /// two "#" and what follows.
 std::string labelOf(std::string_view name);
 
+/// A text on one line of a width: where it is longer, "..." stands for letters of its middle. Names of files differ at
+/// both ends.
+std::string shortened(std::string_view words, float widthPixels);
+
 /// Lets Esc close the list that is being drawn.
 void closeOnEscape();
 

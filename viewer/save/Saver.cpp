@@ -1,5 +1,6 @@
 #include "viewer/save/Saver.h"
 
+#include <cassert>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -59,8 +60,8 @@ void Saver::scene(const std::string& path) {
 }
 
 std::string Saver::command(glm::ivec2 sizePixels) {
-    OpenScene& open = *state_.open;
-    if (open.isEdited()) scene(freeName(".json"));
+    const OpenScene& open = *state_.open;
+    assert(!open.isEdited());
     const Look look = drawnLook(state_, state_.activeSide);
     RenderRequest request;
     request.source = open.source();

@@ -17,8 +17,7 @@ public:
     void picture(glm::ivec2 sizePixels, const std::string& path);
     /// saveOpenScene().
     void scene(const std::string& path);
-    /// The command line that renders the active side's picture. A scene that was edited is saved under a free name
-    /// first.
+    /// The command line that renders the active side's picture, of a scene without edits that are not saved.
     std::string command(glm::ivec2 sizePixels);
     /// The latest frames' timings, for chrome://tracing or Perfetto, under a free name.
     void trace();

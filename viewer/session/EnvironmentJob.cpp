@@ -12,18 +12,21 @@
 namespace tessera::viewer {
 namespace {
 
-ChosenEnvironment loaded(const std::string& name, EnvironmentProgress& progress) {
+/// `isOver` is asked while it is computed and filtered, from any thread; once it holds the result is of no use.
+ChosenEnvironment loaded(const std::string& name, EnvironmentProgress& progress, const std::function<bool()>& isOver) {
+    const auto tell = [&](bool isFiltering, double done) {
+        if (isOver()) throw scenes::LoadStopped();
+        progress.tell({isFiltering, done});
+    };
     ChosenEnvironment chosen;
     chosen.name = name;
     try {
         scenes::LoadLedger ledger;
-        ledger.tellEnvironment([&progress](double done) { progress.tell({false, done}); });
+        ledger.tellEnvironment([&tell](double done) { tell(false, done); });
         chosen.environment = scenes::environmentCalled(name, ledger, chosen.warnings);
         if (chosen.environment)
-            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(
-                frame::cachedEnvironment(chosen.environment->map, frame::cacheFolder(), [&progress](double done) {
-                    progress.tell({true, done});
-                }));
+            chosen.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
+                chosen.environment->map, frame::cacheFolder(), [&tell](double done) { tell(true, done); }));
     } catch (const std::bad_alloc&) {
         chosen.error = name + ": the memory is not enough for it; close other programs or choose a smaller picture";
     } catch (const std::exception& error) {
@@ -40,6 +43,10 @@ void EnvironmentJob::choose(const std::string& name) {
     result_.reset();
 }
 
+EnvironmentJob::~EnvironmentJob() {
+    discard();
+}
+
 void EnvironmentJob::start(const std::string& name) {
     assert(!name.empty());
     {
@@ -47,7 +54,7 @@ void EnvironmentJob::start(const std::string& name) {
         choose(name);
         if (std::exchange(isBusy_, true)) return; // its thread goes on with this one
     }
-    thread_ = std::jthread([this](const std::stop_token& stop) { load(stop); });
+    thread_ = std::jthread([this] { load(); });
 }
 
 void EnvironmentJob::discard() {
@@ -55,19 +62,19 @@ void EnvironmentJob::discard() {
     choose({});
 }
 
-void EnvironmentJob::load(const std::stop_token& stop) {
+void EnvironmentJob::load() {
     for (;;) {
         std::string name;
         std::uint64_t generation = 0;
         {
             const std::lock_guard lock(mutex_);
-            isBusy_ = !choice_.empty() && !stop.stop_requested();
+            isBusy_ = !choice_.empty();
             if (!isBusy_) return;
             name = choice_;
             generation = loading_ = generation_;
             progress_.begin();
         }
-        ChosenEnvironment chosen = loaded(name, progress_);
+        ChosenEnvironment chosen = loaded(name, progress_, [&] { return generation != generation_; });
         {
             const std::lock_guard lock(mutex_);
             if (generation != generation_) continue;

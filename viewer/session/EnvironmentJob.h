@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,10 +32,12 @@ public:
     EnvironmentJob(const EnvironmentJob&) = delete;
     EnvironmentJob& operator=(const EnvironmentJob&) = delete;
 
-    /// Chooses an environment in the place of what was chosen before. One that is being loaded cannot be given up: the
-    /// choice waits for its end, and its result is dropped.
+    /// Gives what is computed or filtered up. A file that is being read is waited for.
+    ~EnvironmentJob();
+
+    /// Chooses an environment in the place of what was chosen before, which is given up as above.
     void start(const std::string& name);
-    /// Drops what was chosen.
+    /// Drops what was chosen, likewise.
     void discard();
     /// What was chosen and not taken yet; empty: nothing.
     std::string choice() const;
@@ -46,14 +49,14 @@ public:
 
 private:
     void choose(const std::string& name); ///< the caller holds the mutex
-    void load(const std::stop_token& stop);
+    void load();
 
     std::function<void()> done_;
     mutable std::mutex mutex_;
     EnvironmentProgress progress_;
     bool isBusy_ = false;
-    std::uint64_t generation_ = 0; ///< of the choice
-    std::uint64_t loading_ = 0;    ///< the one under way, of which `progress_` tells
+    std::atomic<std::uint64_t> generation_ = 0; ///< of the choice; changed by who holds the mutex
+    std::uint64_t loading_ = 0;                 ///< the one under way, of which `progress_` tells
     std::string choice_;
     std::optional<ChosenEnvironment> result_;
     std::jthread thread_; ///< last: it ends before what it writes to

@@ -28,8 +28,11 @@ struct Facts {
     std::array<std::optional<engine::DrawnShadows>, 2> shadows; ///< of the same
     bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
     bool isSpreading = false; ///< the next frame computes anew how light spreads over surfaces
-    std::optional<Progress> progress;                ///< of the picture
-    std::optional<Progress> background;              ///< of what is loaded meanwhile
+    std::optional<Progress> progress;   ///< of the picture
+    std::optional<Progress> background; ///< of what is loaded meanwhile
+    /// Whether the load goes before the picture, which it will replace: in the box over it, and with Esc.
+    bool isLoadFirst() const { return background && (background->canCancel || !progress); }
+    const std::optional<Progress>& told() const { return isLoadFirst() ? background : progress; } ///< by that box
     bool isCancelled = false;                        ///< the picture is left as far as it is drawn
     std::optional<engine::SpreadProgress> spreading; ///< of light that is spread slice by slice
     double ms = 0.0;                                 ///< of the latest frame, all sides

@@ -28,7 +28,8 @@ bool places(const scenes::CameraChange& change) {
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
                      scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
-      boundsWS_(scenes::boundsOverClips(scene_)), cameras_(scene_.cameras), loadedCameras_(cameras_),
+      ownEnvironment_(scenes::ownEnvironmentOf(scene_)), boundsWS_(scenes::boundsOverClips(scene_)),
+      cameras_(scene_.cameras), loadedCameras_(cameras_),
       rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_),
       clipSeconds_(scenes::playingSeconds(scene_.rig)), filtered_(std::move(filtered)) {}
 
@@ -227,6 +228,7 @@ void OpenScene::deleteLights(std::string what, std::span<const std::size_t> indi
 
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
     const std::string name = std::filesystem::path(chosen.name).filename().string();
+    if (chosen.environment) scenes::layAs(ownEnvironment_, *chosen.environment);
     Surrounding next{std::move(chosen.environment), false, std::move(chosen.filtered), scene_.warnings,
                      std::move(chosen.warnings)};
     // What was said of the environment before is over.
@@ -310,6 +312,10 @@ void OpenScene::exchange(CameraEdit& edit) {
 // ---- The file and the camera ----
 
 void OpenScene::becomes(const std::string& file, const scenes::EnvironmentView& seen) {
+    scene_.supplied = {}; // the file has it
+    history_.forEach([](Edit& edit) {
+        if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) surrounding->other.isSupplied = false;
+    });
     if (scene_.environment) takeAsSeen(seen);
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
@@ -343,6 +349,7 @@ void OpenScene::takeAsSeen(const scenes::EnvironmentView& seen) {
         if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) take(surrounding->other.environment);
     });
     scenes::askForNoView(scene_.options);
+    ownEnvironment_ = scenes::ownEnvironmentOf(scene_);
     if (seen != scenes::EnvironmentView()) ++revision_;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scenes/Clips.h"
+#include "scenes/Defaults.h"
 #include "scenes/write/SceneOrigin.h"
 #include "viewer/session/CameraRig.h"
 #include "viewer/session/EnvironmentJob.h"
@@ -49,7 +50,7 @@ public:
     void replaceLights(std::string what, std::size_t first, std::size_t count, Lights others);
     /// Deletes lights, indices from the least on; at least one. `what` is as above.
     void deleteLights(std::string what, std::span<const std::size_t> indices);
-    /// Takes another environment in the place of the scene's own.
+    /// Takes another environment in the place of the scene's own, which lies as that (scenes::layAs()).
     void takeEnvironment(ChosenEnvironment chosen);
     /// The drag that edits with Gesture::GoesOn is over.
     void endGesture() { history_.endGesture(); }
@@ -145,6 +146,7 @@ private:
     scenes::LoadOptions load_;
     scenes::Scene scene_;
     scenes::SceneOrigin origin_;
+    scenes::OwnEnvironment ownEnvironment_; ///< as the file has it
     scenes::Box3 boundsWS_;
     std::vector<scenes::Camera> cameras_, loadedCameras_;
     bool mayFollow_ = true; ///< the clip's camera

@@ -15,7 +15,8 @@ bool hasSelected(const State& state) {
     return state.open && state.selectedLight >= 0 && state.selectedLight < int(state.open->scene().lights.size());
 }
 
-/// Selection and solo go with their lights after `put` lights came in the place of `taken` from `first` on.
+/// Selection, solo and what is known of types go with their lights after `put` lights came in the place of `taken` from
+/// `first` on.
 void followLights(State& state, std::size_t first, std::size_t taken, std::size_t put) {
     if (state.selectedLight != scenes::kNone)
         state.selectedLight = indexAfter(state.selectedLight, first, taken, put).value_or(scenes::kNone);
@@ -27,6 +28,7 @@ void followLights(State& state, std::size_t first, std::size_t taken, std::size_
         std::optional<int>& solo = look.settings.soloLight;
         if (solo) solo = indexAfter(*solo, first, taken, put);
     }
+    state.types.follow(first, taken, put);
 }
 
 void replace(State& state, std::string what, std::size_t first, std::size_t count, Lights others) {
@@ -92,6 +94,7 @@ void deleteSelectedLights(State& state) {
         else
             *solo -= int(before(std::size_t(*solo)));
     }
+    for (auto light = deleted.rbegin(); light != deleted.rend(); ++light) state.types.follow(*light, 1, 0);
     const int left = int(lights.size());
     const int next = int(deleted.back() + 1 - deleted.size());
     state.selectedLights.clear();
@@ -141,6 +144,7 @@ void replaceByScattered(State& state) {
     // None of them is one that was there, also where there are as many.
     state.selectedLight = scenes::kNone;
     for (Look& look : state.looks) look.settings.soloLight.reset();
+    state.types.forget();
 }
 
 void undo(State& state) {

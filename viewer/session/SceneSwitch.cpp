@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/ChooseView.h"
+#include "viewer/session/MapChoices.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"
 
@@ -75,6 +76,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
     noteRecent(state_.recent, result->source);
+    noteMap(state_.maps, scene->scene());
     return scene;
 }
 

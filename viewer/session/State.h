@@ -75,6 +75,7 @@ struct State {
     std::string loading;             ///< a scene that is on its way
     std::string loadingEnvironment;  ///< the same of an environment
     std::vector<std::string> recent; ///< files, the latest first
+    std::vector<std::string> maps;   ///< the same of environments, since the program's start: their sources
 
     std::array<Look, 2> looks; ///< left of the divider, or all; and right of it
     int activeSide = 0;        ///< which of them panels and keys change

@@ -172,7 +172,7 @@ void PictureDrawing::tellProgress(double scale) {
 bool PictureDrawing::isInterrupted(bool isAtRest) {
     constexpr int kWanderings = 2;
     window_.poll();
-    if (window_.shouldClose() || window_.input().isUrgent() || notedEnd() != 0) return true;
+    if (window_.shouldClose() || window_.input().isUrgent() || notedEnd() != 0 || calls_.isOver()) return true;
     return isAtRest && window_.hasActivity() && (window_.isButtonHeld() || givenUp_ < kWanderings);
 }
 

@@ -19,6 +19,7 @@ public:
         std::function<void(const std::string&)> fails; ///< shows an error
         /// Shows Facts::progress over the window as it was, while a picture is being drawn: between bands (Bands.h).
         std::function<void()> tells;
+        std::function<bool()> isOver; ///< something was loaded that comes in the place of what the picture shows
     };
     /// All must outlive the object.
     PictureDrawing(State& state, Facts& facts, Screen& screen, Window& window, const EventLog& log, Pulse& pulse,

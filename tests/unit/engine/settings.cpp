@@ -212,8 +212,20 @@ TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }
 
+TEST(Settings, ofAnEnvironmentSayWithWhichWaysToFindItsLightTheyChangeSomething) {
+    ViewRequest request;
+    EXPECT_EQ(settingOf("environmentSamples").whyIdle(request),
+              "Only sampled heeds it; the environment light is split_sum");
+    EXPECT_EQ(settingOf("environmentCompensation").whyIdle(request), "");
+    request.settings.environment.light = frame::EnvironmentLight::Off;
+    EXPECT_EQ(settingOf("environmentCompensation").whyIdle(request),
+              "Only split_sum and sampled heed it; the environment light is off");
+    EXPECT_EQ(settingOf("environmentRotation").whyIdle(request), "") << "it is still seen";
+}
+
 TEST(Settings, ofAnEnvironmentSayWhereASceneHasNone) {
-    const ViewRequest request;
+    ViewRequest request;
+    request.settings.environment.light = frame::EnvironmentLight::Sampled;
     scenes::Scene scene;
     for (const std::string_view key : {"environmentLight", "environmentSamples", "environmentCompensation",
                                        "environmentRotation", "environmentIntensity", "backdrop"})

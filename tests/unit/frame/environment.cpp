@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -133,6 +135,20 @@ TEST(EnvironmentFilter, evenLightStaysEvenAndIrradianceIsPiOfIt) {
     for (const DividedOctahedron& level : filtered.levels)
         for (const glm::vec3& corner : level.corners) ASSERT_NEAR(corner.x, 2.0f, 1e-5f) << level.side;
     for (const glm::vec3& corner : filtered.irradiance.corners) ASSERT_NEAR(corner.x, 2.0f * float(pi), 1e-3f);
+}
+
+TEST(EnvironmentFilter, isGivenUpByWhatItsProgressThrows) {
+    std::atomic<double> most = 0.0; // that was told after that
+    std::atomic<bool> isOver = false;
+    const auto progress = [&](double done) {
+        if (isOver) most = std::max(most.load(), done);
+        if (done < 0.2) return;
+        isOver = true;
+        throw std::runtime_error("superseded");
+    };
+    const auto even = [](int, int) { return 1.0; };
+    EXPECT_THROW(filterEnvironment(greyMap(64, 32, even), progress), std::runtime_error);
+    EXPECT_LT(most, 0.9) << "it was filtered to its end";
 }
 
 TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {

@@ -65,6 +65,8 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
     EXPECT_EQ(suppliedText(scene), "no light in it: lit by the built-in environment 'studio' (--environment chooses "
                                    "another, --no-default-light leaves it dark)");
+    EXPECT_EQ(suppliedText(scene, Advice::Panels), "no light in it: lit by the built-in environment 'studio' (the "
+                                                   "panel Environment chooses another or none)");
     EXPECT_TRUE(scene.warnings.empty());
     Scene sharp = tinyScene();
     sharp.options.wishes["backdrop"] = "sharp";

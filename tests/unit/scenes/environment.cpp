@@ -175,7 +175,12 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     const std::string saved = (folder.path() / "scene.json").string();
     LoadOptions options;
     options.environment = "studio";
-    EXPECT_EQ(loadScene(saved, options).environment->source, "builtin:studio");
+    const Environment studio = loadScene(saved, options).environment.value();
+    EXPECT_EQ(studio.source, "builtin:studio");
+    EXPECT_EQ(studio.rotationDegrees, 30.0f) << "it lies as the scene's own";
+    EXPECT_EQ(studio.intensity, 1.0f) << "which is of the map";
+    options.environment = file.string();
+    EXPECT_EQ(loadScene(saved, options).environment.value().intensity, 0.5f) << "the scene's own map";
     options.environment = "none";
     EXPECT_FALSE(loadScene(saved, options).environment);
     options.environment = "stdio";

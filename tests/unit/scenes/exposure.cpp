@@ -171,6 +171,9 @@ TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
         suppliedText(dim).find("too dim for a display: exposed by +7 EV (--exposure chooses another, --environment "
                                "studio adds light from all around)"),
         std::string::npos);
+    EXPECT_NE(suppliedText(dim, Advice::Panels)
+                  .find("(the panel View chooses another, a map of the panel Environment adds light from all around)"),
+              std::string::npos);
     const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
     EXPECT_FALSE(loadScene(own).options.wishes.contains("exposureEV")) << "who writes a scene says how it is shown";
     LoadOptions options;

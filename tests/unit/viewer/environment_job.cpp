@@ -3,8 +3,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +18,28 @@
 
 namespace tessera::viewer {
 namespace {
+
+/// Nothing that was filtered is kept yet.
+class EmptyCache {
+public:
+    EmptyCache() {
+        if (const char* const value = std::getenv(kVariable)) before_ = value;
+        setenv(kVariable, folder_.path().c_str(), 1);
+    }
+    ~EmptyCache() { before_ ? setenv(kVariable, before_->c_str(), 1) : unsetenv(kVariable); }
+    EmptyCache(const EmptyCache&) = delete;
+    EmptyCache& operator=(const EmptyCache&) = delete;
+    bool isEmpty() const {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path()))
+            if (entry.is_regular_file()) return false;
+        return true;
+    }
+
+private:
+    static constexpr const char* kVariable = "XDG_CACHE_HOME";
+    std::optional<std::string> before_;
+    tessera::test::TempFolder folder_;
+};
 
 class EnvironmentJobTest : public testing::Test {
 protected:
@@ -61,10 +86,7 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
 }
 
 TEST_F(EnvironmentJobTest, itTellsHowFarTheChoiceAloneIs) {
-    const char* const kept = std::getenv("XDG_CACHE_HOME");
-    const std::string before = kept != nullptr ? kept : "";
-    const tessera::test::TempFolder folder; // where nothing is kept yet
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const EmptyCache cache;
     EXPECT_FALSE(job().share());
     chosen("studio");
     ASSERT_TRUE(shareAtEnd());
@@ -75,10 +97,6 @@ TEST_F(EnvironmentJobTest, itTellsHowFarTheChoiceAloneIs) {
     EXPECT_EQ(shareAtEnd(), (EnvironmentShare{false, 1.0})) << "its map was computed, and what it filters to was kept";
     chosen("none");
     EXPECT_FALSE(shareAtEnd()) << "there is nothing to filter";
-    if (kept != nullptr)
-        setenv("XDG_CACHE_HOME", before.c_str(), 1);
-    else
-        unsetenv("XDG_CACHE_HOME");
 }
 
 TEST(EnvironmentProgress, isTheMostThatWasToldAndFilteringComesAfterComputing) {
@@ -108,6 +126,26 @@ TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {
     EXPECT_EQ(chosen("studio").environment.value().source, "builtin:studio");
 }
 
+TEST_F(EnvironmentJobTest, whatIsSupersededIsNotFilteredToItsEnd) {
+    const EmptyCache cache;
+    for (const bool isChosen : {true, false}) {
+        std::optional<EnvironmentJob> job(std::in_place, [] {});
+        job->start("studio");
+        const auto isFiltering = [&] { return job->share().value_or(EnvironmentShare()).isFiltering; };
+        for (int i = 0; i < 60'000 && !isFiltering(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_TRUE(isFiltering()) << "after a minute";
+        if (isChosen) {
+            job->start("none");
+            for (int i = 0; i < 6000 && !job->hasResult(); ++i)
+                std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            EXPECT_EQ(job->take().value().name, "none");
+        } else {
+            job.reset(); // as where the window is closed
+        }
+        EXPECT_TRUE(cache.isEmpty()) << "what was filtered to its end is kept";
+    }
+}
+
 TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     const scenes::LoadOptions load;
     scenes::Scene room = scenes::loadScene("room", load);
@@ -127,6 +165,25 @@ TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
     open.takeEnvironment(chosen("none"));
     EXPECT_FALSE(open.scene().environment);
     EXPECT_FALSE(open.filteredEnvironment());
+}
+
+TEST_F(EnvironmentJobTest, aSuppliedStudioChosenAgainStandsAroundTheCameraAsBefore) {
+    const tessera::test::TempFolder folder; // a flat model is seen face-on, so the studio is turned
+    const std::string file = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+    OpenScene open(file, {}, scenes::loadScene(file), scenes::SceneOrigin());
+    const float supplied = open.scene().environment.value().rotationDegrees;
+    EXPECT_NEAR(supplied, -45.0f, 1e-4f); // rounding of an angle in single precision
+    open.takeEnvironment(chosen("sky"));
+    EXPECT_EQ(open.scene().environment.value().rotationDegrees, 0.0f) << "it was supplied, and is no scene's own";
+    open.takeEnvironment(chosen("studio"));
+    EXPECT_EQ(open.scene().environment.value().rotationDegrees, supplied);
+    scenes::LoadOptions load;
+    load.environment = "studio";
+    EXPECT_EQ(scenes::loadScene(file, load).environment.value().rotationDegrees, supplied) << "on the command line too";
+    load.environment = "none";
+    OpenScene dark(file, load, scenes::loadScene(file, load), scenes::SceneOrigin());
+    dark.takeEnvironment(chosen("studio"));
+    EXPECT_EQ(dark.scene().environment.value().rotationDegrees, supplied);
 }
 
 } // namespace

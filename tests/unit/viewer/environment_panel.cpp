@@ -2,6 +2,9 @@
 #include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/panels/ProgressBox.h"
+#include "viewer/panels/Widgets.h"
+#include "viewer/session/MapChoices.h"
 
 namespace tessera::viewer {
 namespace {
@@ -27,13 +30,113 @@ TEST_F(EnvironmentPanel, tellsHowFarOneIsThatIsLoaded) {
     const auto says = [&](const std::string& words) {
         return textOf([&] { environmentPanel(state, facts); }).find(words) != std::string::npos;
     };
-    EXPECT_TRUE(says("drop an .hdr or .exr file"));
+    EXPECT_TRUE(says("Open ... above, or drop .hdr or .exr"));
     state.loadingEnvironment = "sky";
     facts.background = {"Computing sky", 0.449, true};
-    EXPECT_TRUE(says("Computing sky: 45 %"));
-    EXPECT_FALSE(says("drop an .hdr or .exr file"));
+    EXPECT_TRUE(says("Computing sky: 45 % (Esc)"));
+    EXPECT_FALSE(says("or drop"));
     facts.background = {"Loading sky", {}, true};
     EXPECT_TRUE(says("Loading sky ..."));
+}
+
+TEST_F(EnvironmentPanel, aLoadThatEscCancelsGoesBeforeThePictureThatItWillReplace) {
+    Facts facts;
+    EXPECT_FALSE(facts.told());
+    facts.progress = {"Drawing the whole picture", 0.5, true};
+    EXPECT_EQ(facts.told(), facts.progress);
+    facts.background = {"Loading sky", {}, true};
+    EXPECT_EQ(facts.told(), facts.background);
+    facts.background->canCancel = false; // a scene
+    EXPECT_EQ(facts.told(), facts.progress);
+    facts.progress.reset();
+    EXPECT_EQ(facts.told(), facts.background);
+}
+
+TEST_F(EnvironmentPanel, offersFilesThatWereUsedAndTheDialogForOthers) {
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.environment.emplace().source = "/maps/a/sunset.hdr";
+    State state = test::stateOf(std::move(scene));
+    noteMap(state.maps, state.open->scene());
+    ImVec2 list;
+    const auto panel = [&] {
+        list = {ImGui::GetCursorScreenPos().x + 200.0f, ImGui::GetCursorScreenPos().y + 8.0f};
+        environmentPanel(state, {});
+    };
+    EXPECT_NE(textOf(panel).find("sunset.hdr"), std::string::npos);
+    // It is no built-in one though it is called so.
+    scenes::Scene other = scenes::loadScene("room");
+    other.environment.emplace().source = "/maps/b/studio";
+    noteMap(state.maps, other);
+    noteMap(state.maps, scenes::loadScene("glass"));
+    state.open->takeEnvironment({});
+    noteMap(state.maps, state.open->scene());
+    EXPECT_EQ(state.maps, (std::vector<std::string>{"/maps/b/studio", "/maps/a/sunset.hdr"}));
+    const auto click = [&](const ImVec2& place) {
+        ImGui::GetIO().MousePos = place;
+        for (const bool isDown : {false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = isDown;
+            show(panel);
+        }
+    };
+    const auto clickEntry = [&](float entry) {
+        click(list);
+        ASSERT_FALSE(ImGui::GetCurrentContext()->OpenPopupStack.empty()) << "the list is not open";
+        const ImGuiWindow& popup = *ImGui::GetCurrentContext()->OpenPopupStack.back().Window;
+        click({popup.Pos.x + 20.0f,
+               popup.Pos.y + popup.WindowPadding.y + (entry + 0.4f) * ImGui::GetTextLineHeightWithSpacing()});
+    };
+    const std::size_t builtins = scenes::builtinEnvironments().size();
+    clickEntry(1.0f);
+    EXPECT_EQ(state.requests.environment, "studio");
+    clickEntry(float(1 + builtins));
+    EXPECT_EQ(state.requests.environment, "/maps/b/studio");
+    clickEntry(float(2 + builtins));
+    EXPECT_EQ(state.requests.environment, "/maps/a/sunset.hdr");
+    EXPECT_FALSE(state.requests.askWhatToOpen);
+    clickEntry(float(3 + builtins));
+    EXPECT_TRUE(state.requests.askWhatToOpen);
+}
+
+TEST_F(EnvironmentPanel, keepsItsRowsInPlaceWhileOneIsLoadedWhateverItIsCalled) {
+    State state = test::stateOf(scenes::loadScene("room"));
+    Facts facts;
+    const auto bottom = [&] {
+        float y = 0.0f;
+        show([&] {
+            environmentPanel(state, facts);
+            y = ImGui::GetCursorPosY();
+        });
+        return y;
+    };
+    const float before = bottom();
+    const std::string name = "kloofendal_" + std::string(80, 'x') + "_8k.hdr";
+    state.loadingEnvironment = name;
+    EXPECT_EQ(bottom(), before) << "nothing is told yet";
+    std::string kept;
+    for (const double share : {0.0, 0.09, 0.31, 1.0}) {
+        facts.background = {"Filtering " + name, share, true};
+        EXPECT_EQ(bottom(), before) << share;
+        const std::string text = progressText(*facts.background, 250.0f);
+        EXPECT_TRUE(text.starts_with("Filtering kl")) << text;
+        const std::string words = text.substr(0, text.find(": "));
+        EXPECT_TRUE(words.ends_with("8k.hdr")) << text;
+        if (kept.empty()) kept = words;
+        EXPECT_EQ(words, kept) << "figures grow, and move nothing else";
+        EXPECT_LE(ImGui::CalcTextSize(text.c_str()).x, 250.0f);
+    }
+    facts.background = {"Loading " + name, {}, true};
+    EXPECT_EQ(bottom(), before);
+}
+
+TEST_F(EnvironmentPanel, textsAreShortenedByWholeLettersOfTheirMiddleAloneWhereTheyAreTooLong) {
+    show([] {
+        const std::string umlauts = "\xc3\xa4\xc3\xb6\xc3\xbc\xc3\xa4\xc3\xb6\xc3\xbc";
+        const float whole = ImGui::CalcTextSize(umlauts.c_str()).x; // of six letters
+        EXPECT_EQ(shortened(umlauts, whole), umlauts);
+        EXPECT_EQ(shortened(umlauts, whole - 0.5f), "\xc3\xa4...\xc3\xbc") << "as wide as five";
+        EXPECT_EQ(shortened(umlauts, 0.0f), "...");
+        EXPECT_EQ(shortened("", 0.0f), "");
+    });
 }
 
 } // namespace

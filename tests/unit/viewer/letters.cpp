@@ -78,11 +78,12 @@ TEST_F(Fonts, areAskedForNamesOfTheSceneAndOfFiles) {
     scene.warnings = {"the warning"};
     State state = test::stateOf(std::move(scene), {}, "/the/file");
     state.files.emplace(FileDialog::Purpose::Save, "/", "the name");
+    state.maps = {"/the/map"};
     std::vector<std::string> texts;
     const TextVisitor note = [&](std::string_view text) { texts.emplace_back(text); };
     visitSceneText(*state.open, note);
     visitShownText(state, note);
-    for (const char* text : {"/the/file", "the light", "the material", "the warning", "the name"})
+    for (const char* text : {"/the/file", "the light", "the material", "the warning", "the name", "/the/map"})
         EXPECT_NE(std::ranges::find(texts, text), texts.end()) << text;
 }
 

@@ -232,32 +232,84 @@ TEST(LightList, aTypeThatComesBackBringsAllThatTheLightHad) {
                 scenes::Light light = lights[0];
                 TypeChooser chooser;
                 for (const scenes::LightType type : {second.type, third.type, first.type})
-                    chooser.choose(lights, 0, light, type, 10.0);
+                    chooser.choose(0, light, type, 10.0);
                 EXPECT_TRUE(light == lights[0]) << first.name << ", " << second.name << ", " << third.name;
             }
 }
 
+TEST(LightList, aRectangleBecomesThePolygonOfItsCornersUnlessThoseOfThePolygonWereSet) {
+    scenes::Light light;
+    light.type = scenes::LightType::Rectangle;
+    light.widthMetres = 1.5f;
+    light.heightMetres = 1.25f;
+    const scenes::Light rectangle = light;
+    TypeChooser chooser;
+    const auto choose = [&](scenes::LightType type) { chooser.choose(0, light, type, 10.0); };
+    const auto largest = [&] { return light.corners.metres[2]; };
+    choose(scenes::LightType::Polygon);
+    EXPECT_EQ(largest(), glm::vec2(0.75f, 0.625f));
+    EXPECT_DOUBLE_EQ(scenes::signedArea(light.corners), 1.5 * 1.25);
+    choose(scenes::LightType::Rectangle);
+    EXPECT_EQ(light.corners, rectangle.corners);
+    light.widthMetres = 3.0f;
+    choose(scenes::LightType::Polygon);
+    EXPECT_EQ(largest(), glm::vec2(1.5f, 0.625f)) << "as wide as the rectangle is now";
+    EXPECT_TRUE(moveCorner(light, 2, {2.0f, 1.0f}));
+    choose(scenes::LightType::Rectangle);
+    choose(scenes::LightType::Polygon);
+    EXPECT_EQ(largest(), glm::vec2(2.0f, 1.0f));
+    light.type = scenes::LightType::Rectangle;
+    light.corners = {};
+    light.widthMetres = 0.0f;
+    choose(scenes::LightType::Polygon);
+    EXPECT_EQ(light.corners, scenes::LightCorners()) << "of no area";
+}
+
+TEST(LightList, typesComeBackOfEachLightWhileOthersComeAndGo) {
+    Lights points, spheres; // by turns of either falloff
+    TypeChooser chooser;
+    for (std::size_t i = 0; i < 4; ++i) {
+        points.push_back(lightOfAll(scenes::infoOf(scenes::LightType::Point)));
+        if (i % 2 == 1) points[i].falloff = scenes::Falloff::InverseSquare;
+        spheres.push_back(points[i]);
+        chooser.choose(i, spheres[i], scenes::LightType::Sphere, 10.0);
+    }
+    const auto comesBack = [&](std::size_t light, std::size_t index) {
+        scenes::Light changed = spheres[light];
+        chooser.choose(index, changed, scenes::LightType::Point, 10.0);
+        return changed == points[light];
+    };
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(comesBack(i, i)) << i;
+    chooser.follow(1, 1, 0); // one is deleted
+    EXPECT_TRUE(comesBack(0, 0));
+    EXPECT_TRUE(comesBack(2, 1));
+    EXPECT_TRUE(comesBack(3, 2));
+    EXPECT_FALSE(comesBack(0, 3)) << "nothing is known of such a one";
+    chooser.follow(0, 0, 1); // one comes before them
+    EXPECT_FALSE(comesBack(0, 0));
+    EXPECT_TRUE(comesBack(2, 2));
+}
+
 TEST(LightList, whatWasChangedMeanwhileStaysAndOtherLightsGetNothing) {
-    Lights lights{lightOfAll(scenes::infoOf(scenes::LightType::Point)), scenes::Light()};
-    lights[1].name = "other";
+    const Lights lights{lightOfAll(scenes::infoOf(scenes::LightType::Point)), scenes::Light()};
     TypeChooser chooser;
     scenes::Light light = lights[0], other = lights[1];
-    chooser.choose(lights, 0, light, scenes::LightType::Disk, 10.0);
+    chooser.choose(0, light, scenes::LightType::Disk, 10.0);
     light.radiusMetres = 0.75f;
     light.widthMetres = 2.5f;
     other.type = scenes::LightType::Disk;
     other.radiusMetres = 0.5f;
-    chooser.choose(lights, 1, other, scenes::LightType::Point, 10.0);
+    chooser.choose(1, other, scenes::LightType::Point, 10.0);
     EXPECT_EQ(other.falloff, scenes::Falloff::InverseSquare);
     EXPECT_EQ(other.radiusMetres, 0.5f);
-    chooser.choose(lights, 0, light, scenes::LightType::Point, 10.0);
+    chooser.choose(0, light, scenes::LightType::Point, 10.0);
     EXPECT_EQ(light.radiusMetres, 0.75f);
     EXPECT_EQ(light.widthMetres, 2.5f);
     EXPECT_EQ(light.falloff, scenes::Falloff::Attenuation);
     // Another scene.
-    chooser.choose(lights, 0, light, scenes::LightType::Disk, 10.0);
+    chooser.choose(0, light, scenes::LightType::Disk, 10.0);
     chooser.forget();
-    chooser.choose(lights, 0, light, scenes::LightType::Point, 10.0);
+    chooser.choose(0, light, scenes::LightType::Point, 10.0);
     EXPECT_EQ(light.falloff, scenes::Falloff::InverseSquare);
 }
 

@@ -82,10 +82,11 @@ TEST_F(SavedEnvironment, whatUndoingBringsBackLiesAndShinesAsItDidToo) {
     ChosenEnvironment other;
     other.name = "sky";
     other.environment = state_.open->scene().environment;
-    other.environment->rotationDegrees = -90.0f;
+    other.environment->source = "builtin:sky";
+    other.environment->intensity = 0.25f;
     state_.open->takeEnvironment(std::move(other));
     const scenes::EnvironmentView ofOther = seen();
-    EXPECT_EQ(ofOther.rotationDegrees, -45.0f);
+    EXPECT_EQ(ofOther, (scenes::EnvironmentView{55.0f, 0.5f})) << "as the scene's own lies";
     saved();
     EXPECT_EQ(seen(), ofOther);
     state_.open->undo();
@@ -93,6 +94,29 @@ TEST_F(SavedEnvironment, whatUndoingBringsBackLiesAndShinesAsItDidToo) {
     state_.open->redo();
     EXPECT_EQ(seen(), ofOther);
     EXPECT_FALSE(state_.open->isEdited());
+}
+
+TEST_F(SavedEnvironment, theScenesOwnMapChosenAgainLiesAndShinesAsItDidAlsoOnceItIsSaved) {
+    const auto choose = [this](const std::string& source) {
+        ChosenEnvironment chosen;
+        chosen.environment = scenes::loadScene("glass").environment;
+        chosen.environment->source = source;
+        chosen.environment->rotationDegrees = 0.0f; // as maps are loaded
+        state_.open->takeEnvironment(std::move(chosen));
+    };
+    view(kChosenView);
+    const scenes::EnvironmentView before = seen();
+    choose("builtin:sky");
+    EXPECT_EQ(seen(), (scenes::EnvironmentView{55.0f, 2.0f})) << "the map's own intensity";
+    state_.open->takeEnvironment({});
+    choose("builtin:studio");
+    EXPECT_EQ(seen(), before);
+    saved();
+    choose("builtin:sky");
+    choose("builtin:studio");
+    EXPECT_EQ(seen(), before);
+    state_.open->undo();
+    EXPECT_EQ(seen(), (scenes::EnvironmentView{55.0f, 1.0f}));
 }
 
 TEST_F(SavedEnvironment, withoutOneWhatTheLooksSayStaysTheirs) {

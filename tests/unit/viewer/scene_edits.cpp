@@ -56,6 +56,26 @@ TEST(SceneEdits, severalLightsAreDeletedAndComeBackInOneStep) {
     EXPECT_FALSE(state.open->isEdited());
 }
 
+TEST(SceneEdits, whatIsKnownOfALightsTypeGoesWithIt) {
+    State state = threeLights();
+    const auto choose = [&](std::size_t index, scenes::LightType type) {
+        scenes::Light light = state.open->scene().lights[index];
+        state.types.choose(index, light, type, 10.0);
+        state.open->changeLight(index, light);
+    };
+    test::changeLight(state, 2, [](scenes::Light& light) { light.falloff = scenes::Falloff::Attenuation; });
+    const scenes::Light before = state.open->scene().lights[2];
+    choose(2, scenes::LightType::Sphere);
+    state.selectedLight = 0;
+    deleteSelectedLights(state);
+    choose(1, scenes::LightType::Point);
+    EXPECT_TRUE(state.open->scene().lights[1] == before);
+    choose(1, scenes::LightType::Sphere);
+    while (state.open->scene().lights.size() < 3) undo(state);
+    choose(2, scenes::LightType::Point);
+    EXPECT_TRUE(state.open->scene().lights[2] == before);
+}
+
 TEST(SceneEdits, aChoiceGoesAloneBesidesOrAsARange) {
     State state = threeLights();
     selectLight(state, 2, Choosing::Alone);

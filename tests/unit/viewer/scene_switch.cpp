@@ -161,6 +161,7 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     ASSERT_TRUE(open(file));
     EXPECT_EQ(seen(), 40.0f);
     EXPECT_EQ(degrees(), 0.0f);
+    EXPECT_EQ(state_.maps, std::vector<std::string>{(folder_.path() / "even.pfm").string()}) << "to be chosen again";
 }
 
 TEST_F(SceneSwitchTest, aCameraThatTheFileLacksIsNotRestored) {
