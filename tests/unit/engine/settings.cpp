@@ -38,8 +38,8 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
                      idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
-                     shadowSamples, shadowMaps, subsurface, diffusion, environment, refraction, culling, lightOn,
-                     snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
+                     shadowSamples, shadowMaps, subsurface, diffusion, environment, refraction, glassDepth, culling,
+                     lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
@@ -48,8 +48,8 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
                                     widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
                                     gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
-                                    backdrop, refraction, method, tilePixels, builder, normals, lightOn, exposureEV,
-                                    toneMap),
+                                    backdrop, refraction, glassDepth, method, tilePixels, builder, normals, lightOn,
+                                    exposureEV, toneMap),
                          std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
                                     softwareBackend, display, lanes));
     };
