@@ -39,9 +39,9 @@ static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter:
               int(ShadowFilter::Pcss) == SHADOW_FILTER_PCSS);
 
 constexpr EnvironmentLightInfo kEnvironmentLights[] = {
-    {EnvironmentLight::Off, "off", "it lights nothing"},
-    {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe"},
-    {EnvironmentLight::Sampled, "sampled", "by samples of each pixel, which converge to the truth"},
+    {EnvironmentLight::Off, "off", "it lights nothing", false, false},
+    {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe", true, false},
+    {EnvironmentLight::Sampled, "sampled", "by samples of each pixel, which converge to the truth", true, true},
 };
 static_assert(isInOrder(kEnvironmentLights, &EnvironmentLightInfo::light, std::size(kEnvironmentLights)));
 static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&

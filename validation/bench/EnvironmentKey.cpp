@@ -8,10 +8,10 @@ using frame::EnvironmentLight;
 
 std::span<const EnvironmentSetting> environmentSettingTable() {
     static constexpr EnvironmentSetting table[] = {
-        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return light == EnvironmentLight::Sampled; },
+        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return infoOf(light).takesSamples; },
          "the environment's light is not sampled"},
-        {"environmentCompensation", "compensation {}",
-         [](EnvironmentLight light) { return light != EnvironmentLight::Off; }, "there is no light of the environment"},
+        {"environmentCompensation", "compensation {}", [](EnvironmentLight light) { return infoOf(light).lights; },
+         "there is no light of the environment"},
     };
     return table;
 }
