@@ -85,13 +85,18 @@ std::string suppliedText(const Scene& scene) {
     std::string lacks, given;
     if (light) {
         lacks = "no light";
-        given = fmt::format("lit by the built-in environment '{}' (--environment chooses another, --no-default-light "
-                            "leaves it dark)",
-                            kDefaultEnvironment);
+        const auto backdrop = scene.options.wishes.find("backdrop");
+        const bool isBlurred = backdrop != scene.options.wishes.end() && backdrop->second == Wish("blurred");
+        given = fmt::format("lit by the built-in environment '{}', turned to the camera{} (--environment chooses "
+                            "another, --backdrop what is seen of it, --no-default-light leaves it dark)",
+                            kDefaultEnvironment, isBlurred ? ", before a blurred backdrop" : "");
     }
     if (camera) {
         lacks += light ? " and no camera" : "no camera";
-        given += fmt::format("{}seen whole by the supplied camera '{}'", light ? ", " : "", kDefaultName);
+        const bool isEmpty = triangleCount(scene) == 0;
+        given += fmt::format("{}{} by the supplied camera '{}'{}", light ? ", " : "",
+                             isEmpty ? "seen around the origin" : "seen whole", kDefaultName,
+                             isEmpty ? ", as there are no triangles" : "");
     }
     std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
