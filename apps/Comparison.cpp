@@ -121,7 +121,10 @@ Comparison comparisonOf(const ComparisonOptions& options, const Request& request
 
 void warnOfComparison(const ComparisonOptions& options, const Request& request, const Comparison& comparison) {
     const frame::PreparedView prepared = preparedForward(request, comparison);
-    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared)) spdlog::warn("{}", unheeded);
+    std::vector<engine::Technique> techniques = comparison.request.techniques;
+    if (const auto* truth = std::get_if<engine::Technique>(&comparison.request.against)) techniques.push_back(*truth);
+    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared, techniques))
+        spdlog::warn("{}", unheeded);
     if (const std::string missing =
             engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);
         !missing.empty())

@@ -56,15 +56,29 @@ DisplayImage shownReference(Picture picture, const frame::FrameSettings& setting
     return toDisplayImage(picture);
 }
 
-std::vector<std::string> unheededByReference(const FrameOptions& options) {
+namespace {
+
+/// Of a setting that was said: why the reference has no use of it; empty: it may change its picture.
+std::string whyUnheededByReference(const engine::Setting& setting, const Request& request) {
+    if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows")
+        return "The reference follows rays of its own";
+    if (setting.panel == engine::SettingPanel::Skin && setting.key != "subsurface")
+        return "The reference integrates over the surface";
+    if (setting.heeds != nullptr && !setting.isDefault(request))
+        return "The reference follows a ray a pixel, without passes";
+    if (std::string why = whyUnheeded(setting, request); !why.empty()) return why;
+    return setting.key == "environmentSamples" ? "The reference integrates in its own way" : "";
+}
+
+} // namespace
+
+std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request) {
     std::vector<std::string> messages;
-    for (const engine::Setting& setting : engine::settingTable())
-        if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows" && options.said(setting.key))
-            messages.push_back(fmt::format("{} changes nothing. The reference follows rays of its own", setting.flag));
-        else if (setting.panel == engine::SettingPanel::Skin && setting.key != "subsurface" &&
-                 options.said(setting.key))
-            messages.push_back(
-                fmt::format("{} changes nothing. The reference integrates over the surface", setting.flag));
+    for (const engine::Setting& setting : engine::settingTable()) {
+        if (!options.said(setting.key)) continue;
+        if (const std::string why = whyUnheededByReference(setting, request); !why.empty())
+            messages.push_back(unheededText(setting, why));
+    }
     return messages;
 }
 

@@ -22,6 +22,6 @@ void requireReferenceShows(const frame::FrameSettings& settings);
 /// A picture of the reference as a display shows it.
 DisplayImage shownReference(Picture picture, const frame::FrameSettings& settings);
 /// Which settings were said and change nothing of the reference's pictures: a sentence or two each.
-std::vector<std::string> unheededByReference(const FrameOptions& options);
+std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request);
 
 } // namespace tessera::app

@@ -25,6 +25,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     const Request request = resolve(options.frame);
     outputs.reads(request.files);
     engine::requireTaken(request);
+    warnOfPlan(options, request);
     const auto measured = [&] {
         const std::unique_ptr<gpu::Context> context = makeContext(global);
         engine::Renderer renderer(*context, request.scene);

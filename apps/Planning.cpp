@@ -1,7 +1,13 @@
 #include "apps/Planning.h"
 
+#include <algorithm>
+#include <optional>
+
+#include <spdlog/spdlog.h>
+
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
+#include "engine/PrepareView.h"
 #include "validation/compare/Measure.h"
 
 namespace tessera::app {
@@ -14,15 +20,36 @@ void requirePlan(const PlanningOptions& options) {
                          "without OpenGL; give another technique");
 }
 
-graph::Plan planOf(const PlanningOptions& options, const Request& request) {
-    engine::requireTaken(request);
+namespace {
+
+std::vector<engine::ViewRequest> viewsOf(const PlanningOptions& options, const Request& request) {
     std::vector<engine::ViewRequest> views{request};
     for (const std::string& camera : options.also) {
         views.push_back(request);
         engine::settingOf("camera").read(views.back(), camera, {"--also", &request.scene});
     }
+    return views;
+}
+
+} // namespace
+
+graph::Plan planOf(const PlanningOptions& options, const Request& request) {
+    engine::requireTaken(request);
+    const std::vector<engine::ViewRequest> views = viewsOf(options, request);
     return views.size() > 1 ? engine::planViews(request.scene, views)
                             : engine::planFrame(request.scene, request.technique, request.settings);
+}
+
+void warnOfPlan(const PlanningOptions& options, const Request& request) {
+    std::optional<std::vector<std::string>> unheeded; // in all views
+    for (const engine::ViewRequest& view : viewsOf(options, request)) {
+        const std::vector<std::string> own =
+            unheededSettings(options.frame, request, engine::prepareView(request.scene, view.technique, view.settings),
+                             {&view.technique, 1});
+        if (!unheeded) unheeded = own;
+        std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
+    }
+    for (const std::string& text : *unheeded) spdlog::warn("{}", text);
 }
 
 graph::Plan measuredPlan(const Request& request, engine::Renderer& renderer, const gpu::Capabilities& gl) {

@@ -22,6 +22,9 @@ void requirePlan(const PlanningOptions& options);
 /// none of the scene.
 graph::Plan planOf(const PlanningOptions& options, const Request& request);
 
+/// Warns of options that were said and change nothing of any of the views, as unheededSettings() says.
+void warnOfPlan(const PlanningOptions& options, const Request& request);
+
 /// The same with its milliseconds, by a renderer of the request's scene.
 graph::Plan measuredPlan(const Request& request, engine::Renderer& renderer, const gpu::Capabilities& gl);
 

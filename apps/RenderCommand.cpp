@@ -112,7 +112,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
-    for (const std::string& text : unheededByReference(options.frame)) spdlog::warn("{}", text);
+    for (const std::string& text : unheededByReference(options.frame, job.request)) spdlog::warn("{}", text);
     if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
         fmt::print("the reference shows the environment behind the scene as it is, without a blur\n");
     bool hasWarned = false;
@@ -214,8 +214,8 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
         warnOfPicture(path, faultOf(request.scene, one.view, picture.radiance, shadows.cut), hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
-        const std::vector<std::string> own =
-            unheededSettings(frame, request, engine::prepareView(request.scene, request.technique, one));
+        const std::vector<std::string> own = unheededSettings(
+            frame, request, engine::prepareView(request.scene, request.technique, one), {&request.technique, 1});
         if (!unheeded) unheeded = own;
         std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
         progress.advance();

@@ -11,6 +11,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/OneLine.h"
+#include "renderer/frame/MaterialFeatures.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "scenes/InUse.h"
@@ -191,39 +192,63 @@ std::string whyNoScattering(const engine::Setting& setting, const Request& reque
     return fmt::format("Light spreads over no surface; give --subsurface {}", infoOf(kSpreading).name);
 }
 
+/// Of a setting of shadows that was said, but for whether there are any.
+std::string whyNoPartOfShadows(const engine::Setting& setting, const Request& request,
+                               const frame::PreparedView& prepared) {
+    if (std::string why = setting.whyIdle(request); !why.empty()) return why;
+    const auto rows = validation::shadowSettingTable();
+    const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);
+    const bool matters = row == rows.end() || row->matters(prepared.lights, request.settings.shadowFilter);
+    return matters ? "" : std::string(row->absent);
+}
+
+std::string whyNoShadows(const engine::Setting& setting, const Request& request, const frame::PreparedView& prepared) {
+    if (setting.key == "shadows") return {};
+    if (prepared.lights.shadowed > 0) return whyNoPartOfShadows(setting, request, prepared);
+    return "There are no shadows: " + frame::whyNoShadows(request.scene, prepared.lights, request.settings.shadows);
+}
+
+/// Of a filter that was said and has no lights with a size to heed.
+std::string asHardShadows(const engine::Setting& setting, const Request& request, const frame::PreparedView& prepared) {
+    const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+    if (setting.key != "shadowFilter" || !filter.usesMaps || !filter.heedsSizes || prepared.lights.shadowed == 0 ||
+        prepared.lights.features[frame::Feature::SoftShadows])
+        return {};
+    return fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows has a size",
+                       setting.flag, filter.name, infoOf(frame::ShadowFilter::Hard).name);
+}
+
 } // namespace
 
+std::string whyUnheeded(const engine::Setting& setting, const Request& request) {
+    if (setting.key == "refraction" && !frame::mayLookBehindGlass(request.scene))
+        return "No material that transmits has a thickness or is rough";
+    return setting.whyIdle(request, &request.scene);
+}
+
+std::string unheededText(const engine::Setting& setting, std::string why) {
+    why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
+    return fmt::format("{} changes nothing. {}", setting.flag, why);
+}
+
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
-                                          const frame::PreparedView& prepared) {
+                                          const frame::PreparedView& prepared,
+                                          std::span<const engine::Technique> techniques) {
     std::vector<std::string> messages;
     if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
     for (const engine::Setting& setting : engine::settingTable()) {
-        if (setting.panel != engine::SettingPanel::Skin || !options.said(setting.key)) continue;
-        if (const std::string why = whyNoScattering(setting, request); !why.empty())
-            messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
-    }
-    for (const engine::Setting& setting : engine::settingTable()) {
-        if (setting.panel != engine::SettingPanel::Shadows || setting.key == "shadows" || !options.said(setting.key))
-            continue;
-        const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
-        if (setting.key == "shadowFilter" && filter.usesMaps && filter.heedsSizes && prepared.lights.shadowed > 0 &&
-            !prepared.lights.features[frame::Feature::SoftShadows]) {
-            messages.push_back(fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows "
-                                           "has a size",
-                                           setting.flag, filter.name, infoOf(frame::ShadowFilter::Hard).name));
-            continue;
-        }
-        std::string why = setting.whyIdle(request);
-        const auto rows = validation::shadowSettingTable();
-        const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);
-        if (prepared.lights.shadowed == 0)
-            why = "There are no shadows: " +
-                  frame::whyNoShadows(request.scene, prepared.lights, request.settings.shadows);
-        else if (why.empty() && row != rows.end() && !row->matters(prepared.lights, request.settings.shadowFilter))
-            why = std::string(row->absent);
-        if (why.empty()) continue;
-        why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
-        messages.push_back(fmt::format("{} changes nothing. {}", setting.flag, why));
+        if (!options.said(setting.key)) continue;
+        std::string why = setting.whyIgnored(request, techniques);
+        if (setting.panel == engine::SettingPanel::Skin)
+            why = whyNoScattering(setting, request);
+        else if (setting.panel == engine::SettingPanel::Shadows)
+            why = whyNoShadows(setting, request, prepared);
+        else if (why.empty())
+            why = whyUnheeded(setting, request);
+        if (const std::string asHard = asHardShadows(setting, request, prepared); !asHard.empty())
+            messages.push_back(asHard);
+        else if (!why.empty())
+            messages.push_back(unheededText(setting, why));
     }
     return messages;
 }

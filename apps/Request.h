@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -69,10 +70,16 @@ void warnOfScene(const scenes::Scene& scene);
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
-/// Which settings of shadows and of subsurface scattering were said and change nothing of a picture, and why: a
-/// sentence or two each.
+/// Why a setting, but those of shadows and of subsurface scattering, changes nothing of any picture of the request's
+/// scene; empty: it may.
+std::string whyUnheeded(const engine::Setting& setting, const Request& request);
+/// "--flag changes nothing. Why": of a setting that was said.
+std::string unheededText(const engine::Setting& setting, std::string why);
+/// Which settings were said and surely change nothing of a picture by any of these techniques, and why: a sentence or
+/// two each.
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
-                                          const frame::PreparedView& prepared);
+                                          const frame::PreparedView& prepared,
+                                          std::span<const engine::Technique> techniques);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

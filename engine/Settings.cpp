@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+#include <functional>
 
 #include "engine/SettingRows.h"
 #include "engine/SettingValues.h"
@@ -35,18 +36,16 @@ std::string refusalOf(const Setting& setting, const ViewRequest& request) {
                        fmt::join(able, ", "));
 }
 
-/// Why a choice of a table leaves a setting without effect, with those that heed it; empty: it heeds it, or `heeds` is
-/// null, as of a setting that any heeds.
-template <typename Info>
-std::string whyUnheeded(bool Info::*heeds, std::span<const Info> table, const Info& chosen, std::string_view called) {
-    if (heeds == nullptr || chosen.*heeds) return {};
+/// "Only hard, pcf and pcss heed it": the rows of that kind, which some are.
+template <typename Row, typename IsOne>
+std::string onlyHeededBy(std::span<const Row> table, const IsOne& isOne) {
     std::vector<std::string_view> able;
-    for (const Info& info : table)
-        if (info.*heeds) able.push_back(info.name);
+    for (const Row& row : table)
+        if (isOne(row)) able.push_back(row.name);
     std::string names(able.front());
     for (std::size_t i = 1; i < able.size(); ++i)
         names += fmt::format("{}{}", i + 1 < able.size() ? ", " : " and ", able[i]);
-    return fmt::format("Only {} {} it; {} is {}", names, able.size() == 1 ? "heeds" : "heed", called, chosen.name);
+    return fmt::format("Only {} {} it", names, able.size() == 1 ? "heeds" : "heed");
 }
 
 // ---- What scenes ask for -------------------------------------------------------------------------------------------
@@ -92,12 +91,30 @@ std::string Setting::panelLabel() const {
 
 std::string Setting::whyIdle(const ViewRequest& request, const scenes::Scene* scene) const {
     if (ofEnvironment && scene != nullptr && !scene->environment) return "There is no environment; choose a map";
-    std::string why =
-        whyUnheeded(ofFilters, frame::shadowFilterTable(), infoOf(request.settings.shadowFilter), "the shadow filter");
-    if (why.empty())
-        why = whyUnheeded(ofLights, frame::environmentLightTable(), infoOf(request.settings.environment.light),
-                          "the environment light");
-    return why;
+    if (ofLight != nullptr && request.settings.soloLight)
+        return "One light is shown alone, which leaves the environment's out";
+    const frame::EnvironmentLightInfo& light = infoOf(request.settings.environment.light);
+    if (ofLight != nullptr && !(light.*ofLight))
+        return fmt::format("{}; the environment light is {}",
+                           onlyHeededBy(frame::environmentLightTable(), std::mem_fn(ofLight)), light.name);
+    const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
+    if (ofFilters != nullptr && !(filter.*ofFilters))
+        return fmt::format("{}; the shadow filter is {}",
+                           onlyHeededBy(frame::shadowFilterTable(), std::mem_fn(ofFilters)), filter.name);
+    return {};
+}
+
+std::string Setting::whyIgnored(const ViewRequest& request, std::span<const Technique> techniques) const {
+    const auto isHeeded = [this](Technique technique) { return isHeededBy(technique); };
+    // A value that only some can draw is what the others do by themselves.
+    const bool mayCount = techniques.empty() || isDefault(request) || takes != nullptr || !refusal.empty();
+    if (mayCount || std::ranges::any_of(techniques, isHeeded)) return {};
+    std::vector<std::string_view> names;
+    for (const Technique technique : techniques) names.push_back(infoOf(technique).name);
+    return fmt::format(
+        "{}; the technique{} {}",
+        onlyHeededBy(techniqueTable(), [&](const TechniqueInfo& info) { return isHeeded(info.technique); }),
+        names.size() == 1 ? " is" : "s are", fmt::join(names, ", "));
 }
 
 bool Setting::isTaken(const ViewRequest& request) const {

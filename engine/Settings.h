@@ -84,9 +84,9 @@ struct Setting {
     std::string_view refusal{};
     /// What of a shadow filter heeds it; null: it is heeded with any.
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
-    /// What of a way to find the environment's light heeds it; null: it is heeded with any.
-    bool frame::EnvironmentLightInfo::*ofLights = nullptr;
-    bool ofEnvironment = false;                          ///< it changes nothing of a scene without an environment
+    bool ofEnvironment = false; ///< it changes nothing of a scene without an environment
+    /// What of the way to find the environment's light heeds it; null: it is heeded with any.
+    bool frame::EnvironmentLightInfo::*ofLight = nullptr;
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
@@ -114,9 +114,12 @@ struct Setting {
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
-    /// Why it changes nothing with the request's shadow filter or environment light, with those that heed it, or of the
-    /// scene, unless that is null; empty: it may.
+    /// Why it changes nothing with the request's other settings, such as the shadow filter, or of the scene, unless
+    /// that is null; empty: it may.
     std::string whyIdle(const ViewRequest& request, const scenes::Scene* scene = nullptr) const;
+    /// Why the requested value changes nothing of frames of these techniques, which all ignore it; empty: it may, or
+    /// some refuse it.
+    std::string whyIgnored(const ViewRequest& request, std::span<const Technique> techniques) const;
     /// Whether the request's technique takes the requested value of this setting.
     bool isTaken(const ViewRequest& request) const;
 };

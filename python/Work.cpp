@@ -49,7 +49,7 @@ engine::Renderer& readyRenderer(LoadedScene& loaded, gpu::Context& context) {
 Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
     app::Request& request = loaded.request;
     app::settleForReference(options, request.settings);
-    for (const std::string& text : app::unheededByReference(options)) spdlog::warn("{}", text);
+    for (const std::string& text : app::unheededByReference(options, request)) spdlog::warn("{}", text);
     job.expect(std::size_t(request.settings.sizePixels.y));
     const auto rowDone = [&job] { job.advance(); };
     constexpr auto kNone = validation::Leeway::None;
@@ -95,7 +95,8 @@ Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, 
     warnAbout(name, app::faultOf(request.scene, request.settings.view, frame.radiance, shadows.cut));
     warnAbout(name, shadows.missing);
     for (const std::string& text : app::unheededSettings(
-             options, request, engine::prepareView(request.scene, request.technique, request.settings)))
+             options, request, engine::prepareView(request.scene, request.technique, request.settings),
+             {&request.technique, 1}))
         spdlog::warn("{}", text);
     Rendered rendered;
     rendered.picture = engine::toPicture(frame);
@@ -136,8 +137,9 @@ std::string compareJson(SceneObject& scene, const app::ComparisonOptions& option
 std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Job& job) {
     app::requirePlan(options);
     LoadedScene& loaded = scene.resolved(options.frame, job);
-    if (!options.measure) return graph::planJson(app::planOf(options, loaded.request));
     engine::requireTaken(loaded.request);
+    app::warnOfPlan(options, loaded.request);
+    if (!options.measure) return graph::planJson(app::planOf(options, loaded.request));
     return orDrop(scene, [&] {
         gpu::Context& context = Worker::get().context();
         return graph::planJson(app::measuredPlan(loaded.request, loaded.rendererOn(context), context.capabilities()));

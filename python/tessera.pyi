@@ -60,6 +60,7 @@ class Keywords(TypedDict, total=False):
     environment_intensity: float | str | None
     backdrop: str | None
     refraction: str | None
+    glass_depth: int | str | None
     shadows: str | int | None
     shadow_filter: str | None
     shadow_samples: int | str | None

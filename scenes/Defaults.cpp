@@ -120,13 +120,20 @@ std::string suppliedText(const Scene& scene, Advice advice) {
     std::string lacks, given;
     if (light) {
         lacks = "no light";
-        given = fmt::format("lit by the built-in environment '{}' ({})", kDefaultEnvironment,
-                            isOptions ? "--environment chooses another, --no-default-light leaves it dark"
-                                      : "the panel Environment chooses another or none");
+        const auto backdrop = scene.options.wishes.find("backdrop");
+        const bool isBlurred = backdrop != scene.options.wishes.end() && backdrop->second == Wish("blurred");
+        given = fmt::format("lit by the built-in environment '{}', turned to the camera{} ({})", kDefaultEnvironment,
+                            isBlurred ? ", before a blurred backdrop" : "",
+                            isOptions ? "--environment chooses another, --backdrop what is seen of it, "
+                                        "--no-default-light leaves it dark"
+                                      : "the panel Environment chooses another or none, and what is seen of it");
     }
     if (camera) {
         lacks += light ? " and no camera" : "no camera";
-        given += fmt::format("{}seen whole by the supplied camera '{}'", light ? ", " : "", kDefaultName);
+        const bool isEmpty = triangleCount(scene) == 0;
+        given += fmt::format("{}{} by the supplied camera '{}'{}", light ? ", " : "",
+                             isEmpty ? "seen around the origin" : "seen whole", kDefaultName,
+                             isEmpty ? ", as there are no triangles" : "");
     }
     std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)

@@ -40,7 +40,7 @@ static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter:
 
 constexpr EnvironmentLightInfo kEnvironmentLights[] = {
     {EnvironmentLight::Off, "off", "it lights nothing", false, false},
-    {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe", false, true},
+    {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe", true, false},
     {EnvironmentLight::Sampled, "sampled", "by samples of each pixel, which converge to the truth", true, true},
 };
 static_assert(isInOrder(kEnvironmentLights, &EnvironmentLightInfo::light, std::size(kEnvironmentLights)));

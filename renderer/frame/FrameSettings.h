@@ -90,8 +90,8 @@ struct EnvironmentLightInfo {
     EnvironmentLight light; ///< its value is ENVIRONMENT_* of shaders/shared/environment.h
     std::string_view name;
     std::string_view summary;
-    bool heedsSamples;      ///< EnvironmentSettings::samples
-    bool heedsCompensation; ///< EnvironmentSettings::compensates
+    bool lights;       ///< surfaces
+    bool takesSamples; ///< EnvironmentSettings::samples of them
 };
 std::span<const EnvironmentLightInfo> environmentLightTable();
 const EnvironmentLightInfo& infoOf(EnvironmentLight light);

@@ -124,9 +124,7 @@ void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
 
 /// Why glass shows no surfaces along its rays, where it shows none.
 std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& spec) {
-    const auto looksBehind = [](const scenes::Material* one) { return scenes::hasBody(*one) || mayScatter(*one); };
-    if (std::ranges::none_of(scenes::materialsInUse(scene), looksBehind))
-        return "no material that transmits has a thickness or is rough";
+    if (!mayLookBehindGlass(scene)) return "no material that transmits has a thickness or is rough";
     if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
     if (!showsAnyOpaque(scene, spec)) return "every surface is transparent, and no light is seen";
     if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";

@@ -135,6 +135,12 @@ bool mayScatter(const scenes::Material& material) {
     return roughness * roughness * double(shared::passingScale(material.ior)) > kSurelyMirrorAlpha;
 }
 
+bool mayLookBehindGlass(const scenes::Scene& scene) {
+    return std::ranges::any_of(scenes::materialsInUse(scene), [](const scenes::Material* material) {
+        return scenes::hasBody(*material) || mayScatter(*material);
+    });
+}
+
 bool mayPassByLobe(const scenes::Material& material) {
     if (!scenes::isTransmissive(material)) return false;
     const auto roughness = double(material.perceptualRoughness);

@@ -10,6 +10,9 @@ bool canMask(const scenes::Material& material);
 /// Whether the material may spread light that passes through it, so that what is behind is blurred.
 bool mayScatter(const scenes::Material& material);
 
+/// Whether some material in use shows by rays what is behind it: one with a body, or one that scatters.
+bool mayLookBehindGlass(const scenes::Scene& scene);
+
 /// Whether light passes through the material and its lobe may be broader than a mirror.
 bool mayPassByLobe(const scenes::Material& material);
 

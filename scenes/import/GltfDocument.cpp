@@ -84,7 +84,7 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     const std::string name = file.string();
     ledger.charge(bytes.size(), [&] { return name; }); // once more, cut into its parts
-    if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty", name));
+    if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; export the model again", name));
     if (bytes.size() >= 4 && wordAt(bytes, 0) == kMagic) return readBinary(bytes, name);
     Container container{textOf(bytes), std::nullopt};
     const std::size_t first = container.json.find_first_not_of(" \t\r\n");

@@ -8,10 +8,9 @@ using frame::EnvironmentLight;
 
 std::span<const EnvironmentSetting> environmentSettingTable() {
     static constexpr EnvironmentSetting table[] = {
-        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return infoOf(light).heedsSamples; },
+        {"environmentSamples", "samples {}", [](EnvironmentLight light) { return infoOf(light).takesSamples; },
          "the environment's light is not sampled"},
-        {"environmentCompensation", "compensation {}",
-         [](EnvironmentLight light) { return infoOf(light).heedsCompensation; },
+        {"environmentCompensation", "compensation {}", [](EnvironmentLight light) { return infoOf(light).lights; },
          "there is no light of the environment"},
     };
     return table;

@@ -52,8 +52,9 @@ Verdict checkTolerance(const RadianceFigures& figures, const Tolerance& toleranc
     checkBad(missed, "covered", figures.bad, tolerance.isSigned);
     checkBad(missed, "uncovered or excluded", figures.badOutside, tolerance.isSigned);
     if (figures.excluded > kMostExcludedShare)
-        missed.push_back(
-            fmt::format("{:.3g} % of the covered pixels were excluded, at most 5 % may be", 100.0 * figures.excluded));
+        missed.push_back(fmt::format("{:.3g} % of the covered pixels were excluded, at most 5 % may be; edges take a "
+                                     "smaller share of a larger picture, so give a larger --size",
+                                     100.0 * figures.excluded));
     checkFigure(missed, "maxRel", figures.maxRel, tolerance.maxRel);
     checkFigure(missed, "bitEqual", figures.bitEqual, tolerance.bitEqual, true);
     checkFigure(missed, "relMse", figures.relMse, tolerance.relMse);

@@ -116,7 +116,7 @@ TEST_F(Render, quietSilencesWarningsAndNothingElse) {
     EXPECT_EQ(loud.exitCode, 0);
     EXPECT_THAT(loud.err, testing::HasSubstr("tessera: warning: tri: ")) << "the library of materials is missing";
     EXPECT_THAT(loud.out,
-                testing::StartsWith("no light and no camera in it: lit by the built-in environment 'studio' "))
+                testing::StartsWith("no light and no camera in it: lit by the built-in environment 'studio', "))
         << "and what the scene was given is no warning";
     const std::string first = text("a.png");
     EXPECT_EQ(runGood({"--quiet", "render", "tri.obj", "--size", "16x9", "-o", "a.png"}), "");
@@ -241,6 +241,53 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
               "tessera: warning: --shadow-filter changes nothing. The reference follows rays of its own\n");
     EXPECT_EQ(said({"--shadow-width", "5", "--view", "normal"}), "") << "the same options serve all views";
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
+}
+
+TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
+    writeQuad(R"({"name": "paint", "model": "lambert"})",
+              R"([{"type": "directional", "direction": [0, 0, -1], "intensity": 1}])");
+    const auto warned = [&](const std::string& why) { return "tessera: warning: " + why + "\n"; };
+    const auto said = [&](const Words& more, const char* command = "render") {
+        Words words{command, "quad.json", "--size", "16x9"};
+        if (std::string(command) == "render") words.insert(words.end(), {"-o", "a.png"});
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words).err;
+    };
+    const std::string none = " changes nothing. There is no environment; choose a map";
+    const std::string samples =
+        warned("--environment-samples changes nothing. Only sampled heeds it; the environment light is split_sum");
+    const Words studio{"--environment", "studio", "--environment-samples", "4"};
+    for (const char* command : {"render", "plan"}) {
+        SCOPED_TRACE(command);
+        EXPECT_EQ(
+            said({"--environment-rotation", "90", "--environment-intensity", "2", "--backdrop", "sharp"}, command),
+            warned("--environment-rotation" + none) + warned("--environment-intensity" + none) +
+                warned("--backdrop" + none))
+            << "sharp is the default, which is said all the same";
+        EXPECT_EQ(said(studio, command), samples);
+        EXPECT_EQ(said({"--environment", "studio", "--environment-samples", "4", "--environment-light", "sampled",
+                        "--environment-rotation", "90", "--environment-intensity", "2", "--backdrop", "blurred"},
+                       command),
+                  "");
+        EXPECT_EQ(said({"--refraction", "two_sides"}, command),
+                  warned("--refraction changes nothing. No material that transmits has a thickness or is rough"));
+        EXPECT_EQ(said({"--technique", "forward", "--layout", "packed"}, command),
+                  warned("--layout changes nothing. Only deferred, deferred_volumes, tiled_deferred and "
+                         "clustered_deferred heed it; the technique is forward"));
+        EXPECT_EQ(said({"--backdrop", "off", "--view", "normal"}, command), "") << "the same options serve all views";
+    }
+    const Words compared{"--environment", "studio", "--environment-samples", "4", "--techniques", "deferred",
+                         "--layout",      "packed"};
+    EXPECT_THAT(said(compared, "compare"),
+                testing::AllOf(testing::HasSubstr(samples), testing::Not(testing::HasSubstr("--layout"))))
+        << "deferred stores surfaces";
+    const std::string ofReference =
+        said({"--environment", "studio", "--environment-light", "sampled", "--environment-samples", "4", "--technique",
+              "reference", "--layout", "packed"});
+    EXPECT_EQ(ofReference,
+              warned("--layout changes nothing. The reference follows a ray a pixel, without passes") +
+                  warned("--environment-samples changes nothing. The reference integrates in its own way"));
+    EXPECT_EQ(said({"--technique", "reference", "--backdrop", "blurred"}), warned("--backdrop" + none));
 }
 
 TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {

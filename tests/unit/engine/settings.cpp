@@ -212,17 +212,6 @@ TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }
 
-TEST(Settings, ofAnEnvironmentSayWithWhichWaysToFindItsLightTheyChangeSomething) {
-    ViewRequest request;
-    EXPECT_EQ(settingOf("environmentSamples").whyIdle(request),
-              "Only sampled heeds it; the environment light is split_sum");
-    EXPECT_EQ(settingOf("environmentCompensation").whyIdle(request), "");
-    request.settings.environment.light = frame::EnvironmentLight::Off;
-    EXPECT_EQ(settingOf("environmentCompensation").whyIdle(request),
-              "Only split_sum and sampled heed it; the environment light is off");
-    EXPECT_EQ(settingOf("environmentRotation").whyIdle(request), "") << "it is still seen";
-}
-
 TEST(Settings, ofAnEnvironmentSayWhereASceneHasNone) {
     ViewRequest request;
     request.settings.environment.light = frame::EnvironmentLight::Sampled;
@@ -234,9 +223,48 @@ TEST(Settings, ofAnEnvironmentSayWhereASceneHasNone) {
     EXPECT_EQ(settingOf("environmentRotation").whyIdle(request), "") << "of no scene";
     scene.environment.emplace();
     for (const Setting& setting : settingTable())
-        if (setting.panel == SettingPanel::Environment) {
+        if (setting.panel == SettingPanel::Environment && setting.key != "environmentSamples") {
             EXPECT_EQ(setting.whyIdle(request, &scene), "") << setting.name;
         }
+}
+
+TEST(Settings, ofAnEnvironmentsLightSayWithWhichOfItsWaysTheyChangeSomething) {
+    const Setting &samples = settingOf("environmentSamples"), &compensation = settingOf("environmentCompensation");
+    ViewRequest request;
+    EXPECT_EQ(samples.whyIdle(request), "Only sampled heeds it; the environment light is split_sum");
+    EXPECT_EQ(compensation.whyIdle(request), "");
+    request.settings.environment.light = frame::EnvironmentLight::Sampled;
+    for (const Setting* setting : {&samples, &compensation}) EXPECT_EQ(setting->whyIdle(request), "") << setting->name;
+    request.settings.environment.light = frame::EnvironmentLight::Off;
+    EXPECT_EQ(compensation.whyIdle(request), "Only split_sum and sampled heed it; the environment light is off");
+    request.settings.environment.light = frame::EnvironmentLight::Sampled;
+    request.settings.soloLight = 0;
+    for (const Setting* setting : {&samples, &compensation})
+        EXPECT_EQ(setting->whyIdle(request), "One light is shown alone, which leaves the environment's out")
+            << setting->name;
+    for (const char* key : {"environmentIntensity", "environmentRotation", "backdrop"})
+        EXPECT_EQ(settingOf(key).whyIdle(request), "") << key << ": it is still seen";
+}
+
+TEST(Settings, areIgnoredWhereEveryTechniqueIgnoresThem) {
+    ViewRequest request;
+    settingOf("layout").read(request, "packed");
+    const auto why = [&](const char* key, const std::vector<Technique>& techniques) {
+        return settingOf(key).whyIgnored(request, techniques);
+    };
+    const std::string able = "Only deferred, deferred_volumes, tiled_deferred and clustered_deferred heed it";
+    EXPECT_EQ(why("layout", {Technique::Forward}), able + "; the technique is forward");
+    EXPECT_EQ(why("layout", {Technique::ForwardPrepass, Technique::Forward}),
+              able + "; the techniques are forward_prepass, forward");
+    EXPECT_EQ(why("layout", {Technique::Forward, Technique::Deferred}), "") << "one of them stores surfaces";
+    EXPECT_EQ(why("layout", {}), "") << "of no technique";
+    settingOf("tile").read(request, "8");
+    EXPECT_EQ(why("tile", {Technique::Forward}), "") << "it is refused";
+    settingOf("culling").read(request, "none");
+    EXPECT_EQ(why("culling", {Technique::Forward}), "") << "it is what the technique does";
+    EXPECT_EQ(why("exposureEV", {Technique::Forward}), "") << "every technique heeds it";
+    settingOf("layout").reset(request);
+    EXPECT_EQ(why("layout", {Technique::Forward}), "") << "nothing is asked for";
 }
 
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {

@@ -36,6 +36,8 @@ TEST(DefaultCamera, emptyAndPointSizedScenesGetOneToo) {
     Scene empty;
     addDefaultCamera(empty);
     ASSERT_EQ(empty.cameras.size(), 1u);
+    EXPECT_EQ(suppliedText(empty),
+              "no camera in it: seen around the origin by the supplied camera 'default', as there are no triangles");
     checkScene(empty);
     Scene point = tinyScene();
     point.meshes[0].positionsOS.assign(3, glm::vec3(5.0f));
@@ -63,14 +65,20 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
-    EXPECT_EQ(suppliedText(scene), "no light in it: lit by the built-in environment 'studio' (--environment chooses "
-                                   "another, --no-default-light leaves it dark)");
-    EXPECT_EQ(suppliedText(scene, Advice::Panels), "no light in it: lit by the built-in environment 'studio' (the "
-                                                   "panel Environment chooses another or none)");
+    constexpr const char* kOthers =
+        " (--environment chooses another, --backdrop what is seen of it, --no-default-light "
+        "leaves it dark)";
+    const std::string lit = "no light in it: lit by the built-in environment 'studio', turned to the camera";
+    EXPECT_EQ(suppliedText(scene), lit + ", before a blurred backdrop" + kOthers);
+    EXPECT_EQ(
+        suppliedText(scene, Advice::Panels),
+        lit + ", before a blurred backdrop (the panel Environment chooses another or none, and what is seen of it)");
     EXPECT_TRUE(scene.warnings.empty());
     Scene sharp = tinyScene();
     sharp.options.wishes["backdrop"] = "sharp";
-    EXPECT_EQ(litByDefault(sharp).options.wishes.at("backdrop"), Wish("sharp"));
+    const Scene unblurred = litByDefault(sharp);
+    EXPECT_EQ(unblurred.options.wishes.at("backdrop"), Wish("sharp"));
+    EXPECT_EQ(suppliedText(unblurred), lit + kOthers);
 }
 
 TEST(DefaultLight, standsAroundAnyCameraAsAroundTheDefaultOne) {

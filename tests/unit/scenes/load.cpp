@@ -154,9 +154,11 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_TRUE(scene.warnings.empty());
-    EXPECT_EQ(suppliedText(scene), "no light and no camera in it: lit by the built-in environment 'studio' "
-                                   "(--environment chooses another, --no-default-light leaves it dark), seen whole by "
-                                   "the supplied camera 'default'");
+    EXPECT_EQ(suppliedText(scene),
+              "no light and no camera in it: lit by the built-in environment 'studio', turned to the "
+              "camera, before a blurred backdrop (--environment chooses another, --backdrop what "
+              "is seen of it, --no-default-light leaves it dark), seen whole by the supplied "
+              "camera 'default'");
 
     LoadOptions options;
     options.defaultLight = false;

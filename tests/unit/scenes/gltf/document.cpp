@@ -77,7 +77,7 @@ TEST(GltfDocument, documentsThatAreNoGltfAreRefused) {
     EXPECT_NE(Builder::errorOf("/nowhere/model.gltf").find("/nowhere/model.gltf: there is no such file"),
               std::string::npos);
     EXPECT_NE(Builder::errorOf(folderName).find("is not a regular file"), std::string::npos);
-    EXPECT_NE(errorOfText("").find("model.gltf: the file is empty"), std::string::npos);
+    EXPECT_NE(errorOfText("").find("model.gltf: the file is empty; export the model again"), std::string::npos);
     EXPECT_NE(errorOfText("solid cube").find("is neither glTF JSON"), std::string::npos);
     EXPECT_NE(errorOfText("{\"asset\": ").find("is not JSON: parse error at line 1"), std::string::npos);
     EXPECT_NE(errorOfText("{}").find("/asset: is missing"), std::string::npos);

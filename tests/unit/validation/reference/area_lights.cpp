@@ -227,8 +227,10 @@ TEST(ReferenceAreaLights, flatLightsShineForwardUnlessTheyHaveTwoSides) {
         // horizon cuts a light, its rule of seven points a side leaves 1e-11 of the integral, whatever the triangles.
         EXPECT_NEAR(factorOf(light), front, 1e-10 * front);
         EXPECT_GT(incidentAt(light, glm::dvec3(0.0)).irradiance.g, 0.0);
-        light.positionRWS.z = 0.0;
-        EXPECT_EQ(factorOf(light, {0.6, 0.0, 0.8}), 0.0) << "edge-on nothing is seen";
+        light.positionRWS = {0.3, 0.2, 0.0}; // a lune of all directions before it is above the horizon
+        EXPECT_NEAR(factorOf(light, {0.6, 0.0, 0.8}), 0.5 * (1.0 - 0.8), 1e-6);
+        light.positionRWS.x = 3.0;
+        EXPECT_EQ(factorOf(light, {0.6, 0.0, 0.8}), 0.0) << "edge-on nothing is seen from beside it";
     }
 }
 
