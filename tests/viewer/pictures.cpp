@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tests/support/AssetsFolder.h"
 #include "tests/support/Sweep.h"
 #include "tests/viewer/ViewerTest.h"
 
@@ -143,7 +144,9 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
 }
 
 void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
-    // In marble light spreads far enough for coarse texels.
+    // In the marble of the bust light spreads far enough for coarse texels; of the scan a note would lie over the
+    // picture.
+    const tessera::test::AssetsFolder none(nullptr);
     const std::string scene = isWholeSweep() ? "head_skin" : "head_marble", texels = isWholeSweep() ? "256" : "64";
     const std::string arguments = scene + " --diffusion-texels " + texels;
     DrivenViewer viewer = open({scene, "--diffusion-texels", texels});

@@ -1,4 +1,5 @@
 // Sizes, minimising, closing, and preferences.
+#include "tests/support/AssetsFolder.h"
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {
@@ -27,6 +28,7 @@ TEST_F(ViewerWindow, anySizeDownToOnePixelSurvivesAndComesBackWhole) {
 }
 
 TEST_F(ViewerWindow, closingDuringALoadIsClean) {
+    const tessera::test::AssetsFolder none(nullptr); // the scan is read before the window can be closed
     DrivenViewer viewer = open({"head"});
     viewer.close();
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
