@@ -295,6 +295,19 @@ TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatIts
     }
 }
 
+/// By the window of the distance to the middle, (1 - (d / range)^4)^2, as places are.
+TEST_F(AreaLightTruth, aRangeDimsALightByTheWindowOfItsDistance) {
+    for (const LightType type : kAreaTypes)
+        for (const double share : {0.3, 0.7, 0.95, 1.0}) {
+            scenes::Light light = areaLight(type, {0.0, 0.0, 2.0}, {0.0, 0.0, -1.0}, 1.0f);
+            const double whole = seen(matte(), {light});
+            light.rangeMetres = float(2.0 / share);
+            const double window = 1.0 - std::pow(share, 4.0);
+            EXPECT_NEAR(seen(matte(), {light}), window * window * whole, 1e-5 * whole)
+                << scenes::infoOf(type).name << ", at " << share << " of its range";
+        }
+}
+
 /// Just above the size at which outlines count as places, on a surface that they graze: (r/d)^2 cos.
 TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
     for (const double cosine : {0.1, 0.3, 0.7})
