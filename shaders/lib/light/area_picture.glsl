@@ -115,11 +115,14 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
     precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
     precise float turnBoth = (both - metRight * metUp / distance2) / distance2;
-    // Directions count by their cosines too: the mean moves along their slope, as far as what is seen spreads.
+    // It meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too, which is
+    // linear: so its mean lies along the slope of the heights, by the variance of what is seen. No height is below zero,
+    // and of an even spread down to zero the variance is a third of the square of the mean.
     if (met.z > 0.0) {
-        precise vec2 slope = vec2(right.z, up.z) / met.z - vec2(metRight, metUp) / distance2;
-        precise vec2 spread = 1.0 / (3.0 + vec2(turnRight, turnUp) / (kCosineDeviation * kCosineDeviation));
-        within += clamp(spread * slope, -0.5, 0.5);
+        precise vec2 slope = vec2(right.z, up.z) / met.z;
+        precise vec2 variance = 1.0 / (3.0 + vec2(turnRight, turnUp) / (kCosineDeviation * kCosineDeviation));
+        precise float ofHeights = dot(variance, slope * slope);
+        within += variance * slope / max(3.0 * ofHeights, 1.0);
     }
     within = clamp(within, -1.0, 1.0);
     precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);

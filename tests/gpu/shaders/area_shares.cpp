@@ -1,7 +1,6 @@
 // The share of a lobe that an area light fills, of lights of any width and from the places where outlines change,
 // against integrals over their surfaces in double.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -9,172 +8,23 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/frame/FeatureDefines.h"
-#include "renderer/frame/Features.h"
-#include "scenes/Scene.h"
-#include "shaders/shared/light.h"
-#include "tests/gpu/shaders/ShaderBench.h"
+#include "tests/gpu/shaders/SeenShapes.h"
 #include "tests/support/Random.h"
 
 namespace tessera {
 namespace {
 
 using scenes::LightType;
-constexpr double kHalfTurn = 3.14159265358979323846;
-
-/// As LightShapeTexels; metres, and from the point. What rounding to floats leaves of it is the light itself.
-struct SeenShape {
-    LightType type = LightType::Rectangle;
-    glm::vec3 middle{0.0f};
-    glm::vec3 first{0.0f}; ///< half of a rectangle's side or a tube's length, a disk's radius
-    float radius = 0.0f;   ///< of a tube
-    glm::vec3 second{0.0f};
-    bool isTwoSided = true;
-    std::vector<glm::vec2> corners{}; ///< of a polygon, counterclockwise: in parts of `first` and `second`
-};
-
-/// Of corners: twice the area within them, in their own measure.
-double twiceAreaOf(const std::vector<glm::vec2>& corners) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec2 a(corners[i]), b(corners[(i + 1) % corners.size()]);
-        twice += a.x * b.y - a.y * b.x;
-    }
-    return twice;
-}
-
-/// As LightCornerTexels, and the share of the product of both vectors that is within the corners.
-struct PackedOutline {
-    std::array<glm::vec4, LIGHT_CORNER_TEXELS> texels{}; // without its triangles, which shadows alone need
-    float areaShare = 0.0f;
-};
-
-PackedOutline packedOutline(const std::vector<glm::vec2>& corners) {
-    PackedOutline packed;
-    if (corners.empty()) return packed;
-    const double twice = twiceAreaOf(corners);
-    glm::dvec2 middle(0.0);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec2 a(corners[i]), b(corners[(i + 1) % corners.size()]);
-        middle += (a.x * b.y - a.y * b.x) * (a + b) / (3.0 * twice);
-        glm::vec4& two = packed.texels[1 + i / 2];
-        (i % 2 == 0 ? two.x : two.z) = corners[i].x;
-        (i % 2 == 0 ? two.y : two.w) = corners[i].y;
-    }
-    packed.texels[0] = glm::vec4(glm::vec2(middle), float(corners.size()), 0.0f);
-    packed.areaShare = float(0.5 * twice);
-    return packed;
-}
+using namespace test;
 
 /// Hollowed outlines: a square without one of its quarters, and one with a notch from below.
 const std::vector<glm::vec2> kEll{{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
 const std::vector<glm::vec2> kBridge{{-1, -1},   {-0.5f, -1}, {-0.5f, 0.5f}, {0.5f, 0.5f},
                                      {0.5f, -1}, {1, -1},     {1, 1},        {-1, 1}};
 
-/// To a clamped cosine: a matte surface, and lobes that lean and are narrow.
-const std::array<glm::mat3, 3> kCosineMatrices{
-    glm::mat3(1.0f), glm::mat3(glm::vec3(0.3f, 0.0f, 0.1f), glm::vec3(0, 1, 0), glm::vec3(-0.4f, 0.0f, 0.35f)),
-    glm::mat3(glm::vec3(0.02f, 0.0f, 0.001f), glm::vec3(0.0f, 0.05f, 0.0f), glm::vec3(0.03f, 0.0f, 1.0f))};
-
-/// What a flat piece facing the point adds: by the square metres it shows to the point times its distance.
-class LobeDensity {
-public:
-    explicit LobeDensity(const glm::mat3& matrix) : matrix_(matrix) {
-        const glm::dvec3 horizon = glm::cross(matrix_[0], matrix_[1]);
-        scale_ = std::abs(glm::determinant(matrix_)) / kHalfTurn / (0.5 + 0.5 * horizon.z / glm::length(horizon));
-    }
-    double at(const glm::dvec3& place) const {
-        const glm::dvec3 seen = matrix_ * place;
-        if (!(place.z > 0.0 && seen.z > 0.0)) return 0.0;
-        return scale_ * seen.z / (glm::dot(seen, seen) * glm::dot(seen, seen));
-    }
-
-private:
-    glm::dmat3 matrix_;
-    double scale_;
-};
-
-/// Over a square of -1..1 both ways, by `columns` x `rows` pieces of Gauss's four points a side.
-template <typename Value>
-double overSquare(int columns, int rows, const Value& value) {
-    constexpr double kPlaces[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
-    constexpr double kWeights[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
-    double sum = 0.0;
-    for (int i = 0; i < columns * 4; ++i)
-        for (int j = 0; j < rows * 4; ++j)
-            sum += kWeights[i % 4] * kWeights[j % 4] *
-                   value((2 * (i / 4) + 1 + kPlaces[i % 4]) / columns - 1.0,
-                         (2 * (j / 4) + 1 + kPlaces[j % 4]) / rows - 1.0);
-    return sum / (columns * rows);
-}
-
-/// All of the light above the horizon of surface and cosine, or next to nothing of it below.
-double shareByQuadrature(const SeenShape& shape, const glm::mat3& matrix) {
-    const LobeDensity density(matrix);
-    const glm::dvec3 middle(shape.middle), first(shape.first), second(shape.second);
-    if (shape.type == LightType::Polygon) { // triangles from the first corner, those that turn back taken away
-        double share = 0.0;
-        for (std::size_t i = 2; i < shape.corners.size(); ++i) {
-            const glm::dvec2 a = shape.corners[i - 1] - shape.corners[0], b = shape.corners[i] - shape.corners[0];
-            const glm::dvec3 corner = middle + double(shape.corners[0].x) * first + double(shape.corners[0].y) * second;
-            const glm::dvec3 toA = a.x * first + a.y * second, toB = b.x * first + b.y * second;
-            share += 0.25 * (a.x * b.y - a.y * b.x) * overSquare(50, 50, [&](double x, double y) {
-                         const double along = 0.5 + 0.5 * x;
-                         return along * density.at(corner + along * glm::mix(toA, toB, 0.5 + 0.5 * y));
-                     });
-        }
-        return std::abs(glm::dot(middle, glm::cross(first, second))) * share;
-    }
-    if (shape.type == LightType::Rectangle)
-        return std::abs(glm::dot(middle, glm::cross(first, second))) *
-               overSquare(100, 10, [&](double x, double y) { return density.at(middle + x * first + y * second); });
-    const auto disk = [&](const glm::dvec3& at, const glm::dvec3& right, const glm::dvec3& up, double facing) {
-        return facing * overSquare(10, 20, [&](double x, double y) {
-                   const double along = 0.5 + 0.5 * x, angle = kHalfTurn * y;
-                   return 0.5 * kHalfTurn * along *
-                          density.at(at + along * (std::cos(angle) * right + std::sin(angle) * up));
-               });
-    };
-    if (shape.type == LightType::Disk)
-        return disk(middle, first, second, std::abs(glm::dot(middle, glm::cross(first, second))));
-    const double radius = double(shape.radius), half = glm::length(first);
-    const glm::dvec3 axis = first / half;
-    const double along = -glm::dot(middle, axis);
-    const glm::dvec3 outwards = -middle - along * axis;
-    const double away = glm::length(outwards);
-    const glm::dvec3 right = outwards / away, up = glm::cross(axis, right);
-    double share = 0.0;
-    if (away > radius) {
-        const double seenHalf = std::acos(radius / away);
-        share += overSquare(100, 10, [&](double x, double y) {
-            const glm::dvec3 normal = std::cos(seenHalf * y) * right + std::sin(seenHalf * y) * up;
-            const glm::dvec3 place = middle + x * first + radius * normal;
-            return half * seenHalf * radius * std::max(-glm::dot(place, normal), 0.0) * density.at(place);
-        });
-    }
-    const double beyond = std::abs(along) - half;
-    if (beyond > 0.0)
-        share += disk(middle + (along > 0.0 ? first : -first), radius * right, radius * up, radius * radius * beyond);
-    return share;
-}
-
-std::vector<double> sharesSeen(test::ShaderBench& bench, const std::vector<SeenShape>& shapes,
-                               const glm::mat3& matrix) {
-    std::vector<glm::vec4> inputs;
-    for (const SeenShape& shape : shapes) {
-        const PackedOutline outline = packedOutline(shape.corners);
-        const float radius = shape.type == LightType::Polygon ? outline.areaShare : shape.radius;
-        inputs.insert(inputs.end(), {{shape.middle, float(int(shape.type))},
-                                     {shape.first, radius},
-                                     {shape.second, shape.isTwoSided ? 1.0f : 0.0f}});
-        inputs.insert(inputs.end(), outline.texels.begin(), outline.texels.end());
-        inputs.insert(inputs.end(), {{matrix[0], 0.0f}, {matrix[1], 0.0f}, {matrix[2], 0.0f}});
-    }
-    shader::Defines defines = frame::featureDefines(frame::allFeatures());
-    defines.emplace_back("ENVIRONMENT_COMPENSATION", "0");
+std::vector<double> sharesSeen(ShaderBench& bench, const std::vector<SeenShape>& shapes, const glm::mat3& matrix) {
     std::vector<double> shares;
-    for (const glm::vec4& out : bench.run("test/area_shares.comp", defines, inputs, shapes.size(), 1))
-        shares.push_back(double(out.x));
+    for (const SeenByShader& seen : seenByShader(bench, shapes, matrix)) shares.push_back(seen.share);
     return shares;
 }
 
@@ -216,6 +66,24 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
                 << std::max(shape.radius, glm::length(shape.second)) << ", lobe " << &matrix - kCosineMatrices.data();
         }
     }
+}
+
+/// From near to far at a small angle, where most of their light comes from their near ends.
+TEST_F(AreaShares, narrowLightsThatRunAwayFromThePointKeepTheirDigits) {
+    std::vector<SeenShape> shapes;
+    for (const double height : {0.01, 0.03, 0.05})
+        for (const double end : {1.0, 3.0, 10.0, 30.0})
+            for (const double rise : {0.0, 0.002, 0.02}) {
+                const glm::dvec3 from(0.3, 0.0, height), to(end, 0.0, height + rise * (end - 0.3));
+                const glm::dvec3 half = 0.5 * (to - from);
+                const glm::dvec3 across = 1e-4 * glm::normalize(glm::dvec3(0.2, 1.0, 0.3));
+                shapes.push_back({LightType::Rectangle, from + half, half, 0.0f, across});
+                shapes.push_back({LightType::Tube, from + half, half, 1e-4f});
+            }
+    const std::vector<double> shares = run(shapes, kCosineMatrices[0]);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        EXPECT_NEAR(shares[i] / shareByQuadrature(shapes[i], kCosineMatrices[0]), 1.0, 3e-4)
+            << scenes::infoOf(shapes[i].type).name << " " << i / 2;
 }
 
 /// Beside the rectangle, which is a line from 2e-3 on.

@@ -1,5 +1,6 @@
 // What a clamped cosine that a matrix transforms sees of area lights; the normal is z. In: (middle from the point, type),
-// LightShapeTexels' two, LightCornerTexels' seven, the three columns of the matrix. Out: (share, edges of the outline, 0, 0).
+// LightShapeTexels' two, LightCornerTexels' seven, the three columns of the matrix.
+// Out: (share, edges of the outline, 0, 0), (factor of the light's picture, 0).
 #include "shared/light.h"
 
 #define HAS_OTHER_LIGHT_STORE
@@ -34,7 +35,10 @@ void main()
     int column = first + FIRST_COLUMN;
     mat3 cosineFromSurface = mat3(inputs[column].xyz, inputs[column + 1].xyz, inputs[column + 2].xyz);
     precise float perAbove = 1.0 / shareAbove(cosineFromSurface);
-    float share = 0.0;
-    if (outline.edges > 0) share = shareSeen(outline, AreaLobe(mat3(1.0), cosineFromSurface, perAbove));
-    outputs[i] = vec4(share, float(outline.edges), 0.0, 0.0);
+    AreaLobe lobe = AreaLobe(mat3(1.0), cosineFromSurface, perAbove);
+    int picture = lightPictureOf(lightShapeTexel(i, 1).w);
+    float share = outline.edges > 0 ? shareSeen(outline, lobe) : 0.0;
+    vec3 factor = outline.edges > 0 && picture >= 0 ? pictureSeen(picture, outline, lobe) : vec3(1.0);
+    outputs[2 * i] = vec4(share, float(outline.edges), 0.0, 0.0);
+    outputs[2 * i + 1] = vec4(factor, 0.0);
 }
