@@ -123,7 +123,8 @@ void warnOfComparison(const ComparisonOptions& options, const Request& request, 
     const frame::PreparedView prepared = preparedForward(request, comparison);
     std::vector<engine::Technique> techniques = comparison.request.techniques;
     if (const auto* truth = std::get_if<engine::Technique>(&comparison.request.against)) techniques.push_back(*truth);
-    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared, techniques))
+    const bool besideReference = std::holds_alternative<validation::Reference>(comparison.request.against);
+    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared, techniques, besideReference))
         spdlog::warn("{}", unheeded);
     if (const std::string missing =
             engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);

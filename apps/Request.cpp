@@ -221,7 +221,8 @@ std::string asHardShadows(const engine::Setting& setting, const Request& request
 } // namespace
 
 std::string whyUnheeded(const engine::Setting& setting, const Request& request) {
-    if (setting.key == "refraction" && !frame::mayLookBehindGlass(request.scene))
+    const bool isOfGlass = setting.key == "refraction" || setting.key == "glassDepth";
+    if (isOfGlass && !frame::mayLookBehindGlass(request.scene))
         return "No material that transmits has a thickness or is rough";
     return setting.whyIdle(request, &request.scene);
 }
@@ -233,13 +234,15 @@ std::string unheededText(const engine::Setting& setting, std::string why) {
 
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
                                           const frame::PreparedView& prepared,
-                                          std::span<const engine::Technique> techniques) {
+                                          std::span<const engine::Technique> techniques, bool besideReference) {
     std::vector<std::string> messages;
     if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!options.said(setting.key)) continue;
         std::string why = setting.whyIgnored(request, techniques);
-        if (setting.panel == engine::SettingPanel::Skin)
+        if (setting.ofReference && !besideReference && !setting.isDefault(request))
+            why = "The reference alone heeds it; draw by --technique reference, or compare with it";
+        else if (setting.panel == engine::SettingPanel::Skin)
             why = whyNoScattering(setting, request);
         else if (setting.panel == engine::SettingPanel::Shadows)
             why = whyNoShadows(setting, request, prepared);

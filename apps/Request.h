@@ -75,11 +75,11 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 std::string whyUnheeded(const engine::Setting& setting, const Request& request);
 /// "--flag changes nothing. Why": of a setting that was said.
 std::string unheededText(const engine::Setting& setting, std::string why);
-/// Which settings were said and surely change nothing of a picture by any of these techniques, and why: a sentence or
-/// two each.
+/// Which settings were said and surely change nothing of a picture by any of these techniques, nor of the reference where
+/// it is drawn beside them, and why: a sentence or two each.
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
                                           const frame::PreparedView& prepared,
-                                          std::span<const engine::Technique> techniques);
+                                          std::span<const engine::Technique> techniques, bool besideReference = false);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

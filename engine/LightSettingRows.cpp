@@ -140,6 +140,7 @@ std::vector<Setting> environmentSettings() {
              "techniques show opaque surfaces and lights behind glass",
          .group = "Environment",
          .panel = SettingPanel::None,
+         .ofReference = true,
          .sameCost = true,
          .entersLight = false,
          .value = choice(in(&FrameSettings::glassDepth), frame::kGlassDepths)},

@@ -85,6 +85,7 @@ struct Setting {
     /// What of a shadow filter heeds it; null: it is heeded with any.
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
     bool ofEnvironment = false; ///< it changes nothing of a scene without an environment
+    bool ofReference = false;   ///< no technique heeds it, the reference alone does
     /// What of the way to find the environment's light heeds it; null: it is heeded with any.
     bool frame::EnvironmentLightInfo::*ofLight = nullptr;
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always

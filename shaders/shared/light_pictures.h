@@ -6,9 +6,11 @@
 #include "interop.h"
 
 #define LIGHT_PICTURE_MOST_LEVELS 24
-// A header: rgb the mean over the light's surface, a the longer side in texels; then of each level x the texel that it
+// A header: rgb the mean over the light's surface, a the longer side in texels; then xy the variances of the surface's
+// places along its two vectors and z their covariance, in parts of the vectors; then of each level x the texel that it
 // begins with, yz its width and height, w how many levels there are.
-#define LIGHT_PICTURE_HEADER_TEXELS (1 + LIGHT_PICTURE_MOST_LEVELS)
+#define LIGHT_PICTURE_FIRST_LEVEL 2
+#define LIGHT_PICTURE_HEADER_TEXELS (LIGHT_PICTURE_FIRST_LEVEL + LIGHT_PICTURE_MOST_LEVELS)
 
 SHARED_BEGIN
 

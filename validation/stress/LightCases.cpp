@@ -65,17 +65,31 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
     return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
 }
 
-/// The scale of relative errors: the light without range and of an area light the largest area that it shows, times the
-/// sum of the cone's factor and its condition over the tolerance. 0 where the light is certain to be 0.
+/// Of an area light without range: the light itself, and what changes of it with the area P that it shows. That is
+/// rounded in parts of the largest; the light is P / (d^2 + P / pi), of which the derivative is (1 - light / pi)^2 /
+/// d^2.
+double scaleOfArea(Light light, const glm::dvec3& positionWS) {
+    if (!scenes::hasSurface(light)) return 0.0;
+    const double largest = scenes::largestSeenArea(light);
+    light.rangeMetres = scenes::kInfinity;
+    const double arriving = truthAt(light, positionWS).irradiance.x;
+    const glm::dvec3 toLight = light.positionWS - positionWS;
+    light.type = LightType::Directional;
+    const double radiance = truthAt(light, positionWS).irradiance.x;
+    const double dark = 1.0 - arriving / (std::numbers::pi * radiance);
+    return arriving + radiance * largest * dark * dark / glm::dot(toLight, toLight);
+}
+
+/// The scale of relative errors: the light without range, times the sum of the cone's factor and its condition over the
+/// tolerance. 0 where the light is certain to be 0.
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
-    if (info.isArea && !scenes::hasSurface(light)) return 0.0;
+    if (info.isArea) return scaleOfArea(light, positionWS);
     Light open = light;
     open.rangeMetres = scenes::kInfinity;
     if (info.hasPosition()) open.type = LightType::Point;
     const Cone cone = coneOf(light, positionWS);
-    const double area = info.isArea ? scenes::largestSeenArea(light) : 1.0;
-    return (cone.factor + cone.condition / kLightTolerance) * area * truthAt(open, positionWS).irradiance.x;
+    return (cone.factor + cone.condition / kLightTolerance) * truthAt(open, positionWS).irradiance.x;
 }
 
 std::string describe(const Light& light, const glm::vec3& positionWS) {

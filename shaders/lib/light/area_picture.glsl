@@ -85,6 +85,26 @@ const float kCosineDeviation = 0.75;
 const float kMostStretch = 3.0; // of a Gaussian that several of a level stand for
 const int kStretchTaps = 5;
 
+// The mean direction meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too,
+// which is linear: so its mean lies further by their covariance with the height, over the mean height. `ofSurface` are the
+// variances and the covariance of the surface's places, which count as far as a cosine sees: `turns` is the square of how
+// many radians a step along either vector turns, and their product. The variance of the height is at most that of heights
+// spread evenly from zero, a third of the squared mean; what the horizon cuts may have more.
+vec2 placeByHeight(vec3 ofSurface, vec3 turns, vec2 slope, float meanHeight)
+{
+    // Where a step turns by more than 100 radians nearly nothing is left to move, and the determinant has no digits.
+    precise vec3 held = turns * (min(1.0, 1e4 / max(turns.x + turns.y, 1e-30)) / (kCosineDeviation * kCosineDeviation));
+    precise mat2 covariance = mat2(ofSurface.xz, ofSurface.zy), more = covariance * mat2(held.xz, held.zy);
+    precise vec2 ofAll = covariance * slope;
+    precise float first = 1.0 + more[0][0], second = 1.0 + more[1][1];
+    precise float determinant = first * second - more[1][0] * more[0][1];
+    precise vec2 withHeight = vec2(second * ofAll.x - more[1][0] * ofAll.y, first * ofAll.y - more[0][1] * ofAll.x)
+                              / determinant;
+    precise float ofHeight = dot(withHeight, slope);
+    precise vec2 further = withHeight * (max(meanHeight, 0.0) / max(max(3.0 * ofHeight, meanHeight * meanHeight), 1e-30));
+    return further;
+}
+
 // The factor of a picture as a lobe sees it: around the mean of the directions it comes from, as wide as the cosine is
 // there. Across an outline that is seen aslant it is longer than wide.
 vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
@@ -115,15 +135,7 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
     precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
     precise float turnBoth = (both - metRight * metUp / distance2) / distance2;
-    // It meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too, which is
-    // linear: so its mean lies along the slope of the heights, by the variance of what is seen. No height is below zero,
-    // and of an even spread down to zero the variance is a third of the square of the mean.
-    if (met.z > 0.0) {
-        precise vec2 slope = vec2(right.z, up.z) / met.z;
-        precise vec2 variance = 1.0 / (3.0 + vec2(turnRight, turnUp) / (kCosineDeviation * kCosineDeviation));
-        precise float ofHeights = dot(variance, slope * slope);
-        within += variance * slope / max(3.0 * ofHeights, 1.0);
-    }
+    within += placeByHeight(lightPictureCovariance(picture), vec3(turnRight, turnUp, turnBoth), vec2(right.z, up.z), met.z);
     within = clamp(within, -1.0, 1.0);
     precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);
     precise float apart = sqrt(lean * lean + turnBoth * turnBoth);

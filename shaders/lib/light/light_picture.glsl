@@ -1,6 +1,6 @@
 // Pictures of area lights: what a lobe sees of one, from levels filtered by Gaussians (shared/light_pictures.h). Source:
 // Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", section 5,
-// with other Gaussians, and looked up along the vector irradiance, which always meets the light.
+// with other Gaussians, and looked up near the mean of the light's places (area_picture.glsl).
 #pragma once
 #include "shared/slots.h"
 #include "shared/light_pictures.h"
@@ -10,6 +10,12 @@ layout(binding = TEXTURE_UNIT_LIGHT_PICTURES) uniform samplerBuffer lightPicture
 vec3 lightPictureMean(int picture)
 {
     return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS).rgb;
+}
+
+// Of the surface's places: the variances along its two vectors, and their covariance.
+vec3 lightPictureCovariance(int picture)
+{
+    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).xyz;
 }
 
 // As a + share (b - a), which is a where both are.
@@ -22,7 +28,7 @@ vec3 mixedFactor(vec3 a, vec3 b, float share)
 // A level at a place: x from the left and y from the top, 0..1.
 vec3 lightPictureLevel(int picture, int level, vec2 place)
 {
-    vec4 record = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1 + level);
+    vec4 record = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_FIRST_LEVEL + level);
     precise vec2 fromCentre = clamp(place * record.yz - 0.5, vec2(0.0), record.yz - 1.0);
     ivec2 size = ivec2(record.yz);
     ivec2 least = ivec2(fromCentre);
@@ -40,7 +46,7 @@ vec3 lightPictureLevel(int picture, int level, vec2 place)
 vec3 lightPictureFiltered(int picture, vec2 place, float deviation)
 {
     vec4 header = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS);
-    int levels = int(texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).w);
+    int levels = int(texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_FIRST_LEVEL).w);
     precise float texels = deviation * header.a;
     precise float wanted = texels < 1.0 ? texels : 1.0 + log2(texels);
     if (!(wanted < float(levels - 1))) return lightPictureLevel(picture, levels - 1, place);

@@ -288,6 +288,14 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
               warned("--layout changes nothing. The reference follows a ray a pixel, without passes") +
                   warned("--environment-samples changes nothing. The reference integrates in its own way"));
     EXPECT_EQ(said({"--technique", "reference", "--backdrop", "blurred"}), warned("--backdrop" + none));
+    const std::string depth = "--glass-depth changes nothing. ";
+    EXPECT_EQ(said({"--glass-depth", "2"}),
+              warned(depth + "The reference alone heeds it; draw by --technique reference, or compare with it"));
+    EXPECT_EQ(said({"--glass-depth", "0"}), warned(depth + "No material that transmits has a thickness or is rough"));
+    EXPECT_EQ(said({"--glass-depth", "2", "--technique", "reference"}),
+              warned(depth + "No material that transmits has a thickness or is rough"));
+    EXPECT_THAT(said({"--glass-depth", "2", "--against", "reference"}, "compare"),
+                testing::HasSubstr(depth + "No material that transmits"));
 }
 
 TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {

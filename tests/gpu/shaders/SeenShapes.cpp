@@ -81,19 +81,18 @@ double overSquare(int columns, int rows, const Value& value) {
 }
 
 /// Triangles from the first corner, those that turn back taken away.
-double shareOfPolygon(const SeenShape& shape, const LobeDensity& density) {
-    const glm::dvec3 middle(shape.middle), first(shape.first), second(shape.second);
-    double share = 0.0;
-    for (std::size_t i = 2; i < shape.corners.size(); ++i) {
-        const glm::dvec2 a = shape.corners[i - 1] - shape.corners[0], b = shape.corners[i] - shape.corners[0];
-        const glm::dvec3 corner = middle + double(shape.corners[0].x) * first + double(shape.corners[0].y) * second;
-        const glm::dvec3 toA = a.x * first + a.y * second, toB = b.x * first + b.y * second;
-        share += 0.25 * (a.x * b.y - a.y * b.x) * overSquare(50, 50, [&](double x, double y) {
-                     const double along = 0.5 + 0.5 * x;
-                     return along * density.at(corner + along * glm::mix(toA, toB, 0.5 + 0.5 * y));
-                 });
+template <typename Value>
+double overPolygon(const std::vector<glm::vec2>& corners, const Value& value) {
+    double sum = 0.0;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const glm::dvec2 from = corners[0], a = glm::dvec2(corners[i - 1]) - from, b = glm::dvec2(corners[i]) - from;
+        sum += 0.25 * (a.x * b.y - a.y * b.x) * overSquare(50, 50, [&](double x, double y) {
+                   const double along = 0.5 + 0.5 * x;
+                   const glm::dvec2 at = from + along * glm::mix(a, b, 0.5 + 0.5 * y);
+                   return along * value(at.x, at.y);
+               });
     }
-    return std::abs(glm::dot(middle, glm::cross(first, second))) * share;
+    return sum;
 }
 
 /// `value` of parts of two vectors from a disk's middle, times its area by their product.
@@ -137,9 +136,7 @@ const std::array<glm::mat3, 3> kCosineMatrices{
     glm::mat3(glm::vec3(0.02f, 0.0f, 0.001f), glm::vec3(0.0f, 0.05f, 0.0f), glm::vec3(0.03f, 0.0f, 1.0f))};
 
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurface) {
-    const LobeDensity density(cosineFromSurface);
-    if (shape.type == LightType::Polygon) return shareOfPolygon(shape, density);
-    if (shape.type == LightType::Tube) return shareOfTube(shape, density);
+    if (shape.type == LightType::Tube) return shareOfTube(shape, LobeDensity(cosineFromSurface));
     return shareByQuadrature(shape, cosineFromSurface, [](double, double) { return 1.0; });
 }
 
@@ -148,8 +145,9 @@ double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurf
     const LobeDensity density(cosineFromSurface);
     const glm::dvec3 middle(shape.middle), first(shape.first), second(shape.second);
     const auto value = [&](double x, double y) { return factor(x, y) * density.at(middle + x * first + y * second); };
-    return std::abs(glm::dot(middle, glm::cross(first, second))) *
-           (shape.type == LightType::Disk ? overDisk(value) : overSquare(100, 10, value));
+    const double facing = std::abs(glm::dot(middle, glm::cross(first, second)));
+    if (shape.type == LightType::Polygon) return facing * overPolygon(shape.corners, value);
+    return facing * (shape.type == LightType::Disk ? overDisk(value) : overSquare(100, 10, value));
 }
 
 std::vector<SeenByShader> seenByShader(ShaderBench& bench, const std::vector<SeenShape>& shapes,

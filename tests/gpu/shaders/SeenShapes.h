@@ -29,7 +29,7 @@ extern const std::array<glm::mat3, 3> kCosineMatrices;
 /// The share of such a lobe that each light fills, by an integral over its surface: all of the light above the horizon
 /// of surface and cosine, or next to nothing of it below.
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurface);
-/// The same of a rectangle or a disk whose places count by a factor, in parts of `first` and `second`.
+/// The same of a flat light whose places count by a factor, given in parts of `first` and `second`.
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurface,
                          const std::function<double(double, double)>& factor);
 

@@ -235,6 +235,34 @@ TEST_F(PrecisionTest, normalsAlongAnAxisAreExactAndThoseOfNoLengthPointUp) {
         for (int c = 0; c < 4; ++c) EXPECT_NEAR(out[i][c], wanted[i][c], allowed) << inputs[i].x << " " << c;
 }
 
+/// The direction of a place on the octahedral square -1..1, and the place of a direction of any length.
+glm::dvec3 octahedral(const glm::dvec2& place) {
+    const double z = 1.0 - std::abs(place.x) - std::abs(place.y);
+    if (z >= 0.0) return glm::normalize(glm::dvec3(place, z));
+    return glm::normalize(glm::dvec3(std::copysign(1.0 - std::abs(place.y), place.x),
+                                     std::copysign(1.0 - std::abs(place.x), place.y), z));
+}
+glm::dvec2 octahedralPlace(const glm::dvec3& direction) {
+    const glm::dvec3 n = direction / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
+    if (n.z >= 0.0) return glm::dvec2(n);
+    return {std::copysign(1.0 - std::abs(n.y), n.x), std::copysign(1.0 - std::abs(n.x), n.y)};
+}
+
+TEST_F(PrecisionTest, normalsOfTrianglesAreStoredAsTheNearestPlaceOfTheirGrid) {
+    constexpr double kSteps = (1 << FACET_BITS) - 2;
+    test::Random random(8);
+    std::vector<glm::vec4> inputs;
+    for (int i = 0; i < 20000; ++i) inputs.push_back({glm::vec3(random.direction()), 0});
+    const std::vector<glm::vec4> out = bench.run("test/facets.comp", {}, inputs, inputs.size(), 1);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const glm::dvec2 steps = (0.5 * octahedralPlace(glm::dvec3(inputs[i])) + 0.5) * kSteps;
+        const glm::dvec2 nearest = glm::floor(steps + 0.5), away = glm::abs(steps - nearest);
+        // Roundings, of 1e-7 of all steps, may decide between two.
+        if (std::max(away.x, away.y) > 0.499) continue;
+        ASSERT_LT(glm::distance(glm::dvec3(out[i]), octahedral(2.0 * nearest / kSteps - 1.0)), 1e-6) << i;
+    }
+}
+
 TEST_F(PrecisionTest, normalsOfTrianglesAreStoredWithinTheirBound) {
     test::Random random(6);
     std::vector<glm::vec4> inputs;

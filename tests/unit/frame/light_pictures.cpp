@@ -24,7 +24,7 @@ scenes::Light picturedLight(LightType type, const scenes::LightTexture& texture)
 
 /// Texel of a level.
 glm::vec3 texelOf(const std::vector<glm::vec4>& texels, std::size_t picture, std::size_t level, int x, int y) {
-    const glm::vec4 record = texels[picture * LIGHT_PICTURE_HEADER_TEXELS + 1 + level];
+    const glm::vec4 record = texels[picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_FIRST_LEVEL + level];
     return glm::vec3(texels[std::size_t(record.x) + std::size_t(y) * std::size_t(record.y) + std::size_t(x)]);
 }
 
@@ -142,6 +142,46 @@ TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
     EXPECT_GT(texels[0].g, 0.25f);
     EXPECT_EQ(texels[LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
     EXPECT_EQ(texels[2 * LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
+}
+
+/// Against sums over a fine grid.
+TEST(LightPictures, theCovarianceOfAnOutlineIsThatOfItsPlaces) {
+    const scenes::LightTexture texture = test::evenLightTexture(glm::vec3(1.0f));
+    scenes::LightCorners ell;
+    ell.count = 0;
+    for (const glm::vec2& at : {glm::vec2(-0.6f, -0.5f), glm::vec2(0.8f, -0.5f), glm::vec2(0.8f, -0.1f),
+                                glm::vec2(0.1f, 0.0f), glm::vec2(0.0f, 0.9f), glm::vec2(-0.6f, 0.7f)})
+        ell.add(at);
+    double reach = 0.0;
+    for (const glm::vec2& at : ell.all()) reach = std::max(reach, double(glm::length(at)));
+    const std::vector<glm::vec4> texels = prefilteredPictures(std::vector<ShownPicture>{
+        {texture, LightType::Rectangle, {}}, {texture, LightType::Disk, {}}, {texture, LightType::Polygon, ell}});
+    const auto isWithin = [&](std::size_t shape, const glm::dvec2& at) {
+        if (shape == 0) return true;
+        if (shape == 1) return glm::dot(at, at) <= 1.0;
+        const glm::dvec2 p = at * reach;
+        if (p.x < -0.6 || p.y < -0.5 || p.x > 0.8) return false;
+        if (p.x > 0.1) return p.y < -0.1 + (0.8 - p.x) / 0.7 * 0.1;
+        if (p.x > 0.0) return p.y < (0.1 - p.x) * 9.0;
+        return p.y < 0.9 + p.x / 0.6 * 0.2;
+    };
+    constexpr int kSteps = 1000;
+    for (std::size_t shape = 0; shape < 3; ++shape) {
+        double all = 0.0;
+        glm::dvec2 sum(0.0);
+        glm::dvec3 products(0.0);
+        for (int i = 0; i < kSteps * kSteps; ++i) {
+            const glm::dvec2 at = (glm::dvec2(i % kSteps, i / kSteps) + 0.5) * (2.0 / kSteps) - 1.0;
+            if (!isWithin(shape, at)) continue;
+            all += 1.0;
+            sum += at;
+            products += glm::dvec3(at * at, at.x * at.y);
+        }
+        const glm::dvec2 mean = sum / all;
+        const glm::dvec3 wanted = products / all - glm::dvec3(mean * mean, mean.x * mean.y);
+        const glm::vec4 found = texels[shape * LIGHT_PICTURE_HEADER_TEXELS + 1];
+        for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], 5e-4) << shape << ", " << i;
+    }
 }
 
 TEST(LightPictures, rangesReachAsFarAsTheBrightestTexel) {
