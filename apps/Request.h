@@ -75,8 +75,8 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 std::string whyUnheeded(const engine::Setting& setting, const Request& request);
 /// "--flag changes nothing. Why": of a setting that was said.
 std::string unheededText(const engine::Setting& setting, std::string why);
-/// Which settings were said and surely change nothing of a picture by any of these techniques, nor of the reference where
-/// it is drawn beside them, and why: a sentence or two each.
+/// Which settings were said and surely change nothing of a picture by any of these techniques, nor of the reference
+/// where it is drawn beside them, and why: a sentence or two each.
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
                                           const frame::PreparedView& prepared,
                                           std::span<const engine::Technique> techniques, bool besideReference = false);
