@@ -1,4 +1,5 @@
 // Hooks that move vertices: every pass and technique, their bound, and the reference.
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
