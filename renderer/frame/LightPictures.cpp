@@ -52,26 +52,22 @@ std::vector<glm::dvec2> cornersInPicture(const ShownPicture& shown) {
     return corners;
 }
 
-/// Of the places within the outline, in its measure: the variances of x and y, and their covariance.
-glm::dvec3 covarianceOf(const ShownPicture& shown) {
-    if (shown.type == scenes::LightType::Rectangle) return {1.0 / 3.0, 1.0 / 3.0, 0.0};
-    if (shown.type == scenes::LightType::Disk) return {0.25, 0.25, 0.0};
+/// Of the places within the outline, in its measure.
+glm::dvec2 variancesOf(const ShownPicture& shown) {
+    if (shown.type == scenes::LightType::Rectangle) return glm::dvec2(1.0 / 3.0);
+    if (shown.type == scenes::LightType::Disk) return glm::dvec2(0.25);
     // Of triangles from the origin, those that turn back taken away.
     const std::vector<glm::dvec2> corners = cornersInPicture(shown);
     double all = 0.0;
-    glm::dvec2 sum(0.0);
-    glm::dvec3 products(0.0);
+    glm::dvec2 sum(0.0), squares(0.0);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
         const double twice = a.x * b.y - a.y * b.x;
-        const glm::dvec2 squares = a * a + a * b + b * b;
         all += twice;
         sum += twice * (a + b) / 3.0;
-        products += twice * glm::dvec3(squares / 6.0, (a.x * b.y + b.x * a.y) / 12.0 + (a.x * a.y + b.x * b.y) / 6.0);
+        squares += twice * (a * a + a * b + b * b) / 6.0;
     }
-    if (all == 0.0) return {};
-    const glm::dvec2 mean = sum / all;
-    return products / all - glm::dvec3(mean * mean, mean.x * mean.y);
+    return all == 0.0 ? glm::dvec2(0.0) : squares / all - sum * sum / (all * all);
 }
 
 Masked maskedTexels(const ShownPicture& shown) {
@@ -193,7 +189,7 @@ void addPicture(const ShownPicture& shown, std::size_t number, std::vector<glm::
     const Shares shares = sharesOf(masked);
     const std::size_t header = number * LIGHT_PICTURE_HEADER_TEXELS;
     texels[header] = glm::vec4(mean, float(std::max(map.width, map.height)));
-    texels[header + 1] = glm::vec4(glm::vec3(covarianceOf(shown)), 0.0f);
+    texels[header + 1] = glm::vec4(glm::vec2(variancesOf(shown)), 0.0f, 0.0f);
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const PictureLevel& level = levels[i];
         texels[header + LIGHT_PICTURE_FIRST_LEVEL + i] =

@@ -86,20 +86,17 @@ const float kMostStretch = 3.0; // of a Gaussian that several of a level stand f
 const int kStretchTaps = 5;
 
 // The mean direction meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too,
-// which is linear: so its mean lies further by their covariance with the height, over the mean height. `ofSurface` are the
-// variances and the covariance of the surface's places, which count as far as a cosine sees: `turns` is the square of how
-// many radians a step along either vector turns, and their product. The variance of the height is at most that of heights
-// spread evenly from zero, a third of the squared mean; what the horizon cuts may have more.
-vec2 placeByHeight(vec3 ofSurface, vec3 turns, vec2 slope, float meanHeight)
+// which is linear: so its mean lies further by their covariance with the height, over the mean height. `variances` are
+// those of the surface's places, which count as far as a cosine sees: `turns` is the square of how many radians a step
+// along either vector turns, and their product. The variance of the height is at most that of heights spread evenly from
+// zero, a third of the squared mean; what the horizon cuts may have more.
+vec2 placeByHeight(vec2 variances, vec3 turns, vec2 slope, float meanHeight)
 {
     // Where a step turns by more than 100 radians nearly nothing is left to move, and the determinant has no digits.
     precise vec3 held = turns * (min(1.0, 1e4 / max(turns.x + turns.y, 1e-30)) / (kCosineDeviation * kCosineDeviation));
-    precise mat2 covariance = mat2(ofSurface.xz, ofSurface.zy), more = covariance * mat2(held.xz, held.zy);
-    precise vec2 ofAll = covariance * slope;
-    precise float first = 1.0 + more[0][0], second = 1.0 + more[1][1];
-    precise float determinant = first * second - more[1][0] * more[0][1];
-    precise vec2 withHeight = vec2(second * ofAll.x - more[1][0] * ofAll.y, first * ofAll.y - more[0][1] * ofAll.x)
-                              / determinant;
+    precise vec2 ofAll = variances * slope, own = 1.0 + variances * held.xy, other = variances * held.z;
+    precise float determinant = own.x * own.y - other.x * other.y;
+    precise vec2 withHeight = vec2(own.y * ofAll.x - other.x * ofAll.y, own.x * ofAll.y - other.y * ofAll.x) / determinant;
     precise float ofHeight = dot(withHeight, slope);
     precise vec2 further = withHeight * (max(meanHeight, 0.0) / max(max(3.0 * ofHeight, meanHeight * meanHeight), 1e-30));
     return further;
@@ -121,11 +118,12 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float along = dot(direction, front);
     precise float height = dot(middle, front);
     precise vec3 met = along != 0.0 ? direction * (height / along) : middle;
-    precise float distance2 = dot(met, met);
-    if (!(distance2 > 0.0 && distance2 < 1e30)) return lightPictureMean(picture);
+    precise float right2 = dot(right, right), up2 = dot(up, up), both = dot(right, up);
+    // Of a light that touches the point, all that is seen lies there.
+    precise float distance2 = max(dot(met, met), 1e-12 * max(right2, up2));
+    if (!(distance2 < 1e30)) return lightPictureMean(picture);
     // The place by the two vectors, which the lobe's matrix has sheared.
     precise vec3 place = met - middle;
-    precise float right2 = dot(right, right), up2 = dot(up, up), both = dot(right, up);
     precise float sheared = right2 * up2 - both * both;
     if (!(sheared > 0.0)) return lightPictureMean(picture);
     precise float inRight = dot(place, right), inUp = dot(place, up);
@@ -135,7 +133,7 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
     precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
     precise float turnBoth = (both - metRight * metUp / distance2) / distance2;
-    within += placeByHeight(lightPictureCovariance(picture), vec3(turnRight, turnUp, turnBoth), vec2(right.z, up.z), met.z);
+    within += placeByHeight(lightPictureVariances(picture), vec3(turnRight, turnUp, turnBoth), vec2(right.z, up.z), met.z);
     within = clamp(within, -1.0, 1.0);
     precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);
     precise float apart = sqrt(lean * lean + turnBoth * turnBoth);

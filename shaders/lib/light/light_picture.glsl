@@ -12,10 +12,10 @@ vec3 lightPictureMean(int picture)
     return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS).rgb;
 }
 
-// Of the surface's places: the variances along its two vectors, and their covariance.
-vec3 lightPictureCovariance(int picture)
+// Of the surface's places, along its two vectors.
+vec2 lightPictureVariances(int picture)
 {
-    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).xyz;
+    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).xy;
 }
 
 // As a + share (b - a), which is a where both are.

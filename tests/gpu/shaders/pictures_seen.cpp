@@ -241,5 +241,48 @@ TEST_F(PicturesSeen, narrowerThanATexelTheyComeFromBoth) {
     }
 }
 
+/// From a level narrower than the picture to the last, which is as wide.
+TEST_F(PicturesSeen, goingAwayNothingJumps) {
+    constexpr int kSteps = 400;
+    std::vector<SeenShape> shapes;
+    for (int i = 0; i <= kSteps; ++i) shapes.push_back(straightAhead(0.1 * std::pow(20.0, double(i) / kSteps), 0.5));
+    const std::vector<glm::dvec3> squares = factors(shapes, kCosineMatrices[0], RectangleSquares);
+    const double all = squares.back().x - squares.front().x;
+    EXPECT_GT(all, 0.03);
+    for (std::size_t i = 1; i < squares.size(); ++i) ASSERT_NEAR(squares[i].x, squares[i - 1].x, 0.02 * all) << i;
+}
+
+/// Of the light of a plane that leans, most comes from within some metres; lights are up to 1e12 times as wide.
+TEST_F(PicturesSeen, ofVastLightsWhatIsNearestIsSeen) {
+    std::vector<SeenShape> shapes;
+    for (const double half : {1e4, 1e6, 1e12})
+        for (const double lean : {0.0, 0.3, 1.0})
+            for (const double radians : {0.0, 0.7}) {
+                SeenShape shape = straightAhead(1.0, half, radians);
+                for (glm::vec3* side : {&shape.first, &shape.second})
+                    *side = glm::dvec3(side->x, double(side->y) * std::cos(lean), double(side->y) * std::sin(lean));
+                shapes.push_back(shape);
+            }
+    for (const glm::dvec3& factor : factors(shapes, kCosineMatrices[0], Rectangles)) {
+        EXPECT_NEAR(factor.x, 0.5, 2e-3);
+        EXPECT_NEAR(factor.y, 0.5, 2e-3);
+    }
+}
+
+/// With a corner, an edge or itself at the point: by 1 / distance^4 nearly all of the light comes from there.
+TEST_F(PicturesSeen, whereALightTouchesThePointItIsSeenThere) {
+    const glm::vec3 right(0.5f, 0.0f, 0.25f), up(0.0f, 0.5f, 0.375f); // of few bits, so that the point is in the plane
+    const std::pair<float, float> touching[] = {
+        {-1.0f, -1.0f}, {-1.0f, 1.0f}, {0.0f, 1.0f}, {1.0f, 0.25f}, {0.0f, 0.0f}};
+    std::vector<SeenShape> shapes;
+    for (const auto& [x, y] : touching) shapes.push_back({LightType::Rectangle, -x * right - y * up, right, 0.0f, up});
+    const std::vector<glm::dvec3> found = factors(shapes, kCosineMatrices[0], Rectangles);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << "at " << touching[i].first << ", " << touching[i].second);
+        EXPECT_NEAR(found[i].x, 0.5 + 0.5 * double(touching[i].first), 1.0 / kTexels);
+        EXPECT_NEAR(found[i].y, 0.5 - 0.5 * double(touching[i].second), 1.0 / kTexels);
+    }
+}
+
 } // namespace
 } // namespace tessera
