@@ -11,10 +11,10 @@
 
 namespace tessera::validation {
 
-/// What one G-buffer channel's encoding adds to a pair's error.
+/// What the encoding of a G-buffer channel, or of two that belong together, adds to a pair's error.
 struct ChannelShare {
-    std::string channel;
-    double relMseWithout; ///< the pair's relMse when this channel alone is stored in fp32
+    std::string channel;  ///< "albedo", "microsurface and tangent"
+    double relMseWithout; ///< the pair's relMse when this alone is stored in fp32
     double share;         ///< the pair's relMse minus that
 };
 

@@ -137,18 +137,38 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<c
     return {};
 }
 
-/// The error that each stored channel causes, from the pair's relMse with that channel alone in fp32.
+/// Which stored channels are put into fp32 together: the alphas of a surface that is not anisotropic are equal in both
+/// of theirs, and with one of them alone in fp32 it would be lit as an anisotropic one.
+std::vector<std::vector<frame::Channel>> channelsOfOneError(const frame::FeatureSet& features,
+                                                            const frame::GBufferLayout& layout) {
+    using frame::Channel;
+    std::vector<std::vector<Channel>> groups;
+    for (const Channel channel : frame::neededChannels(features, layout, false)) {
+        const auto alphas = std::ranges::find(groups, std::vector{Channel::Microsurface});
+        if (channel == Channel::Tangent && alphas != groups.end())
+            alphas->push_back(channel);
+        else
+            groups.push_back({channel});
+    }
+    return groups;
+}
+
+/// The error that stored channels cause, from the pair's relMse with them alone in fp32.
 std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
                                         double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
         frame::surfaceFeatures(renderer.scene(), asked.settings.prune, asked.settings.subsurface);
-    for (const frame::Channel channel : frame::neededChannels(features, asked.settings.layout, false)) {
+    for (const std::vector<frame::Channel>& channels : channelsOfOneError(features, asked.settings.layout)) {
         frame::FrameSettings settings = asked.settings;
-        settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
+        std::vector<std::string_view> names;
+        for (const frame::Channel channel : channels) {
+            settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
+            names.push_back(frame::channelTable()[std::size_t(channel)].name);
+        }
         const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
         const double without = truth.figuresOf(picture).relMse;
-        shares.push_back({std::string(frame::channelTable()[std::size_t(channel)].name), without, relMse - without});
+        shares.push_back({fmt::format("{}", fmt::join(names, " and ")), without, relMse - without});
     }
     return shares;
 }
