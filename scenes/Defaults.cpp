@@ -88,7 +88,7 @@ OwnEnvironment ownEnvironmentOf(const Scene& scene) {
         own.studioDegrees = scene.environment->rotationDegrees;
     } else {
         own.source = scene.environment->source;
-        own.view = {scene.environment->rotationDegrees, scene.environment->intensity};
+        own.view = ownViewOf(*scene.environment);
     }
     return own;
 }

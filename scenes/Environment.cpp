@@ -86,9 +86,9 @@ std::span<const BuiltinEnvironment> builtinEnvironments() {
     return kEnvironments;
 }
 
-EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view) {
-    const double intensity = double(environment.intensity) * double(view.intensity);
-    return {float(double(environment.rotationDegrees) + double(view.rotationDegrees)),
+EnvironmentView asSeen(const EnvironmentView& own, const EnvironmentView& view) {
+    const double intensity = double(own.intensity) * double(view.intensity);
+    return {float(double(own.rotationDegrees) + double(view.rotationDegrees)),
             float(std::min(intensity, double(kMostRadiance)))};
 }
 

@@ -40,8 +40,12 @@ struct EnvironmentView {
 /// The settings that say so, which are wishes of a scene (SceneOptions) too.
 inline constexpr std::array<std::string_view, 2> kEnvironmentViewKeys{"environmentRotation", "environmentIntensity"};
 
+/// An environment's own numbers.
+inline EnvironmentView ownViewOf(const Environment& environment) {
+    return {environment.rotationDegrees, environment.intensity};
+}
 /// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
-EnvironmentView asSeen(const Environment& environment, const EnvironmentView& view);
+EnvironmentView asSeen(const EnvironmentView& own, const EnvironmentView& view);
 
 /// Where a map holds a unit direction before it is turned: x from the left, y from the top, both 0..1. The middle looks
 /// along -Z, the top is +Y.

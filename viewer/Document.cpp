@@ -138,7 +138,7 @@ void Document::adoptRecovered(OpenScene& scene) {
     scene.markUnsaved();
     std::erase(state_.recent, identityOf(scene.source()));
     const std::filesystem::path left = scene.source();
-    recovery_.keep(scene, environmentSeenBy(state_.active()));
+    recovery_.keep(scene);
     Recovery::discard(left);
     log_.line("recovered " + left.string());
 }
@@ -222,7 +222,6 @@ bool Document::saveScene() {
     const std::string path = saver_.freeName(".json");
     if (!mayWrite(path)) return false;
     saver_.scene(path);
-    scenes_.noteSaved();
     return true;
 }
 
@@ -235,11 +234,10 @@ void Document::saveAs(const std::string& path, glm::ivec2 size) {
     const FileType* const type = fileTypeOf(path);
     if (type == nullptr || type->saves != FileType::Saves::Scene) return saver_.picture(size, path);
     saver_.scene(path);
-    scenes_.noteSaved();
 }
 
 std::optional<double> Document::keepAt() const {
-    if (!state_.open || !recovery_.isBehind(*state_.open, environmentSeenBy(state_.active()))) return std::nullopt;
+    if (!state_.open || !recovery_.isBehind(*state_.open)) return std::nullopt;
     return std::max(pulse_.restAt + kKeepSeconds, nextKeepAt_);
 }
 
@@ -248,14 +246,14 @@ void Document::keepEdits() {
     const double started = Window::nowSeconds();
     if (!at || started < *at) return;
     nextKeepAt_ = started + kFailedKeepSeconds;
-    recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
+    recovery_.keep(*state_.open);
     const double ended = Window::nowSeconds();
     nextKeepAt_ = ended + kKeepShare * (ended - started);
 }
 
 void Document::endWithEdits() {
     try {
-        if (state_.open) recovery_.keep(*state_.open, environmentSeenBy(state_.active()));
+        if (state_.open) recovery_.keep(*state_.open);
     } catch (const std::exception& error) {
         options_.warn(error.what());
     }

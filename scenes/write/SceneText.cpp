@@ -91,7 +91,7 @@ Json environmentJson(const Scene& scene, const fs::path& file, const Environment
     if (!scene.environment) return object;
     const Environment& environment = *scene.environment;
     object["map"] = nameIn(environment.source, file);
-    const EnvironmentView own = asSeen(environment, seen);
+    const EnvironmentView own = asSeen(ownViewOf(environment), seen);
     object["intensity"] = write::number(double(own.intensity));
     object["rotationDegrees"] = write::number(double(own.rotationDegrees));
     return object;

@@ -188,6 +188,40 @@ TEST_F(ViewerEdits, editsDuringALoadAreNotDiscardedWithoutRequest) {
     viewer.waitFor("opened ", mark);
 }
 
+TEST_F(ViewerEdits, aVariantOfTheMaterialsTakesThePlaceOfEditsByAnAnswerAlone) {
+    folder_.write("red.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
+        [{"name": "red"}]}}})");
+    folder_.write("painted.json", R"({"tessera": 1, "base": {"file": "builtin:spheres", "lights": 0},
+        "include": [{"file": "red.gltf"}], "environment": {"map": "builtin:studio"}})");
+    DrivenViewer viewer = open({"painted.json"});
+    const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
+    const glm::ivec2 aside = middlePixel() + glm::ivec2(150, 0);
+    const Shot turned = after(viewer, [&] { viewer.drag(middlePixel(), aside, "shift", 3); }); // the environment
+    EXPECT_GT(differingShare(turned, before, 4), 0.1);
+    const auto chooseRed = [&] {
+        // The list of variants is under that of scenes, a button and a line; its second entry is the first variant.
+        constexpr int kListPixels = 90, kRedPixels = 42;
+        const glm::ivec2 list(200, barOf(viewer, Section::Scene) + kListPixels);
+        const std::size_t mark = viewer.mark();
+        viewer.click(list);
+        viewer.click(list + glm::ivec2(0, kRedPixels));
+        viewer.moveTo(middlePixel());
+        viewer.waitFor("edits are not saved", mark);
+        viewer.pause(0.5);
+    };
+    chooseRed();
+    viewer.key("Escape");
+    viewer.pause(0.5);
+    EXPECT_TRUE(pictureIn(viewer, turned.sizePixels) == turned) << "the edit is lost";
+    chooseRed();
+    const std::size_t mark = viewer.mark();
+    viewer.key("d");
+    viewer.waitFor("opened ", mark);
+    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == before);
+    viewer.key("ctrl+q"); // without a question: the edit is left behind
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
+}
+
 TEST_F(ViewerEdits, aLightAddedAndDraggedGoesWithThePointer) {
     DrivenViewer viewer = open({"room"});
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));

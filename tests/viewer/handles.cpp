@@ -71,13 +71,25 @@ TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {
     EXPECT_LT(differingShare(turned, expected, 4), 0.02);
     const Shot back = after(viewer, [&] { viewer.drag(from + half, from, "shift", 3); });
     EXPECT_LT(differingShare(back, before, 4), 0.02);
+    // A drag is a step, which is undone to the last bit: both drags are.
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == turned);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == before);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+shift+z"); }) == turned);
+    // It is not lost without a question.
+    std::size_t mark = viewer.mark();
+    viewer.key("ctrl+q");
+    viewer.waitFor("edits are not saved", mark);
+    viewer.pause(0.5);
+    viewer.key("Escape");
+    viewer.pause(0.5);
     // What is saved lies as it is seen.
-    after(viewer, [&] { viewer.drag(from, from + half, "shift", 3); });
-    const std::size_t mark = viewer.mark();
+    mark = viewer.mark();
     viewer.key("ctrl+s");
     const std::string file = savedFile(viewer.waitFor("saved ", mark));
     const nlohmann::json environment = nlohmann::json::parse(shell("cat '" + file + "'")).at("environment");
     EXPECT_NEAR(environment.at("rotationDegrees").get<double>(), 90.0, 1.0) << environment;
+    viewer.key("ctrl+q"); // without a question
+    EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 
 } // namespace

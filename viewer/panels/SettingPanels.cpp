@@ -13,6 +13,7 @@
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/MapChoices.h"
 #include "viewer/session/Preferences.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -98,6 +99,8 @@ void settingRows(State& state, engine::SettingPanel panel) {
         ImGui::BeginDisabled(!idle.empty());
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
+        if (isChosen && std::ranges::count(scenes::kEnvironmentViewKeys, setting.key) > 0)
+            viewEnvironment(state, environmentSeenBy(look), widgetGesture()); // it is an edit of the scene
         ImGui::EndDisabled();
         tip(idle);
         if (const auto aside = look.aside.find(setting.key); isChosen && aside != look.aside.end())

@@ -55,13 +55,13 @@ void Recovery::discard(const fs::path& file) {
     fs::remove(file.parent_path(), ignored); // unless there are others
 }
 
-bool Recovery::isBehind(const OpenScene& open, const scenes::EnvironmentView& seen) const {
+bool Recovery::isBehind(const OpenScene& open) const {
     if (!folder_) return false;
     if (!open.isEdited()) return kept_.has_value();
-    return !kept_ || kept_->edits != open.edits() || kept_->source != open.source() || kept_->seen != seen;
+    return !kept_ || kept_->edits != open.edits() || kept_->source != open.source();
 }
 
-void Recovery::keep(const OpenScene& open, const scenes::EnvironmentView& seen) {
+void Recovery::keep(const OpenScene& open) {
     if (!folder_) return;
     if (!open.isEdited()) return forget();
     const fs::path folder = *folder_ / std::to_string(getpid());
@@ -72,9 +72,9 @@ void Recovery::keep(const OpenScene& open, const scenes::EnvironmentView& seen) 
                                              "{}; check the permissions above it",
                                              folder.string(), error.message()));
     const fs::path file = folder / fmt::format("tessera-{}.json", savedStem(open.source()));
-    saveScene(file.string(), open.scene(), open.origin(), seen);
+    saveScene(file.string(), open.scene(), open.origin(), open.environmentView());
     if (kept_ && kept_->file != file) fs::remove(kept_->file, error);
-    kept_ = Kept{file, open.source(), open.edits(), seen};
+    kept_ = Kept{file, open.source(), open.edits()};
 }
 
 void Recovery::forget() {

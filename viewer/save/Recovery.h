@@ -21,10 +21,10 @@ public:
     static void discard(const std::filesystem::path& file);
 
     /// Whether keep() has something to do.
-    bool isBehind(const OpenScene& open, const scenes::EnvironmentView& seen) const;
+    bool isBehind(const OpenScene& open) const;
     /// Writes the edits of a scene, with its environment as it is seen, in the place of what was kept before; only
     /// deletes that where all edits are saved. Throws as saveScene() does, and as making the folder does.
-    void keep(const OpenScene& open, const scenes::EnvironmentView& seen);
+    void keep(const OpenScene& open);
     /// Deletes what was kept: everything is saved, or to be lost.
     void forget();
 
@@ -33,7 +33,6 @@ private:
         std::filesystem::path file;
         std::string source;
         std::uint64_t edits = 0;
-        scenes::EnvironmentView seen;
     };
     std::optional<std::filesystem::path> folder_;
     std::optional<Kept> kept_;

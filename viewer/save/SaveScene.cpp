@@ -25,11 +25,6 @@ std::string savedStem(const std::string& source) {
                                                                                           : stem;
 }
 
-scenes::EnvironmentView environmentSeenBy(const Look& look) {
-    const frame::EnvironmentSettings& settings = look.settings.environment;
-    return {settings.rotationDegrees, settings.intensity};
-}
-
 void saveScene(const std::string& path, const scenes::Scene& scene, const scenes::SceneOrigin& origin,
                const scenes::EnvironmentView& seen) {
     if (extensionOf(path) != ".json") throw InputError(path + ": edited scenes are saved as .json; give such a name");
@@ -38,18 +33,15 @@ void saveScene(const std::string& path, const scenes::Scene& scene, const scenes
 
 void saveOpenScene(State& state, const std::string& path) {
     OpenScene& open = *state.open;
-    const scenes::EnvironmentView seen = environmentSeenBy(state.active());
     scenes::SceneOptions before = open.exchangeOptions(optionsToSave(state));
     try {
-        saveScene(path, open.scene(), open.origin(), seen);
+        saveScene(path, open.scene(), open.origin(), open.environmentView());
     } catch (...) {
         open.exchangeOptions(std::move(before));
         throw;
     }
-    open.becomes(std::filesystem::absolute(path).string(), seen);
-    if (open.scene().environment)
-        for (Look& look : state.looks)
-            for (const std::string_view key : scenes::kEnvironmentViewKeys) engine::settingOf(key).reset(look);
+    open.becomes(std::filesystem::absolute(path).string());
+    for (Look& look : state.looks) setEnvironmentSeenBy(look, open.environmentView());
     noteRecent(state.recent, open.source());
 }
 

@@ -201,7 +201,7 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
             drag_ = Drag::Pan;
         } else if (state.open && state.open->scene().environment) {
             drag_ = Drag::Environment;
-            state.dragText = turnText(state.active().settings.environment.rotationDegrees);
+            state.dragText = turnText(state.open->environmentView().rotationDegrees);
         }
     } else if (event.code == GLFW_MOUSE_BUTTON_LEFT) {
         if (isAtPanelEdge(state, area, event.position)) {
@@ -312,9 +312,11 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
         dragHandle(state, area, event.position);
         break;
     case Drag::Environment: {
-        float& degrees = state.active().settings.environment.rotationDegrees;
-        degrees = float(std::remainder(double(degrees) + kTurnPerHeight * moved.x / area.size.y, 360.0));
-        state.dragText = turnText(degrees);
+        scenes::EnvironmentView view = state.open->environmentView();
+        const double degrees = double(view.rotationDegrees) + kTurnPerHeight * moved.x / area.size.y;
+        view.rotationDegrees = float(std::remainder(degrees, 360.0));
+        viewEnvironment(state, view, Gesture::GoesOn);
+        state.dragText = turnText(state.open->environmentView().rotationDegrees);
         break;
     }
     case Drag::Divider:

@@ -92,6 +92,7 @@ bool areOfOneElement(const Edit& first, const Edit& second) {
         const auto* b = std::get_if<HookEdit>(&second);
         return b != nullptr && a->parameter == b->parameter;
     }
+    if (std::holds_alternative<EnvironmentViewEdit>(first)) return std::holds_alternative<EnvironmentViewEdit>(second);
     const auto* a = std::get_if<MaterialEdit>(&first);
     const auto* b = std::get_if<MaterialEdit>(&second);
     return a != nullptr && b != nullptr && a->index == b->index;
@@ -103,6 +104,10 @@ std::string changeText(const Light& before, const Light& after, const std::strin
 
 std::string changeText(const Material& before, const Material& after, const std::string& label) {
     return textOfChange<Material>(kMaterialVerbs, before, after, "material", label);
+}
+
+std::string changeText(const scenes::EnvironmentView& before, const scenes::EnvironmentView& after) {
+    return before.intensity != after.intensity ? "change intensity of the environment" : "turn the environment";
 }
 
 } // namespace tessera::viewer

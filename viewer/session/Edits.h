@@ -36,13 +36,20 @@ struct HookEdit {
 /// An environment with all that belongs to it.
 struct Surrounding {
     std::optional<scenes::Environment> environment;
-    bool isSupplied = false; ///< scenes::Supplied::light
+    scenes::EnvironmentView view; ///< that it is seen by: OpenScene::environmentView()
+    bool isSupplied = false;      ///< scenes::Supplied::light
     std::shared_ptr<const frame::FilteredEnvironment> filtered;
     std::vector<std::string> warnings;    ///< all of the scene
     std::vector<std::string> ownWarnings; ///< those of them that the environment brought
 };
 struct EnvironmentEdit {
     Surrounding other;
+};
+
+/// How the environment lies and shines: its own numbers, which change only where a file takes the view's over
+/// (OpenScene::becomes()), and how the view turns and brightens it.
+struct EnvironmentViewEdit {
+    scenes::EnvironmentView own, view;
 };
 
 /// Which camera is looked through, and where it is.
@@ -55,18 +62,21 @@ struct CameraEdit {
     CameraView other;
 };
 
-using Edit = std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, CameraEdit>;
+using Edit = std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, EnvironmentViewEdit, CameraEdit>;
 
 /// Movements of the camera are no edits of the scene: nothing of it is lost with them.
 inline bool changesScene(const Edit& edit) {
     return !std::holds_alternative<CameraEdit>(edit);
 }
 
-/// Whether two edits are of the same light, material or parameter, so that one drag can make one of them.
+/// Whether two edits are of the same light, material or parameter, or of how the environment lies and shines, so that
+/// one drag can make one of them.
 bool areOfOneElement(const Edit& first, const Edit& second);
 
-/// What was done to a light or a material, as the user is told: "move light 'lamp 3'". The label is how lists call it.
+/// What was done to a light, a material or the environment, as the user is told: "move light 'lamp 3'". The label is
+/// how lists call it.
 std::string changeText(const scenes::Light& before, const scenes::Light& after, const std::string& label);
 std::string changeText(const scenes::Material& before, const scenes::Material& after, const std::string& label);
+std::string changeText(const scenes::EnvironmentView& before, const scenes::EnvironmentView& after);
 
 } // namespace tessera::viewer

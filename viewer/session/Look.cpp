@@ -28,6 +28,17 @@ Look asked(Look look) {
     return look;
 }
 
+scenes::EnvironmentView environmentSeenBy(const Look& look) {
+    const frame::EnvironmentSettings& settings = look.settings.environment;
+    return {settings.rotationDegrees, settings.intensity};
+}
+
+void setEnvironmentSeenBy(Look& look, const scenes::EnvironmentView& view) {
+    frame::EnvironmentSettings& settings = look.settings.environment;
+    settings.rotationDegrees = view.rotationDegrees;
+    settings.intensity = view.intensity;
+}
+
 Look rebased(const Look& now, const Look& before, const Look& base) {
     const Look chosen = asked(now), begun = asked(before);
     Look result = asked(base);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/Settings.h"
+#include "scenes/Environment.h"
 
 namespace tessera::viewer {
 
@@ -21,6 +22,10 @@ Look possible(Look look);
 
 /// The look as requested, with values that its technique does not take.
 Look asked(Look look);
+
+/// How a look turns and brightens the scene's environment, which is an edit of the scene: OpenScene::environmentView().
+scenes::EnvironmentView environmentSeenBy(const Look& look);
+void setEnvironmentSeenBy(Look& look, const scenes::EnvironmentView& view);
 
 /// What was changed between `before` and `now`, made to `base`: choices of the user outlive a scene that wishes
 /// otherwise.

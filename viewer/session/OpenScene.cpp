@@ -23,13 +23,19 @@ bool places(const scenes::CameraChange& change) {
     return change.eyeWS || change.targetWS || change.upWS;
 }
 
+void setOwnView(scenes::Environment& environment, const scenes::EnvironmentView& own) {
+    environment.rotationDegrees = own.rotationDegrees;
+    environment.intensity = own.intensity;
+}
+
 } // namespace
 
 OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded,
-                     scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered)
+                     scenes::SceneOrigin origin, std::shared_ptr<const frame::FilteredEnvironment> filtered,
+                     const scenes::EnvironmentView& seen)
     : source_(std::move(source)), load_(load), scene_(std::move(loaded)), origin_(std::move(origin)),
-      ownEnvironment_(scenes::ownEnvironmentOf(scene_)), boundsWS_(scenes::boundsOverClips(scene_)),
-      cameras_(scene_.cameras), loadedCameras_(cameras_),
+      ownEnvironment_(scenes::ownEnvironmentOf(scene_)), environmentView_(seen),
+      boundsWS_(scenes::boundsOverClips(scene_)), cameras_(scene_.cameras), loadedCameras_(cameras_),
       rig_(cameras_.front(), poseThrough(cameras_.front()), boundsWS_),
       clipSeconds_(scenes::playingSeconds(scene_.rig)), filtered_(std::move(filtered)) {}
 
@@ -229,14 +235,21 @@ void OpenScene::deleteLights(std::string what, std::span<const std::size_t> indi
 void OpenScene::takeEnvironment(ChosenEnvironment chosen) {
     const std::string name = std::filesystem::path(chosen.name).filename().string();
     if (chosen.environment) scenes::layAs(ownEnvironment_, *chosen.environment);
-    Surrounding next{std::move(chosen.environment), false, std::move(chosen.filtered), scene_.warnings,
-                     std::move(chosen.warnings)};
+    Surrounding next{std::move(chosen.environment), environmentView_, false,
+                     std::move(chosen.filtered),    scene_.warnings,  std::move(chosen.warnings)};
     // What was said of the environment before is over.
     std::erase_if(next.warnings, [&](const std::string& warning) {
         return std::ranges::find(environmentWarnings_, warning) != environmentWarnings_.end();
     });
     next.warnings.insert(next.warnings.end(), next.ownWarnings.begin(), next.ownWarnings.end());
     apply(fmt::format("choose environment '{}'", name), EnvironmentEdit{std::move(next)});
+}
+
+void OpenScene::changeEnvironmentView(const scenes::EnvironmentView& changed, Gesture gesture) {
+    if (!scene_.environment || changed == environmentView_) return;
+    EnvironmentViewEdit edit{scenes::ownViewOf(*scene_.environment), changed};
+    std::string what = changeText(environmentView_, changed);
+    apply(std::move(what), edit, gesture);
 }
 
 const Edit* OpenScene::undo() {
@@ -290,11 +303,19 @@ void OpenScene::exchange(HookEdit& edit) {
 
 void OpenScene::exchange(EnvironmentEdit& edit) {
     std::swap(scene_.environment, edit.other.environment);
+    std::swap(environmentView_, edit.other.view);
     std::swap(scene_.supplied.light, edit.other.isSupplied);
     std::swap(filtered_, edit.other.filtered);
     std::swap(scene_.warnings, edit.other.warnings);
     std::swap(environmentWarnings_, edit.other.ownWarnings);
     ++environmentRevision_;
+}
+
+void OpenScene::exchange(EnvironmentViewEdit& edit) {
+    const scenes::EnvironmentView own = scenes::ownViewOf(*scene_.environment);
+    if (edit.own != own) ++environmentRevision_; // a file was saved in between
+    setOwnView(*scene_.environment, std::exchange(edit.own, own));
+    std::swap(environmentView_, edit.view);
 }
 
 void OpenScene::exchange(CameraEdit& edit) {
@@ -311,12 +332,12 @@ void OpenScene::exchange(CameraEdit& edit) {
 
 // ---- The file and the camera ----
 
-void OpenScene::becomes(const std::string& file, const scenes::EnvironmentView& seen) {
+void OpenScene::becomes(const std::string& file) {
     scene_.supplied = {}; // the file has it
     history_.forEach([](Edit& edit) {
         if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) surrounding->other.isSupplied = false;
     });
-    if (scene_.environment) takeAsSeen(seen);
+    if (scene_.environment) takeAsSeen();
     source_ = file;
     scenes::LoadOptions load; // the file says the rest
     load.import = std::move(load_.import);
@@ -337,20 +358,21 @@ void OpenScene::becomes(const std::string& file, const scenes::EnvironmentView& 
     });
 }
 
-void OpenScene::takeAsSeen(const scenes::EnvironmentView& seen) {
-    const auto take = [&seen](std::optional<scenes::Environment>& environment) {
-        if (!environment) return;
-        const scenes::EnvironmentView own = scenes::asSeen(*environment, seen);
-        environment->rotationDegrees = own.rotationDegrees;
-        environment->intensity = own.intensity;
+void OpenScene::takeAsSeen() {
+    if (environmentView_ != scenes::EnvironmentView()) ++revision_;
+    const auto take = [](std::optional<scenes::Environment>& environment, scenes::EnvironmentView& seenBy) {
+        if (environment) setOwnView(*environment, scenes::asSeen(scenes::ownViewOf(*environment), seenBy));
+        seenBy = {};
     };
-    take(scene_.environment);
+    take(scene_.environment, environmentView_);
     history_.forEach([&](Edit& edit) {
-        if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) take(surrounding->other.environment);
+        if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit))
+            take(surrounding->other.environment, surrounding->other.view);
+        if (auto* const turn = std::get_if<EnvironmentViewEdit>(&edit))
+            *turn = {scenes::asSeen(turn->own, turn->view), {}};
     });
     scenes::askForNoView(scene_.options);
     ownEnvironment_ = scenes::ownEnvironmentOf(scene_);
-    if (seen != scenes::EnvironmentView()) ++revision_;
 }
 
 void OpenScene::place(const scenes::CameraChange& change) {

@@ -18,9 +18,11 @@ namespace tessera::viewer {
 /// it.
 class OpenScene {
 public:
-    /// `filtered`, of the scene's environment, may be null: it is filtered when a frame needs it.
+    /// `filtered`, of the scene's environment, may be null: it is filtered when a frame needs it. `seen` is how looks
+    /// turn and brighten that to begin with.
     OpenScene(std::string source, const scenes::LoadOptions& load, scenes::Scene loaded, scenes::SceneOrigin origin,
-              std::shared_ptr<const frame::FilteredEnvironment> filtered = {});
+              std::shared_ptr<const frame::FilteredEnvironment> filtered = {},
+              const scenes::EnvironmentView& seen = {});
     OpenScene(const OpenScene&) = delete;
     OpenScene& operator=(const OpenScene&) = delete;
 
@@ -31,8 +33,9 @@ public:
     /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
     /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
-    /// What a view makes of the environment is the file's own, and of those that undoing brings back.
-    void becomes(const std::string& file, const scenes::EnvironmentView& seen = {});
+    /// What environmentView() makes of the environment is the file's own, and of those that undoing brings back; it
+    /// then changes nothing of them. Without an environment it stays.
+    void becomes(const std::string& file);
     /// Gives the scene other options, and returns those that it had. It is no edit.
     scenes::SceneOptions exchangeOptions(scenes::SceneOptions options) {
         return std::exchange(scene_.options, std::move(options));
@@ -52,6 +55,10 @@ public:
     void deleteLights(std::string what, std::span<const std::size_t> indices);
     /// Takes another environment in the place of the scene's own, which lies as that (scenes::layAs()).
     void takeEnvironment(ChosenEnvironment chosen);
+    /// Turns and brightens the environment, besides its own numbers. Nothing happens where there is none.
+    void changeEnvironmentView(const scenes::EnvironmentView& changed, Gesture gesture = Gesture::Once);
+    /// What looks show it by.
+    const scenes::EnvironmentView& environmentView() const { return environmentView_; }
     /// The drag that edits with Gesture::GoesOn is over.
     void endGesture() { history_.endGesture(); }
     /// Undoes or redoes a step; null where there is none, else the edit, after the exchange.
@@ -127,10 +134,11 @@ private:
     void exchange(MaterialEdit& edit);
     void exchange(HookEdit& edit);
     void exchange(EnvironmentEdit& edit);
+    void exchange(EnvironmentViewEdit& edit);
     void exchange(CameraEdit& edit);
     CameraView view() const { return {camera_, placed_, rig_}; }
-    /// Makes what a view makes of environments their own.
-    void takeAsSeen(const scenes::EnvironmentView& seen);
+    /// Makes what the views make of environments their own.
+    void takeAsSeen();
     /// Keeps where the camera was before a jump that has begun.
     void keepJump(std::string what, CameraView before);
     /// Whether the camera that is shown goes where the scene has it.
@@ -147,6 +155,7 @@ private:
     scenes::Scene scene_;
     scenes::SceneOrigin origin_;
     scenes::OwnEnvironment ownEnvironment_; ///< as the file has it
+    scenes::EnvironmentView environmentView_;
     scenes::Box3 boundsWS_;
     std::vector<scenes::Camera> cameras_, loadedCameras_;
     bool mayFollow_ = true; ///< the clip's camera

@@ -48,6 +48,10 @@ bool isFull(const State& state) {
     return state.open->scene().lights.size() >= std::size_t(scenes::kMostLights);
 }
 
+void showEnvironmentAsSeen(State& state) {
+    for (Look& look : state.looks) setEnvironmentSeenBy(look, state.open->environmentView());
+}
+
 /// What was exchanged is where the user looks.
 void show(State& state, const Edit& edit) {
     if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
@@ -55,6 +59,8 @@ void show(State& state, const Edit& edit) {
         if (lights->count == 1) state.selectedLight = int(lights->first);
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
         state.selectedMaterial = int(material->index);
+    } else if (std::holds_alternative<EnvironmentViewEdit>(edit)) {
+        showEnvironmentAsSeen(state);
     } else if (std::holds_alternative<CameraEdit>(edit)) {
         for (Look& look : state.looks) look.settings.camera = state.open->camera();
     }
@@ -145,6 +151,12 @@ void replaceByScattered(State& state) {
     state.selectedLight = scenes::kNone;
     for (Look& look : state.looks) look.settings.soloLight.reset();
     state.types.forget();
+}
+
+void viewEnvironment(State& state, const scenes::EnvironmentView& view, Gesture gesture) {
+    if (!state.open || !state.open->scene().environment) return;
+    state.open->changeEnvironmentView(view, gesture);
+    showEnvironmentAsSeen(state);
 }
 
 void undo(State& state) {

@@ -1,8 +1,8 @@
 #pragma once
 #include "viewer/session/State.h"
 
-/// Edits of which lights there are, and undoing, as far as they concern which one is selected and which one shines
-/// alone. Without a scene they do nothing.
+/// Edits and undoing, as far as they concern more than the scene: which light is selected, which one shines alone, and
+/// how looks show the environment. Without a scene they do nothing.
 namespace tessera::viewer {
 
 /// Adds a light in the picture's middle, or a copy of the selected one, at the end of the list, and selects it. Nothing
@@ -27,6 +27,9 @@ void selectAllLights(State& state);
 /// elsewhere. Traces rays at the scene's surfaces, which may take seconds. Throws std::runtime_error when memory runs
 /// out, and the lights stay as they are.
 void replaceByScattered(State& state);
+
+/// Turns and brightens the environment in all looks. Without one nothing happens.
+void viewEnvironment(State& state, const scenes::EnvironmentView& view, Gesture gesture = Gesture::Once);
 
 /// Takes the latest edit or jump of the camera back, or brings back what was taken back last. The light or material
 /// that it was about is selected. While something is dragged, nothing happens.

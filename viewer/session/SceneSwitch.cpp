@@ -41,8 +41,9 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     if (!result->scene) throw std::runtime_error(result->error);
     const FirstLook first = options_.lookOf(*result->scene, result->source, isFirstLoad_);
     const bool isSupplied = result->scene->supplied.camera;
-    auto scene = std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene),
-                                             std::move(*result->origin), std::move(result->filtered));
+    auto scene =
+        std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene), std::move(*result->origin),
+                                    std::move(result->filtered), environmentSeenBy(first.look));
     scene->useCamera(first.look.settings.camera);
     // A command of another size would supply another camera: so its place is said, and commands repeat it.
     const bool isPlaced = first.pose != scenes::CameraChange() || !isSupplied;
@@ -51,7 +52,10 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     show(*scene);
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
-    for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
+    for (Look& look : state_.looks) {
+        look = hadScene_ ? rebased(look, base_, first.look) : first.look;
+        setEnvironmentSeenBy(look, scene->environmentView()); // turning the one before was an edit of that scene
+    }
     // The other side of a comparison begins with a technique that shades the other way, and is as fast with many
     // lights.
     if (!hadScene_)
@@ -78,12 +82,6 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     noteRecent(state_.recent, result->source);
     noteMap(state_.maps, scene->scene());
     return scene;
-}
-
-void SceneSwitch::noteSaved() {
-    const FirstLook first = options_.lookOf(state_.open->scene(), state_.open->source(), false);
-    for (const std::string_view key : scenes::kEnvironmentViewKeys)
-        engine::settingOf(key).value.copy(base_, first.look);
 }
 
 void SceneSwitch::leave(const OpenScene& scene) {

@@ -27,9 +27,6 @@ public:
     /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
     /// nothing has changed but that no scene waits.
     std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
-    /// To be called after the open scene was saved: how its file lets its environment be seen is no choice of the
-    /// user's for other scenes.
-    void noteSaved();
     /// Discards the result.
     void discard();
     /// Writes the preferences when the window is closed. Failures are warnings.

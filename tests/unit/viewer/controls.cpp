@@ -122,15 +122,16 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
     State state = withLightInTheMiddle(0, 1);
     std::string said;
     const auto dragged = [&](int modifiers) {
-        InputEvent press, move, release;
+        InputEvent press, move, end, release;
         press.kind = release.kind = InputEvent::Kind::Button;
         press.code = release.code = 1; // GLFW's right one
         press.modifiers = modifiers;
         press.down = true;
         press.position = {200.0, 200.0};
-        move.kind = InputEvent::Kind::Move;
-        move.position = release.position = {300.0, 200.0};
-        const std::array began{press, move};
+        move.kind = end.kind = InputEvent::Kind::Move;
+        move.position = {250.0, 200.0};
+        end.position = release.position = {300.0, 200.0};
+        const std::array began{press, move, end};
         Controls controls;
         controls.handle(began, state, kArea, {});
         said = state.dragText;
@@ -147,6 +148,15 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
     EXPECT_EQ(said, "");
     EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the picture's height
     EXPECT_EQ(said, "Environment 45.0\xc2\xb0");
+    EXPECT_EQ(*state.open->history().undoText(), "turn the environment");
+    EXPECT_EQ(dragged(kShift), 90.0f);
+    EXPECT_EQ(state.open->history().undoable(), 3u) << "a step a drag, after the choice of the environment";
+    for (const float degrees : {45.0f, 0.0f}) {
+        undo(state);
+        for (const Look& look : state.looks) EXPECT_EQ(look.settings.environment.rotationDegrees, degrees);
+    }
+    redo(state);
+    EXPECT_EQ(state.looks[0].settings.environment.rotationDegrees, 45.0f);
 }
 
 /// The window with a rectangle in the picture's middle that is selected: 200 wide in the picture, seen from its edge.

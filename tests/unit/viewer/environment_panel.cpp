@@ -5,6 +5,7 @@
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/MapChoices.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -21,6 +22,12 @@ TEST_F(EnvironmentPanel, takesNoValueWhereThereIsNoEnvironment) {
         pressSliders(320.0f, [&] { environmentPanel(state, {}); });
         for (const char* key : {"environmentRotation", "environmentIntensity"})
             EXPECT_NE(engine::settingOf(key).value.equal(state.looks[0], before), isThere) << key;
+        EXPECT_EQ(state.open->isEdited(), isThere);
+        state.open->endGesture(); // as the whole window does
+        while (state.open->history().undoable() > 0) undo(state);
+        for (const char* key : {"environmentRotation", "environmentIntensity"})
+            EXPECT_TRUE(engine::settingOf(key).value.equal(state.looks[0], before)) << key;
+        EXPECT_FALSE(state.open->isEdited());
     }
 }
 

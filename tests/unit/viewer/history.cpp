@@ -27,7 +27,8 @@ std::unique_ptr<OpenScene> opened(const std::string& source) {
 }
 
 std::string textOf(const OpenScene& open) {
-    return scenes::sceneText(open.scene(), open.origin(), std::filesystem::temp_directory_path() / "edited.json");
+    return scenes::sceneText(open.scene(), open.origin(), std::filesystem::temp_directory_path() / "edited.json",
+                             open.environmentView());
 }
 
 /// One of all kinds of edits and jumps, as the window makes them.
@@ -77,7 +78,7 @@ public:
 
     void edit() {
         const Lights& lights = open_.scene().lights;
-        switch (number(9)) {
+        switch (number(10)) {
         case 0:
             return open_.replaceLights("add", lights.size(), 0, {newLight(lights, scenes::Light())});
         case 1:
@@ -96,6 +97,8 @@ public:
             environment.map = {"map", scenes::TexelFormat::Rgba32Float, 1, 1, std::vector<std::byte>(16)};
             return open_.takeEnvironment(std::move(chosen));
         }
+        case 9:
+            return turnEnvironment();
         case 5: {
             const std::size_t index = number(open_.scene().materials.size());
             scenes::Material material = open_.scene().materials[index];
@@ -122,6 +125,16 @@ private:
             scenes::Light light = open_.scene().lights[index];
             light.positionWS.x += double(share()) - 0.5;
             open_.changeLight(index, light, Gesture::GoesOn);
+        }
+        open_.endGesture();
+    }
+    /// Where there is one.
+    void turnEnvironment() {
+        const bool turns = number(2) == 0;
+        for (int i = 0; i < 3; ++i) {
+            scenes::EnvironmentView view = open_.environmentView();
+            (turns ? view.rotationDegrees : view.intensity) = 100.0f * share();
+            open_.changeEnvironmentView(view, Gesture::GoesOn);
         }
         open_.endGesture();
     }
@@ -261,6 +274,7 @@ TEST(History, aThousandEditsOfALivelySceneAreUndoneAndRedoneWhateverPlaysMeanwhi
         while (open.redo() != nullptr) { // the last of them may have been undone
         }
         const std::uint64_t edited = fingerprint();
+        const scenes::EnvironmentView turned = open.environmentView();
         EXPECT_GT(open.history().undoable(), 200u);
         EXPECT_NE(edited, saved);
         const auto stepAll = [&](const Edit* (OpenScene::*step)()) {
@@ -272,8 +286,10 @@ TEST(History, aThousandEditsOfALivelySceneAreUndoneAndRedoneWhateverPlaysMeanwhi
         EXPECT_EQ(fingerprint(), saved);
         EXPECT_TRUE(open.scene().lights == lights);
         EXPECT_TRUE(open.scene().materials == materials);
+        EXPECT_EQ(open.environmentView(), scenes::EnvironmentView());
         stepAll(&OpenScene::redo);
         EXPECT_EQ(fingerprint(), edited);
+        EXPECT_EQ(open.environmentView(), turned);
     }
 }
 

@@ -45,26 +45,26 @@ private:
 
 TEST_F(RecoveryTest, editsAreKeptUntilTheyAreSavedOrUndone) {
     Recovery recovery(folder());
-    EXPECT_FALSE(recovery.isBehind(open(), {}));
-    recovery.keep(open(), {});
+    EXPECT_FALSE(recovery.isBehind(open()));
+    recovery.keep(open());
     EXPECT_FALSE(fs::exists(folder())) << "there is nothing to keep";
     change(0.25f);
-    EXPECT_TRUE(recovery.isBehind(open(), {}));
-    recovery.keep(open(), {});
-    EXPECT_FALSE(recovery.isBehind(open(), {}));
+    EXPECT_TRUE(recovery.isBehind(open()));
+    recovery.keep(open());
+    EXPECT_FALSE(recovery.isBehind(open()));
     EXPECT_EQ(scenes::loadScene(own().string(), {}).lights.at(0).intensity, 0.25f);
     change(0.5f);
-    EXPECT_TRUE(recovery.isBehind(open(), {}));
-    recovery.keep(open(), {});
+    EXPECT_TRUE(recovery.isBehind(open()));
+    recovery.keep(open());
     EXPECT_EQ(scenes::loadScene(own().string(), {}).lights.at(0).intensity, 0.5f);
     open().undo();
     open().undo();
-    EXPECT_TRUE(recovery.isBehind(open(), {}));
-    recovery.keep(open(), {});
+    EXPECT_TRUE(recovery.isBehind(open()));
+    recovery.keep(open());
     EXPECT_FALSE(fs::exists(own().parent_path()));
-    EXPECT_FALSE(recovery.isBehind(open(), {}));
+    EXPECT_FALSE(recovery.isBehind(open()));
     open().redo();
-    recovery.keep(open(), {});
+    recovery.keep(open());
     recovery.forget();
     EXPECT_FALSE(fs::exists(own().parent_path()));
 }
@@ -89,8 +89,8 @@ TEST_F(RecoveryTest, theLatestFileOfProgramsThatEndedIsOfferedAndNoneOfThoseThat
 TEST_F(RecoveryTest, withoutAFolderNothingIsKept) {
     Recovery recovery(std::nullopt);
     change(0.25f);
-    EXPECT_FALSE(recovery.isBehind(open(), {}));
-    recovery.keep(open(), {});
+    EXPECT_FALSE(recovery.isBehind(open()));
+    recovery.keep(open());
     EXPECT_FALSE(recovery.left());
 }
 

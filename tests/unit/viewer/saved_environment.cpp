@@ -1,4 +1,4 @@
-// An environment that was turned and brightened in the window, after the scene was saved.
+// An environment that is turned and brightened in the window: undone, reverted, saved.
 #include <memory>
 #include <string>
 
@@ -9,6 +9,7 @@
 #include "tests/support/TempFolder.h"
 #include "viewer/save/Recovery.h"
 #include "viewer/save/SaveScene.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -29,24 +30,21 @@ protected:
         scenes::Scene scene = scenes::loadScene(file, load);
         scenes::SceneOrigin origin = scenes::originOf(file, load, scene);
         for (Look& look : state_.looks) engine::takeWishes(scene, file, look);
-        state_.open = std::make_unique<OpenScene>(file, load, std::move(scene), std::move(origin));
+        state_.open = std::make_unique<OpenScene>(file, load, std::move(scene), std::move(origin), nullptr,
+                                                  environmentSeenBy(state_.looks[0]));
     }
     /// As the user does.
-    void view(const scenes::EnvironmentView& chosen) {
-        for (Look& look : state_.looks) {
-            look.settings.environment.rotationDegrees = chosen.rotationDegrees;
-            look.settings.environment.intensity = chosen.intensity;
-        }
-    }
+    void view(const scenes::EnvironmentView& chosen) { viewEnvironment(state_, chosen); }
     scenes::EnvironmentView seen() const {
-        return scenes::asSeen(state_.open->scene().environment.value(), environmentSeenBy(state_.looks[1]));
+        return scenes::asSeen(scenes::ownViewOf(state_.open->scene().environment.value()),
+                              environmentSeenBy(state_.looks[1]));
     }
     /// What another start of the program shows of a file.
     static scenes::EnvironmentView seenOf(const std::string& file) {
         const scenes::Scene scene = scenes::loadScene(file);
         Look look;
         engine::takeWishes(scene, file, look);
-        return scenes::asSeen(scene.environment.value(), environmentSeenBy(look));
+        return scenes::asSeen(scenes::ownViewOf(scene.environment.value()), environmentSeenBy(look));
     }
     std::string saved() {
         const std::string file = (folder_.path() / "saved.json").string();
@@ -74,6 +72,76 @@ TEST_F(SavedEnvironment, liesAndShinesAsItWasSeen) {
     EXPECT_EQ(seen(), (scenes::EnvironmentView{100.0f, 2.0f}));
     saved();
     EXPECT_EQ(seenOf(file), (scenes::EnvironmentView{100.0f, 2.0f}));
+}
+
+TEST_F(SavedEnvironment, oneDragIsOneStepThatIsUndoneToTheExactNumbers) {
+    constexpr scenes::EnvironmentView kFirst{25.0f, 3.0f};
+    EXPECT_EQ(state_.open->environmentView(), kFirst) << "as the file asks for";
+    EXPECT_FALSE(state_.open->isEdited());
+    view(kFirst);
+    EXPECT_EQ(state_.open->history().undoable(), 0u) << "it has these numbers";
+    for (const float degrees : {25.1f, 25.2f, 25.3f}) viewEnvironment(state_, {degrees, 3.0f}, Gesture::GoesOn);
+    undo(state_);
+    EXPECT_EQ(state_.open->environmentView().rotationDegrees, 25.3f) << "the drag goes on";
+    state_.open->endGesture();
+    EXPECT_EQ(*state_.open->history().undoText(), "turn the environment");
+    for (const float intensity : {2.1f, 0.0f}) viewEnvironment(state_, {25.3f, intensity}, Gesture::GoesOn);
+    state_.open->endGesture();
+    EXPECT_EQ(*state_.open->history().undoText(), "change intensity of the environment");
+    EXPECT_EQ(state_.open->history().undoable(), 2u);
+    EXPECT_TRUE(state_.open->isEdited());
+    // What is seen of it is no edit, and no part of one.
+    for (Look& look : state_.looks) look.settings.environment.backdrop = frame::Backdrop::Off;
+    const auto expectSeenBy = [this](const scenes::EnvironmentView& expected) {
+        EXPECT_EQ(state_.open->environmentView(), expected);
+        for (const Look& look : state_.looks) {
+            EXPECT_EQ(environmentSeenBy(look), expected);
+            EXPECT_EQ(look.settings.environment.backdrop, frame::Backdrop::Off);
+        }
+    };
+    undo(state_);
+    expectSeenBy({25.3f, 3.0f});
+    undo(state_);
+    expectSeenBy(kFirst);
+    EXPECT_FALSE(state_.open->isEdited());
+    EXPECT_EQ(state_.open->environmentRevision(), 0u) << "its map is as it was, and is not filtered again";
+    redo(state_);
+    redo(state_);
+    expectSeenBy({25.3f, 0.0f});
+    revert(state_);
+    expectSeenBy(kFirst);
+    EXPECT_FALSE(state_.open->isEdited());
+    EXPECT_FALSE(state_.requests.open) << "steps lead there";
+}
+
+TEST_F(SavedEnvironment, turnsFromBeforeASaveAreUndoneAndRedoneAlsoWhereItWasSavedDark) {
+    const scenes::EnvironmentView first = seen();
+    view(kChosenView);
+    const scenes::EnvironmentView turned = seen();
+    ChosenEnvironment other;
+    other.environment = state_.open->scene().environment;
+    other.environment->source = "builtin:sky";
+    state_.open->takeEnvironment(std::move(other));
+    view({90.0f, 0.0f});
+    const scenes::EnvironmentView dark = seen();
+    EXPECT_EQ(dark, (scenes::EnvironmentView{100.0f, 0.0f}));
+    const std::string file = saved();
+    EXPECT_EQ(seenOf(file), dark);
+    EXPECT_EQ(seen(), dark);
+    const std::uint64_t revision = state_.open->environmentRevision();
+    undo(state_);
+    EXPECT_EQ(seen(), turned) << "the other map, which lies as the scene's own";
+    EXPECT_GT(state_.open->environmentRevision(), revision) << "its own numbers are others";
+    EXPECT_TRUE(state_.open->isEdited());
+    undo(state_);
+    EXPECT_EQ(state_.open->scene().environment.value().source, "builtin:studio");
+    EXPECT_EQ(seen(), turned);
+    undo(state_);
+    EXPECT_EQ(seen(), first);
+    revert(state_);
+    EXPECT_EQ(seen(), dark);
+    EXPECT_FALSE(state_.open->isEdited());
+    EXPECT_EQ(seenOf(saved()), dark) << "and counts once";
 }
 
 TEST_F(SavedEnvironment, whatUndoingBringsBackLiesAndShinesAsItDidToo) {
@@ -120,8 +188,9 @@ TEST_F(SavedEnvironment, theScenesOwnMapChosenAgainLiesAndShinesAsItDidAlsoOnceI
 }
 
 TEST_F(SavedEnvironment, withoutOneWhatTheLooksSayStaysTheirs) {
-    state_.open->takeEnvironment({});
     view(kChosenView);
+    state_.open->takeEnvironment({});
+    view({0.0f, 5.0f}); // of nothing
     const std::string file = saved();
     const scenes::Scene scene = scenes::loadScene(file);
     EXPECT_FALSE(scene.environment);
@@ -137,11 +206,12 @@ TEST_F(SavedEnvironment, editsThatAreKeptForTheNextStartHaveItAsItWasSeen) {
     light.name = "lamp";
     state_.open->replaceLights("add light 'lamp'", 0, 0, {light});
     view(kChosenView);
-    recovery.keep(*state_.open, environmentSeenBy(state_.looks[0]));
-    EXPECT_FALSE(recovery.isBehind(*state_.open, kChosenView));
-    EXPECT_TRUE(recovery.isBehind(*state_.open, {})) << "it was turned since";
+    recovery.keep(*state_.open);
+    EXPECT_FALSE(recovery.isBehind(*state_.open));
     const auto kept = folder_.path() / "recovery" / std::to_string(getpid()) / "tessera-turned.json";
     EXPECT_EQ(seenOf(kept.string()), seen());
+    view({90.0f, 2.0f});
+    EXPECT_TRUE(recovery.isBehind(*state_.open)) << "it was turned since";
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "tests/support/TempFolder.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/save/SaveScene.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -151,16 +152,20 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     const auto seen = [&] { return state_.open->scene().environment.value().rotationDegrees + degrees(); };
     ASSERT_TRUE(open(turned("a.json", 25)));
     EXPECT_EQ(degrees(), 25.0f);
-    for (Look& look : state_.looks) look.settings.environment.rotationDegrees = 40.0f;
+    viewEnvironment(state_, {40.0f, 1.0f});
     const std::string file = (folder_.path() / "saved.json").string();
     saveOpenScene(state_, file);
-    switch_.noteSaved();
     EXPECT_EQ(seen(), 40.0f);
     ASSERT_TRUE(open(turned("b.json", 10)));
     EXPECT_EQ(degrees(), 10.0f) << "as it asks for itself";
     ASSERT_TRUE(open(file));
     EXPECT_EQ(seen(), 40.0f);
     EXPECT_EQ(degrees(), 0.0f);
+    viewEnvironment(state_, {30.0f, 2.0f}); // and not saved
+    ASSERT_TRUE(open(file));
+    EXPECT_EQ(seen(), 40.0f) << "edits are left behind with their scene";
+    EXPECT_EQ(environmentSeenBy(state_.looks[1]), state_.open->environmentView());
+    EXPECT_FALSE(state_.open->isEdited());
     EXPECT_EQ(state_.maps, std::vector<std::string>{(folder_.path() / "even.pfm").string()}) << "to be chosen again";
 }
 
