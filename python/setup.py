@@ -1,5 +1,6 @@
 """Builds the module for pip, from the source tree that this folder is part of: CMake does all of it, by the preset python."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -16,7 +17,9 @@ class BuildByCMake(build_ext):
     def build_extension(self, extension):
         build = pathlib.Path(self.build_temp).resolve()
         target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
-        for command in (["cmake", "--preset", "python", "-B", build, f"-DPython_EXECUTABLE={sys.executable}"],
+        # That of which a virtual environment was made: it has the headers, and it stays when the environment is removed.
+        python = os.path.realpath(sys.executable)
+        for command in (["cmake", "--preset", "python", "-B", build, f"-DPython_EXECUTABLE={python}"],
                         ["cmake", "--build", build, "--target", "tessera_python"],
                         ["cmake", "--install", build, "--component", "python", "--prefix", target]):
             subprocess.run(command, cwd=ROOT, check=True)

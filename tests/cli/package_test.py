@@ -5,32 +5,19 @@
 They are unpacked into empty folders below WORK_DIR, never installed.
 """
 
-import gzip
 import json
 import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import unittest
-import xml.etree.ElementTree
 
-REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+from installed_files import REPOSITORY, checkDesktop, checkTexts, filesOf, run
+
 CPACK, CMAKE, BUILD, WORK = sys.argv[1:3] + [pathlib.Path(word).resolve() for word in sys.argv[3:5]]
 NAMES = ("tessera", "tessera-dev")
 SKIPPED = 77
-
-
-def run(*command, **more):
-    result = subprocess.run([str(word) for word in command], text=True, capture_output=True, stdin=subprocess.DEVNULL, timeout=200, **more)
-    if result.returncode != 0:
-        raise AssertionError(f"{command} ended with {result.returncode}\n{result.stdout}{result.stderr}")
-    return result.stdout
-
-
-def filesOf(folder):
-    return {str(path.relative_to(folder)) for path in folder.rglob("*") if not path.is_dir()}
 
 
 def packagesIn(field):
@@ -119,27 +106,10 @@ class Packages(unittest.TestCase):
         self.assertEqual(modules, {str(self.usr / "lib/tessera/tessera-openimageio.so")})
 
     def testManualAndCompletionAreWhatTheProgramSays(self):
-        page = gzip.decompress((self.usr / "share/man/man1/tessera.1.gz").read_bytes()).decode()
-        self.assertEqual(page, self.tessera("manual"))
-        bash, (zsh,) = self.usr / "share/bash-completion/completions/tessera", self.usr.glob("share/zsh/*/_tessera")
-        self.assertEqual(bash.read_text(), self.tessera("completion", "bash"))
-        self.assertEqual(zsh.read_text(), self.tessera("completion", "zsh"))
-        self.assertEqual(run("bash", "-c", f"source {bash}; complete -p tessera").strip(), "complete -F _tessera tessera")
+        checkTexts(self.usr, self.tessera)
 
     def testTheDesktopFindsTheProgramItsIconAndItsTypes(self):
-        desktop = self.usr / "share/applications/tessera.desktop"
-        if shutil.which("desktop-file-validate"):
-            self.assertEqual(run("desktop-file-validate", desktop), "")
-        keys = dict(line.split("=", 1) for line in desktop.read_text().splitlines() if "=" in line)
-        self.assertTrue((self.usr / "bin" / keys["Exec"].split()[0]).is_file())
-        icon = self.usr / f"share/icons/hicolor/scalable/apps/{keys['Icon']}.svg"
-        self.assertEqual(xml.etree.ElementTree.parse(icon).getroot().tag, "{http://www.w3.org/2000/svg}svg")
-        component = xml.etree.ElementTree.parse(self.usr / "share/metainfo/tessera.metainfo.xml").getroot()
-        self.assertEqual(component.findtext("launchable"), desktop.name)
-        self.assertEqual(component.findtext("icon"), keys["Icon"])
-        self.assertEqual([kind.text for kind in component.iter("mediatype")], keys["MimeType"].strip(";").split(";"))
-        # The viewer's window has the name by which the desktop knows it.
-        self.assertIn(f'title = "{keys["StartupWMClass"]}"', (REPOSITORY / "renderer/gpu/Context.h").read_text())
+        checkDesktop(self.usr)
 
     def testAnotherProjectFindsTheUnpackedLibrary(self):
         for name in NAMES:

@@ -119,9 +119,21 @@ class Scripts(unittest.TestCase):
         self.script(self.machine / "bin" / "ctest", 'echo "ctest $* of $TESSERA_PYTHON_MODULE" >> "$MACHINE/log"')
         self.run_("test")
         self.assertEqual([call.endswith(" of ") for call in self.called("ctest")], [True, True])
-        self.run_("test", "--python", "--all")
-        self.assertEqual([call.endswith(f" of {self.root}/build/python") for call in self.called("ctest")], [True])
-        self.assertIn("tessera_python", self.called("ninja")[1])
+        self.assertEqual(len(self.called("ninja")), 1)
+        for option in ("--python", "--all"):
+            self.run_("test", option)
+            self.assertTrue(self.called("ctest")[0].endswith(f" of {self.root}/build/python"), self.calls)
+            self.assertIn("tessera_python", self.called("ninja")[1])
+
+    def testWhatOnlyTheSlowTestsNeedIsOnlyInstalledForThem(self):
+        for name in ("slurmctld", "slurmd", "slurm-client", "munge", "parallel", "python3-venv"):
+            with self.subTest(name):
+                shutil.rmtree(self.root / "build")
+                self.write("missing", name)
+                self.run_("test")
+                self.assertEqual(self.called("apt-get"), [])
+                self.run_("test", "--all")
+                self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], [name])
 
     def testAChangedPackageTableIsAlwaysCheckedAgain(self):
         self.run_("run")

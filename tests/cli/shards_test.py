@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -36,6 +37,16 @@ if after("--json"):
 elif words[0] == "render":
     pathlib.Path(after("-o").replace("%05d", after("--shard").replace("/", "_") if "--shard" in words else "")).write_text("x")
 '''
+
+# What ssh does: runs its words by a shell of the other machine, elsewhere and with nothing of this environment. Notes which
+# machine it was.
+SSH = """#!/bin/sh
+while :; do case $1 in -*) shift ;; *) break ;; esac; done
+echo "$1" >> {hosts}
+shift
+[ "$1" != -- ] || shift
+cd / && exec env -i HOME=/ SHELL=/bin/sh PATH={path} /bin/sh -c "$*"
+"""
 
 DRY_SLURM = """\
 # 2 of bench, the lines of {here}/out put/commands.txt
@@ -70,9 +81,9 @@ class Shards(unittest.TestCase):
         self.standIn.write_text(STAND_IN)
         self.standIn.chmod(0o755)
 
-    def tool(self, *words, folder=None):
+    def tool(self, *words, folder=None, **variables):
         return subprocess.run([sys.executable, "-B", TOOL, *map(str, words)], cwd=folder or self.folder, text=True,
-                              capture_output=True, timeout=120)
+                              capture_output=True, timeout=120, env={**os.environ, **variables})
 
     def runGood(self, *words):
         result = self.tool(*words)
@@ -121,6 +132,29 @@ class Shards(unittest.TestCase):
             # Again: all is there.
             self.runGood(*words)
             self.assertEqual(self.calls(), [])
+
+    @unittest.skipUnless("parallel" in SCHEDULERS, "needs GNU parallel (tools/packages.txt, cluster)")
+    def testTheDocumentedCommandRunsEveryShardOnceOnTheMachinesOfItsFile(self):
+        page = (REPOSITORY / "docs/clusters.md").read_text()
+        (command,) = re.findall(r"```console\n(tools/cluster/shards\.py parallel .*?)```", page, re.DOTALL)
+        (self.folder / "bin").mkdir()
+        shutil.copy(self.standIn, self.folder / "bin/tessera")
+        hosts = self.folder / "hosts"
+        ssh = self.folder / "bin/ssh"
+        ssh.write_text(SSH.format(hosts=shlex.quote(str(hosts)),
+                                  path=shlex.quote(f"{os.path.dirname(sys.executable)}:/usr/bin:/bin")))
+        ssh.chmod(0o755)
+        (self.folder / "hosts.txt").write_text("one\ntwo\n")
+        (self.folder / "matrix.json").write_text(json.dumps(
+            {"technique": ["forward"], "lights": [4, 8, 16, 32], "size": ["16x9", "32x18", "64x36", "128x72"]}))
+        result = self.tool(*shlex.split(command.replace("\\\n", " "))[1:],
+                           PATH=os.pathsep.join([str(self.folder / "bin"), os.environ["PATH"]]))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        parts = [f"{self.folder}/results/shards/{i}-of-16" for i in range(1, 17)]
+        self.assertEqual(self.calls(), sorted(
+            [["bench", "hall", "--matrix", "matrix.json", "--shard", f"{i}/16", "--resume", "-o", part]
+             for i, part in enumerate(parts, 1)] + [["bench", "-o", f"{self.folder}/results/merged", "--merge", *parts]]))
+        self.assertEqual(set(hosts.read_text().split()), {"one", "two"})
 
     def testWhatFailedIsToldAndTheNextRunDoesWhatIsMissing(self):
         for by in SCHEDULERS:

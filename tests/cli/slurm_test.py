@@ -3,8 +3,8 @@ is killed are requeued and go on, and merged they are the points of one run.
 
     slurm_test.py PROGRAM
 
-Slurm and MUNGE come from Debian's packages slurmctld, slurmd, slurm-client and munge; nothing of the machine's own
-configuration is read or written. Ends with exit code 77 where they are missing.
+Slurm and MUNGE come from Debian's packages, which ./test --all installs; nothing of the machine's own configuration is
+read or written. Ends with exit code 77 where they are missing.
 """
 
 import json
@@ -229,7 +229,7 @@ if __name__ == "__main__":
     os.environ["PATH"] += ":/usr/sbin:/sbin"
     missing = [program for program in PROGRAMS if not shutil.which(program)]
     if missing:
-        print(f"skipped: {', '.join(missing)} not installed; apt-get install slurmctld slurmd slurm-client munge")
+        print(f"skipped: {', '.join(missing)} not installed (tools/packages.txt, cluster); ./test --all installs them")
         sys.exit(SKIPPED)
     PROGRAM = os.path.abspath(sys.argv.pop(1))
     unittest.main()

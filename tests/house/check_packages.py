@@ -5,7 +5,7 @@ import pathlib
 import sys
 
 
-SETS = ("build", "test", "package", "python", "fit", "zink", "fuzz")
+SETS = ("build", "test", "package", "python", "cluster", "fit", "zink", "fuzz")
 
 
 def faultsOf(table, manifest):

@@ -138,7 +138,7 @@ class Packages(unittest.TestCase):
     def testALineWithoutItsColumnsIsAlwaysNamed(self):
         self.assertEqual(
             check_packages.faultsOf("g++\n", {"dependencies": []}),
-            ["tools/packages.txt:1: a line is: package, set (build, test, package, python, fit, zink, fuzz), vcpkg port or -, what for"])
+            ["tools/packages.txt:1: a line is: package, set (build, test, package, python, cluster, fit, zink, fuzz), vcpkg port or -, what for"])
 
 
 class Documents(unittest.TestCase):
