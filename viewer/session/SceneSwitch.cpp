@@ -66,7 +66,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     base_ = first.look;
     hadScene_ = true;
     if (state_.open) {
-        scene->rig().setMode(state_.open->rig().mode());
+        scene->rig().moveAs(state_.open->rig());
         leave(*state_.open);
     }
     comeBack(*scene);

@@ -192,6 +192,17 @@ TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLi
     EXPECT_TRUE(open("room"));
 }
 
+TEST_F(SceneSwitchTest, oneGoesOnFlyingAsFastInAnotherScene) {
+    ASSERT_TRUE(open("room"));
+    CameraRig& rig = state_.open->rig();
+    rig.setMode(CameraRig::Mode::Fly);
+    rig.wheel(4.0, {}, kHeightPixels);
+    const double speed = rig.flyMetresPerSecond();
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.open->rig().mode(), CameraRig::Mode::Fly);
+    EXPECT_EQ(state_.open->rig().flyMetresPerSecond(), speed);
+}
+
 TEST_F(SceneSwitchTest, choicesAreRememberedEvenIfTheNextSceneSetsTheSame) {
     options_.preferencesFile = folder_.path() / "viewer.json";
     ASSERT_TRUE(open("room"));
