@@ -20,6 +20,7 @@
 #include "viewer/panels/Frame.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
+#include "viewer/session/FileTypes.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
@@ -203,10 +204,7 @@ private:
             log_.line("note " + fault);
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
         }
-        for (const std::string& file : window_.takeDrops()) {
-            state_.files.reset();
-            state_.requests.chosen = file;
-        }
+        if (const std::vector<std::string> files = window_.takeDrops(); !files.empty()) takeDrop(files);
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
@@ -263,6 +261,15 @@ private:
             return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
+    }
+
+    void takeDrop(const std::vector<std::string>& files) {
+        Dropped dropped = takeDropped(files);
+        state_.files.reset();
+        state_.requests.chosen = std::move(dropped.taken);
+        if (dropped.left.empty()) return;
+        log_.line("note " + dropped.left);
+        state_.notice = {std::move(dropped.left), false, true};
     }
 
     /// Names of files and in scenes may be of any language.

@@ -192,6 +192,15 @@ TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLi
     EXPECT_TRUE(open("room"));
 }
 
+TEST_F(SceneSwitchTest, ofMessagesOnlyThoseAboutWhatOpensStayWhenItIsThere) {
+    state_.notice = {"of the scene before", true};
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.notice.text, "");
+    state_.notice = {"of this one", false, true};
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.notice.text, "of this one");
+}
+
 TEST_F(SceneSwitchTest, oneGoesOnFlyingAsFastInAnotherScene) {
     ASSERT_TRUE(open("room"));
     CameraRig& rig = state_.open->rig();
