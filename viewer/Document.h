@@ -85,7 +85,7 @@ public:
     bool isLeaving();
     /// All that is to be kept is saved.
     void close();
-    /// The program ends, and nobody can be asked any more.
+    /// The program ends, and nobody can be asked any more: what close() saves, and edits that are not saved.
     void endWithEdits();
 
 private:

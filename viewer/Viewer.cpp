@@ -20,6 +20,7 @@
 #include "viewer/panels/Frame.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
+#include "viewer/session/FileTypes.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
@@ -37,8 +38,7 @@ constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in bet
 constexpr double kNoticeSeconds = 6.0;
 constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
 constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
-/// How often a signal to end is looked for while there are edits to keep before.
-constexpr double kEndPeriodSeconds = 0.25;
+constexpr double kEndPeriodSeconds = 0.25;  ///< how often a signal to end is looked for
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -63,6 +63,8 @@ public:
     ~Viewer() { holdEnd(false); }
 
     void run() {
+        // What a signal ends at once would lose settings, recent files and edits.
+        holdEnd(true);
         try {
             while (!document_.isLeaving()) {
                 window_.wait(idleSeconds());
@@ -70,7 +72,6 @@ public:
                 if (document_.isLeaving()) break;
                 attempt([this] { watchShaders(); });
                 if (isDue()) frame();
-                holdEnd(document_.hasEdits());
                 attempt([this] { document_.keepEdits(); });
             }
         } catch (...) {
@@ -101,17 +102,15 @@ private:
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
     }
-    /// How long nothing needs to happen; negative: until something does.
+    /// How long nothing needs to happen; a signal, which ends no wait for events, is looked for at least as often.
     double idleSeconds() const {
         if (isDue() || notedEnd() != 0) return 0.0;
-        double seconds = -1.0;
-        const auto atMost = [&](double most) { seconds = seconds < 0.0 ? most : std::min(seconds, most); };
+        double seconds = kEndPeriodSeconds;
+        const auto atMost = [&](double most) { seconds = std::min(seconds, most); };
         if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
         if (isVisible() && document_.isLoading()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
-        if (screen_.renderer() && screen_.renderer()->programs().watchesFiles()) atMost(kShaderPeriodSeconds);
-        if (document_.hasEdits()) atMost(kEndPeriodSeconds);
         if (const auto keepAt = document_.keepAt()) atMost(std::max(*keepAt - now(), 0.0));
         return seconds;
     }
@@ -155,7 +154,7 @@ private:
 
     // ---- Shaders ----
     void watchShaders() {
-        if (!screen_.renderer() || now() < nextShaderLook_) return;
+        if (!screen_.renderer() || !screen_.renderer()->programs().watchesFiles() || now() < nextShaderLook_) return;
         nextShaderLook_ = now() + kShaderPeriodSeconds;
         if (screen_.renderer()->programs().sourcesChanged()) reloadShaders(false);
     }
@@ -205,10 +204,7 @@ private:
             log_.line("note " + fault);
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
         }
-        for (const std::string& file : window_.takeDrops()) {
-            state_.files.reset();
-            state_.requests.chosen = file;
-        }
+        if (const std::vector<std::string> files = window_.takeDrops(); !files.empty()) takeDrop(files);
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
@@ -265,6 +261,15 @@ private:
             return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
+    }
+
+    void takeDrop(const std::vector<std::string>& files) {
+        Dropped dropped = takeDropped(files);
+        state_.files.reset();
+        state_.requests.chosen = std::move(dropped.taken);
+        if (dropped.left.empty()) return;
+        log_.line("note " + dropped.left);
+        state_.notice = {std::move(dropped.left), false, true};
     }
 
     /// Names of files and in scenes may be of any language.

@@ -10,6 +10,8 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "tests/viewer/FileDrop.h"
+
 namespace tessera::test {
 namespace {
 
@@ -170,6 +172,10 @@ void DrivenViewer::drag(glm::ivec2 from, glm::ivec2 to, const std::string& held,
 
 void DrivenViewer::wheel(int clicks) const {
     desktop_.xdotool({"click", "--repeat", number(std::abs(clicks)), "--delay", "60", clicks > 0 ? "4" : "5"});
+}
+
+void DrivenViewer::drop(glm::ivec2 pixel, const std::vector<std::filesystem::path>& files) const {
+    dropFiles(desktop_.display(), window_, pixel, files);
 }
 
 void DrivenViewer::resize(glm::ivec2 sizePixels) const {

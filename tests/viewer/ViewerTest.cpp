@@ -67,6 +67,41 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
     return bars[std::size_t(section)];
 }
 
+std::vector<int> ViewerTest::linesOf(const DrivenViewer& viewer, Section section) {
+    // Bars alone reach to the first column; the widgets beside labels begin behind the others. Lines and frames are
+    // less bright against the panels than any letter, and letters that are greyed less than half as bright as others.
+    constexpr int kBarColumn = 6, kFirstColumn = 10, kEndColumn = 105, kLetterSteps = 60, kBrightSteps = 110;
+    const int bar = barOf(viewer, section);
+    const Shot shot = viewer.capture();
+    const glm::ivec3 behind = shot.at({kBarColumn, 1});
+    const auto isBar = [&](int y) { return shot.at({kBarColumn, y}) != behind; };
+    const auto brightness = [&](int y) {
+        int most = 0;
+        for (int x = kFirstColumn; x < kEndColumn; ++x) most = std::max(most, shot.at({x, y}).y - behind.y);
+        return most;
+    };
+    int y = bar;
+    while (y < shot.sizePixels.y && isBar(y)) ++y;
+    std::vector<int> lines;
+    int begin = -1, brightest = 0;
+    for (; y < shot.sizePixels.y && !isBar(y); ++y) {
+        const int bright = brightness(y);
+        if (bright > kLetterSteps) {
+            if (begin < 0) begin = y;
+            brightest = std::max(brightest, bright);
+        } else if (begin >= 0) {
+            if (brightest > kBrightSteps) lines.push_back((begin + y) / 2);
+            begin = -1;
+            brightest = 0;
+        }
+    }
+    return lines;
+}
+
+void ViewerTest::makeRoom(const DrivenViewer& viewer) {
+    for (const Section open : {Section::View, Section::Scene}) toggle(viewer, open);
+}
+
 void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
     viewer.click({200, barOf(viewer, section)});
     viewer.moveTo(middlePixel()); // where nothing lights up
@@ -88,6 +123,19 @@ void ViewerTest::chooseRecentScene(const DrivenViewer& viewer, int index) {
     const int entry = int(std::size(kBuiltin)) + index;
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + entry * kEntryPixels + kLinePixels);
     viewer.moveTo(middlePixel());
+}
+
+std::string ViewerTest::saveScene(const DrivenViewer& viewer) {
+    const std::size_t mark = viewer.mark();
+    viewer.key("ctrl+s");
+    const std::string file = savedFile(viewer.waitFor("saved ", mark));
+    viewer.key("Escape");
+    viewer.pause(0.3);
+    return file;
+}
+
+nlohmann::json ViewerTest::readJson(const std::string& name) const {
+    return nlohmann::json::parse(shell("cat '" + name + "'"));
 }
 
 std::string ViewerTest::shell(const std::string& script) const {

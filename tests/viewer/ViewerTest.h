@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/Picture.h"
 #include "tests/support/Process.h"
@@ -81,8 +82,13 @@ protected:
     static glm::ivec2 inRow(const DrivenViewer& viewer, Section section, int row, int x) {
         return {x, barOf(viewer, section) + row * kRowPixels};
     }
+    /// Heights in the window of the middles of an open section's lines of text at the left, labels most of them, as far
+    /// as it is in view; without what is greyed.
+    static std::vector<int> linesOf(const DrivenViewer& viewer, Section section);
     /// Opens a section, or closes it.
     static void toggle(const DrivenViewer& viewer, Section section);
+    /// Folds what is open, so that nothing scrolls where another section opens.
+    static void makeRoom(const DrivenViewer& viewer);
     /// Opens the panel of lights, and adds one.
     static void addLight(const DrivenViewer& viewer);
     /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.
@@ -90,6 +96,9 @@ protected:
     static void chooseRecentScene(const DrivenViewer& viewer, int index);
     static constexpr int kRowPixels = 24;
 
+    /// Saves the scene with its edits, and takes the message away that says so; the file's name.
+    static std::string saveScene(const DrivenViewer& viewer);
+    nlohmann::json readJson(const std::string& name) const;
     /// Runs a line of shell in which "tessera" is the program; expects success and returns stdout.
     std::string shell(const std::string& script) const;
     /// What `tessera render` writes as a display shows it.

@@ -1,4 +1,9 @@
 // Orbiting, panning, zooming and flying by mouse and keys.
+#include <cstdio>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+
 #include "tests/viewer/ViewerTest.h"
 
 namespace tessera::test {
@@ -17,7 +22,20 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
     };
     expectMoved("rotate", after(viewer, [&] { viewer.drag(middlePixel(), there); }));
     expectMoved("rotate with Shift", after(viewer, [&] { viewer.drag(middlePixel(), there, "shift"); }));
-    expectMoved("pan", after(viewer, [&] { viewer.drag(middlePixel(), there, "alt"); }));
+    const auto pan = [&](const std::string& held, int button) {
+        return after(viewer, [&] { viewer.drag(middlePixel(), there, held, button); });
+    };
+    const Shot panned = pan("alt", 1);
+    expectMoved("pan", panned);
+    for (const int button : {2, 3}) { // the middle and the right one
+        const Shot shot = pan("", button);
+        EXPECT_LT(differingShare(shot, panned, 4), 0.001) << "not but for the rounding of the steps' sum";
+        expectMoved("pan by a button", shot);
+        pan("", button);
+        const Shot back = after(viewer, [&] { viewer.drag(there, middlePixel(), "", button); });
+        EXPECT_LT(differingShare(back, home, 4), 0.001) << "the same way back";
+        after(viewer, [&] { viewer.key("Home"); });
+    }
     expectMoved("zoom", after(viewer, [&] { viewer.drag(middlePixel(), there, "ctrl"); }));
     expectMoved("wheel", after(viewer, [&] {
                     viewer.moveTo(middlePixel());
@@ -34,10 +52,47 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
                 }));
 }
 
+TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) {
+    DrivenViewer viewer = open({"spheres"});
+    const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
+    viewer.moveTo(sphereIn(home.sizePixels));
+    struct Seen {
+        std::string material;
+        double depthMetres = 0.0;
+        glm::dvec3 normalWS{0.0};
+    };
+    const auto seen = [&] {
+        const std::size_t mark = viewer.mark();
+        viewer.key("i");
+        const std::string said = viewer.waitFor("inspected ", mark);
+        viewer.key("i");
+        const std::size_t material = said.find("; material "), depth = said.find("; depth ");
+        Seen read;
+        if (material == std::string::npos || depth == std::string::npos) throw std::runtime_error(said);
+        read.material = said.substr(material, depth - material);
+        EXPECT_EQ(std::sscanf(said.c_str() + depth, "; depth %lf m; face normal %lf %lf %lf", &read.depthMetres,
+                              &read.normalWS.x, &read.normalWS.y, &read.normalWS.z),
+                  4)
+            << said;
+        return read;
+    };
+    const Seen before = seen();
+    EXPECT_EQ(before.material, "; material metalness 0/4, roughness 4/10");
+    // Eight steps make it almost three times as large: were it the picture's middle that stays, another surface would
+    // be here, what was 64 pixels beside the middle of the sphere of 45 (at 1280 x 800).
+    after(viewer, [&] { viewer.wheel(8); });
+    const Seen near = seen();
+    EXPECT_EQ(near.material, before.material);
+    EXPECT_LT(near.depthMetres, 0.6 * before.depthMetres);
+    // Half a pixel to the side is at most the next triangle of the sphere, whose steps are 5.6 degrees.
+    EXPECT_LT(glm::distance(near.normalWS, before.normalWS), 0.2);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
+}
+
 TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIntoView) {
     DrivenViewer viewer = open({"spheres"});
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
-    for (const Section above : {Section::View, Section::Scene}) toggle(viewer, above); // the material's stays in view
+    makeRoom(viewer); // the material's panel stays in view
     const glm::ivec2 sphere = sphereIn(home.sizePixels);
     std::size_t mark = viewer.mark();
     const Shot turned = after(viewer, [&] { viewer.doubleClick(sphere); });

@@ -14,15 +14,6 @@ namespace {
 
 class ViewerEdits : public ViewerTest {
 protected:
-    /// Saves the scene with its edits, and takes the message away that says so.
-    std::string saveScene(const DrivenViewer& viewer) {
-        const std::size_t mark = viewer.mark();
-        viewer.key("ctrl+s");
-        const std::string file = savedFile(viewer.waitFor("saved ", mark));
-        viewer.key("Escape");
-        viewer.pause(0.3);
-        return file;
-    }
     /// Opens a built-in scene by the list; its whole picture.
     static Shot change(const DrivenViewer& viewer, const std::string& builtin) {
         const std::size_t mark = viewer.mark();
@@ -30,11 +21,6 @@ protected:
         viewer.waitFor("opened " + builtin, mark);
         return pictureIn(viewer, viewer.waitForWhole(mark));
     }
-    /// Folds what is open, so that nothing scrolls where another section opens.
-    static void makeRoom(const DrivenViewer& viewer) {
-        for (const Section open : {Section::View, Section::Scene}) toggle(viewer, open);
-    }
-    nlohmann::json readJson(const std::string& name) { return nlohmann::json::parse(shell("cat '" + name + "'")); }
 };
 
 /// The switch of a light in the list, under the bar of the lights.

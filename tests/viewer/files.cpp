@@ -93,6 +93,26 @@ TEST_F(ViewerFiles, aBuiltInSceneAndAnEnvironmentAreOpenedByName) {
     EXPECT_GT(differingShare(pictureIn(viewer, viewer.waitForWhole(mark)), spheres, 4), 0.1);
 }
 
+TEST_F(ViewerFiles, whatIsDroppedOnTheWindowOpensAndOfSeveralTheFirstThatCanIsTold) {
+    const auto one = folder_.write("one.json", R"({"tessera": 1, "base": {"file": "builtin:spheres"}})");
+    const auto two = folder_.write("two.json", R"({"tessera": 1, "base": {"file": "builtin:lattice"}})");
+    const auto unknown = folder_.write("unknown.txt", "");
+    DrivenViewer viewer = open({"room"});
+    viewer.waitForWhole(0);
+    std::size_t mark = viewer.mark();
+    viewer.drop(middlePixel(), {two});
+    const Shot lattice = opened(viewer, mark, "two.json");
+    EXPECT_TRUE(lattice == rendered("lattice", lattice.sizePixels));
+    mark = viewer.mark();
+    viewer.drop(middlePixel(), {unknown, one, two});
+    EXPECT_EQ(viewer.waitFor("note Of ", mark),
+              "note Of 3 files dropped at once one.json opens; not unknown.txt, two.json");
+    const glm::ivec2 size = opened(viewer, mark, "one.json").sizePixels;
+    viewer.key("Escape"); // the message that says so
+    viewer.pause(0.7);
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered("spheres", size));
+}
+
 TEST_F(ViewerFiles, openingAsksAboutEditsThatAreNotSaved) {
     folder_.write("other.json", R"({"tessera": 1, "base": {"file": "builtin:lattice"}})");
     DrivenViewer viewer = open({"spheres"});

@@ -23,14 +23,7 @@ TEST_F(ViewerHandles, aSideAndTheDirectionOfARectangleGoWithThePointer) {
     const glm::ivec2 size = viewer.waitForWhole(0);
     const double pixelsPerMetre = size.y / 5.0;
     const glm::ivec2 middle = kPictureCorner + size / 2;
-    const auto saved = [&] {
-        const std::size_t mark = viewer.mark();
-        viewer.key("ctrl+s");
-        const std::string file = savedFile(viewer.waitFor("saved ", mark));
-        viewer.key("Escape");
-        viewer.pause(0.3);
-        return nlohmann::json::parse(shell("cat '" + file + "'")).at("lights").at(0);
-    };
+    const auto saved = [&] { return readJson(saveScene(viewer)).at("lights").at(0); };
     const Shot marked = after(viewer, [&] {
         viewer.key("m");
         viewer.click(middle);                           // on the marker: the light is selected
@@ -76,17 +69,14 @@ TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == before);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+shift+z"); }) == turned);
     // It is not lost without a question.
-    std::size_t mark = viewer.mark();
+    const std::size_t mark = viewer.mark();
     viewer.key("ctrl+q");
     viewer.waitFor("edits are not saved", mark);
     viewer.pause(0.5);
     viewer.key("Escape");
     viewer.pause(0.5);
     // What is saved lies as it is seen.
-    mark = viewer.mark();
-    viewer.key("ctrl+s");
-    const std::string file = savedFile(viewer.waitFor("saved ", mark));
-    const nlohmann::json environment = nlohmann::json::parse(shell("cat '" + file + "'")).at("environment");
+    const nlohmann::json environment = readJson(saveScene(viewer)).at("environment");
     EXPECT_NEAR(environment.at("rotationDegrees").get<double>(), 90.0, 1.0) << environment;
     viewer.key("ctrl+q"); // without a question
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();

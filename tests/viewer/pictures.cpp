@@ -8,6 +8,7 @@
 #include "tests/support/AssetsFolder.h"
 #include "tests/support/Sweep.h"
 #include "tests/viewer/ViewerTest.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera::test {
 namespace {
@@ -112,6 +113,46 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
     viewer.key("Escape"); // the message
     viewer.pause(0.3);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("i"); }) == alone);
+}
+
+TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
+    DrivenViewer viewer = open({"spheres"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    makeRoom(viewer);
+    std::size_t mark = viewer.mark();
+    viewer.key("x"); // split
+    viewer.key("x"); // difference
+    viewer.key("3"); // another view at the left
+    viewer.waitForWhole(mark);
+    const auto savedSide = [&] {
+        mark = viewer.mark();
+        viewer.key("shift+F12");
+        Picture picture = exr(savedFile(viewer.waitFor("saved ", mark)));
+        viewer.key("Escape"); // the message
+        viewer.pause(0.3);
+        return picture;
+    };
+    const Picture left = savedSide();
+    viewer.key("z"); // the other side
+    const Picture right = savedSide();
+    const validation::RadianceFigures figures = validation::radianceFigures(left, right);
+    ASSERT_GT(figures.maxRel, 0.0);
+
+    toggle(viewer, Section::Compare);
+    // Below Compare, Active side, Amplified, Bit-equal, relMse, rel p50 and rel p99; greyed until they are measured.
+    constexpr std::size_t kWorst = 7;
+    std::vector<int> lines = linesOf(viewer, Section::Compare);
+    for (int i = 0; i < 120 && lines.size() <= kWorst; ++i) {
+        viewer.pause(0.5);
+        lines = linesOf(viewer, Section::Compare);
+    }
+    ASSERT_GT(lines.size(), kWorst) << "no errors are shown within a minute";
+    mark = viewer.mark();
+    viewer.click({130, lines[kWorst]});
+    const std::string said = viewer.waitFor("inspected ", mark);
+    EXPECT_TRUE(
+        said.starts_with(fmt::format("inspected {}, {} of {}x{}; ", figures.worstX, figures.worstY, size.x, size.y)))
+        << said << " against " << figures.worstX << ", " << figures.worstY;
 }
 
 TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {

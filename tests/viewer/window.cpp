@@ -1,4 +1,7 @@
 // Sizes, minimising, closing, and preferences.
+#include <csignal>
+#include <optional>
+
 #include "tests/support/AssetsFolder.h"
 #include "tests/viewer/ViewerTest.h"
 
@@ -51,6 +54,25 @@ TEST_F(ViewerWindow, settingsAreRememberedFromRunToRun) {
     DrivenViewer viewer = open({"room"});
     EXPECT_EQ(viewer.waitForWhole(0).x, screenPixels().x);
     EXPECT_NE(viewer.waitFor("drawn", 0).find("technique clustered_forward"), std::string::npos);
+}
+
+TEST_F(ViewerWindow, settingsAndRecentFilesAreKeptWhereASignalEndsAViewerWithoutEdits) {
+    const std::string file =
+        folder_.write("mine.json", R"({"tessera": 1, "base": {"file": "builtin:spheres"}})").string();
+    {
+        DrivenViewer viewer = open({"mine.json"});
+        viewer.waitForWhole(0);
+        const std::size_t mark = viewer.mark();
+        viewer.key("Tab"); // hides the panels
+        viewer.waitForWhole(mark);
+        viewer.send(SIGTERM);
+        EXPECT_EQ(viewer.wait(), std::nullopt) << "it ends by the signal";
+        EXPECT_EQ(viewer.errors(), "");
+    }
+    EXPECT_EQ(readJson("config/tessera/viewer.json").at("recent"), nlohmann::json::array({file}));
+    DrivenViewer viewer = open({"room"});
+    EXPECT_EQ(viewer.waitForWhole(0).x, screenPixels().x);
+    for (const std::string& line : viewer.lines()) EXPECT_FALSE(line.starts_with("edits were left")) << line;
 }
 
 TEST_F(ViewerWindow, panelsAreAsWideAndAsFoldedAsTheyWereLeft) {

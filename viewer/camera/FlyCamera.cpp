@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kDiagonalSeconds = 8.0; ///< in which the bounds' diagonal is crossed: a stroll
 constexpr double kFastFactor = 5.0;
+constexpr double kStepsToDouble = 2.0; ///< the speed
+constexpr double kMostSpeedSteps = 8.0;
 
 double speedIn(const scenes::Box3& boundsWS) {
     const double diagonalMetres = boundsWS.empty() ? 0.0 : glm::length(boundsWS.max - boundsWS.min);
@@ -21,12 +23,20 @@ double speedIn(const scenes::Box3& boundsWS) {
 } // namespace
 
 FlyCamera::FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const scenes::Box3& boundsWS)
-    : lens_(lens), metresPerSecond_(speedIn(boundsWS)), shown_(pose), goal_(pose) {}
+    : lens_(lens), usualMetresPerSecond_(speedIn(boundsWS)), shown_(pose), goal_(pose) {}
 
 void FlyCamera::look(const glm::dvec2& movePixels, double heightPixels) {
     // Parallel rays turn as the picture of a perspective camera that sees as much at the focus.
     const double tanPerPixel = metresPerPixel(lens_, goal_, goal_.focusMetres, heightPixels) / goal_.focusMetres;
     goal_.heading = turned(goal_.heading, -movePixels.x * tanPerPixel, -movePixels.y * tanPerPixel);
+}
+
+void FlyCamera::changeSpeed(double steps) {
+    speedSteps_ = std::clamp(speedSteps_ + steps, -kMostSpeedSteps, kMostSpeedSteps);
+}
+
+double FlyCamera::metresPerSecond() const {
+    return usualMetresPerSecond_ * std::exp2(speedSteps_ / kStepsToDouble);
 }
 
 glm::dvec3 FlyCamera::velocityWS() const {
@@ -38,7 +48,7 @@ glm::dvec3 FlyCamera::velocityWS() const {
     // Looking straight down, forward and up may cancel up to rounding.
     constexpr double kLeastLength = 1e-6;
     if (length < kLeastLength) return glm::dvec3(0.0);
-    return directionWS / length * metresPerSecond_ * (keys_.fast ? kFastFactor : 1.0);
+    return directionWS / length * metresPerSecond() * (keys_.fast ? kFastFactor : 1.0);
 }
 
 void FlyCamera::goTo(const CameraPose& pose) {

@@ -14,12 +14,19 @@ struct FlyKeys {
 /// Walks through the air by keys and looks by mouse, all damped.
 class FlyCamera {
 public:
-    /// Speeds are proportional to the size of the scene: a box is crossed in the same time, be it a ring or a
-    /// cathedral.
+    /// The speed that it begins with is proportional to the size of the scene: a box is crossed in the same time, be
+    /// it a ring or a cathedral.
     FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const scenes::Box3& boundsWS);
 
     /// Mouse look: the view turns the way the mouse goes, as many pixels in the picture's middle as it went.
     void look(const glm::dvec2& movePixels, double heightPixels);
+    /// Flies faster by steps, slower where they are negative; two steps are twice as fast. It stays between a
+    /// sixteenth and 16 times the speed that it begins with.
+    void changeSpeed(double steps);
+    /// Is as much faster or slower than it began as another one, which may be of another scene.
+    void takeSpeed(const FlyCamera& other) { speedSteps_ = other.speedSteps_; }
+    /// Of keys that are held without Shift.
+    double metresPerSecond() const;
     /// Keys held from now on.
     void hold(const FlyKeys& keys) { keys_ = keys; }
     /// What keys would move it by, in metres a second.
@@ -41,7 +48,8 @@ private:
     double pixelsToGoal(double heightPixels) const;
 
     scenes::Camera lens_;
-    double metresPerSecond_;
+    double usualMetresPerSecond_;
+    double speedSteps_ = 0.0;
     FlyKeys keys_;
     CameraPose shown_, goal_;
 };

@@ -22,7 +22,7 @@ void cameraPanel(State& state) {
     tip("Left drag turns, Alt and drag moves, wheel or Ctrl and drag goes nearer");
     ImGui::SameLine();
     if (ImGui::RadioButton("fly", rig.mode() == CameraRig::Mode::Fly)) rig.setMode(CameraRig::Mode::Fly);
-    tip("W A S D and Q E, left drag looks around, Shift is fast");
+    tip("W A S D and Q E, left drag looks around, Shift is fast, the wheel sets the speed");
     if (ImGui::Button("All in view (Shift+F)")) open.jumpToAll(state.pictureAspect);
     tip("Moves the camera until it sees all of the scene");
     ImGui::SameLine();

@@ -111,7 +111,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     else if (facts.spreading)
         parts.push_back(spreadText(*facts.spreading));
     if (facts.isCancelled) parts.emplace_back("cancelled (Enter: draw on)");
-    if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly) parts.emplace_back("flying (C: orbit)");
+    if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly)
+        parts.push_back(fmt::format("flying, {:.3g} m/s (C: orbit)", state.open->rig().flyMetresPerSecond()));
     // The sides of a comparison are named in the picture; two names leave no room here.
     const std::optional<Look>& left = facts.shown[0];
     if (state.compare == Compare::Off && left)

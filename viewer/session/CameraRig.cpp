@@ -1,6 +1,13 @@
 #include "viewer/session/CameraRig.h"
 
+#include <cmath>
+
 namespace tessera::viewer {
+namespace {
+
+constexpr double kZoomPerStep = 0.88; ///< of the distance, a step of the wheel
+
+} // namespace
 
 CameraRig::CameraRig(const scenes::Camera& start, const CameraPose& home, const scenes::Box3& boundsWS)
     : start_(start), home_(home), boundsWS_(boundsWS), orbit_(home, start), fly_(home, start, boundsWS) {}
@@ -18,6 +25,11 @@ void CameraRig::setMode(Mode mode) {
     mode_ = mode;
 }
 
+void CameraRig::moveAs(const CameraRig& other) {
+    setMode(other.mode_);
+    fly_.takeSpeed(other.fly_);
+}
+
 void CameraRig::rotate(const glm::dvec2& dragPixels, double heightPixels) {
     mode_ == Mode::Orbit ? orbit_.rotate(dragPixels, heightPixels) : fly_.look(dragPixels, heightPixels);
 }
@@ -28,6 +40,13 @@ void CameraRig::pan(const glm::dvec2& dragPixels, double heightPixels) {
 
 void CameraRig::zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels) {
     if (mode_ == Mode::Orbit) orbit_.zoom(factor, cursorFromCenterPixels, heightPixels);
+}
+
+void CameraRig::wheel(double steps, const glm::dvec2& cursorFromCenterPixels, double heightPixels) {
+    if (mode_ == Mode::Orbit)
+        orbit_.zoom(std::pow(kZoomPerStep, steps), cursorFromCenterPixels, heightPixels);
+    else
+        fly_.changeSpeed(steps);
 }
 
 void CameraRig::hold(const FlyKeys& keys) {

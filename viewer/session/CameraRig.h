@@ -16,11 +16,17 @@ public:
 
     Mode mode() const { return mode_; }
     void setMode(Mode mode);
+    /// Mode and flying speed become those of another rig: how one moves is no matter of where one is.
+    void moveAs(const CameraRig& other);
+    double flyMetresPerSecond() const { return fly_.metresPerSecond(); } ///< without Shift
 
     /// Drags and wheel of the mouse; each mode takes its own. `heightPixels` is the picture's.
     void rotate(const glm::dvec2& dragPixels, double heightPixels);
     void pan(const glm::dvec2& dragPixels, double heightPixels);
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
+    /// Steps of the mouse's wheel, positive ones away from the user: nearer to what is under the cursor, or faster
+    /// where one flies.
+    void wheel(double steps, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
     void hold(const FlyKeys& keys);
 
     /// All of the scene in view, or all of a box.

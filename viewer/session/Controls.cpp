@@ -18,7 +18,6 @@ constexpr float kPanelReach = 4.0f;   ///< the same of the picture's left side, 
 constexpr float kMarkerReach = 9.0f;  ///< the same around a light's marker, and around its handles
 constexpr float kClickReach = 3.0f;   ///< movement of a hand during a click
 constexpr double kDoubleClickSeconds = 0.4;
-constexpr double kZoomPerStep = 0.88;    ///< of the distance, a step of the wheel
 constexpr double kTurnPerHeight = 180.0; ///< degrees of the environment, a drag as far as the picture is high
 constexpr double kZoomPerHeight = 0.05;  ///< of the distance, a drag of the picture's height upwards
 
@@ -168,8 +167,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
             break;
         case InputEvent::Kind::Scroll:
             if (!claims.mouse && state.open && area.contains(event.position))
-                state.open->rig().zoom(std::pow(kZoomPerStep, double(event.scroll.y)), fromCenter(event.position, area),
-                                       area.size.y);
+                state.open->rig().wheel(double(event.scroll.y), fromCenter(event.position, area), area.size.y);
             break;
         case InputEvent::Kind::Key:
             key(event, state, claims);

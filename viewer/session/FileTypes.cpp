@@ -1,6 +1,11 @@
 #include "viewer/session/FileTypes.h"
 
 #include <algorithm>
+#include <cassert>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/Extension.h"
 
@@ -29,6 +34,26 @@ std::span<const FileType> fileTypes() {
 const FileType* fileTypeOf(const std::filesystem::path& file) {
     const auto found = std::ranges::find(kFileTypes, std::string_view(extensionOf(file)), &FileType::extension);
     return found != std::end(kFileTypes) ? found : nullptr;
+}
+
+Dropped takeDropped(std::span<const std::string> files) {
+    constexpr std::size_t kMostNamed = 3; // of the others: a folder's files may be dropped
+    assert(!files.empty());
+    auto taken = std::ranges::find_if(files, [](const std::string& file) {
+        const FileType* const type = fileTypeOf(file);
+        return type != nullptr && type->opens != Opens::Nothing;
+    });
+    if (taken == files.end()) taken = files.begin();
+    Dropped dropped{*taken, {}};
+    if (files.size() == 1) return dropped;
+    const auto nameOf = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+    std::vector<std::string> others;
+    for (auto file = files.begin(); file != files.end() && others.size() < kMostNamed; ++file)
+        if (file != taken) others.push_back(nameOf(*file));
+    const std::size_t more = files.size() - 1 - others.size();
+    dropped.left = fmt::format("Of {} files dropped at once {} opens; not {}{}", files.size(), nameOf(*taken),
+                               fmt::join(others, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+    return dropped;
 }
 
 } // namespace tessera::viewer

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace tessera::viewer {
@@ -19,5 +20,14 @@ std::span<const FileType> fileTypes();
 
 /// That of a name; null where the viewer neither opens nor saves any such file.
 const FileType* fileTypeOf(const std::filesystem::path& file);
+
+/// Files that were dropped at once.
+struct Dropped {
+    std::string taken; ///< opens
+    std::string left;  ///< what the user is told of the others, a line; empty: there are none
+};
+/// Takes the first that opens as a scene or an environment; where none does the first, of which loading tells why. At
+/// least one file.
+Dropped takeDropped(std::span<const std::string> files);
 
 } // namespace tessera::viewer

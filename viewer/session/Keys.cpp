@@ -125,7 +125,7 @@ constexpr GestureHelp kGestures[] = {
     {"Shift + right drag", "turns the environment; the angle stands beside the pointer"},
     {"Right drag", "move across the picture; also the middle button, and Alt + left drag"},
     {"Ctrl + left drag, wheel", "nearer and farther; the wheel towards the pointer"},
-    {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast"},
+    {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast, the wheel sets the speed"},
     {"Click", "picks the material of the surface"},
     {"Double click", "slides the surface into the middle, and turns about it from then on"},
     {"Drag a light's marker", "moves the light across the picture"},

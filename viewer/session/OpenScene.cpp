@@ -324,7 +324,7 @@ void OpenScene::exchange(CameraEdit& edit) {
     camera_ = edit.other.camera;
     placed_ = edit.other.placed;
     rig_ = std::move(edit.other.rig);
-    rig_.setMode(before.rig.mode()); // how one moves is no matter of where one is
+    rig_.moveAs(before.rig);
     applyRig();
     placeShownCamera(); // the clip may have gone on
     edit.other = std::move(before);
@@ -394,9 +394,9 @@ scenes::CameraChange OpenScene::cameraChange() const {
 }
 
 void OpenScene::begin(const scenes::Camera& start, const CameraPose& home) {
-    const CameraRig::Mode mode = rig_.mode();
+    const CameraRig before = rig_;
     rig_ = CameraRig(start, home, boundsWS_);
-    rig_.setMode(mode);
+    rig_.moveAs(before);
     applyRig();
 }
 

@@ -70,13 +70,13 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     base_ = first.look;
     hadScene_ = true;
     if (state_.open) {
-        scene->rig().setMode(state_.open->rig().mode());
+        scene->rig().moveAs(state_.open->rig());
         leave(*state_.open);
     }
     comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
     state_.types.forget();
-    state_.notice = {};
+    if (!state_.notice.outlivesLoad) state_.notice = {};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
     noteRecent(state_.recent, result->source);

@@ -35,6 +35,7 @@ struct Loupe {
 struct Notice {
     std::string text;
     bool isError = false;
+    bool outlivesLoad = false; ///< tells of what is being opened, and stays when that is there
 };
 
 /// A fault of shaders, and the programs that have it: files are shared.

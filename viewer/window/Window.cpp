@@ -162,7 +162,6 @@ void Window::poll() {
 }
 
 void Window::wait(double timeoutSeconds) {
-    if (timeoutSeconds < 0.0) return glfwWaitEvents();
     glfwWaitEventsTimeout(timeoutSeconds);
 }
 

@@ -40,7 +40,7 @@ public:
     bool isButtonHeld() const; ///< of the mouse, as heard last
     /// Moves pending events of the window system into the queue, without waiting.
     void poll();
-    /// The same, after waiting for something to happen, for wake(), or for this long; forever where negative.
+    /// The same, after waiting for something to happen, for wake(), or for this long: 0 or more.
     void wait(double timeoutSeconds);
     /// Ends wait(), from any thread, while a window exists.
     static void wake();

@@ -81,6 +81,25 @@ TEST(CameraRig, aPointToTurnAboutNeverMovesTheEyeNearerAndBehindItNothingHappens
     EXPECT_EQ(rig.pose(), before) << "who flies stays";
 }
 
+TEST(CameraRig, theWheelZoomsWhereOneOrbitsAndSetsTheSpeedWhereOneFlies) {
+    CameraRig rig = rigOf(kStart);
+    const double speed = rig.flyMetresPerSecond(), distanceMetres = rig.pose().focusMetres;
+    rig.wheel(1.0, {}, kHeightPixels);
+    settle(rig);
+    EXPECT_NEAR(rig.pose().focusMetres, 0.88 * distanceMetres, 1e-9);
+    EXPECT_EQ(rig.flyMetresPerSecond(), speed);
+    rig.setMode(CameraRig::Mode::Fly);
+    const CameraPose before = rig.pose();
+    rig.wheel(2.0, {100.0, 50.0}, kHeightPixels);
+    EXPECT_TRUE(rig.isAtRest());
+    EXPECT_EQ(rig.pose(), before);
+    EXPECT_DOUBLE_EQ(rig.flyMetresPerSecond(), 2.0 * speed);
+    CameraRig next = rigOf(kStart);
+    next.moveAs(rig);
+    EXPECT_EQ(next.mode(), CameraRig::Mode::Fly);
+    EXPECT_DOUBLE_EQ(next.flyMetresPerSecond(), 2.0 * speed);
+}
+
 TEST(CameraRig, startingHereNeverMovesThePivotAndNeverEndsAMovement) {
     CameraRig rig = rigOf(kStart), other = rigOf(kStart);
     for (CameraRig* one : {&rig, &other}) {

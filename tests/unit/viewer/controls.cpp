@@ -118,6 +118,23 @@ TEST(Controls, theMiddleAndTheRightButtonMoveAcrossThePictureTheLatterWithoutShi
     EXPECT_FALSE(isMovedBy(kRight, kShift)) << "that turns the environment, and there is none";
 }
 
+TEST(Controls, theWheelOverThePictureSetsTheSpeedOfWhoFlies) {
+    State state = withLightInTheMiddle(0, 1);
+    CameraRig& rig = state.open->rig();
+    rig.setMode(CameraRig::Mode::Fly);
+    InputEvent scroll;
+    scroll.kind = InputEvent::Kind::Scroll;
+    scroll.position = {100.0f, 300.0f};
+    scroll.scroll = {0.0f, -2.0f}; // towards the user
+    Controls controls;
+    const double usual = rig.flyMetresPerSecond();
+    controls.handle(std::span(&scroll, 1), state, kArea, {.mouse = true});
+    EXPECT_EQ(rig.flyMetresPerSecond(), usual) << "it scrolls the panels";
+    controls.handle(std::span(&scroll, 1), state, kArea, {});
+    EXPECT_DOUBLE_EQ(rig.flyMetresPerSecond(), 0.5 * usual);
+    EXPECT_FALSE(rig.isMoved());
+}
+
 TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNone) {
     State state = withLightInTheMiddle(0, 1);
     std::string said;

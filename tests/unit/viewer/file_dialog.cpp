@@ -227,5 +227,17 @@ TEST(FileTypes, areFoundInAnyCaseAndSayOnceWhatTheyAre) {
     EXPECT_EQ(fileTypeOf("glb"), nullptr);
 }
 
+TEST(FileTypes, ofFilesDroppedAtOnceTheFirstThatOpensIsTakenAndTheOthersAreTold) {
+    const Dropped alone = takeDropped(FileNames{"/a/b.txt"});
+    EXPECT_EQ(alone.taken, "/a/b.txt") << "loading tells why not";
+    EXPECT_EQ(alone.left, "");
+    const Dropped several = takeDropped(FileNames{"/a/b.png", "/c/sky.hdr", "/c/d.json"});
+    EXPECT_EQ(several.taken, "/c/sky.hdr");
+    EXPECT_EQ(several.left, "Of 3 files dropped at once sky.hdr opens; not b.png, d.json");
+    const Dropped many = takeDropped(FileNames{"1.txt", "2.txt", "3.txt", "4.txt", "5.txt", "6.txt"});
+    EXPECT_EQ(many.taken, "1.txt");
+    EXPECT_EQ(many.left, "Of 6 files dropped at once 1.txt opens; not 2.txt, 3.txt, 4.txt and 2 more");
+}
+
 } // namespace
 } // namespace tessera::viewer

@@ -41,6 +41,27 @@ TEST(FlyCamera, speedGoesWithTheSizeOfTheSceneAndShiftIsFaster) {
     EXPECT_NEAR(glm::length(large.velocityWS()), 1000.0 * slow, 1e-9);
 }
 
+TEST(FlyCamera, twoStepsDoubleTheSpeedWithinASixteenthAnd16TimesIt) {
+    FlyRig rig;
+    rig.fly.hold({.forward = true});
+    const double usual = glm::length(rig.fly.velocityWS());
+    EXPECT_DOUBLE_EQ(rig.fly.metresPerSecond(), usual);
+    const auto expectTimes = [&](double steps, double times) {
+        rig.fly.changeSpeed(steps);
+        EXPECT_NEAR(glm::length(rig.fly.velocityWS()), times * usual, 1e-12 * times * usual) << steps;
+        EXPECT_DOUBLE_EQ(rig.fly.metresPerSecond(), glm::length(rig.fly.velocityWS()));
+    };
+    expectTimes(2.0, 2.0);
+    expectTimes(-4.0, 0.5);
+    expectTimes(2.0, 1.0);
+    expectTimes(100.0, 16.0);
+    expectTimes(-8.0, 1.0);
+    expectTimes(-100.0, 1.0 / 16.0);
+    FlyCamera large(rig.fly.pose(), rig.lens, {1000.0 * kBox.min, 1000.0 * kBox.max});
+    large.takeSpeed(rig.fly);
+    EXPECT_NEAR(large.metresPerSecond(), 1000.0 / 16.0 * usual, 1e-9) << "of its own scene";
+}
+
 TEST(FlyCamera, twoHalfStepsAreOneStepAlsoWhileAKeyIsHeld) {
     FlyRig one, two;
     for (FlyRig* rig : {&one, &two}) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/viewer/PanelTest.h"
@@ -127,12 +128,18 @@ TEST_F(Overlays, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
     EXPECT_TRUE(overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }));
 }
 
-TEST_F(Overlays, theStatusLineSaysThatTheCameraFlies) {
+TEST_F(Overlays, theStatusLineSaysThatTheCameraFliesAndHowFast) {
     State state = test::unusualScene();
     state.showsPanel = false;
     EXPECT_EQ(firstWindowText(state, {}).find("flying"), std::string::npos);
-    state.open->rig().setMode(CameraRig::Mode::Fly);
-    EXPECT_NE(firstWindowText(state, {}).find("flying"), std::string::npos);
+    CameraRig& rig = state.open->rig();
+    rig.setMode(CameraRig::Mode::Fly);
+    const auto said = [&] { return fmt::format("flying, {:.3g} m/s (C: orbit)", rig.flyMetresPerSecond()); };
+    const std::string usual = said();
+    EXPECT_NE(firstWindowText(state, {}).find(usual), std::string::npos) << usual;
+    rig.wheel(2.0, {}, 1000.0);
+    EXPECT_NE(said(), usual);
+    EXPECT_NE(firstWindowText(state, {}).find(said()), std::string::npos) << said();
 }
 
 TEST_F(Overlays, theStatusLineSaysHowFarLightHasSpread) {

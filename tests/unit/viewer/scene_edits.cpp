@@ -238,8 +238,13 @@ TEST(SceneEdits, undoingAJumpPutsTheCameraBackAndKeepsWhatCanBeRedone) {
     EXPECT_NE(all, first);
     EXPECT_FALSE(open.isEdited()) << "a movement is no edit of the scene";
     EXPECT_EQ(open.history().redoable(), 1u);
+    open.rig().setMode(CameraRig::Mode::Fly);
+    open.rig().wheel(2.0, {}, 400.0);
+    const double speed = open.rig().flyMetresPerSecond();
     undo(state);
     EXPECT_EQ(open.scene().cameras[0], first);
+    EXPECT_EQ(open.rig().mode(), CameraRig::Mode::Fly) << "how one moves is no matter of where one is";
+    EXPECT_EQ(open.rig().flyMetresPerSecond(), speed);
     redo(state);
     EXPECT_EQ(open.scene().cameras[0], all);
     redo(state);

@@ -197,6 +197,26 @@ TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLi
     EXPECT_TRUE(open("room"));
 }
 
+TEST_F(SceneSwitchTest, ofMessagesOnlyThoseAboutWhatOpensStayWhenItIsThere) {
+    state_.notice = {"of the scene before", true};
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.notice.text, "");
+    state_.notice = {"of this one", false, true};
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.notice.text, "of this one");
+}
+
+TEST_F(SceneSwitchTest, oneGoesOnFlyingAsFastInAnotherScene) {
+    ASSERT_TRUE(open("room"));
+    CameraRig& rig = state_.open->rig();
+    rig.setMode(CameraRig::Mode::Fly);
+    rig.wheel(4.0, {}, kHeightPixels);
+    const double speed = rig.flyMetresPerSecond();
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.open->rig().mode(), CameraRig::Mode::Fly);
+    EXPECT_EQ(state_.open->rig().flyMetresPerSecond(), speed);
+}
+
 TEST_F(SceneSwitchTest, choicesAreRememberedEvenIfTheNextSceneSetsTheSame) {
     options_.preferencesFile = folder_.path() / "viewer.json";
     ASSERT_TRUE(open("room"));
