@@ -1,4 +1,6 @@
 // What is dragged in the picture beside the camera: the selected light's handles, and the environment.
+#include <vector>
+
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
@@ -50,6 +52,54 @@ TEST_F(ViewerHandles, aSideAndTheDirectionOfARectangleGoWithThePointer) {
     light = saved();
     EXPECT_GT(light.at("direction").at(0).get<double>(), 0.9) << light;
     EXPECT_NEAR(light.at("width").get<double>(), 2.0 + stepMetres, kPixelsMetres);
+}
+
+TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
+    // A lamp in the picture's middle, 5 m ahead: the picture shows 5 m of height there. Its arm along z is not there.
+    folder_.write("lamp.json", R"({
+        "tessera": 1,
+        "base": {"file": "builtin:room"},
+        "lights": [{"name": "lamp", "type": "point", "position": [0, 1.5, -2.5], "intensity": 8}],
+        "cameras": [{"name": "front", "position": [0, 1.5, 2.5], "target": [0, 1.5, -2.5],
+                     "fovYDegrees": 53.13010235415598}]
+    })");
+    DrivenViewer viewer = open({"lamp.json"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const double pixelsPerMetre = size.y / 5.0;
+    const glm::ivec2 middle = kPictureCorner + size / 2;
+    const auto savedPosition = [&] {
+        const std::size_t mark = viewer.mark();
+        viewer.key("ctrl+s");
+        const std::string file = savedFile(viewer.waitFor("saved ", mark));
+        viewer.key("Escape");
+        viewer.pause(0.3);
+        const nlohmann::json light = nlohmann::json::parse(shell("cat '" + file + "'")).at("lights").at(0);
+        return light.at("position").get<std::vector<double>>();
+    };
+    viewer.key("m");
+    viewer.click(middle); // on the marker: the light is selected
+    viewer.pause(0.5);
+    constexpr int kArmPixels = 100, kStepPixels = 80;
+    const double stepMetres = kStepPixels / pixelsPerMetre;
+    constexpr double kRoundedMetres = 0.02; // three pixels
+    // To the right: x. The saved numbers are those of the file, but for one.
+    const glm::ivec2 armX = middle + glm::ivec2(kArmPixels, 0), step(kStepPixels, 0);
+    after(viewer, [&] { viewer.drag(armX, armX + step); });
+    std::vector<double> position = savedPosition();
+    ASSERT_EQ(position.size(), 3u);
+    EXPECT_NEAR(position[0], stepMetres, kRoundedMetres);
+    EXPECT_EQ(position[1], 1.5);
+    EXPECT_EQ(position[2], -2.5);
+    const double x = position[0];
+    // Upwards: y. What the pointer goes aside counts for nothing.
+    const glm::ivec2 armY = middle + step - glm::ivec2(0, kArmPixels);
+    after(viewer, [&] { viewer.drag(armY, armY + glm::ivec2(30, -kStepPixels)); });
+    position = savedPosition();
+    EXPECT_EQ(position[0], x);
+    EXPECT_NEAR(position[1], 1.5 + stepMetres, kRoundedMetres);
+    EXPECT_EQ(position[2], -2.5);
+    after(viewer, [&] { viewer.key("ctrl+z"); });
+    EXPECT_EQ(savedPosition(), (std::vector<double>{x, 1.5, -2.5}));
 }
 
 TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {

@@ -55,6 +55,8 @@ bool LightDrag::drag(scenes::Light& light, double timeSeconds, const PictureView
     const glm::dvec3 middleWS = hasPosition ? shown.positionWS : middleWS_;
     if (handle_.turns())
         turn(light, middleWS, line);
+    else if (handle_.moves())
+        slide(light, timeSeconds, shown.positionWS, line);
     else if (handle_.parameter == nullptr)
         dragCorner(light, shown, line);
     else
@@ -71,6 +73,15 @@ void LightDrag::turn(scenes::Light& light, const glm::dvec3& middleWS, const Sig
     isBeside_ = point.isBeside;
     light.alongWS = before_.alongWS;
     turnLight(light, point.directionWS);
+}
+
+void LightDrag::slide(scenes::Light& light, double timeSeconds, const glm::dvec3& shownWS,
+                      const SightLine& line) const {
+    const std::optional<double> metres = metresAlongAxis(line, middleWS_, handle_.axisWS);
+    if (!metres) return;
+    light.positionWS = before_.positionWS;
+    light.animation = before_.animation;
+    placeLight(light, timeSeconds, shownWS + (*metres - armMetres_) * handle_.axisWS);
 }
 
 void LightDrag::dragCorner(scenes::Light& light, const scenes::Light& shown, const SightLine& line) const {
@@ -112,16 +123,23 @@ void LightDrag::resize(scenes::Light& light, double timeSeconds, const SightLine
     if (movesMiddle) placeLight(light, timeSeconds, axis.originWS + handle_.share * (value - before) * handle_.axisWS);
 }
 
-std::string LightDrag::text(const scenes::Light& light) const {
+std::string LightDrag::text(const scenes::Light& light, double timeSeconds) const {
+    // No minus before a zero of so many decimals.
+    const auto shown = [](double value, double least) { return std::abs(value) < least ? 0.0 : value; };
     if (handle_.parameter != nullptr)
         return fmt::format("{} {:.3g} m", handle_.parameter->label, light.*handle_.parameter->member);
+    if (handle_.moves()) {
+        const double metres = scenes::lightAtTime(light, timeSeconds).positionWS[handle_.arm];
+        return fmt::format("Position {} {:.3f} m", "xyz"[handle_.arm], shown(metres, 0.0005));
+    }
     if (!handle_.turns()) {
         const glm::vec2& corner = light.corners.metres[std::size_t(handle_.corner)];
         return fmt::format("Corner {} at {:.3g}, {:.3g} m", handle_.corner, corner.x, corner.y);
     }
-    const auto shown = [](double value) { return std::abs(value) < 0.005 ? 0.0 : value; }; // no minus before a zero
+    constexpr double kLeast = 0.005;
     const glm::dvec3& direction = light.directionWS;
-    return fmt::format("Direction {:.2f}, {:.2f}, {:.2f}", shown(direction.x), shown(direction.y), shown(direction.z));
+    return fmt::format("Direction {:.2f}, {:.2f}, {:.2f}", shown(direction.x, kLeast), shown(direction.y, kLeast),
+                       shown(direction.z, kLeast));
 }
 
 } // namespace tessera::viewer

@@ -32,13 +32,15 @@ public:
     bool drag(scenes::Light& light, double timeSeconds, const PictureView& view, const glm::dvec2& pointer,
               bool isOneSided);
 
-    /// What the handle sets: "Width 1.25 m", "Corner 0 at 0.5, -0.5 m".
-    std::string text(const scenes::Light& light) const;
+    /// What the handle sets: "Width 1.25 m", "Corner 0 at 0.5, -0.5 m", "Position x 1.250 m" at this time.
+    std::string text(const scenes::Light& light, double timeSeconds) const;
 
 private:
     void turn(scenes::Light& light, const glm::dvec3& middleWS, const SightLine& line);
     /// To where the line meets the plane of the outline of the light as it is shown; not where that makes no outline.
     void dragCorner(scenes::Light& light, const scenes::Light& shown, const SightLine& line) const;
+    /// From where it was to be shown at this time, as far along the arm's axis as the pointer went.
+    void slide(scenes::Light& light, double timeSeconds, const glm::dvec3& shownWS, const SightLine& line) const;
     /// `axis` is the light's middle and direction, as it is shown.
     void resize(scenes::Light& light, double timeSeconds, const SightLine& axis, const SightLine& line,
                 bool isOneSided) const;
@@ -47,7 +49,7 @@ private:
 
     LightHandle handle_;
     scenes::Light before_;
-    glm::dvec3 middleWS_;   ///< of a light without a position
+    glm::dvec3 middleWS_;   ///< of the figure, when the handle was taken
     double armMetres_;      ///< from the middle to the handle
     glm::dvec2 grip_;       ///< from the handle's true place to the pointer
     bool isFar_;            ///< of a direction: away from the viewer

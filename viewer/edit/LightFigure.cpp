@@ -5,21 +5,25 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "scenes/AreaLight.h"
 
 namespace tessera::viewer {
 namespace {
 
 constexpr double kArm = 70.0;        ///< from a light's middle or end to the handle of its direction
-constexpr double kMostArm = 0.2;     ///< the same, share of the picture's shorter side: it must not reach the viewer
+constexpr double kMoveArm = 100.0;   ///< the same to the ends of the arms that move a light, where they lie across
+constexpr double kMostArm = 0.2;     ///< of both, share of the picture's shorter side: they must not reach the viewer
 constexpr double kLeastAway = 20.0;  ///< of handles from the light's middle, where its marker is
 constexpr double kLeastTurn = 40.0;  ///< the same of its direction's, which stands clear of the others
 constexpr double kLeastApart = 20.0; ///< of handles from each other: a press takes what lies within 9
 constexpr double kMostAside = 200.0; ///< that a handle gives way to others
 constexpr double kLeastWay = 1.0;    ///< from the middle, below which what is dragged anywhere has no way outwards
 constexpr double kLeastSeen = 0.02;  ///< sine to the line of sight of axes that can be dragged along: 1 degree
-constexpr double kSunInset = 100.0;  ///< of a directional light's sun from the picture's right and upper side
-constexpr double kSunRoom = 3.0;     ///< insets that a picture is wide and high which has room for it
+constexpr double kLeastArmSeen = 0.20791169081775934; ///< the same of arms: 12 degrees, 21 of their 100 are seen then
+constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
+constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
 constexpr int kCircleSteps = 48;
 
 using Outline = std::vector<glm::dvec3>;
@@ -82,6 +86,7 @@ public:
             break;
         }
         if (info.hasDirection) addDirection(reachMetres);
+        if (info.hasPosition()) addArms(); // last: they give way to the others
         if (info.hasPosition() && light_.falloff != scenes::Falloff::Attenuation && std::isfinite(light_.rangeMetres))
             addRange();
     }
@@ -95,16 +100,16 @@ private:
         // Any depth will do from which the arm does not reach back to the near plane.
         const double nearMetres = std::max(view_.nearMetres(), 1e-3);
         figure_.middleWS = line.originWS + 10.0 * nearMetres * line.directionWS;
-        if (!view_.isPerspective()) figure_.middleWS += 2.0 * armMetres().value_or(0.0) * line.directionWS;
+        if (!view_.isPerspective()) figure_.middleWS += 2.0 * armMetres(kArm).value_or(0.0) * line.directionWS;
         return true;
     }
 
-    /// None where the middle lies behind the camera.
-    std::optional<double> armMetres() const {
+    /// Of an arm that is shown so long where it lies across; none where the middle lies behind the camera.
+    std::optional<double> armMetres(double lengthUnits) const {
         const std::optional<double> metresPerUnit = view_.metresPerUnit(figure_.middleWS);
         if (!metresPerUnit) return std::nullopt;
         const double shorterSide = std::min(view_.size().x, view_.size().y);
-        return std::min(kArm * scale_, kMostArm * shorterSide) * *metresPerUnit;
+        return std::min(lengthUnits * scale_, kMostArm * shorterSide) * *metresPerUnit;
     }
 
     const scenes::LightParameter* parameterOf(float scenes::Light::*member) const {
@@ -119,14 +124,14 @@ private:
     }
 
     /// Keeps a handle so far from the light's marker, which would be taken in its place, and outwards clear of the
-    /// handles before it. A sun has neither.
-    void standOff(LightHandle& handle, double least) const {
-        if (figure_.sun) return;
+    /// handles before it. A sun has neither. Returns whether the picture has such a place.
+    bool standOff(LightHandle& handle, double least) const {
+        if (figure_.sun) return true;
         const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
-        if (!middle) return;
+        if (!middle) return false;
         const glm::dvec2 away = handle.truePlace - *middle;
         glm::dvec2 way = handle.way;
-        if (handle.parameter == nullptr) // at the middle: between sides that are level and upright
+        if (handle.isDraggedAnywhere()) // at the middle: between sides that are level and upright
             way = glm::normalize(glm::length(away) < kLeastWay * scale_ ? glm::dvec2(1.0, -1.0) : away);
         if (glm::length(away) < least * scale_) handle.place = *middle + least * scale_ * way;
         const auto isClear = [&](const glm::dvec2& place) {
@@ -138,9 +143,11 @@ private:
         for (double aside = 0.0; aside <= kMostAside; aside += kStep) {
             const glm::dvec2 place = handle.place + aside * scale_ * way;
             if (!isClear(place)) continue;
-            if (isInPicture(place)) handle.place = place;
-            return;
+            if (!isInPicture(place)) return false;
+            handle.place = place;
+            return true;
         }
+        return false;
     }
 
     /// If the picture shows it, and a drag would change something.
@@ -149,19 +156,21 @@ private:
         const std::optional<glm::dvec2> shown = view_.placeOf(handle.positionWS);
         if (!shown) return;
         handle.truePlace = handle.place = *shown;
-        const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.positionWS);
+        const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.moves() ? figure_.middleWS : handle.positionWS);
         if (handle.turns()) {
             standOff(handle, kLeastTurn);
-        } else if (handle.parameter == nullptr) { // a corner, whose plane must not be seen from its edge
+        } else if (handle.isDraggedAnywhere()) { // a corner, whose plane must not be seen from its edge
             if (std::abs(glm::dot(light_.directionWS, towardsWS)) < kLeastSeen) return;
             standOff(handle, kLeastAway);
         } else {
-            if (glm::length(glm::cross(handle.axisWS, towardsWS)) < kLeastSeen) return;
+            const double leastSeen = handle.moves() ? kLeastArmSeen : kLeastSeen;
+            if (glm::length(glm::cross(handle.axisWS, towardsWS)) < leastSeen) return;
             const auto beyond =
                 view_.placeOf(handle.positionWS + *view_.metresPerUnit(handle.positionWS) * handle.axisWS);
             if (!beyond || *beyond == *shown) return;
             handle.way = glm::normalize(*beyond - *shown);
-            standOff(handle, kLeastAway);
+            const bool isClear = standOff(handle, kLeastAway);
+            if (handle.moves() && !isClear) return; // the light is moved by its marker, too
         }
         if (isInPicture(handle.place)) figure_.handles.push_back(handle);
     }
@@ -181,7 +190,7 @@ private:
     /// As far as the handle of its direction.
     void addCone() {
         constexpr double kWidestRadians = 1.4; // wider ones would fill the picture
-        const std::optional<double> arm = armMetres();
+        const std::optional<double> arm = armMetres(kArm);
         if (!arm || double(light_.outerConeRadians) > kWidestRadians) return;
         const double radiusMetres = *arm * std::tan(double(light_.outerConeRadians));
         const glm::dvec3 alongWS = radiusMetres * scenes::usualAlong(light_.directionWS);
@@ -305,13 +314,27 @@ private:
     }
 
     void addDirection(double reachMetres) {
-        const std::optional<double> arm = armMetres();
+        const std::optional<double> arm = armMetres(kArm);
         if (!arm) return;
         LightHandle handle;
         handle.axisWS = light_.directionWS;
         handle.positionWS = figure_.middleWS + (reachMetres + *arm) * light_.directionWS;
         figure_.outlinesWS.push_back({figure_.middleWS + reachMetres * light_.directionWS, handle.positionWS});
         add(handle);
+    }
+
+    /// Along the axes of the world. For an arm that points nearly at the eye, or away, a little of the picture would be
+    /// far in the scene.
+    void addArms() {
+        const std::optional<double> arm = armMetres(kMoveArm);
+        if (!arm) return;
+        for (int axis = 0; axis < 3; ++axis) {
+            LightHandle handle;
+            handle.arm = axis;
+            handle.axisWS[axis] = 1.0;
+            handle.positionWS = figure_.middleWS + *arm * handle.axisWS;
+            add(handle);
+        }
     }
 
     const scenes::Light& light_;
@@ -340,8 +363,12 @@ std::optional<std::size_t> handleAt(std::span<const LightHandle> handles, const 
     return nearest;
 }
 
+std::string hintOf(const LightHandle& handle) {
+    return handle.moves() ? fmt::format("Drag to move along {}", "xyz"[handle.arm]) : std::string();
+}
+
 PointerShape pointerShapeOf(const LightHandle& handle) {
-    if (handle.parameter == nullptr) return PointerShape::AnyWay;
+    if (handle.isDraggedAnywhere()) return PointerShape::AnyWay;
     constexpr double kSteep = 2.414213562373095; // tan of 67.5 degrees, halfway to the next shape
     const glm::dvec2& way = handle.way;
     if (std::abs(way.x) > kSteep * std::abs(way.y)) return PointerShape::LeftRight;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <GLFW/glfw3.h>
@@ -14,6 +15,8 @@ namespace {
 constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160);    ///< so that lines are seen on white too
 constexpr ImU32 kRangeInk = IM_COL32(140, 195, 255, 110); ///< of how far lights shine, and of others that are selected
+/// Of the arms along x, y and z.
+constexpr ImU32 kArmInks[] = {IM_COL32(240, 80, 75, 255), IM_COL32(95, 205, 75, 255), IM_COL32(65, 110, 255, 255)};
 constexpr float kHandleRadius = 4.5f, kLineWidth = 1.5f, kUnderWidth = 3.5f;
 
 /// Before, Dear ImGui shows slanting arrows as the plain one, which says nothing.
@@ -68,6 +71,23 @@ public:
         fill((kHandleRadius + 1.0f) * area_.scale, kUnderInk);
         fill(kHandleRadius * area_.scale, isPointed ? kHeldInk : kFigureInk);
     }
+    /// Of an arm, from the marker on.
+    void arm(const glm::dvec2& middle, const LightHandle& handle, bool isPointed) {
+        constexpr double kMarkerRadius = 12.0, kHeadLength = 6.0, kHeadHalfWidth = 5.0;
+        const ImU32 ink = kArmInks[handle.arm];
+        const glm::dvec2 from = middle + kMarkerRadius * double(area_.scale) * handle.way;
+        list_.AddLine(at(from), at(handle.place), kUnderInk, kUnderWidth * area_.scale);
+        list_.AddLine(at(from), at(handle.place), ink, kLineWidth * area_.scale);
+        const auto head = [&](double grown, ImU32 headInk) { // clockwise, or its rim is not smooth
+            const double scale = double(area_.scale);
+            const glm::dvec2 along = (kHeadLength + grown) * scale * handle.way;
+            const glm::dvec2 across = (kHeadHalfWidth + grown) * scale * glm::dvec2(-handle.way.y, handle.way.x);
+            list_.AddTriangleFilled(at(handle.place + along), at(handle.place - along + across),
+                                    at(handle.place - along - across), headInk);
+        };
+        head(1.5, kUnderInk);
+        head(0.0, isPointed ? kHeldInk : ink);
+    }
     void sun(const glm::dvec2& place) {
         constexpr int kRays = 8;
         constexpr double kRadius = 8.0, kRaysBegin = 11.0, kRaysEnd = 15.0;
@@ -105,6 +125,20 @@ std::optional<LightHandle> pointedHandle(const State& state, const PictureArea& 
     return handleUnder(state, area, pointer);
 }
 
+/// Inside the picture, also where the pointer has left it.
+void drawBesidePointer(const std::string& text, const PictureArea& area) {
+    const float pad = 5.0f * area.scale, beside = 16.0f * area.scale;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pointer = ImGui::GetIO().MousePos;
+    const glm::vec2 end = area.corner + area.size;
+    const float x = std::max(std::min(pointer.x + beside, end.x - size.x - 2.0f * pad), area.corner.x + pad);
+    const float y = std::max(std::min(pointer.y + beside, end.y - size.y - 2.0f * pad), area.corner.y + pad);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
+    list.AddText({x, y}, IM_COL32(220, 222, 228, 255), text.c_str());
+    list.PopClipRect();
+}
+
 } // namespace
 
 void drawHandles(const State& state, const PictureArea& area) {
@@ -126,8 +160,15 @@ void drawHandles(const State& state, const PictureArea& area) {
     draw(figure->outlinesWS, &PictureInk::line);
     if (figure->sun) ink.sun(*figure->sun);
     const std::optional<LightHandle> pointed = pointedHandle(state, area, *figure);
-    for (const LightHandle& handle : figure->handles) ink.handle(handle, pointed && pointed->number == handle.number);
-    if (pointed) ImGui::SetMouseCursor(cursorOf(pointerShapeOf(*pointed)));
+    const auto isPointed = [&](const LightHandle& handle) { return pointed && pointed->number == handle.number; };
+    if (const auto middle = view.placeOf(figure->middleWS)) // under the others, which an arm may pass
+        for (const LightHandle& handle : figure->handles)
+            if (handle.moves()) ink.arm(*middle, handle, isPointed(handle));
+    for (const LightHandle& handle : figure->handles)
+        if (!handle.moves()) ink.handle(handle, isPointed(handle));
+    if (!pointed) return;
+    ImGui::SetMouseCursor(cursorOf(pointerShapeOf(*pointed)));
+    if (const std::string hint = hintOf(*pointed); !state.heldHandle && !hint.empty()) drawBesidePointer(hint, area);
 }
 
 void drawMaterialOutline(const State& state, const Facts& facts, const PictureArea& area) {
@@ -147,18 +188,7 @@ void drawMaterialOutline(const State& state, const Facts& facts, const PictureAr
 void drawDragText(const State& state, const PictureArea& area) {
     if (state.dragText.empty()) return;
     if (!state.heldHandle) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW); // the environment turns
-    const char* text = state.dragText.c_str();
-    const float pad = 5.0f * area.scale, beside = 16.0f * area.scale;
-    const ImVec2 size = ImGui::CalcTextSize(text), pointer = ImGui::GetIO().MousePos;
-    const glm::vec2 end = area.corner + area.size;
-    // Inside the picture, also where the pointer has left it.
-    const float x = std::max(std::min(pointer.x + beside, end.x - size.x - 2.0f * pad), area.corner.x + pad);
-    const float y = std::max(std::min(pointer.y + beside, end.y - size.y - 2.0f * pad), area.corner.y + pad);
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
-    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
-    list.AddText({x, y}, IM_COL32(220, 222, 228, 255), text);
-    list.PopClipRect();
+    drawBesidePointer(state.dragText, area);
 }
 
 } // namespace tessera::viewer

@@ -5,7 +5,8 @@
 
 namespace tessera::viewer {
 
-/// Shows over the picture the selected light's outline and its handles; the pointer's shape says what a press does.
+/// Shows over the picture the selected light's outline and its handles; the pointer's shape says what a press does, at
+/// arms words beside it, too.
 void drawHandles(const State& state, const PictureArea& area);
 
 /// The outline of what has the selected material, where it is known and a panel shows the material.

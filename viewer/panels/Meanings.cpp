@@ -33,7 +33,7 @@ constexpr Meaning kMeanings[] = {
     {"Shines", "Whether its back shines too"},
     {"Texture", "A picture of factors of its radiance"},
     {"Surface", "Whether pictures show what shines"},
-    {"Position", "In the scene, metres; or drag its marker in the picture"},
+    {"Position", "In the scene, metres; or drag its marker or an arm in the picture"},
     {"Direction", "In which it shines; or drag its round handle in the picture"},
     {"Corners", "How many the outline has, 3 to 8"},
     {"Width along", "Where its width runs"},

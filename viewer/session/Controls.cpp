@@ -259,7 +259,7 @@ void Controls::takeHandle(const LightHandle& handle, State& state, const Picture
     const scenes::Light& light = state.open->scene().lights[std::size_t(handledLight_)];
     handle_.emplace(light, *selectedFigure(state, area), handle, viewOf(state, area), point - area.corner);
     state.heldHandle = handle.number;
-    state.dragText = handle_->text(light);
+    state.dragText = handle_->text(light, state.active().settings.timeSeconds);
 }
 
 void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2& point) {
@@ -269,7 +269,7 @@ void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2
     const bool isOneSided = flying_.fast; // Shift
     const double timeSeconds = state.active().settings.timeSeconds;
     handle_->drag(light, timeSeconds, viewOf(state, area), point - area.corner, isOneSided);
-    state.dragText = handle_->text(light);
+    state.dragText = handle_->text(light, timeSeconds);
     state.open->changeLight(std::size_t(handledLight_), std::move(light), Gesture::GoesOn);
 }
 

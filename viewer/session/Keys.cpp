@@ -128,7 +128,7 @@ constexpr GestureHelp kGestures[] = {
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast, the wheel sets the speed"},
     {"Click", "picks the material of the surface"},
     {"Double click", "slides the surface into the middle, and turns about it from then on"},
-    {"Drag a light's marker", "moves the light across the picture"},
+    {"Drag a light's marker", "moves the light across the picture; one of its arms, along x, y or z"},
     {"Drag a light's handle", "square: a side, radius or length, with Shift one side alone; round: its direction"},
     {"Drag the divider", "split view"},
     {"Drag the panels' edge", "makes them wider or narrower"},

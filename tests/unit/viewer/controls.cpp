@@ -1,5 +1,6 @@
 #include "viewer/session/Controls.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -266,6 +267,32 @@ TEST(Controls, oneDragOfAHandleIsOneStepThatIsUndoneWhenItIsOver) {
     undo(state);
     EXPECT_TRUE(state.open->scene().lights[0] == before);
     EXPECT_FALSE(state.open->isEdited());
+}
+
+TEST(Controls, aDragOfAnArmMovesItsLightAloneInOneStep) {
+    State state = withLightInTheMiddle(0, 2);
+    state.selectedLight = 0;
+    state.selectedLights = {0, 1};
+    const Lights before = state.open->scene().lights;
+    const LightFigure figure = *selectedFigure(state, kArea);
+    const auto arm = std::ranges::find(figure.handles, 0, &LightHandle::arm);
+    ASSERT_NE(arm, figure.handles.end());
+    const glm::vec2 place(arm->place), way(arm->way);
+    Controls controls;
+    press(controls, state, place, true);
+    EXPECT_TRUE(state.dragText.starts_with("Position x ")) << state.dragText;
+    for (const float pixels : {10.0f, 30.0f, 50.0f}) moveTo(controls, state, place + pixels * way);
+    press(controls, state, place + 50.0f * way, false);
+    const Lights& lights = state.open->scene().lights;
+    scenes::Light expected = before[0];
+    expected.positionWS.x = lights[0].positionWS.x;
+    EXPECT_GT(lights[0].positionWS.x, before[0].positionWS.x);
+    EXPECT_TRUE(lights[0] == expected);
+    EXPECT_TRUE(lights[1] == before[1]) << "as a marker, an arm moves its own light";
+    EXPECT_EQ(state.open->history().undoable(), 1u);
+    EXPECT_EQ(*state.open->history().undoText(), "move light '" + lightLabel(lights, 0) + "'");
+    undo(state);
+    EXPECT_TRUE(state.open->scene().lights == before);
 }
 
 TEST(Controls, aQuestionIsAnsweredByItsKeysAndByNothingElse) {

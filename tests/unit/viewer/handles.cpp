@@ -77,14 +77,71 @@ TEST_F(Handles, stayInThePictureHoweverLargeTheLightIs) {
 
 TEST_F(Handles, thePointerSaysWhatAPressDoes) {
     const LightFigure figure = *selectedFigure(state_, area(state_));
-    ASSERT_EQ(figure.handles.size(), 3u) << "its height points at the viewer";
+    const auto arms = std::ranges::count(figure.handles, true, &LightHandle::moves);
+    ASSERT_EQ(figure.handles.size() - std::size_t(arms), 3u) << "its height points at the viewer";
+    EXPECT_EQ(arms, 3) << "the camera looks askew into the room";
     for (const LightHandle& handle : figure.handles) {
-        const bool turns = handle.parameter == nullptr;
-        EXPECT_EQ(cursorAt(handle.place), turns ? ImGuiMouseCursor_Hand : ImGuiMouseCursor_ResizeEW);
+        const ImGuiMouseCursor cursor = cursorAt(handle.place);
+        if (handle.arm == 1) {
+            EXPECT_EQ(cursor, ImGuiMouseCursor_ResizeNS) << "the camera is not rolled";
+        } else if (handle.moves()) {
+            EXPECT_NE(cursor, ImGuiMouseCursor_Arrow) << handle.arm;
+        } else {
+            EXPECT_EQ(cursor, handle.turns() ? ImGuiMouseCursor_Hand : ImGuiMouseCursor_ResizeEW);
+        }
     }
     EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_Arrow);
     state_.heldHandle = figure.handles[0].number;
     EXPECT_EQ(cursorAt({3.0, 3.0}), ImGuiMouseCursor_ResizeEW) << "it is held, wherever the pointer went";
+}
+
+TEST_F(Handles, anArmHasTheColourOfItsAxis) {
+    const PictureArea at = area(state_);
+    const LightFigure figure = *selectedFigure(state_, at);
+    int arms = 0;
+    for (const LightHandle& handle : figure.handles) {
+        if (!handle.moves()) continue;
+        ++arms;
+        const glm::vec2 end = at.corner + glm::vec2(handle.place);
+        int ownColour = 0;
+        frame([&] {
+            drawHandles(state_, at);
+            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
+                const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(vertex.col);
+                const float channels[] = {ink.x, ink.y, ink.z};
+                if (glm::distance(glm::vec2(vertex.pos.x, vertex.pos.y), end) > 9.0f || ink.w < 1.0f) continue;
+                constexpr float kBrighter = 0.25f; // than both others
+                const float own = channels[handle.arm];
+                for (int axis = 0; axis < 3; ++axis)
+                    EXPECT_TRUE(axis == handle.arm || own > channels[axis] + kBrighter) << handle.arm;
+                ++ownColour;
+            }
+        });
+        EXPECT_GE(ownColour, 3) << "its head has three corners: " << handle.arm;
+    }
+    EXPECT_EQ(arms, 3);
+}
+
+TEST_F(Handles, wordsBesideThePointerNameTheAxisOfAnArm) {
+    const PictureArea at = area(state_);
+    const LightFigure figure = *selectedFigure(state_, at);
+    const auto arm = std::ranges::find(figure.handles, 0, &LightHandle::arm);
+    ASSERT_NE(arm, figure.handles.end());
+    const auto verticesAt = [&](const glm::dvec2& place) {
+        cursorAt(place);
+        int count = 0;
+        frame([&] {
+            drawHandles(state_, at);
+            count = ImGui::GetBackgroundDrawList()->VtxBuffer.Size;
+        });
+        return count;
+    };
+    constexpr int kWordsVertices = 16 * 4; // "Drag to move along x" without its spaces
+    const int without = verticesAt({3.0, 3.0});
+    EXPECT_GE(verticesAt(arm->place), without + kWordsVertices);
+    EXPECT_EQ(verticesAt(figure.handles.at(0).place), without) << "that one's outline shows what it does";
+    state_.heldHandle = arm->number;
+    EXPECT_EQ(verticesAt(arm->place), without) << "a drag has its own words";
 }
 
 TEST_F(Handles, noPointerIsThePlainOneWhateverTheWay) {

@@ -117,7 +117,7 @@ TEST(LightDrag, aCornerGoesWithThePointerInItsPlaneAndNotWhereItMakesNoOutline) 
     const scenes::Light light = draggedLight(scenes::LightType::Polygon);
     for (const PictureView& view : dragViews())
         for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
-            if (handle.turns()) continue;
+            if (handle.corner == scenes::kNone) continue;
             SCOPED_TRACE(handle.corner);
             const glm::dvec2 way(12.0, -15.0);
             const scenes::Light moved = draggedBy(light, view, handle, way);
@@ -138,6 +138,65 @@ TEST(LightDrag, aCornerGoesWithThePointerInItsPlaneAndNotWhereItMakesNoOutline) 
             EXPECT_FALSE(drag.drag(crossed, 0.0, view, middle + 1.3 * (edge - middle), false));
             EXPECT_TRUE(crossed == light);
         }
+}
+
+/// Of 5 m to the eye a hundred times what doubles round to, over the square of the sine of 12 degrees.
+constexpr double kArmRoundingMetres = 3e-12;
+
+TEST(LightDrag, anArmMovesItsLightAlongItsAxisAlone) {
+    for (const PictureView& view : dragViews())
+        for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
+            const scenes::Light light = draggedLight(type.type);
+            int arms = 0;
+            for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
+                if (!handle.moves()) continue;
+                SCOPED_TRACE(std::string(type.name) + " " + "xyz"[handle.arm]);
+                ++arms;
+                const glm::dvec2 way = 25.0 * handle.way;
+                for (const bool isOneSided : {false, true}) {
+                    const scenes::Light moved = draggedBy(light, view, handle, way, isOneSided);
+                    EXPECT_GT(moved.positionWS[handle.arm], light.positionWS[handle.arm]);
+                    scenes::Light expected = light; // nothing but that coordinate, to the last bit
+                    expected.positionWS[handle.arm] = moved.positionWS[handle.arm];
+                    EXPECT_TRUE(moved == expected);
+                    const glm::dvec3 endWS = handle.positionWS + moved.positionWS - light.positionWS;
+                    // Rounding, of 1000 pixels.
+                    EXPECT_LT(glm::distance(view.placeOf(endWS).value(), handle.truePlace + way), 1e-4);
+                }
+                // Across its way it goes as far as the nearest point of its axis.
+                const glm::dvec2 across(-handle.way.y, handle.way.x);
+                const scenes::Light beside = draggedBy(light, view, handle, way + 5.0 * across);
+                scenes::Light expected = light;
+                expected.positionWS[handle.arm] = beside.positionWS[handle.arm];
+                EXPECT_TRUE(beside == expected);
+                const scenes::Light back = draggedBy(light, view, handle, {0.0, 0.0});
+                EXPECT_LT(glm::distance(back.positionWS, light.positionWS), kArmRoundingMetres);
+            }
+            EXPECT_EQ(arms, type.hasPosition() ? 3 : 0);
+        }
+}
+
+TEST(LightDrag, anArmTakesThePathOfAMovingLightWithItWhateverTheTimeNow) {
+    constexpr double kTakenSeconds = 0.4, kNowSeconds = 0.7;
+    const PictureView view = dragViews()[0];
+    scenes::Light light = draggedLight(scenes::LightType::Point);
+    light.animation.emplace().centerWS = light.positionWS - glm::dvec3(0.2, 0.0, 0.0);
+    const LightFigure figure = lightFigure(scenes::lightAtTime(light, kTakenSeconds), view, 1.0);
+    const auto handle = std::ranges::find(figure.handles, 1, &LightHandle::arm);
+    ASSERT_NE(handle, figure.handles.end());
+    scenes::Light moved = light;
+    LightDrag drag(light, figure, *handle, view, handle->place);
+    drag.drag(moved, kNowSeconds, view, handle->place + 30.0 * handle->way, false);
+    const double metres = moved.positionWS.y - light.positionWS.y;
+    EXPECT_GT(metres, 0.0);
+    for (const double seconds : {0.0, kNowSeconds, 3.0}) {
+        const glm::dvec3 stepWS =
+            scenes::lightAtTime(moved, seconds).positionWS - scenes::lightAtTime(light, seconds).positionWS;
+        EXPECT_LT(glm::distance(stepWS, glm::dvec3(0.0, metres, 0.0)), 1e-12) << seconds;
+    }
+    drag.drag(moved, 3.0, view, handle->place, false);
+    EXPECT_LT(glm::distance(moved.positionWS, light.positionWS), kArmRoundingMetres)
+        << "the pointer is where it took the arm";
 }
 
 TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
@@ -203,13 +262,14 @@ TEST(LightDrag, itsWordsNameTheMeasureAndItsUnit) {
     const LightFigure figure = lightFigure(light, view, 1.0);
     std::vector<std::string> texts;
     for (const LightHandle& handle : figure.handles)
-        texts.push_back(LightDrag(light, figure, handle, view, handle.place).text(light));
+        texts.push_back(LightDrag(light, figure, handle, view, handle.place).text(light, 0.0));
     EXPECT_EQ(texts, (std::vector<std::string>{"Width 0.8 m", "Width 0.8 m", "Height 0.5 m", "Height 0.5 m",
-                                               "Direction 0.00, -1.00, 0.00"}));
+                                               "Direction 0.00, -1.00, 0.00", "Position x 0.400 m",
+                                               "Position y 1.200 m", "Position z -0.300 m"}));
     light = draggedLight(scenes::LightType::Polygon);
     const LightFigure ofPolygon = lightFigure(light, view, 1.0);
     const LightHandle& corner = ofPolygon.handles.at(1);
-    EXPECT_EQ(LightDrag(light, ofPolygon, corner, view, corner.place).text(light), "Corner 1 at 0.5, -0.5 m");
+    EXPECT_EQ(LightDrag(light, ofPolygon, corner, view, corner.place).text(light, 0.0), "Corner 1 at 0.5, -0.5 m");
 }
 
 } // namespace

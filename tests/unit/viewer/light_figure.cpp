@@ -22,7 +22,7 @@ std::vector<PictureView> twoViews() {
     return test::twoViews({1.0, 0.7, 4.0}, {0.1, 0.2, 0.0});
 }
 
-TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
+TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeItsDirectionAndItsPosition) {
     using Type = scenes::LightType;
     const std::map<Type, std::size_t> ofShape{
         {Type::Rectangle, 4}, {Type::Disk, 4}, {Type::Sphere, 4}, {Type::Tube, 4}, {Type::Polygon, 4}};
@@ -32,7 +32,9 @@ TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeAndOfItsDirection) {
             const LightFigure figure = lightFigure(askewLight(type.type), view, 1.0);
             const auto turning = std::ranges::count(figure.handles, true, &LightHandle::turns);
             EXPECT_EQ(turning, type.hasDirection ? 1 : 0);
-            const std::size_t shaping = figure.handles.size() - std::size_t(turning);
+            const auto moving = std::ranges::count(figure.handles, true, &LightHandle::moves);
+            EXPECT_EQ(moving, type.hasPosition() ? 3 : 0);
+            const std::size_t shaping = figure.handles.size() - std::size_t(turning + moving);
             EXPECT_EQ(shaping, ofShape.contains(type.type) ? ofShape.at(type.type) : 0u);
             EXPECT_EQ(figure.sun.has_value(), !type.hasPosition());
             EXPECT_EQ(figure.outlinesWS.empty(), type.type == Type::Point);
@@ -52,19 +54,23 @@ TEST(LightFigure, theHandlesOfEveryTypeAreThoseOfTheDocument) {
     tessera::test::Rows rows;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
         std::vector<std::string> square;
-        std::string round;
+        std::string round, arms;
         for (const LightHandle& handle : lightFigure(askewLight(type.type), twoViews()[0], 1.0).handles) {
             if (handle.turns()) {
                 round = "direction";
+                continue;
+            }
+            if (handle.moves()) {
+                arms += (arms.empty() ? "" : ", ") + std::string(1, "xyz"[handle.arm]);
                 continue;
             }
             std::string label = handle.parameter != nullptr ? handle.parameter->label : "corners";
             label[0] = char(std::tolower(static_cast<unsigned char>(label[0])));
             if (std::ranges::find(square, label) == square.end()) square.push_back(label);
         }
-        rows.push_back({fmt::format("`{}`", type.name), fmt::format("{}", fmt::join(square, ", ")), round});
+        rows.push_back({fmt::format("`{}`", type.name), fmt::format("{}", fmt::join(square, ", ")), round, arms});
     }
-    const std::string table = tessera::test::markdownTable({"light", "square handles", "round handle"}, rows);
+    const std::string table = tessera::test::markdownTable({"light", "square handles", "round handle", "arms"}, rows);
     EXPECT_TRUE(tessera::test::holdsTable(tessera::test::textOf(tessera::test::kRepository / "docs/viewer.md"), table))
         << table;
 }
@@ -204,14 +210,15 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     wide.directionWS = twoViews()[0].towardsViewerWS(wide.positionWS);
     wide.alongWS = twoViews()[0].rightWS();
     wide.widthMetres = wide.heightMetres = 100.0f;
-    for (const LightHandle& handle : lightFigure(wide, twoViews()[0], 1.0).handles) EXPECT_TRUE(handle.turns());
+    for (const LightHandle& handle : lightFigure(wide, twoViews()[0], 1.0).handles)
+        EXPECT_TRUE(handle.turns() || handle.moves());
     const PictureView away({test::perspective({5.0, 0.0, 0.0}, {9.0, 0.0, 0.0})}, kFigurePicture);
     EXPECT_TRUE(lightFigure(light, away, 1.0).handles.empty());
     // From inside nothing is seen of a sphere's outline.
     scenes::Light around = askewLight(scenes::LightType::Sphere);
     around.radiusMetres = 6.0f;
     const LightFigure inside = lightFigure(around, along, 1.0);
-    EXPECT_TRUE(inside.handles.empty());
+    for (const LightHandle& handle : inside.handles) EXPECT_TRUE(handle.moves());
     EXPECT_TRUE(inside.outlinesWS.empty());
 }
 
@@ -244,7 +251,7 @@ TEST(LightFigure, aPolygonHasAHandleAtEachCornerUnlessItIsSeenFromItsEdge) {
     for (const PictureView& view : twoViews()) {
         const LightFigure figure = lightFigure(light, view, 1.0);
         const auto outlineWS = figure.outlinesWS.at(0);
-        ASSERT_EQ(figure.handles.size(), 6u);
+        ASSERT_EQ(figure.handles.size(), 9u);
         for (std::size_t i = 0; i < 5; ++i) {
             EXPECT_EQ(figure.handles[i].corner, int(i));
             EXPECT_EQ(figure.handles[i].positionWS, outlineWS[i]);
@@ -255,7 +262,87 @@ TEST(LightFigure, aPolygonHasAHandleAtEachCornerUnlessItIsSeenFromItsEdge) {
     light.directionWS = {0.0, -1.0, 0.0};
     light.alongWS = {1.0, 0.0, 0.0};
     const PictureView along({test::perspective({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}, kFigurePicture);
-    for (const LightHandle& handle : lightFigure(light, along, 1.0).handles) EXPECT_TRUE(handle.turns());
+    for (const LightHandle& handle : lightFigure(light, along, 1.0).handles)
+        EXPECT_TRUE(handle.turns() || handle.moves());
+}
+
+/// The arm along an axis, if there is one.
+const LightHandle* armOf(const LightFigure& figure, int axis) {
+    const auto found = std::ranges::find(figure.handles, axis, &LightHandle::arm);
+    return found == figure.handles.end() ? nullptr : &*found;
+}
+
+TEST(LightFigure, armsAreAsLongWhateverTheDistance) {
+    const scenes::Light light = askewLight(scenes::LightType::Point);
+    for (const double metres : {0.5, 3.0, 200.0})
+        for (const double scale : {1.0, 2.0})
+            for (const PictureView& view : test::twoViews({0.0, 0.0, metres}, {0.0, 0.0, 0.0})) {
+                SCOPED_TRACE(fmt::format("{} m away, scale {}", metres, scale));
+                const LightFigure figure = lightFigure(light, view, scale);
+                ASSERT_EQ(figure.handles.size(), 2u) << "z points at the eye";
+                for (const LightHandle& handle : figure.handles) {
+                    const glm::dvec2 way = handle.arm == 0 ? glm::dvec2(1.0, 0.0) : glm::dvec2(0.0, -1.0);
+                    const glm::dvec2 expected = 0.5 * kFigurePicture + 100.0 * scale * way;
+                    EXPECT_LT(glm::distance(handle.place, expected), 1e-6) << handle.arm; // rounding, of 1000
+                    EXPECT_LT(glm::distance(handle.way, way), 1e-6) << handle.arm;
+                }
+            }
+    // In a small picture a fifth of its shorter side.
+    const PictureView small(test::perspective({0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}), {400.0, 200.0});
+    const LightFigure figure = lightFigure(light, small, 1.0);
+    ASSERT_NE(armOf(figure, 0), nullptr);
+    EXPECT_LT(glm::distance(armOf(figure, 0)->place, glm::dvec2(240.0, 100.0)), 1e-6);
+}
+
+TEST(LightFigure, anArmAtTheEyeOrAwayFromItIsNotOffered) {
+    const scenes::Light light = askewLight(scenes::LightType::Point);
+    for (const double degrees : {0.0, 11.9, 12.1, 90.0, 167.9, 168.1, 180.0})
+        for (int axis = 0; axis < 3; ++axis) {
+            SCOPED_TRACE(fmt::format("axis {}, {} degrees from the line of sight", axis, degrees));
+            // Off in the diagonal of the other two, so that neither points at the eye.
+            glm::dvec3 axisWS(0.0), asideWS(std::sqrt(0.5));
+            axisWS[axis] = 1.0;
+            asideWS[axis] = 0.0;
+            const double angle = glm::radians(degrees);
+            const glm::dvec3 eyeWS = 4.0 * (std::cos(angle) * axisWS + std::sin(angle) * asideWS);
+            const glm::dvec3 upWS = axis == 1 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+            const PictureView view(test::perspective(eyeWS, {0.0, 0.0, 0.0}, upWS), kFigurePicture);
+            const LightFigure figure = lightFigure(light, view, 1.0);
+            const bool isOffered = degrees > 12.0 && degrees < 168.0;
+            EXPECT_EQ(armOf(figure, axis) != nullptr, isOffered);
+            EXPECT_EQ(figure.handles.size(), isOffered ? 3u : 2u);
+        }
+}
+
+TEST(LightFigure, anArmGivesWayToOtherHandlesAndIsNotOfferedWhereThePictureHasNoRoom) {
+    const PictureView view = test::twoViews({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0})[1];
+    const double metresPerUnit = view.metresPerUnit({0.0, 0.0, 0.0}).value();
+    scenes::Light light = askewLight(scenes::LightType::Rectangle);
+    light.directionWS = {0.0, 0.0, 1.0};
+    light.alongWS = {1.0, 0.0, 0.0};
+    light.widthMetres = float(200.0 * metresPerUnit); // one of its sides is where the arm's end would be
+    light.heightMetres = float(100.0 * metresPerUnit);
+    const LightFigure inTheMiddle = lightFigure(light, view, 1.0);
+    ASSERT_NE(armOf(inTheMiddle, 0), nullptr);
+    EXPECT_LT(glm::distance(inTheMiddle.handles.at(0).place, glm::dvec2(600.0, 500.0)), 1e-3) << "the side's stays";
+    const glm::dvec2 place = armOf(inTheMiddle, 0)->place;
+    EXPECT_GE(place.x, 618.0) << "a press takes what is nearest within 9";
+    EXPECT_LE(place.x, 630.0);
+    EXPECT_EQ(handleAt(inTheMiddle.handles, place, 9.0), std::size_t(armOf(inTheMiddle, 0) - &inTheMiddle.handles[0]));
+    light.positionWS.x = 390.0 * metresPerUnit; // its side is 10 before the picture's
+    const LightFigure atTheRight = lightFigure(light, view, 1.0);
+    EXPECT_EQ(armOf(atTheRight, 0), nullptr);
+    EXPECT_NE(armOf(atTheRight, 1), nullptr);
+    EXPECT_LT(glm::distance(atTheRight.handles.at(0).place, glm::dvec2(990.0, 500.0)), 1e-3);
+}
+
+TEST(LightFigure, armsAloneSayWhatADragDoes) {
+    std::string hints;
+    for (const LightHandle& handle : lightFigure(askewLight(scenes::LightType::Disk), twoViews()[0], 1.0).handles) {
+        EXPECT_EQ(hintOf(handle).empty(), !handle.moves());
+        hints += hintOf(handle) + (handle.moves() ? "\n" : "");
+    }
+    EXPECT_EQ(hints, "Drag to move along x\nDrag to move along y\nDrag to move along z\n");
 }
 
 TEST(LightFigure, theNearestHandleWithinReachIsTaken) {
@@ -283,6 +370,8 @@ TEST(LightFigure, thePointersShapeIsTheWayOfTheHandle) {
     }
     handle.parameter = nullptr;
     EXPECT_EQ(pointerShapeOf(handle), PointerShape::AnyWay);
+    handle.arm = 2;
+    EXPECT_EQ(shapeOf(1.0, 0.0), PointerShape::LeftRight);
 }
 
 } // namespace
