@@ -34,6 +34,7 @@ struct LoadOptions {
     std::vector<std::string>* files = nullptr;
     bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Width over height of the picture that a supplied camera is to fit the scene into; none: what the scene asks for.
+    /// The viewer places cameras of built-in scenes by it too.
     std::optional<double> aspect;
     /// That of LoadLedger::tellEnvironment().
     std::function<void(double)> environmentTold;

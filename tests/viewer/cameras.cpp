@@ -7,7 +7,7 @@ namespace {
 using ViewerCameras = ViewerTest;
 
 TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 there = middlePixel() + glm::ivec2(150, 60);
     const auto expectMoved = [&](const char* what, const Shot& shot) {
@@ -35,7 +35,7 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
 }
 
 TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIntoView) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     for (const Section above : {Section::View, Section::Scene}) toggle(viewer, above); // the material's stays in view
     const glm::ivec2 sphere = sphereIn(home.sizePixels);

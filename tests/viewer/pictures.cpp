@@ -35,7 +35,8 @@ void ViewerPictures::expectThePictureOfRender() {
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_EQ(size.x, screenPixels().x - kPanelPixels);
     const Shot shown = pictureIn(viewer, size);
-    EXPECT_TRUE(shown == rendered(fmt::format("{}", fmt::join(words, " ")), size));
+    const std::string opened = asOpened(words.front(), size);
+    EXPECT_TRUE(shown == rendered(fmt::format("{} {}", opened, fmt::join(words.begin() + 1, words.end(), " ")), size));
     // Neither empty nor one colour.
     EXPECT_GT(differingShare(shown, Shot{size, std::vector<std::uint8_t>(shown.rgb.size(), shown.rgb[0])}, 8), 0.5);
 
@@ -56,6 +57,7 @@ void ViewerPictures::expectThePictureOfRender() {
         viewer.key("ctrl+c");
         std::string command = viewer.waitFor("command tessera render ", mark);
         EXPECT_NE(command.find(options), std::string::npos) << command;
+        EXPECT_NE(command.find(opened.substr(words.front().size())), std::string::npos) << command;
         command = command.substr(std::string("command ").size());
         shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.png");
         const Shot pasted = readShot(folder_.path() / "pasted.png");
@@ -81,7 +83,7 @@ TEST_F(ViewerPicturesSlow, theWindowShowsThePictureOfRenderBitForBit) {
 }
 
 TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
     const glm::ivec2 place = sphereIn(size), pixel = place - kPictureCorner;
@@ -148,10 +150,9 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     // picture.
     const tessera::test::AssetsFolder none(nullptr);
     const std::string scene = isWholeSweep() ? "head_skin" : "head_marble", texels = isWholeSweep() ? "256" : "64";
-    const std::string arguments = scene + " --diffusion-texels " + texels;
     DrivenViewer viewer = open({scene, "--diffusion-texels", texels});
     const glm::ivec2 size = viewer.waitForWhole(0);
-    EXPECT_TRUE(pictureIn(viewer, size) == rendered(arguments, size));
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened(scene, size) + " --diffusion-texels " + texels, size));
     viewer.waitFor("spread light in view", 0);
     viewer.waitFor("spread light everywhere", 0);
     // To another side: nothing is left to be spread.
@@ -175,7 +176,8 @@ TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRe
 }
 
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
-    DrivenViewer viewer = open({"lattice", "--technique", "forward"});
+    // Through the field of view that its camera is made for: the scene fills much of the picture.
+    DrivenViewer viewer = open({"lattice", "--fov", "45", "--technique", "forward"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
     std::size_t mark = viewer.mark();
