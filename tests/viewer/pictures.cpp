@@ -8,6 +8,7 @@
 #include "tests/support/AssetsFolder.h"
 #include "tests/support/Sweep.h"
 #include "tests/viewer/ViewerTest.h"
+#include "validation/pictures/HeatMap.h"
 
 namespace tessera::test {
 namespace {
@@ -173,6 +174,24 @@ TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAl
 }
 TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
     expectSpreadLightOfACameraThatMoves();
+}
+
+TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
+    DrivenViewer viewer = open({"room", "--fov", "62", "--view", "lights", "--technique", "clustered_deferred"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    viewer.pause(1.0); // once it is whole it is counted
+    // Left of the legend.
+    const auto beside = [&](const Shot& shot) {
+        return shot.part({0, kTitlePixels}, {size.x / 2, size.y - kTitlePixels});
+    };
+    const Shot file = rendered("room --view lights --technique clustered_deferred", size);
+    validation::HeatMapLayout layout = validation::heatMapLayout(size.x, size.y, 1);
+    if (layout.height != file.sizePixels.y) layout = validation::heatMapLayout(size.x, size.y, 2);
+    ASSERT_EQ(glm::ivec2(layout.width, layout.height), file.sizePixels);
+    ASSERT_EQ(layout.scale, 1);
+    const Shot inFile = file.part({layout.pictureX, layout.pictureY}, size);
+    // The program and the graphics driver may round a colour to different sides.
+    EXPECT_EQ(differingShare(beside(pictureIn(viewer, size)), beside(inFile), 1), 0.0);
 }
 
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
