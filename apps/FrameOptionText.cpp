@@ -19,6 +19,7 @@ std::string frameOptionText(const FrameOptions& options) {
     text += viewer::importText(options.import);
     text += viewer::poseText(options.pose);
     if (options.environment) text += " --environment " + shellWord(*options.environment);
+    text += viewer::backgroundText(options.background);
     if (options.noDefaultLight) text += " --no-default-light";
     return text;
 }

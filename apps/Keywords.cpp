@@ -31,6 +31,9 @@ constexpr std::array kLoadKeywords{
                     "Lights the scene from all directions: none, a built-in one's name, a picture in latitude and "
                     "longitude, or a glTF model with an image-based light"},
                    [](const KeywordValue& value, FrameOptions& options) { options.environment = value.text; }},
+    LoadKeywordRow{{"background", KeywordKind::Point,
+                    "Linear radiance behind the scene where no environment is seen: red, green, blue"},
+                   [](const KeywordValue& value, FrameOptions& options) { options.background = value.point; }},
     LoadKeywordRow{
         {"clip", KeywordKind::TextOrNumber, "The clip of the scene that plays, by name or counted from 0, or none"},
         [](const KeywordValue& value, FrameOptions& options) { options.clip = value.text; }},

@@ -95,6 +95,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
                         "scene's own]")
         ->type_name("NAME")
         ->group("Environment");
+    addPoint(command, "--background", options.background,
+             "Linear radiance behind the scene where no environment is seen [the scene's own]", "R,G,B")
+        ->group("Environment");
     addSettings(command, options, "Environment");
     addSettings(command, options, "Shadows");
     addSettings(command, options, "Subsurface scattering");

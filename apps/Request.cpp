@@ -104,6 +104,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
     load.environment = options.environment;
+    load.background = options.background;
     load.clip = options.clip;
     load.hookValues = options.hookValues;
     load.import = options.import;
@@ -253,6 +254,10 @@ std::vector<std::string> unheededSettings(const FrameOptions& options, const Req
         else if (!why.empty())
             messages.push_back(unheededText(setting, why));
     }
+    const bool isBehindMap = request.scene.environment && request.settings.environment.backdrop != frame::Backdrop::Off;
+    if (options.background && isBehindMap)
+        messages.emplace_back("--background changes nothing. The environment is seen behind the scene; give --backdrop "
+                              "off, or --environment none");
     return messages;
 }
 

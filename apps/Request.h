@@ -33,6 +33,7 @@ struct FrameOptions {
     std::optional<int> lights;
     bool noDefaultLight = false;
     std::optional<std::string> environment;    ///< as scenes::LoadOptions has it
+    std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
     scenes::ImportWishes import;               ///< the same

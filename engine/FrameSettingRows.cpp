@@ -287,7 +287,7 @@ std::vector<Setting> pictureSettings() {
          .key = "prune",
          .type = "on|off",
          .help = "Leaves out passes, buffers and shader code that the scene does not need; the picture is the same",
-         .label = "Prune unused",
+         .label = "Skip unused work",
          .isOfFrame = true,
          .value = onOff(&FrameSettings::prune)},
         {.name = "exposure",

@@ -15,7 +15,8 @@ namespace {
 
 shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
     shared::DisplayConstants constants{};
-    constants.exposure = glm::vec4(std::exp2(settings.exposureEV));
+    constants.exposure =
+        glm::vec4(std::exp2(settings.exposureEV), float(frame::countScaleLog2(settings.view)), 0.0f, 0.0f);
     return constants;
 }
 
@@ -25,7 +26,6 @@ shader::ProgramDesc DisplayPass::program(const frame::FrameSpec& spec) {
     const frame::DisplayMapping mapping = frame::displayMapping(spec.settings.view, spec.settings.layout);
     return shader::screenProgram("display", "passes/display.frag",
                                  {{"DISPLAY_MAPPING", std::to_string(unsigned(mapping))},
-                                  {"HEAT_LOG2", std::to_string(frame::countScaleLog2(spec.settings.view))},
                                   {"TONE_MAP", fmt::format("{}u", unsigned(spec.settings.toneMap))}});
 }
 

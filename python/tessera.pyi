@@ -25,6 +25,7 @@ class Keywords(TypedDict, total=False):
     lights: int | None
     default_light: bool | None
     environment: _Path | None
+    background: _Point | None
     clip: str | int | None
     hook: Mapping[str, float] | None
     memory_limit: str | int | None

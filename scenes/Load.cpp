@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <unordered_set>
@@ -52,6 +53,15 @@ const Format* formatOf(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: is a folder; give {}", path,
                                  files.size() == 1 ? fmt::format("the scene in it, '{}'", files.front())
                                                    : "a .gltf, .glb, .obj or .json file"));
+}
+
+void requireRadiance(const glm::dvec3& background) {
+    const auto isRadiance = [](double value) {
+        return value >= 0.0 && value <= double(std::numeric_limits<float>::max());
+    };
+    if (isRadiance(background.x) && isRadiance(background.y) && isRadiance(background.z)) return;
+    throw InputError(fmt::format("cannot use the background {},{},{}; give three finite numbers, each 0 or more",
+                                 background.x, background.y, background.z));
 }
 
 bool isModel(const std::string& path) {
@@ -193,6 +203,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.lights && (*options.lights < 0 || *options.lights > kMostLights)) {
         throw InputError(fmt::format("cannot use {} lights; give a number from 0 to {}", *options.lights, kMostLights));
     }
+    if (options.background) requireRadiance(*options.background);
     goOn(options);
     Scene scene;
     LoadLedger ledger(options.memoryLimitBytes, options.import);
@@ -205,6 +216,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
     OwnEnvironment own = ownEnvironmentOf(scene);
+    if (options.background) scene.background = glm::vec3(*options.background);
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());

@@ -22,6 +22,8 @@ struct LoadOptions {
     /// Takes the place of the scene's own, and its turn (layAs()): a built-in one's name, a picture file, or
     /// kNoEnvironment.
     std::optional<std::string> environment;
+    /// Takes the place of Scene::background, linear radiance from 0 on; none: the scene's own.
+    std::optional<glm::dvec3> background;
     /// Plays the clips of this name, else the one of this number, or none (kNoClip); without it those that the scene's
     /// options call so, else the first of each model.
     std::optional<std::string> clip;
@@ -34,6 +36,7 @@ struct LoadOptions {
     std::vector<std::string>* files = nullptr;
     bool useAssets = true; ///< let a built-in scene use the models under the folder TESSERA_ASSETS names
     /// Width over height of the picture that a supplied camera is to fit the scene into; none: what the scene asks for.
+    /// The viewer places cameras of built-in scenes by it too.
     std::optional<double> aspect;
     /// That of LoadLedger::tellEnvironment().
     std::function<void(double)> environmentTold;

@@ -18,6 +18,7 @@
 #include "renderer/gpu/Debug.h"
 #include "viewer/Document.h"
 #include "viewer/panels/Frame.h"
+#include "viewer/panels/Legend.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
 #include "viewer/session/FileTypes.h"
@@ -233,6 +234,10 @@ private:
             if (screen_.renderer() &&
                 measurements_.update(facts_, state_, screen_, drawing_.wanted(), drawing_.isWhole()))
                 pulse_.another();
+        });
+        attempt([this] {
+            screen_.colorCounts(
+                [this](int side, frame::DebugView view) { return countColorsLog2(state_, facts_, side, view); });
         });
         attempt([this] {
             if (!inspector_.update(facts_, state_, screen_, drawing_.pictures(),

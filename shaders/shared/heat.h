@@ -37,4 +37,9 @@ SHARED_FUNCTION float heatPositionOfCount(float count, float log2Most) {
     return log2(1.0f + max(count, 0.0f)) / log2Most;
 }
 
+// The end of the scale, as a power of two, where the largest count is known: it tells at least 0 to 7 apart.
+SHARED_FUNCTION float heatScaleLog2(float most) {
+    return log2(1.0f + max(most, 7.0f));
+}
+
 SHARED_END

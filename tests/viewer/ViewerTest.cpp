@@ -1,13 +1,16 @@
 #include "tests/viewer/ViewerTest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include "base/PictureFile.h"
+#include "scenes/Load.h"
 #include "tests/support/UnderLedger.h"
 #include "validation/pictures/ReadPicture.h"
 
@@ -143,6 +146,14 @@ std::string ViewerTest::shell(const std::string& script) const {
     const ProcessResult result = runProcess({"sh", "-c", whole}, {folder_.path(), {}, 120.0});
     EXPECT_EQ(result.exitCode, 0) << script << "\n" << result.err;
     return result.out;
+}
+
+std::string ViewerTest::asOpened(const std::string& builtin, glm::ivec2 sizePixels) {
+    const double narrower = 16.0 / 9.0 / (double(sizePixels.x) / double(sizePixels.y));
+    if (narrower <= 1.0) return builtin;
+    const double halfHeight = std::tan(0.5 * scenes::loadScene(builtin).cameras.front().fovYRadians) * narrower;
+    const double tenths = std::ceil(10.0 * glm::degrees(2.0 * std::atan(halfHeight)));
+    return fmt::format("{} --fov {}", builtin, tenths / 10.0);
 }
 
 Shot ViewerTest::rendered(const std::string& arguments, glm::ivec2 sizePixels) const {

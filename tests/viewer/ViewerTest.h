@@ -51,7 +51,9 @@ protected:
     /// A place in the picture.
     static glm::ivec2 middlePixel() { return {(kPanelPixels + screenPixels().x) / 2, screenPixels().y / 2 - 10}; }
 
-    /// Where a picture of `spheres` shows the one of metalness 0/4 and roughness 4/10.
+    /// The scene through the field of view that its camera is made for, whatever the window's shape.
+    static inline const std::vector<std::string> kSpheres{"spheres", "--fov", "40"};
+    /// Where a picture of kSpheres shows the one of metalness 0/4 and roughness 4/10.
     static glm::ivec2 sphereIn(glm::ivec2 sizePixels) {
         return kPictureCorner + sizePixels / 2 + glm::ivec2(-70, 71) * sizePixels.y / 778;
     }
@@ -102,6 +104,9 @@ protected:
     nlohmann::json readJson(const std::string& name) const;
     /// Runs a line of shell in which "tessera" is the program; expects success and returns stdout.
     std::string shell(const std::string& script) const;
+    /// Words of `render` for a built-in scene as the viewer opens it in a picture of a size: cameras are made for 16:9,
+    /// and in a narrower picture a taller field of view keeps their width.
+    static std::string asOpened(const std::string& builtin, glm::ivec2 sizePixels);
     /// What `tessera render` writes as a display shows it.
     Shot rendered(const std::string& arguments, glm::ivec2 sizePixels) const;
     /// The name after "saved " in a line of the log.

@@ -12,7 +12,7 @@ namespace {
 using ViewerCameras = ViewerTest;
 
 TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 there = middlePixel() + glm::ivec2(150, 60);
     const auto expectMoved = [&](const char* what, const Shot& shot) {
@@ -53,7 +53,7 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
 }
 
 TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     viewer.moveTo(sphereIn(home.sizePixels));
     struct Seen {
@@ -90,7 +90,7 @@ TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) 
 }
 
 TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIntoView) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     makeRoom(viewer); // the material's panel stays in view
     const glm::ivec2 sphere = sphereIn(home.sizePixels);

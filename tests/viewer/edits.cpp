@@ -33,7 +33,7 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
     Shot dark;
     std::string saved;
     {
-        DrivenViewer viewer = open({"spheres"});
+        DrivenViewer viewer = open(kSpheres);
         const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
         toggle(viewer, Section::Lights);
         const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
@@ -66,7 +66,7 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
 }
 
 TEST_F(ViewerEdits, anEditIsUndoneAndRedoneByKeys) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
     toggle(viewer, Section::Lights);
     const glm::ivec2 onOff(17, barOf(viewer, Section::Lights) + kFirstSwitchPixels + 2 * kSwitchPixels);
@@ -321,7 +321,7 @@ TEST_F(ViewerLightLife, aPathIsChosenOpenedItsPointsDraggedSavedAndUndone) {
 }
 
 TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     makeRoom(viewer);
     std::size_t mark = viewer.mark();
@@ -369,9 +369,11 @@ TEST_F(ViewerEdits, aSceneChosenFromTheListOpensAndKeepsTheTechnique) {
     DrivenViewer viewer = open({"room", "--technique", "forward_plus"});
     viewer.waitForWhole(0);
     const Shot spheres = change(viewer, "spheres");
-    EXPECT_TRUE(spheres == rendered("spheres --technique forward_plus", spheres.sizePixels));
+    EXPECT_TRUE(spheres ==
+                rendered(asOpened("spheres", spheres.sizePixels) + " --technique forward_plus", spheres.sizePixels));
     const Shot models = change(viewer, "models");
-    EXPECT_TRUE(models == rendered("models --technique forward_plus", models.sizePixels));
+    EXPECT_TRUE(models ==
+                rendered(asOpened("models", models.sizePixels) + " --technique forward_plus", models.sizePixels));
 }
 
 TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {

@@ -1,6 +1,8 @@
 // What is dragged in the picture beside the camera: the selected light's handles, and the environment.
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
@@ -68,13 +70,7 @@ TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
     const double pixelsPerMetre = size.y / 5.0;
     const glm::ivec2 middle = kPictureCorner + size / 2;
     const auto savedPosition = [&] {
-        const std::size_t mark = viewer.mark();
-        viewer.key("ctrl+s");
-        const std::string file = savedFile(viewer.waitFor("saved ", mark));
-        viewer.key("Escape");
-        viewer.pause(0.3);
-        const nlohmann::json light = nlohmann::json::parse(shell("cat '" + file + "'")).at("lights").at(0);
-        return light.at("position").get<std::vector<double>>();
+        return readJson(saveScene(viewer)).at("lights").at(0).at("position").get<std::vector<double>>();
     };
     viewer.key("m");
     viewer.click(middle); // on the marker: the light is selected
@@ -103,13 +99,16 @@ TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
 }
 
 TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {
-    DrivenViewer viewer = open({"spheres", "--lights", "0", "--environment", "sky"});
+    std::vector<std::string> words = kSpheres;
+    for (const char* const word : {"--lights", "0", "--environment", "sky"}) words.emplace_back(word);
+    DrivenViewer viewer = open(words);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 from = kPictureCorner + glm::ivec2(100, before.sizePixels.y / 2);
     const glm::ivec2 half(before.sizePixels.y / 2, 0); // of the picture's height: 90 degrees
     const Shot turned = after(viewer, [&] { viewer.drag(from, from + half, "shift", 3); });
     EXPECT_GT(differingShare(turned, before, 4), 0.1);
-    const Shot expected = rendered("spheres --lights 0 --environment sky --environment-rotation 90", before.sizePixels);
+    const Shot expected =
+        rendered(fmt::format("{} --environment-rotation 90", fmt::join(words, " ")), before.sizePixels);
     // An odd height has no half, and every step of the drag is rounded.
     EXPECT_LT(differingShare(turned, expected, 4), 0.02);
     const Shot back = after(viewer, [&] { viewer.drag(from + half, from, "shift", 3); });

@@ -9,6 +9,7 @@
 #include "tests/support/Sweep.h"
 #include "tests/viewer/ViewerTest.h"
 #include "validation/figures/ErrorFigures.h"
+#include "validation/pictures/HeatMap.h"
 
 namespace tessera::test {
 namespace {
@@ -36,7 +37,8 @@ void ViewerPictures::expectThePictureOfRender() {
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_EQ(size.x, screenPixels().x - kPanelPixels);
     const Shot shown = pictureIn(viewer, size);
-    EXPECT_TRUE(shown == rendered(fmt::format("{}", fmt::join(words, " ")), size));
+    const std::string opened = asOpened(words.front(), size);
+    EXPECT_TRUE(shown == rendered(fmt::format("{} {}", opened, fmt::join(words.begin() + 1, words.end(), " ")), size));
     // Neither empty nor one colour.
     EXPECT_GT(differingShare(shown, Shot{size, std::vector<std::uint8_t>(shown.rgb.size(), shown.rgb[0])}, 8), 0.5);
 
@@ -57,6 +59,7 @@ void ViewerPictures::expectThePictureOfRender() {
         viewer.key("ctrl+c");
         std::string command = viewer.waitFor("command tessera render ", mark);
         EXPECT_NE(command.find(options), std::string::npos) << command;
+        EXPECT_NE(command.find(opened.substr(words.front().size())), std::string::npos) << command;
         command = command.substr(std::string("command ").size());
         shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.png");
         const Shot pasted = readShot(folder_.path() / "pasted.png");
@@ -82,7 +85,7 @@ TEST_F(ViewerPicturesSlow, theWindowShowsThePictureOfRenderBitForBit) {
 }
 
 TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
     const glm::ivec2 place = sphereIn(size), pixel = place - kPictureCorner;
@@ -189,10 +192,9 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     // picture.
     const tessera::test::AssetsFolder none(nullptr);
     const std::string scene = isWholeSweep() ? "head_skin" : "head_marble", texels = isWholeSweep() ? "256" : "64";
-    const std::string arguments = scene + " --diffusion-texels " + texels;
     DrivenViewer viewer = open({scene, "--diffusion-texels", texels});
     const glm::ivec2 size = viewer.waitForWhole(0);
-    EXPECT_TRUE(pictureIn(viewer, size) == rendered(arguments, size));
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened(scene, size) + " --diffusion-texels " + texels, size));
     viewer.waitFor("spread light in view", 0);
     viewer.waitFor("spread light everywhere", 0);
     // To another side: nothing is left to be spread.
@@ -215,8 +217,27 @@ TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRe
     expectSpreadLightOfACameraThatMoves();
 }
 
+TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
+    DrivenViewer viewer = open({"room", "--fov", "62", "--view", "lights", "--technique", "clustered_deferred"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    viewer.pause(1.0); // once it is whole it is counted
+    // Left of the legend.
+    const auto beside = [&](const Shot& shot) {
+        return shot.part({0, kTitlePixels}, {size.x / 2, size.y - kTitlePixels});
+    };
+    const Shot file = rendered("room --view lights --technique clustered_deferred", size);
+    validation::HeatMapLayout layout = validation::heatMapLayout(size.x, size.y, 1);
+    if (layout.height != file.sizePixels.y) layout = validation::heatMapLayout(size.x, size.y, 2);
+    ASSERT_EQ(glm::ivec2(layout.width, layout.height), file.sizePixels);
+    ASSERT_EQ(layout.scale, 1);
+    const Shot inFile = file.part({layout.pictureX, layout.pictureY}, size);
+    // The program and the graphics driver may round a colour to different sides.
+    EXPECT_EQ(differingShare(beside(pictureIn(viewer, size)), beside(inFile), 1), 0.0);
+}
+
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
-    DrivenViewer viewer = open({"lattice", "--technique", "forward"});
+    // Through the field of view that its camera is made for: the scene fills much of the picture.
+    DrivenViewer viewer = open({"lattice", "--fov", "45", "--technique", "forward"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
     std::size_t mark = viewer.mark();

@@ -87,7 +87,7 @@ TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeav
         latest = percent;
     }
     EXPECT_GT(latest, 50) << "the picture is there long before its share is";
-    EXPECT_TRUE(pictureIn(viewer, size) == rendered("hall --technique forward", size));
+    EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened("hall", size) + " --technique forward", size));
 }
 
 TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {

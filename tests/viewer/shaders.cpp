@@ -26,7 +26,7 @@ protected:
 };
 
 TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
-    DrivenViewer viewer = open({"spheres"}, {{"TESSERA_SHADERS", shaders().string()}});
+    DrivenViewer viewer = open(kSpheres, {{"TESSERA_SHADERS", shaders().string()}});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot good = pictureIn(viewer, size);
     const std::string source = text();

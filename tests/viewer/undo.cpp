@@ -23,7 +23,7 @@ protected:
 };
 
 TEST_F(ViewerUndo, anEditOfAMaterialIsUndoneRedoneAndReverted) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     makeRoom(viewer);
     std::size_t mark = viewer.mark();
@@ -52,7 +52,7 @@ TEST_F(ViewerUndo, anEditOfAMaterialIsUndoneRedoneAndReverted) {
 }
 
 TEST_F(ViewerUndo, lightsThatAScatteringReplacedComeBack) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
     toggle(viewer, Section::Lights);
     // The button stands between the last two labels, in a row without one.
@@ -74,7 +74,7 @@ TEST_F(ViewerUndo, lightsThatAScatteringReplacedComeBack) {
 }
 
 TEST_F(ViewerUndo, aJumpOfTheCameraIsUndoneAndIsNoEdit) {
-    DrivenViewer viewer = open({"spheres"});
+    DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
     const Shot turned = after(viewer, [&] { viewer.drag(middlePixel(), middlePixel() + glm::ivec2(150, 60)); });
     EXPECT_GT(differingShare(turned, home, 4), 0.2);

@@ -78,11 +78,10 @@ std::vector<Tick> countTicks(float log2Most) {
     return ticks;
 }
 
-/// The scale reaches the picture's largest count, and tells at least 0 to 7 apart.
 float scaleEnd(const Picture& counts) {
-    float most = 7.0f;
+    float most = 0.0f;
     for (std::size_t i = 0; i < counts.pixelCount(); ++i) most = std::max(most, counts.pixel(i)[0]);
-    return std::log2(1.0f + most);
+    return shared::heatScaleLog2(most);
 }
 
 /// An empty heat map with its title.

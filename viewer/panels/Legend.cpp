@@ -27,10 +27,16 @@ const char* titleOf(frame::DebugView view) {
     return view == frame::DebugView::Overdraw ? "Surfaces a pixel shades" : "Lights a pixel visits";
 }
 
+/// The largest count of a side's picture, if it shows this view.
+std::optional<float> mostOf(const Facts& facts, int side, frame::DebugView view) {
+    const std::optional<Facts::MostCount>& most = facts.mostCounts[std::size_t(side)];
+    return most && most->view == view ? std::optional(most->most) : std::nullopt;
+}
+
 /// A titled bar of heat colours, up to the largest count where that is known, else to the end of the colours' scale.
-void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float> most, float scale) {
+void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float> most, float log2Colours,
+             float scale) {
     constexpr int kSteps = 48;
-    const auto log2Colours = float(frame::countScaleLog2(view));
     const float log2Most = most ? std::log2(1.0f + std::max(*most, 1.0f)) : log2Colours;
     const char* const title = titleOf(view);
     const float pad = 8.0f * scale, line = ImGui::GetFontSize(), barWidth = 14.0f * scale;
@@ -104,6 +110,11 @@ std::string shownLightText(const engine::DrawnShadows& shadows, const std::vecto
 
 } // namespace
 
+float countColorsLog2(const State& state, const Facts& facts, int side, frame::DebugView view) {
+    const std::optional<float> most = mostOf(facts, side, view);
+    return state.fitsCountColors && most ? shared::heatScaleLog2(*most) : float(frame::countScaleLog2(view));
+}
+
 void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale) {
     if (state.compare == Compare::Difference) return;
     for (int side = 0; side < state.sides(); ++side) {
@@ -111,9 +122,8 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
         if (!look) continue;
         const PictureArea part = partOf(state, area, side);
         if (showsCounts(*look)) {
-            const std::optional<Facts::MostCount>& most = facts.mostCounts[std::size_t(side)];
-            const bool isKnown = most && most->view == look->settings.view;
-            drawBar(part, look->settings.view, isKnown ? std::optional(most->most) : std::nullopt, scale);
+            const frame::DebugView view = look->settings.view;
+            drawBar(part, view, mostOf(facts, side, view), countColorsLog2(state, facts, side, view), scale);
         }
         const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(side)];
         if (!shadows) continue;

@@ -89,6 +89,7 @@ constexpr Meaning kMeanings[] = {
     {"Normal map", "How deep the texture's bumps are"},
     {"Two sides", "Whether the surface is seen from behind too"},
     // View, environment and camera
+    {"Heat colours", "Whether they end at the largest count of the picture, or always at 511 lights or 15 surfaces"},
     {"Resolution", "How many pixels are drawn for each of the window"},
     {"Picture scale", "Share of the window's pixels along each side"},
     {"Map", "What surrounds the scene and lights it"},

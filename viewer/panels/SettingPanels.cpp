@@ -11,6 +11,7 @@
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShadowRows.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/MapChoices.h"
 #include "viewer/session/Preferences.h"
 #include "viewer/session/SceneEdits.h"
@@ -176,6 +177,10 @@ void skinPanel(State& state) {
 
 void viewPanel(State& state) {
     settingRows(state, engine::SettingPanel::View);
+    if (showsCounts(state.active())) {
+        row("Heat colours");
+        ImGui::Checkbox("range to the data", &state.fitsCountColors);
+    }
     scaleRows(state);
 }
 

@@ -3,6 +3,14 @@
 #include <fmt/format.h>
 
 namespace tessera::viewer {
+namespace {
+
+/// Of three numbers, to the last bit; nothing where they are not given.
+std::string pointText(const char* flag, const std::optional<glm::dvec3>& point) {
+    return point ? fmt::format(" {} {},{},{}", flag, point->x, point->y, point->z) : std::string();
+}
+
+} // namespace
 
 std::string shellWord(const std::string& word) {
     constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-+/=,:@%";
@@ -17,21 +25,20 @@ std::string shellWord(const std::string& word) {
 }
 
 std::string poseText(const scenes::CameraChange& change) {
-    std::string text;
-    const auto addPoint = [&text](const char* flag, const std::optional<glm::dvec3>& point) {
-        if (point) text += fmt::format(" {} {},{},{}", flag, point->x, point->y, point->z);
-    };
+    std::string text =
+        pointText("--eye", change.eyeWS) + pointText("--target", change.targetWS) + pointText("--up", change.upWS);
     const auto addNumber = [&text](const char* flag, const std::optional<double>& number) {
         if (number) text += fmt::format(" {} {}", flag, *number);
     };
-    addPoint("--eye", change.eyeWS);
-    addPoint("--target", change.targetWS);
-    addPoint("--up", change.upWS);
     addNumber("--fov", change.fovYDegrees);
     addNumber("--half-height", change.halfHeightMetres);
     addNumber("--near", change.nearMetres);
     addNumber("--far", change.farMetres);
     return text;
+}
+
+std::string backgroundText(const std::optional<glm::dvec3>& radiance) {
+    return pointText("--background", radiance);
 }
 
 std::string hookText(std::span<const scenes::HookValue> values) {

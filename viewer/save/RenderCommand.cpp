@@ -17,6 +17,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
             text += fmt::format(" {} {}", setting.flag, shellWord(setting.text(request, &scene)));
     if (request.lights) text += fmt::format(" --lights {}", *request.lights);
     if (request.environment) text += " --environment " + shellWord(*request.environment);
+    text += backgroundText(request.background);
     if (request.clip) text += " --clip " + shellWord(*request.clip);
     text += hookText(request.hookValues);
     if (!request.defaultLight) text += " --no-default-light";

@@ -15,6 +15,7 @@ struct RenderRequest : engine::ViewRequest {
     std::optional<int> lights;                 ///< number requested of the load
     bool defaultLight = true;                  ///< the same
     std::optional<std::string> environment;    ///< the same
+    std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
     scenes::ImportWishes import;               ///< the same

@@ -68,6 +68,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.lights = open.load().lights;
     request.defaultLight = open.load().defaultLight;
     request.environment = open.load().environment;
+    request.background = open.load().background;
     request.clip = open.load().clip;
     request.hookValues = open.load().hookValues;
     request.import = open.load().import;

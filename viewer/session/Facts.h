@@ -45,8 +45,8 @@ struct Facts {
     std::optional<validation::LightOracleFigures> lights; ///< measured on request,
     std::string lightsOf;                                 ///< of this technique, culling and size,
     std::optional<Look> lightsLook;                       ///< with this look
-    /// The largest count of the picture of a view that shows counts, by side; an older picture's while another is
-    /// drawn.
+    /// The largest count of the picture of a view that shows counts, by side, of both where they show the same view; an
+    /// older picture's while another is drawn.
     struct MostCount {
         frame::DebugView view;
         float most;

@@ -1,14 +1,18 @@
 #include "viewer/session/OpenScene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include "scenes/Clips.h"
 #include "scenes/Framing.h"
+#include "scenes/Load.h"
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
@@ -26,6 +30,22 @@ bool places(const scenes::CameraChange& change) {
 void setOwnView(scenes::Environment& environment, const scenes::EnvironmentView& own) {
     environment.rotationDegrees = own.rotationDegrees;
     environment.intensity = own.intensity;
+}
+
+/// Cameras of built-in scenes are made for pictures of 16:9. In a narrower one a taller field of view keeps what they
+/// have at the sides, up to one at whose corners things still have their shapes. It is rounded up to tenths of a degree
+/// for the commands that repeat it.
+scenes::CameraChange changeForAspect(const std::string& source, const scenes::Camera& camera,
+                                     const std::optional<double>& aspect) {
+    constexpr double kMadeForAspect = 16.0 / 9.0, kTallestDegrees = 120.0, kStepsADegree = 10.0;
+    scenes::CameraChange change;
+    const bool isMadeForIt =
+        scenes::builtinScene(source) != nullptr && camera.projection == scenes::Projection::Perspective;
+    if (!isMadeForIt || !aspect || *aspect >= kMadeForAspect) return change;
+    const double halfHeight = std::tan(0.5 * camera.fovYRadians) * kMadeForAspect / *aspect;
+    const double degrees = glm::degrees(2.0 * std::atan(halfHeight));
+    change.fovYDegrees = std::min(std::ceil(kStepsADegree * degrees) / kStepsADegree, kTallestDegrees);
+    return change;
 }
 
 } // namespace
@@ -135,8 +155,7 @@ CameraPose OpenScene::poseThrough(const scenes::Camera& camera) const {
 void OpenScene::useCamera(int camera) {
     scene_.cameras[std::size_t(camera_)] = sceneCamera();
     camera_ = camera;
-    placed_ = {};
-    begin(sceneCamera(), poseThrough(sceneCamera()));
+    place(changeForAspect(source_, sceneCamera(), load_.aspect));
 }
 
 void OpenScene::keepJump(std::string what, CameraView before) {

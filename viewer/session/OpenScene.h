@@ -99,7 +99,8 @@ public:
     int camera() const { return camera_; }
     CameraRig& rig() { return rig_; }
     const CameraRig& rig() const { return rig_; }
-    /// Looks through another of the scene's cameras, to begin with.
+    /// Looks through another of the scene's cameras, to begin with. One of a built-in scene is placed with a taller
+    /// field of view where the picture that load() names is narrower than the 16:9 that it is made for.
     void useCamera(int camera);
     // Jumps of the camera are steps of the history too, unless it is there already.
     void jumpToCamera(int camera);

@@ -46,9 +46,11 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
                                     std::move(result->filtered), environmentSeenBy(first.look));
     scene->useCamera(first.look.settings.camera);
     // A command of another size would supply another camera: so its place is said, and commands repeat it.
-    const bool isPlaced = first.pose != scenes::CameraChange() || !isSupplied;
     const scenes::Camera& camera = scene->cameras()[std::size_t(first.look.settings.camera)];
-    scene->place(isPlaced ? first.pose : changeOf(poseOf(camera, scene->boundsWS()), camera));
+    if (first.pose != scenes::CameraChange())
+        scene->place(first.pose);
+    else if (isSupplied)
+        scene->place(changeOf(poseOf(camera, scene->boundsWS()), camera));
     show(*scene);
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);

@@ -39,7 +39,7 @@ private:
         scenes::Camera camera; ///< of that index, as the scene has it
         scenes::CameraChange placed;
         std::optional<CameraPose> pose; ///< none: nothing had moved it
-        std::optional<double> aspect;   ///< for which a camera was supplied
+        std::optional<double> aspect;   ///< for which a camera was supplied, or placed
     };
     void leave(const OpenScene& scene);
     /// Looks at a scene as it was left, where it has that camera still.

@@ -83,6 +83,7 @@ struct State {
     Compare compare = Compare::Off;
     float divider = 0.5f; ///< share of the picture's width
     float amplification = 16.0f;
+    bool fitsCountColors = true; ///< heat colours end at the largest count
 
     bool isPlaying = false;     ///< time goes on
     float speed = 1.0f;         ///< of that time against the clock's

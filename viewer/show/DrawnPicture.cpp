@@ -24,6 +24,7 @@ void Target::copyFrom(const gpu::Texture& source) {
 void DrawnPicture::take(const engine::Renderer& renderer, const Look& look, bool radiance) {
     look_ = look;
     copyInto(display_, "shown display", renderer.displayTexture());
+    countScaleLog2_ = float(frame::countScaleLog2(look.settings.view));
     hasRadiance_ = radiance;
     if (radiance) copyInto(radiance_, "shown radiance", renderer.radianceTexture());
 }

@@ -34,11 +34,15 @@ public:
     const Look& look() const { return look_; } ///< with the size it was drawn at
     const Target& display() const { return *display_; }
     const Target* radiance() const { return hasRadiance_ ? radiance_.get() : nullptr; }
+    /// Of views that show counts: where the scale of the display picture's colours ends, as a power of two.
+    float countScaleLog2() const { return countScaleLog2_; }
+    void setCountScale(float log2Most) { countScaleLog2_ = log2Most; }
 
 private:
     Look look_;
     std::unique_ptr<Target> display_, radiance_;
     bool hasRadiance_ = false; ///< of the picture shown
+    float countScaleLog2_ = 0.0f;
 };
 
 } // namespace tessera::viewer

@@ -66,6 +66,9 @@ bool Measurements::updateCounts(Facts& facts, const Screen& screen, const Screen
         facts.mostCounts[std::size_t(side)] = {look.settings.view, most};
         isCounted = true;
     }
+    // Of one view on both sides, colours mean the same.
+    auto& [left, right] = facts.mostCounts;
+    if (left && right && left->view == right->view) left->most = right->most = std::max(left->most, right->most);
     return isCounted;
 }
 

@@ -9,6 +9,7 @@
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
 #include "renderer/graph/Execute.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/Inspection.h"
 
 namespace tessera::viewer {
@@ -240,6 +241,17 @@ void Screen::prepareDifference(float factor) {
     differenceFactor_ = factor;
     differenceIsStale_ = false; // also where it fails: the same would fail again
     difference_.update(renderer_->programs(), *a, *b, factor);
+}
+
+void Screen::colorCounts(const std::function<float(int side, frame::DebugView view)>& scaleLog2) {
+    for (int side = 0; side < 2; ++side) {
+        DrawnPicture& shown = pictures_[std::size_t(side)];
+        if (!shown.isThere() || shown.radiance() == nullptr || !showsCounts(shown.look())) continue;
+        const float wanted = scaleLog2(side, shown.look().settings.view);
+        if (shown.countScaleLog2() == wanted) continue;
+        shown.setCountScale(wanted); // also where it fails: the same would fail again
+        countColors_.update(renderer_->programs(), *shown.radiance(), shown.display(), wanted);
+    }
 }
 
 void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider) {

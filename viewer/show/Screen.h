@@ -8,6 +8,7 @@
 
 #include "renderer/gpu/Commands.h"
 #include "viewer/session/State.h"
+#include "viewer/show/CountColors.h"
 #include "viewer/show/Difference.h"
 #include "viewer/show/DrawnPicture.h"
 #include "viewer/show/ResolutionScale.h"
@@ -98,6 +99,9 @@ public:
     /// Makes the picture of the difference, amplified by `factor`, where the pictures or the factor changed. Throws
     /// gpu::ShaderError.
     void prepareDifference(float factor);
+    /// Gives each picture that shows counts the colours of a scale that ends there, as a power of two. Throws
+    /// gpu::ShaderError.
+    void colorCounts(const std::function<float(int side, frame::DebugView view)>& scaleLog2);
     /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
     void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
     /// Shows pixels of a side's picture large, about the one at a place, in a square of the window: what show() left
@@ -126,6 +130,7 @@ private:
     std::array<DrawnPicture, 2> pictures_;
     DrawnPicture waiting_; ///< the left one, until the right one is drawn too
     int drawingSide_ = 0;
+    CountColors countColors_;
     Difference difference_;
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;

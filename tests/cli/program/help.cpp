@@ -52,6 +52,7 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
                                    "--specular on|off",
                                    "--space NAME",
                                    "--no-default-light",
+                                   "--background R,G,B",
                                    "--quiet",
                                    "--context KIND",
                                    "--clip NAME",

@@ -184,6 +184,22 @@ TEST_F(FrameOptions, noDefaultLightLeavesASceneWithoutLightsDark) {
     EXPECT_EQ(mean(pictureOf({"--no-default-light"})), 0.0);
 }
 
+TEST_F(FrameOptions, theBackgroundIsTheRadianceThatIsGivenWhereNothingIsDrawn) {
+    writeQuad(kGlossy, "[]");
+    for (const char* technique : {"forward", "clustered_deferred", "reference"}) {
+        const Picture seen =
+            pictureOf({"--no-default-light", "--background", "0.25,2,0.5", "--fov", "150", "--technique", technique});
+        std::size_t behind = 0;
+        for (std::size_t i = 0; i < seen.pixelCount(); ++i) {
+            if (seen.covered[i]) continue;
+            ++behind;
+            ASSERT_EQ(glm::vec3(seen.pixel(i)[0], seen.pixel(i)[1], seen.pixel(i)[2]), glm::vec3(0.25f, 2.0f, 0.5f))
+                << technique;
+        }
+        EXPECT_GT(behind, 0u) << technique;
+    }
+}
+
 TEST_F(FrameOptions, filterExactInterpolatesInSinglePrecision) {
     DisplayImage texture{2, 2, {0, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0}};
     writePng(path("t.png"), texture);

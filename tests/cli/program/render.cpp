@@ -275,6 +275,12 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
                   warned("--layout changes nothing. Only deferred, deferred_volumes, tiled_deferred and "
                          "clustered_deferred heed it; the technique is forward"));
         EXPECT_EQ(said({"--backdrop", "off", "--view", "normal"}, command), "") << "the same options serve all views";
+        const Words studioBehind{"--environment", "studio", "--background", "1,0,0"};
+        EXPECT_EQ(said(studioBehind, command),
+                  warned("--background changes nothing. The environment is seen behind the scene; give --backdrop off, "
+                         "or --environment none"));
+        EXPECT_EQ(said({"--environment", "studio", "--background", "1,0,0", "--backdrop", "off"}, command), "");
+        EXPECT_EQ(said({"--background", "1,0,0"}, command), "");
     }
     const Words compared{"--environment", "studio", "--environment-samples", "4", "--techniques", "deferred",
                          "--layout",      "packed"};

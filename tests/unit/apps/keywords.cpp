@@ -38,6 +38,7 @@ const std::map<std::string_view, SaidTwice>& saidTwice() {
         {"lights", {{.number = 7}, {"--lights", "7"}}},
         {"default_light", {{.isOn = false}, {"--no-default-light"}}},
         {"environment", {{.text = "sky"}, {"--environment", "sky"}}},
+        {"background", {{.point = {0.1, 0.25, 0.0}}, {"--background", "0.1,0.25,0"}}},
         {"clip", {{.text = "2"}, {"--clip", "2"}}},
         {"hook", {{.hooks = {{"wind", 1.5f}, {"shade", -2.0f}}}, {"--hook", "wind=1.5", "--hook", "shade=-2"}}},
         {"memory_limit", {{.text = "4G"}, {"--memory-limit", "4G"}}},

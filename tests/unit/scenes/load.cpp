@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
@@ -163,6 +165,24 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     LoadOptions options;
     options.defaultLight = false;
     EXPECT_FALSE(loadScene(file, options).environment);
+}
+
+TEST(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
+    const test::TempFolder folder;
+    const std::string file = folder
+                                 .write("blue.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+            "environment": {"background": [0, 0, 1]}})")
+                                 .string();
+    EXPECT_EQ(loadScene(file).background, glm::vec3(0.0f, 0.0f, 1.0f));
+    LoadOptions options;
+    options.background = glm::dvec3(0.1, 0.25, 3.0);
+    EXPECT_EQ(loadScene(file, options).background, glm::vec3(0.1f, 0.25f, 3.0f));
+    EXPECT_EQ(loadScene("room", options).background, glm::vec3(0.1f, 0.25f, 3.0f));
+    for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), 1e39}) {
+        options.background = glm::dvec3(0.0, bad, 0.0);
+        EXPECT_EQ(complaint("room", options),
+                  fmt::format("cannot use the background 0,{},0; give three finite numbers, each 0 or more", bad));
+    }
 }
 
 TEST(LoadScene, filesKeepTheirFirstLights) {

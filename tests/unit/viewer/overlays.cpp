@@ -108,6 +108,13 @@ TEST_F(Overlays, theScaleOfCountsEndsAtTheLargestThatThePictureHas) {
     };
     EXPECT_GT(brightest(), 240) << "the whole scale, to pale yellow";
     facts.mostCounts[0] = {frame::DebugView::Lights, 5.0f};
+    EXPECT_GT(brightest(), 240) << "the colours fit";
+    EXPECT_EQ(countColorsLog2(state, facts, 0, frame::DebugView::Lights), 3.0f) << "0 to 7 differ at least";
+    facts.mostCounts[0]->most = 31.0f;
+    EXPECT_EQ(countColorsLog2(state, facts, 0, frame::DebugView::Lights), 5.0f);
+    EXPECT_EQ(countColorsLog2(state, facts, 1, frame::DebugView::Lights), 9.0f) << "nothing is known of that side";
+    facts.mostCounts[0]->most = 5.0f;
+    state.fitsCountColors = false;
     EXPECT_LT(brightest(), 200) << "of 512 lights, 5 are dark";
     facts.mostCounts[0]->view = frame::DebugView::Overdraw;
     EXPECT_GT(brightest(), 240) << "it is that of another view";

@@ -72,6 +72,7 @@ void expectSame(const RenderRequest& request) {
     load.lights = request.lights;
     load.defaultLight = request.defaultLight;
     load.environment = request.environment;
+    load.background = request.background;
     load.clip = request.clip;
     load.hookValues = request.hookValues;
     load.import = request.import;
@@ -91,6 +92,7 @@ void expectSame(const RenderRequest& request) {
     EXPECT_TRUE(result.request.scene.hook == scene.hook);
     const auto sourceOf = [](const scenes::Scene& of) { return of.environment ? of.environment->source : ""; };
     EXPECT_EQ(sourceOf(result.request.scene), sourceOf(scene));
+    EXPECT_EQ(result.request.scene.background, scene.background);
 }
 
 RenderRequest requestOf(const std::string& source) {
@@ -127,6 +129,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.lights = 1;
     request.defaultLight = false;
     request.environment = "studio"; // which is made the fastest
+    request.background = glm::dvec3(1.0 / 3.0, 1e-9, 70000.1);
     request.clip = "none";
     request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
     request.import.isStrict = true;

@@ -1,6 +1,7 @@
 #include "viewer/session/SceneSwitch.h"
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -22,6 +23,7 @@ using testing::HasSubstr;
 class SceneSwitchTest : public testing::Test {
 protected:
     SceneSwitchTest() {
+        state_.pictureAspect = kMadeForAspect;
         options_.lookOf = [this](const scenes::Scene& scene, const std::string& source, bool first) {
             firsts_.push_back(first);
             FirstLook look;
@@ -69,6 +71,8 @@ protected:
         state_.open->rig().advance(10.0, kHeightPixels);
         state_.open->applyRig();
     }
+
+    static constexpr double kMadeForAspect = 16.0 / 9.0; ///< what cameras of built-in scenes are made for
 
     TempFolder folder_;
     std::string failure_;
@@ -268,6 +272,43 @@ TEST_F(SceneSwitchTest, aSuppliedCameraFitsTheWindowAndItsPlaceIsSaidForCommands
     state_.pictureAspect = 2.0;
     ASSERT_TRUE(open(file));
     EXPECT_EQ(shown(), moved) << "as it was left, whatever the window is now";
+}
+
+TEST_F(SceneSwitchTest, everyCameraOfABuiltInSceneKeepsItsWidthInANarrowerPictureAndCommandsRepeatIt) {
+    const std::vector<scenes::Camera> made = scenes::loadScene("spheres").cameras;
+    state_.pictureAspect = 980.0 / 778.0; // of a window of 1280x800
+    ASSERT_TRUE(open("spheres"));
+    for (const int camera : {0, 1, 0}) {
+        state_.open->jumpToCamera(camera);
+        const scenes::Camera& own = made.at(std::size_t(camera));
+        const double width = std::tan(0.5 * own.fovYRadians) * kMadeForAspect;
+        const double shownWidth = std::tan(0.5 * shown().fovYRadians) * state_.pictureAspect;
+        EXPECT_GT(shownWidth, width * (1.0 - 1e-12)) << camera;
+        EXPECT_LT(shownWidth, width * 1.003) << "a tenth of a degree is the most that rounding adds";
+        EXPECT_EQ(scenes::changedCamera(own, state_.open->cameraChange()), shown()) << camera;
+        EXPECT_FALSE(state_.open->rig().isMoved());
+    }
+    moveCamera();
+    EXPECT_EQ(scenes::changedCamera(made.at(0), state_.open->cameraChange()), shown());
+}
+
+TEST_F(SceneSwitchTest, aCameraOfAFileAndOneWhosePictureIsWideEnoughStayAsTheyAre) {
+    ASSERT_TRUE(open("spheres"));
+    EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange()) << "it is made for this";
+    state_.pictureAspect = 0.5;
+    ASSERT_TRUE(open(sceneFile("a.json")));
+    EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
+    state_.pictureAspect = 0.001;
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.open->cameraChange().fovYDegrees, 120.0) << "no picture is wider than this";
+}
+
+TEST_F(SceneSwitchTest, aCommandThatPlacesTheCameraOfABuiltInSceneIsFollowed) {
+    saidPose_.fovYDegrees = 40.0;
+    state_.pictureAspect = 0.5;
+    ASSERT_TRUE(open("spheres"));
+    EXPECT_EQ(state_.open->cameraChange(), saidPose_);
+    EXPECT_EQ(shown(), scenes::loadScene("spheres").cameras.at(0));
 }
 
 TEST_F(SceneSwitchTest, settingsThatCannotBeSavedGiveAWarning) {
