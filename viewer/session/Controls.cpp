@@ -9,6 +9,7 @@
 
 #include "viewer/edit/LightList.h"
 #include "viewer/session/Keys.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
