@@ -16,6 +16,7 @@
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/GltfThickness.h"
+#include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/GltfVariants.h"
 #include "scenes/import/Importers.h"
 
@@ -38,8 +39,9 @@ public:
             if (!imported) continue;
             const int sceneMesh = static_cast<int>(context_.scene.meshes.size());
             context_.scene.meshes.push_back(std::move(imported->rest));
-            context_.noteVariant(sceneMesh, primitives[i]);
-            entry->second.push_back({sceneMesh, materials_.material(primitives[i].material)});
+            context_.noteMesh(sceneMesh, primitives[i]);
+            entry->second.push_back(
+                {sceneMesh, materials_.material({primitives[i].material, shadingOf(primitives[i])})});
         }
         return entry->second;
     }
@@ -83,17 +85,6 @@ void warnOfIgnoredFeatures(Context& context) {
     for (const std::string& extension : ignoredExtensions(context.document))
         context.warn(
             fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
-}
-
-/// Once for all, as drawings hold thousands.
-void warnOfUndrawn(Context& context) {
-    const auto warn = [&](const Context::Undrawn& undrawn, std::string_view what) {
-        if (undrawn.count > 0)
-            context.warn(fmt::format("{} primitive(s) of {} are left out, the first at {}; only triangles are drawn",
-                                     undrawn.count, what, undrawn.first));
-    };
-    warn(context.points, "points");
-    warn(context.lines, "lines");
 }
 
 } // namespace
@@ -153,7 +144,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     rigging.finish();
     bindVariant(context, materials);
     placeThicknesses(context, materials);
-    warnOfUndrawn(context);
+    sizeThinSolids(context);
     importEnvironment(context);
     ledger.settle(mark, bytesOf(scene));
     return scene;

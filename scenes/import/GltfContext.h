@@ -1,4 +1,5 @@
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +13,33 @@
 
 namespace tessera::scenes::gltf {
 
+/// Modes of primitives. Those before kTriangles draw points and lines (GltfThinSolids.h).
+inline constexpr int kPoints = 0, kLines = 1, kLineLoop = 2, kTriangles = 4, kStrip = 5, kFan = 6;
+
+/// How primitives show their material. Source: glTF 2.0 specification, "Point and Line Materials".
+enum class Shading : std::uint8_t {
+    AsStated,
+    WithoutNormalMaps, ///< points and lines with normals: those of their solids' faces, which no tangents go with
+    Unlit              ///< points and lines without: base colour plus emission
+};
+
+/// Whether a primitive draws points or lines.
+inline bool isThin(const model::Primitive& primitive) {
+    return primitive.mode < kTriangles;
+}
+
+inline Shading shadingOf(const model::Primitive& primitive) {
+    if (!isThin(primitive)) return Shading::AsStated;
+    return primitive.attributes.contains("NORMAL") ? Shading::WithoutNormalMaps : Shading::Unlit;
+}
+
+/// A material of the document, as primitives show it.
+struct ShownMaterial {
+    int index = kNone;
+    Shading shading = Shading::AsStated;
+    auto operator<=>(const ShownMaterial&) const = default;
+};
+
 /// What every part of one import works on.
 struct Context {
     const Document& document;
@@ -19,13 +47,9 @@ struct Context {
     Accessors& accessors;
     DracoStreams& streams;
     Scene& scene;
-    /// Primitives that are no triangles: how many, and the place of the first.
-    struct Undrawn {
-        std::size_t count = 0;
-        std::string first;
-    };
-    Undrawn points = {}, lines = {};
-    std::map<int, int> variantMaterials = {}; ///< of the document, by meshes of the scene, in the variant that is shown
+    /// By meshes of the scene, in the variant that is shown.
+    std::map<int, ShownMaterial> variantMaterials = {};
+    std::map<int, int> thinModes = {}; ///< the glTF modes of meshes of the scene that draw points or lines
     /// By material of the document: metres of the world a unit of the meshes that show it; none where they do not share
     /// one that is the same in all directions.
     std::map<int, std::optional<double>> thicknessScales = {};
@@ -44,8 +68,10 @@ struct Context {
         return std::nullopt;
     }
     /// Called for each mesh of the scene that a primitive becomes.
-    void noteVariant(int sceneMesh, const model::Primitive& primitive) {
-        if (const std::optional<int> material = variantMaterial(primitive)) variantMaterials[sceneMesh] = *material;
+    void noteMesh(int sceneMesh, const model::Primitive& primitive) {
+        if (const std::optional<int> material = variantMaterial(primitive))
+            variantMaterials[sceneMesh] = {*material, shadingOf(primitive)};
+        if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;
     }
 
     /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/GltfTriangles.h"
 
 namespace tessera::scenes::gltf {
@@ -25,8 +26,11 @@ public:
     /// Called first. A stream of KHR_draco_mesh_compression stands for the indices and for the attributes it names.
     void decode() {
         if (!primitive_.draco) return;
-        if (primitive_.mode == kFan)
-            context_.document.fail(place_ + "/mode", "is 6, a fan; KHR_draco_mesh_compression holds lists or strips");
+        if (primitive_.mode == kFan || isThin(primitive_))
+            context_.document.fail(place_ + "/mode",
+                                   fmt::format("is {}, {}; KHR_draco_mesh_compression holds lists or "
+                                               "strips of triangles",
+                                               primitive_.mode, isThin(primitive_) ? "points or lines" : "a fan"));
         decoded_ = context_.streams.decode(primitive_, place_, meshName_);
     }
 
@@ -240,6 +244,24 @@ private:
     std::optional<DracoGeometry> decoded_;
 };
 
+/// The triangles of the solids that points and lines become, each at its vertices, without normals (GltfThinSolids.h).
+void makeThin(Context& context, const std::string& place, int mode, std::vector<std::uint32_t> corners, Mesh& mesh) {
+    const auto who = [&] { return fmt::format("{}: {}", context.document.file, place); };
+    LoadLedger& ledger = context.document.ledger;
+    constexpr std::size_t kEnds = 2;
+    ledger.charge(kEnds * (corners.size() + 1) * sizeof(std::uint32_t), who);
+    const std::vector<std::uint32_t> elements = thinElements(mode, std::move(corners), mesh.positionsOS);
+    const std::size_t solids = elements.size() / (mode == kPoints ? 1 : kEnds);
+    if (solids > std::numeric_limits<std::uint32_t>::max() / kCornersOfSolid)
+        context.document.fail(place, fmt::format("draws {} points or lines, whose solids have more corners than 32-bit "
+                                                 "indices can name; split the mesh",
+                                                 solids));
+    ledger.charge(solids * kCornersOfSolid * sizeof(std::uint32_t), who);
+    mesh.indices = cornersOfSolids(mode, elements);
+    mesh.normalsOS.clear();
+    mesh.tangentsOS.clear();
+}
+
 } // namespace
 
 std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
@@ -255,11 +277,6 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     const auto heldBytes = [&context] { return context.buffers.heldBytes() + context.streams.heldBytes(); };
     const std::uint64_t mark = ledger.usedBytes() - heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
-    if (primitive.mode < kTriangles) {
-        Context::Undrawn& undrawn = primitive.mode == kPoints ? context.points : context.lines;
-        if (undrawn.count++ == 0) undrawn.first = fmt::format("{} of mesh '{}'", place, mesh.name);
-        return std::nullopt;
-    }
     if (!reader.has("POSITION")) {
         context.warn(fmt::format("{}: mesh '{}' has no POSITION and is left out", place, mesh.name));
         return std::nullopt;
@@ -269,19 +286,24 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     if (deforms.byTargets) reader.fillTargets(shape.targets);
     if (deforms.byJoints) reader.fillInfluences(shape);
     std::vector<std::uint32_t> corners = reader.corners();
-    if (reader.mode() == kTriangles && corners.size() % 3 != 0)
-        context.warn(
-            fmt::format("{}: mesh '{}' has {} corners, which is no multiple of 3; the last triangle is left out", place,
-                        mesh.name, corners.size()));
-    if (reader.mode() != kTriangles) // three corners for every one after the second
-        ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
-                      [&] { return fmt::format("{}: {}", context.document.file, place); });
-    mesh.indices = trianglesOf(reader.mode(), std::move(corners));
+    const std::size_t each = reader.mode() == kTriangles ? 3 : reader.mode() == kLines ? 2 : 1;
+    if (corners.size() % each != 0)
+        context.warn(fmt::format("{}: mesh '{}' has {} corners, which is no multiple of {}; the last {} is left out",
+                                 place, mesh.name, corners.size(), each, each == 3 ? "triangle" : "line"));
+    if (isThin(primitive)) {
+        makeThin(context, place, primitive.mode, std::move(corners), mesh);
+    } else {
+        if (reader.mode() != kTriangles) // three corners for every one after the second
+            ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
+                          [&] { return fmt::format("{}: {}", context.document.file, place); });
+        mesh.indices = trianglesOf(reader.mode(), std::move(corners));
+    }
     reader.warnOfUnused();
     finishNormals(context, place, shape);
     ledger.settle(mark, heldBytes() + bytesOf(shape));
     if (mesh.indices.empty()) {
-        context.warn(fmt::format("{}: mesh '{}' has no triangle and is left out", place, mesh.name));
+        context.warn(fmt::format("{}: mesh '{}' has no {} and is left out", place, mesh.name,
+                                 isThin(primitive) ? "line of any length" : "triangle"));
         return std::nullopt;
     }
     return shape;

@@ -1,6 +1,7 @@
 #include "scenes/import/GltfMaterials.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,41 +10,115 @@
 #include "scenes/import/StandIn.h"
 
 namespace tessera::scenes::gltf {
+namespace {
 
-int Materials::material(int index) {
-    if (const auto found = materials_.find(index); found != materials_.end()) return found->second;
-    Material material;
-    material.name = "default";
-    if (index >= 0) material = convert(index);
-    context_.scene.materials.push_back(std::move(material));
-    return materials_[index] = static_cast<int>(context_.scene.materials.size()) - 1;
+/// Behind the names of materials whose shading is not the stated one.
+std::string_view suffixOf(Shading shading) {
+    if (shading == Shading::AsStated) return "";
+    return shading == Shading::Unlit ? ", unlit" : ", without normal maps";
 }
 
-Material Materials::convert(int index) {
+bool isNormalMap(TextureSlot slot) {
+    return slot == TextureSlot::Normal || slot == TextureSlot::ClearcoatNormal;
+}
+
+/// What an unlit material takes of a lit one.
+Material unlitOf(const Material& lit) {
+    Material unlit;
+    unlit.name = lit.name;
+    unlit.model = MaterialModel::SingleColor;
+    unlit.baseColor = lit.baseColor;
+    unlit.alphaMode = lit.alphaMode;
+    unlit.alphaCutoff = lit.alphaCutoff;
+    unlit.doubleSided = lit.doubleSided;
+    return unlit;
+}
+
+const model::TextureInfo& storedTexture(const model::Material& stored, TextureSlot slot) {
+    std::size_t i = 0;
+    while (model::kTexturePlaces[i].slot != slot) ++i;
+    return stored.textures[i];
+}
+
+} // namespace
+
+ShownMaterial Materials::distinct(ShownMaterial shown) const {
+    const ShownMaterial asStated{shown.index};
+    if (shown.shading == Shading::AsStated) return asStated;
+    if (shown.index < 0) return shown.shading == Shading::Unlit ? shown : asStated;
+    const model::Material& stored = context_.document.model.materials[static_cast<std::size_t>(shown.index)];
+    if (stored.surface.model == MaterialModel::SingleColor) return asStated;
+    const auto hasTexture = [&](TextureSlot slot) { return storedTexture(stored, slot).texture != kNone; };
+    const bool hasNormalMap = hasTexture(TextureSlot::Normal) || hasTexture(TextureSlot::ClearcoatNormal);
+    return shown.shading == Shading::Unlit || hasNormalMap ? shown : asStated;
+}
+
+int Materials::material(ShownMaterial asked) {
+    const ShownMaterial shown = distinct(asked);
+    if (const auto found = materials_.find(shown); found != materials_.end()) return found->second;
+    Material material;
+    if (shown.index >= 0) {
+        material = convert(shown);
+    } else {
+        material.name = "default";
+        material.name += suffixOf(shown.shading);
+        if (shown.shading == Shading::Unlit) material = unlitOf(material);
+    }
+    context_.scene.materials.push_back(std::move(material));
+    return materials_[shown] = static_cast<int>(context_.scene.materials.size()) - 1;
+}
+
+Material Materials::convert(ShownMaterial shown) {
+    const int index = shown.index;
     const model::Material& stored = context_.document.model.materials[static_cast<std::size_t>(index)];
     const std::string place = fmt::format("/materials/{}", index);
+    const std::string_view suffix = suffixOf(shown.shading);
     constexpr std::size_t kCopies = 2; // while a vector grows
-    context_.document.charge(kCopies * (sizeof(Material) + stored.surface.name.size()), "materials", index);
-    Material material = stored.surface;
+    context_.document.charge(kCopies * (sizeof(Material) + stored.surface.name.size() + suffix.size()), "materials",
+                             index);
+    Material material = shown.shading == Shading::Unlit ? unlitOf(stored.surface) : stored.surface;
     material.name = nameOr(material.name, "material", index);
+    material.name += suffix;
     const bool isUnlit = material.model == MaterialModel::SingleColor;
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
         const auto& [path, slot] = model::kTexturePlaces[i];
         if (isUnlit && slot != TextureSlot::BaseColor) continue;
+        if (shown.shading == Shading::WithoutNormalMaps && isNormalMap(slot)) continue;
         const bool isReplaced = slot == TextureSlot::BaseColor || slot == TextureSlot::MetallicRoughness ||
                                 slot == TextureSlot::SpecularColor || slot == TextureSlot::SpecularFactor;
         if (stored.specularGlossiness && isReplaced) continue;
         material.texture(slot) = use(stored.textures[i], slot, fmt::format("{}/{}", place, path));
     }
-    if (isUnlit) return material;
+    const std::string glossyPlace = place + "/extensions/KHR_materials_pbrSpecularGlossiness";
+    if (isUnlit) {
+        if (stored.specularGlossiness) takeDiffuse(*stored.specularGlossiness, glossyPlace, material);
+        if (shown.shading == Shading::Unlit) addEmission(stored, place, material);
+        return material;
+    }
     if (stored.ior != 0.0 && stored.ior < 1.0)
         context_.document.fail(place + "/extensions/KHR_materials_ior/ior",
                                fmt::format("is {}; it must be 0 or at least 1", stored.ior));
     material.ior = static_cast<float>(stored.ior);
-    if (stored.specularGlossiness)
-        convertSpecularGlossiness(*stored.specularGlossiness, place + "/extensions/KHR_materials_pbrSpecularGlossiness",
-                                  material);
+    if (stored.specularGlossiness) convertSpecularGlossiness(*stored.specularGlossiness, glossyPlace, material);
     return material;
+}
+
+void Materials::addEmission(const model::Material& stored, const std::string& place, Material& material) {
+    const glm::vec3& emissive = stored.surface.emissive;
+    if (emissive == glm::vec3(0.0f)) return;
+    const bool hasTexture = storedTexture(stored, TextureSlot::Emissive).texture != kNone ||
+                            material.texture(TextureSlot::BaseColor).image != kNone;
+    if (hasTexture)
+        return context_.warn(place + ": its emission is left out at points and lines without normals, since it or the "
+                                     "base colour has a texture");
+    const float most = static_cast<float>(fieldOf(kMaterialFields, &Material::baseColor).most);
+    material.baseColor = glm::vec4(glm::min(glm::vec3(material.baseColor) + emissive, most), material.baseColor.a);
+}
+
+void Materials::takeDiffuse(const model::SpecularGlossiness& stored, const std::string& place, Material& material) {
+    material.baseColor = stored.diffuse;
+    material.texture(TextureSlot::BaseColor) =
+        use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture");
 }
 
 /// With an index of refraction of 0 a dielectric reflects all light, and its tint is what the extension calls specular:
@@ -55,9 +130,7 @@ void Materials::convertSpecularGlossiness(const model::SpecularGlossiness& store
                                   "converted to dielectrics of roughness 1 - glossiness, tinted as their specular";
     std::vector<std::string>& notes = context_.scene.notes;
     if (std::ranges::find(notes, kNote) == notes.end()) notes.emplace_back(kNote);
-    material.baseColor = stored.diffuse;
-    material.texture(TextureSlot::BaseColor) =
-        use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture");
+    takeDiffuse(stored, place, material);
     material.ior = 0.0f;
     material.metallic = 0.0f;
     material.specularFactor = 1.0f;
@@ -86,9 +159,11 @@ int Materials::roughnessOf(int image, float glossiness) {
     return entry->second = static_cast<int>(images.size()) - 1;
 }
 
-std::optional<int> Materials::imported(int index) const {
-    const auto found = materials_.find(index);
-    return found == materials_.end() ? std::nullopt : std::optional(found->second);
+std::vector<int> Materials::imported(int index) const {
+    std::vector<int> found;
+    for (auto at = materials_.lower_bound({index}); at != materials_.end() && at->first.index == index; ++at)
+        found.push_back(at->second);
+    return found;
 }
 
 TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, const std::string& place) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scenes/import/GltfContext.h"
 
@@ -13,15 +14,21 @@ class Materials {
 public:
     explicit Materials(Context& context) : context_(context) {}
 
-    /// The scene's index of glTF material `index`; kNone gives the default material of the specification, named
-    /// "default". For an image that cannot be read a stand-in is drawn, with a warning that names its file; a load that
-    /// is to be strict throws InputError with the same text.
-    int material(int index);
-    /// The scene's index of glTF material `index` where something uses it.
-    std::optional<int> imported(int index) const;
+    /// The scene's index of a glTF material; kNone gives the default material of the specification, named "default".
+    /// One that a shading changes is a material of its own, and its name says how. For an image that cannot be read a
+    /// stand-in is drawn, with a warning that names its file; a load that is to be strict throws InputError with the
+    /// same text.
+    int material(ShownMaterial shown);
+    /// The scene's indices of glTF material `index`, one for each shading in which something shows it.
+    std::vector<int> imported(int index) const;
 
 private:
-    Material convert(int index);
+    /// The same material as stated where its shading changes nothing.
+    ShownMaterial distinct(ShownMaterial shown) const;
+    Material convert(ShownMaterial shown);
+    /// Adds the emission to the base colour of an unlit material, where no texture scales either.
+    void addEmission(const model::Material& stored, const std::string& place, Material& material);
+    void takeDiffuse(const model::SpecularGlossiness& stored, const std::string& place, Material& material);
     void convertSpecularGlossiness(const model::SpecularGlossiness& stored, const std::string& place,
                                    Material& material);
     /// The scene's index of a picture whose green is the roughness 1 - `glossiness` x the alpha of another.
@@ -33,7 +40,7 @@ private:
     int standIn();
 
     Context& context_;
-    std::map<int, int> materials_;                   ///< scene material by glTF material
+    std::map<ShownMaterial, int> materials_;         ///< scene material by glTF material
     std::map<int, int> images_;                      ///< scene image by glTF image; kNone: it cannot be read
     int standIn_ = kNone;                            ///< scene image
     std::map<std::pair<int, float>, int> roughness_; ///< scene image by what roughnessOf() takes

@@ -133,8 +133,11 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
         const auto scale = context_.thicknessScales.find(static_cast<int>(index));
         if (scale != context_.thicknessScales.end()) animated.scale = scale->second.value_or(1.0);
     }
-    if (const std::optional<int> material = materials_.imported(static_cast<int>(index)))
-        animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, *material));
+    for (const int material : materials_.imported(static_cast<int>(index))) {
+        const MaterialModel shown = context_.scene.materials[static_cast<std::size_t>(material)].model;
+        if (shown == MaterialModel::SingleColor && !isOfUnlit) continue;
+        animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, material));
+    }
     return animated;
 }
 
@@ -148,9 +151,9 @@ std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, s
         if (info == nullptr || stored.textures[i].texture == kNone) return {};
         Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
         if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // has another texture there
-        const std::optional<int> material = materials_.imported(static_cast<int>(index));
-        if (material && context_.scene.materials[static_cast<std::size_t>(*material)].texture(slot).image != kNone)
-            animated.targets.push_back(restNumber(info->property, *material, slot));
+        for (const int material : materials_.imported(static_cast<int>(index)))
+            if (context_.scene.materials[static_cast<std::size_t>(material)].texture(slot).image != kNone)
+                animated.targets.push_back(restNumber(info->property, material, slot));
         return animated;
     }
     return {};

@@ -68,8 +68,9 @@ const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms) 
         if (!imported) continue;
         std::vector<Shape>& shapes = context_.scene.rig.shapes;
         shapes.push_back(std::move(*imported));
-        entry->second.push_back(
-            {static_cast<int>(shapes.size()) - 1, materials_.material(primitives[i].material), &primitives[i]});
+        entry->second.push_back({static_cast<int>(shapes.size()) - 1,
+                                 materials_.material({primitives[i].material, shadingOf(primitives[i])}),
+                                 &primitives[i]});
     }
     return entry->second;
 }
@@ -138,7 +139,7 @@ void Rigging::addDeformed(int index) {
                           scene.rig.skins[static_cast<std::size_t>(deformed.skin)].joints.size());
         deformed.shape = drawn.shape;
         deformed.mesh = static_cast<int>(scene.meshes.size());
-        context_.noteVariant(deformed.mesh, *drawn.primitive);
+        context_.noteMesh(deformed.mesh, *drawn.primitive);
         scene.meshes.push_back(shape.rest);
         MeshInstance instance;
         instance.mesh = deformed.mesh;

@@ -123,17 +123,17 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
 }
 
 void placeThicknesses(Context& context, const Materials& materials) {
-    for (const auto& [index, scale] : context.thicknessScales) {
-        const std::optional<int> imported = materials.imported(index);
-        if (!imported) continue;
-        Material& placed = context.scene.materials[static_cast<std::size_t>(*imported)];
-        if (scale)
-            placed.thicknessMetres = scaledThickness(placed, *scale);
-        else if (hasBody(placed) && !splitByScale(context, index, *imported))
-            context.warn(fmt::format("the thickness of material {} is taken in metres, since the nodes that show it do "
-                                     "not share one scale that is the same in all directions",
-                                     index));
-    }
+    for (const auto& [index, scale] : context.thicknessScales)
+        for (const int imported : materials.imported(index)) {
+            Material& placed = context.scene.materials[static_cast<std::size_t>(imported)];
+            if (scale)
+                placed.thicknessMetres = scaledThickness(placed, *scale);
+            else if (hasBody(placed) && !splitByScale(context, index, imported))
+                context.warn(
+                    fmt::format("the thickness of material {} is taken in metres, since the nodes that show it "
+                                "do not share one scale that is the same in all directions",
+                                index));
+        }
 }
 
 } // namespace tessera::scenes::gltf

@@ -8,8 +8,6 @@
 /// What primitives of glTF leave open: which triangles their corners make, and normals.
 namespace tessera::scenes::gltf {
 
-inline constexpr int kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6; ///< modes; lines are 1 to 3
-
 /// The corners of the triangles that `corners` draw in a glTF primitive mode (4 list, 5 strip, 6 fan), three a
 /// triangle; a list's incomplete last triangle is dropped, and so are a strip's or a fan's triangles that name one
 /// corner twice. Source: glTF 2.0 section 3.7.2.1.

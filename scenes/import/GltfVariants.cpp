@@ -28,7 +28,7 @@ void importVariant(Context& context, Materials& materials) {
                                                   ? fmt::format("shows the variant '{}'", *wish)
                                                   : "shows its materials as they are without a variant",
                                               fmt::join(told, ", "), told.size() < names.size() ? ", ..." : ""));
-    for (const auto& [sceneMesh, material] : context.variantMaterials) materials.material(material);
+    for (const auto& [sceneMesh, shown] : context.variantMaterials) materials.material(shown);
 }
 
 void bindVariant(Context& context, Materials& materials) {

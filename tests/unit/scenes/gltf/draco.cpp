@@ -134,6 +134,8 @@ TEST(GltfDraco, whatIsEncodedAsStripsIsAList) {
     EXPECT_EQ(builder.import().meshes.at(0).indices, (std::vector<std::uint32_t>{0, 1, 2}));
     builder.primitive()["mode"] = 6;
     EXPECT_NE(builder.error().find("/meshes/0/primitives/0/mode: is 6, a fan"), std::string::npos);
+    builder.primitive()["mode"] = 1;
+    EXPECT_NE(builder.error().find("/meshes/0/primitives/0/mode: is 1, points or lines"), std::string::npos);
 }
 
 TEST(GltfDraco, modelsOfTheAssetsFolderAreRead) {

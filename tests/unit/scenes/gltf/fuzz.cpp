@@ -47,6 +47,8 @@ Json richDocument() {
     view["extensions"]["EXT_meshopt_compression"] = {{"buffer", source},     {"byteLength", encoded.size()},
                                                      {"byteStride", 12},     {"count", 3},
                                                      {"mode", "ATTRIBUTES"}, {"filter", "NONE"}};
+    const Json strip = Json::parse(R"({"attributes": {"POSITION": 0}, "mode": 3, "material": 0})");
+    builder.json["meshes"][0]["primitives"].push_back(strip);
     return builder.json;
 }
 

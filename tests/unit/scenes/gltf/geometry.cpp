@@ -57,30 +57,6 @@ TEST(GltfGeometry, incompleteLastTriangleIsDroppedWithAWarning) {
     EXPECT_TRUE(hasWarning(scene, "has 5 corners, which is no multiple of 3"));
 }
 
-TEST(GltfGeometry, pointsAndLinesAreSkippedWithAWarning) {
-    for (int mode = 0; mode < 4; ++mode) {
-        const Scene scene = withFivePoints(mode).import();
-        EXPECT_TRUE(scene.meshes.empty());
-        EXPECT_TRUE(hasWarning(scene, std::string(mode == 0 ? "1 primitive(s) of points" : "1 primitive(s) of lines") +
-                                          " are left out, the first at /meshes/0/primitives/0 of mesh 'mesh 0'"))
-            << mode;
-    }
-}
-
-TEST(GltfGeometry, linesBesideTrianglesLeaveTheseAndGiveOneWarning) {
-    Builder builder;
-    for (const int mode : {1, 2, 3, 1}) {
-        builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}})"));
-        builder.json["meshes"][0]["primitives"].back()["mode"] = mode;
-    }
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.meshes.size(), 1u);
-    EXPECT_EQ(scene.nodes.at(0).instances.size(), 1u);
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(
-        hasWarning(scene, "4 primitive(s) of lines are left out, the first at /meshes/0/primitives/1 of mesh "));
-}
-
 TEST(GltfGeometry, primitiveWithoutPositionsIsSkippedWithAWarning) {
     Builder builder;
     builder.primitive()["attributes"] = {{"NORMAL", 0}};

@@ -1,0 +1,206 @@
+#include "scenes/import/GltfThinSolids.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "scenes/Direction.h"
+#include "scenes/import/GltfTriangles.h"
+
+namespace tessera::scenes::gltf {
+namespace {
+
+/// Corners of triangles, counter-clockwise seen from outside.
+using SolidTriangles = std::array<std::array<std::uint8_t, 3>, kCornersOfSolid / 3>;
+
+/// Of corners 0 to 2 around a segment's start, counter-clockwise seen against its direction, and 3 to 5 around its end.
+constexpr SolidTriangles kPrismTriangles{
+    {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}, {3, 4, 5}}};
+/// Of the corners +X, -X, +Y, -Y, +Z, -Z.
+constexpr SolidTriangles kOctahedronTriangles{
+    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+
+constexpr std::uint8_t cornerOf(const SolidTriangles& triangles, std::size_t i) {
+    return triangles[i / 3][i % 3];
+}
+constexpr bool isAtEnd(std::uint8_t prismCorner) {
+    return prismCorner >= 3;
+}
+
+/// In what a place of the largest coordinate is rounded to, half a solid's width is at least 8 steps.
+constexpr double kLeastShareOfCoordinate = 0x1p-20;
+
+/// Places beyond single precision are refused as too far away wherever a scene is checked.
+glm::vec3 roundedPlace(const glm::dvec3& place) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return glm::vec3(glm::clamp(place, -kMost, kMost));
+}
+
+/// From the middle to the corners of an octahedron that is `width` from corner to opposite corner.
+std::array<glm::dvec3, 6> octahedron(double width) {
+    std::array<glm::dvec3, 6> corners{};
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        corners[i][static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 0.5 * width : -0.5 * width;
+    return corners;
+}
+
+/// From a segment's ends to the corners of its prism, whose sides are `width` wide.
+std::array<glm::dvec3, 6> prism(const glm::dvec3& along, double width) {
+    const glm::dvec3 direction = directionOf(along).value_or(glm::dvec3(0.0, 0.0, 1.0)), size = glm::abs(direction);
+    const bool isLeastX = size.x <= size.y && size.x <= size.z;
+    const glm::dvec3 axis(isLeastX ? 1.0 : 0.0, !isLeastX && size.y <= size.z ? 1.0 : 0.0,
+                          !isLeastX && size.y > size.z ? 1.0 : 0.0);
+    const glm::dvec3 across = glm::normalize(glm::cross(axis, direction)), up = glm::cross(direction, across);
+    std::array<glm::dvec3, 6> corners{};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double angle = 2.0 * std::numbers::pi / 3.0 * static_cast<double>(i % 3);
+        corners[i] = width / std::numbers::sqrt3 * (std::cos(angle) * across + std::sin(angle) * up);
+    }
+    return corners;
+}
+
+/// Moves the corners of a mesh of cornersOfSolids(), whose vertices no two triangles share, to where the solids have
+/// them, and gives each triangle its normal. `lineWidthOS` is more than 0.
+void inflate(Mesh& mesh, int mode, double lineWidthOS) {
+    const bool isPoints = mode == kPoints;
+    const SolidTriangles& triangles = isPoints ? kOctahedronTriangles : kPrismTriangles;
+    double largest = 0.0;
+    for (const glm::vec3& place : mesh.positionsOS)
+        for (glm::length_t axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(double(place[axis])));
+    const double width =
+        std::max(isPoints ? kPointLineWidths * lineWidthOS : lineWidthOS, 2.0 * kLeastShareOfCoordinate * largest);
+    for (std::size_t first = 0; first + kCornersOfSolid <= mesh.positionsOS.size(); first += kCornersOfSolid) {
+        const std::span<glm::vec3> placesOS = std::span(mesh.positionsOS).subspan(first, kCornersOfSolid);
+        // The first triangle of a prism lies around its start, the last around its end.
+        const glm::dvec3 start(placesOS.front()), end(placesOS.back());
+        const std::array<glm::dvec3, 6> offsets = isPoints ? octahedron(width) : prism(end - start, width);
+        std::array<glm::dvec3, kCornersOfSolid> solid{};
+        for (std::size_t i = 0; i < kCornersOfSolid; ++i) {
+            solid[i] = glm::dvec3(placesOS[i]) + offsets[cornerOf(triangles, i)];
+            placesOS[i] = roundedPlace(solid[i]);
+        }
+        for (std::size_t i = 0; i < kCornersOfSolid; i += 3)
+            std::fill_n(mesh.normalsOS.begin() + static_cast<std::ptrdiff_t>(first + i), 3,
+                        glm::vec3(normalOfTriangle(solid[i], solid[i + 1], solid[i + 2])));
+    }
+}
+
+double largestScale(const glm::dmat4& matrix) {
+    double largest = 0.0;
+    for (glm::length_t axis = 0; axis < 3; ++axis) largest = std::max(largest, glm::length(glm::dvec3(matrix[axis])));
+    return largest;
+}
+
+/// How large a scene is, and by how much its meshes are scaled at most.
+struct Sizes {
+    Box3 boundsWS;
+    std::map<int, double> scales; ///< by mesh
+};
+
+Sizes sizesOf(const Scene& scene) {
+    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+    std::map<int, glm::dmat4> skinned; // world-from-mesh of what follows the first joint
+    for (const Deformed& deformed : scene.rig.deformed) {
+        if (deformed.skin == kNone) continue;
+        const Skin& skin = scene.rig.skins[static_cast<std::size_t>(deformed.skin)];
+        if (!skin.joints.empty())
+            skinned[deformed.mesh] =
+                worldFromNode[static_cast<std::size_t>(skin.joints.front())] * skin.jointFromBind.front();
+    }
+    Sizes sizes;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+        for (const MeshInstance& instance : scene.nodes[n].instances) {
+            const auto found = skinned.find(instance.mesh);
+            const glm::dmat4& worldFromMesh = found == skinned.end() ? worldFromNode[n] : found->second;
+            double& scale = sizes.scales[instance.mesh];
+            scale = std::max(scale, largestScale(worldFromMesh));
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            for (const std::uint32_t index : mesh.indices)
+                sizes.boundsWS.extend(glm::dvec3(worldFromMesh * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0)));
+        }
+    return sizes;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> thinElements(int mode, std::vector<std::uint32_t> corners,
+                                        const std::vector<glm::vec3>& positionsOS) {
+    if (mode == kPoints) return corners;
+    std::vector<std::uint32_t> ends;
+    const auto add = [&](std::uint32_t start, std::uint32_t end) {
+        if (positionsOS[start] != positionsOS[end]) ends.insert(ends.end(), {start, end});
+    };
+    const std::size_t step = mode == kLines ? 2 : 1;
+    ends.reserve(2 * (corners.size() / step + 1));
+    for (std::size_t i = 0; i + 1 < corners.size(); i += step) add(corners[i], corners[i + 1]);
+    if (mode == kLineLoop && corners.size() > 2) add(corners.back(), corners.front());
+    return ends;
+}
+
+std::vector<std::uint32_t> cornersOfSolids(int mode, const std::vector<std::uint32_t>& elements) {
+    const std::size_t each = mode == kPoints ? 1 : 2;
+    std::vector<std::uint32_t> corners;
+    corners.reserve(elements.size() / each * kCornersOfSolid);
+    for (std::size_t element = 0; element + each <= elements.size(); element += each)
+        for (std::size_t i = 0; i < kCornersOfSolid; ++i) {
+            const bool isEnd = mode != kPoints && isAtEnd(cornerOf(kPrismTriangles, i));
+            corners.push_back(elements[element + (isEnd ? 1 : 0)]);
+        }
+    return corners;
+}
+
+void sizeThinSolids(Context& context) {
+    if (context.thinModes.empty()) return;
+    Scene& scene = context.scene;
+    const Sizes sizes = sizesOf(scene);
+    const glm::dvec3 sidesWS = sizes.boundsWS.empty() ? glm::dvec3(0.0) : sizes.boundsWS.max - sizes.boundsWS.min;
+    const double longestWS = std::max({sidesWS.x, sidesWS.y, sidesWS.z});
+    // A single point has no size: it is as large as in a model of 1 m.
+    const double lineWidthWS = kLineWidthShare * (longestWS > 0.0 ? longestWS : 1.0);
+    const auto scaleOf = [&](int mesh) {
+        const auto scale = sizes.scales.find(mesh);
+        return scale == sizes.scales.end() ? 0.0 : scale->second;
+    };
+    std::map<int, double> shapeScales; // by shape, of all meshes that are it deformed
+    for (const Deformed& deformed : scene.rig.deformed) {
+        double& scale = shapeScales[deformed.shape];
+        scale = std::max(scale, scaleOf(deformed.mesh));
+    }
+    const auto inflateAt = [&](Mesh& mesh, int mode, double scale) {
+        const double widthOS = lineWidthWS / scale;
+        if (std::isfinite(widthOS) && widthOS > 0.0) inflate(mesh, mode, widthOS);
+    };
+    std::map<int, int> shapes; // by mesh
+    for (const Deformed& deformed : scene.rig.deformed) shapes[deformed.mesh] = deformed.shape;
+    std::set<int> inflated; // shapes
+    for (const auto& [mesh, mode] : context.thinModes) {
+        Mesh& drawn = scene.meshes[static_cast<std::size_t>(mesh)];
+        const auto shape = shapes.find(mesh);
+        if (shape == shapes.end()) {
+            inflateAt(drawn, mode, scaleOf(mesh));
+            continue;
+        }
+        Mesh& rest = scene.rig.shapes[static_cast<std::size_t>(shape->second)].rest;
+        if (inflated.insert(shape->second).second) inflateAt(rest, mode, shapeScales[shape->second]);
+        std::ranges::copy(rest.positionsOS, drawn.positionsOS.begin());
+        std::ranges::copy(rest.normalsOS, drawn.normalsOS.begin());
+    }
+    const auto isPoints = [](const auto& entry) { return entry.second == kPoints; };
+    const bool hasPoints = std::ranges::any_of(context.thinModes, isPoints);
+    const bool hasLines = !std::ranges::all_of(context.thinModes, isPoints);
+    scene.notes.push_back(
+        fmt::format("its {} are drawn as thin solids; lines are {:g} % of the model's longest side wide, points {:g} %",
+                    !hasLines   ? "points"
+                    : hasPoints ? "points and lines"
+                                : "lines",
+                    100.0 * kLineWidthShare, 100.0 * kLineWidthShare * kPointLineWidths));
+}
+
+} // namespace tessera::scenes::gltf

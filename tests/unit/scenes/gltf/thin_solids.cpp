@@ -1,0 +1,430 @@
+// Points and lines, which are drawn as thin solids.
+#include "scenes/import/GltfThinSolids.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/scenes/gltf/AnimationBuilder.h"
+
+namespace tessera::scenes::gltf::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Of lengths of about 1: far above the rounding of positions, 6e-8, and far below a line's width, 2.5e-3.
+constexpr double kRoundedLength = 1e-6;
+
+/// The longest side of their bounds is 2.
+const std::vector<float> kFivePlaces{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+
+/// The builder's primitive as one of a mode, of its own positions.
+Builder thin(int mode, const std::vector<float>& positions = kFivePlaces) {
+    Builder builder;
+    builder.primitive()["attributes"]["POSITION"] = builder.add(positions, kFloatType, "VEC3", positions.size() / 3);
+    builder.primitive()["mode"] = mode;
+    return builder;
+}
+
+void addNormals(Builder& builder, std::size_t count) {
+    builder.primitive()["attributes"]["NORMAL"] =
+        builder.add(std::vector<float>(3 * count, 1.0f), kFloatType, "VEC3", count);
+}
+
+std::size_t solidsOf(const Mesh& mesh) {
+    EXPECT_EQ(mesh.indices.size() % kCornersOfSolid, 0u);
+    return mesh.indices.size() / kCornersOfSolid;
+}
+
+glm::dvec3 cornerOS(const Mesh& mesh, std::size_t i) {
+    return glm::dvec3(mesh.positionsOS.at(mesh.indices.at(i)));
+}
+
+/// The middle of the solid of a point, or of an end of a prism's axis.
+glm::dvec3 middleOS(const Mesh& mesh, std::size_t first, std::size_t corners) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < corners; ++i) sum += cornerOS(mesh, first + i);
+    return sum / static_cast<double>(corners);
+}
+
+struct Segment {
+    glm::dvec3 start, end;
+};
+
+/// A prism's first triangle is that around its start, its last that around its end.
+std::vector<Segment> segmentsOf(const Mesh& mesh) {
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < solidsOf(mesh); ++i)
+        segments.push_back({middleOS(mesh, i * kCornersOfSolid, 3), middleOS(mesh, (i + 1) * kCornersOfSolid - 3, 3)});
+    return segments;
+}
+
+/// Numbers of the five places, in pairs.
+void expectSegments(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& expected) {
+    const auto place = [](std::size_t i) {
+        return glm::dvec3(kFivePlaces.at(3 * i), kFivePlaces.at(3 * i + 1), kFivePlaces.at(3 * i + 2));
+    };
+    const std::vector<Segment> segments = segmentsOf(mesh);
+    ASSERT_EQ(segments.size(), expected.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        EXPECT_LT(glm::distance(segments[i].start, place(expected[i].first)), kRoundedLength) << i;
+        EXPECT_LT(glm::distance(segments[i].end, place(expected[i].second)), kRoundedLength) << i;
+    }
+}
+
+/// A closed surface's, positive where its triangles turn outwards; and each normal is that of its triangle.
+double volumeOf(const Mesh& mesh, std::size_t solid) {
+    double volume = 0.0;
+    for (std::size_t i = solid * kCornersOfSolid; i < (solid + 1) * kCornersOfSolid; i += 3) {
+        const glm::dvec3 a = cornerOS(mesh, i), b = cornerOS(mesh, i + 1), c = cornerOS(mesh, i + 2);
+        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+        const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+        for (std::size_t k = 0; k < 3; ++k)
+            // Places are rounded by 6e-8 of the bounds, 1e-4 of a solid's width of 2.5e-3 of them.
+            EXPECT_GT(glm::dot(glm::dvec3(mesh.normalsOS.at(mesh.indices.at(i + k))), normal), 1.0 - 1e-3) << i;
+    }
+    return volume;
+}
+
+const Material& materialOf(const Scene& scene, std::size_t instance = 0) {
+    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(instance).material));
+}
+
+// ---- Geometry ------------------------------------------------------------------------------------------------------
+
+TEST(GltfThinSolids, aPointBecomesAnOctahedronOfAStatedShareOfTheModel) {
+    const Scene scene = thin(0, {1, 1, 1, 5, 1, 1}).import();
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(solidsOf(mesh), 2u);
+    const double halfWidth = 0.5 * kPointLineWidths * kLineWidthShare * 4.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const glm::dvec3 point(i == 0 ? 1.0 : 5.0, 1.0, 1.0);
+        glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (std::size_t k = i * kCornersOfSolid; k < (i + 1) * kCornersOfSolid; ++k) {
+            EXPECT_NEAR(glm::distance(cornerOS(mesh, k), point), halfWidth, kRoundedLength);
+            least = glm::min(least, cornerOS(mesh, k));
+            most = glm::max(most, cornerOS(mesh, k));
+        }
+        EXPECT_LT(glm::distance(least, point - halfWidth), 2.0 * kRoundedLength);
+        EXPECT_LT(glm::distance(most, point + halfWidth), 2.0 * kRoundedLength);
+        // The area of the surface times the rounding of places.
+        EXPECT_NEAR(volumeOf(mesh, i), 4.0 / 3.0 * std::pow(halfWidth, 3),
+                    7.0 * halfWidth * halfWidth * kRoundedLength);
+    }
+    EXPECT_THAT(scene.warnings, IsEmpty());
+}
+
+TEST(GltfThinSolids, aSegmentBecomesAClosedPrismOfAStatedShareOfTheModel) {
+    const std::vector<std::vector<float>> directions = {
+        {2, 0, 0}, {0, 2, 0}, {0, 0, -2}, {1, 2, -1.5f}, {-2, 1e-6f, 0}};
+    for (const std::vector<float>& to : directions) {
+        const Mesh mesh = thin(1, {0, 0, 0, to[0], to[1], to[2]}).import().meshes.at(0);
+        ASSERT_EQ(solidsOf(mesh), 1u);
+        const double width = kLineWidthShare * 2.0, length = glm::length(glm::dvec3(to[0], to[1], to[2]));
+        EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), width, kRoundedLength);
+        EXPECT_NEAR(glm::distance(cornerOS(mesh, 21), cornerOS(mesh, 22)), width, kRoundedLength);
+        EXPECT_NEAR(volumeOf(mesh, 0), std::sqrt(3.0) / 4.0 * width * width * length,
+                    3.0 * width * length * kRoundedLength);
+    }
+}
+
+TEST(GltfThinSolids, linesLoopsAndStripsPairTheirVertices) {
+    const Scene lines = thin(1).import();
+    expectSegments(lines.meshes.at(0), {{0, 1}, {2, 3}});
+    EXPECT_THAT(lines.warnings,
+                ElementsAre(HasSubstr("has 5 corners, which is no multiple of 2; the last line is left")));
+    const Scene loop = thin(2).import(), strip = thin(3).import();
+    expectSegments(loop.meshes.at(0), {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}});
+    expectSegments(strip.meshes.at(0), {{0, 1}, {1, 2}, {2, 3}, {3, 4}});
+    EXPECT_THAT(loop.warnings, IsEmpty());
+    EXPECT_THAT(strip.warnings, IsEmpty());
+    Builder indexed = thin(3);
+    indexed.primitive()["indices"] = indexed.add(std::vector<std::uint8_t>{4, 0, 3}, kUnsignedByteType, "SCALAR", 3);
+    expectSegments(indexed.import().meshes.at(0), {{4, 0}, {0, 3}});
+}
+
+TEST(GltfThinSolids, aLoopOfTwoVerticesIsOneSegment) {
+    Builder builder = thin(2);
+    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{1, 4}, kUnsignedByteType, "SCALAR", 2);
+    expectSegments(builder.import().meshes.at(0), {{1, 4}});
+}
+
+/// A triangle of the world's size 1 beside a line at a node of scale 0.1.
+TEST(GltfThinSolids, widthsAreOfTheWholeModelInTheWorld) {
+    Builder builder;
+    const int line = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0}, kFloatType, "VEC3", 2);
+    builder.json["meshes"].push_back(Json::parse(R"({"primitives": [{"attributes": {}, "mode": 1}]})"));
+    builder.json["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = line;
+    builder.merge(R"({"nodes": [{"mesh": 0}, {"mesh": 1, "scale": [0.1, 0.1, 0.1]}], "scenes": [{"nodes": [0, 1]}]})");
+    const Mesh mesh = builder.import().meshes.at(1);
+    EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), 10.0 * kLineWidthShare, kRoundedLength);
+}
+
+TEST(GltfThinSolids, trianglesBesideThemAreAsWithout) {
+    const Scene alone = Builder().import();
+    Builder builder;
+    builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}, "mode": 2})"));
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].positionsOS, alone.meshes.at(0).positionsOS);
+    EXPECT_EQ(scene.meshes[0].normalsOS, alone.meshes.at(0).normalsOS);
+    EXPECT_EQ(scene.meshes[0].indices, alone.meshes.at(0).indices);
+    EXPECT_EQ(materialOf(scene), materialOf(alone));
+    EXPECT_EQ(solidsOf(scene.meshes[1]), 3u);
+    EXPECT_THAT(alone.notes, IsEmpty());
+}
+
+TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
+    Builder builder = thin(1);
+    for (const int mode : {0, 3, 0}) {
+        builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}})"));
+        builder.json["meshes"][0]["primitives"].back()["mode"] = mode;
+    }
+    EXPECT_THAT(
+        builder.import().notes,
+        ElementsAre("its points and lines are drawn as thin solids; lines are 0.25 % of the model's longest side "
+                    "wide, points 0.5 %"));
+    EXPECT_THAT(thin(0).import().notes, ElementsAre(HasSubstr("its points are drawn")));
+    EXPECT_THAT(thin(2).import().notes, ElementsAre(HasSubstr("its lines are drawn")));
+}
+
+// ---- Attributes ----------------------------------------------------------------------------------------------------
+
+TEST(GltfThinSolids, coloursAndTextureCoordinatesGoWithTheVertices) {
+    for (const int mode : {0, 1}) {
+        Builder builder = thin(mode, {0, 0, 0, 1, 0, 0});
+        Json& attributes = builder.primitive()["attributes"];
+        attributes["COLOR_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0}, kFloatType, "VEC3", 2);
+        attributes["TEXCOORD_1"] = builder.add(std::vector<float>{3, 4, 5, 6}, kFloatType, "VEC2", 2);
+        const Mesh mesh = builder.import().meshes.at(0);
+        ASSERT_EQ(mesh.colors.size(), mesh.positionsOS.size());
+        ASSERT_EQ(mesh.texCoords[1].size(), mesh.positionsOS.size());
+        EXPECT_EQ(solidsOf(mesh), mode == 0 ? 2u : 1u);
+        for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
+            const bool isFirst = mesh.positionsOS[i].x < 0.5f;
+            EXPECT_EQ(mesh.colors[i], isFirst ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1)) << i;
+            EXPECT_EQ(mesh.texCoords[1][i], isFirst ? glm::vec2(3, 4) : glm::vec2(5, 6)) << i;
+        }
+    }
+}
+
+TEST(GltfThinSolids, morphTargetsGoWithTheVertices) {
+    Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
+    const int moved = builder.add(std::vector<float>{0, 1, 0, 0, 2, 0}, kFloatType, "VEC3", 2);
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", moved}})});
+    builder.json["meshes"][0]["weights"] = Json::array({1});
+    Scene scene = builder.import();
+    const Mesh rest = scene.rig.shapes.at(0).rest;
+    EXPECT_EQ(scene.meshes.at(0).positionsOS, rest.positionsOS);
+    EXPECT_NEAR(glm::distance(cornerOS(rest, 0), cornerOS(rest, 1)), kLineWidthShare, kRoundedLength);
+    checkScene(scene);
+    poseScene(scene, 0.0);
+    const std::vector<Segment> segments = segmentsOf(scene.meshes.at(0));
+    EXPECT_LT(glm::distance(segments.at(0).start, glm::dvec3(0, 1, 0)), kRoundedLength);
+    EXPECT_LT(glm::distance(segments.at(0).end, glm::dvec3(1, 2, 0)), kRoundedLength);
+}
+
+/// Whose joint is 10 times as large, and lies at x = 7.
+TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
+    Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
+    builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0}, {"translation": [7, 0, 0], "scale": [10, 10, 10]}],
+                      "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1]}]})");
+    Json& attributes = builder.primitive()["attributes"];
+    attributes["JOINTS_0"] = builder.add(std::vector<std::uint8_t>(8, 0), kUnsignedByteType, "VEC4", 2);
+    attributes["WEIGHTS_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC4", 2);
+    Scene scene = builder.import();
+    EXPECT_EQ(scene.rig.shapes.at(0).joints.size(), 4 * kCornersOfSolid);
+    checkScene(scene);
+    poseScene(scene, 0.0);
+    const Mesh& mesh = scene.meshes.at(0);
+    // A pose stores vertices around their middle.
+    const glm::dvec3 along = segmentsOf(mesh).at(0).end - segmentsOf(mesh).at(0).start;
+    EXPECT_LT(glm::distance(along, glm::dvec3(10, 0, 0)), 10.0 * kRoundedLength);
+    EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), 10.0 * kLineWidthShare, 10.0 * kRoundedLength);
+}
+
+// ---- Materials -----------------------------------------------------------------------------------------------------
+
+TEST(GltfThinSolids, withoutNormalsTheyShowBaseColourAndEmissionUnlit) {
+    Builder builder = thin(0);
+    builder.material().merge_patch(Json::parse(R"({"emissiveFactor": [0.5, 0, 0.25], "alphaMode": "MASK",
+        "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 0.5]}})"));
+    Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
+    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    const Scene scene = builder.import();
+    EXPECT_EQ(materialOf(scene).model, MaterialModel::SingleColor);
+    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.75f, 0.5f, 1.0f, 0.5f));
+    EXPECT_EQ(materialOf(scene).alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(materialOf(scene).name, "paint, unlit");
+    EXPECT_EQ(materialOf(scene, 1).name, "paint");
+    EXPECT_EQ(materialOf(scene, 1).model, MaterialModel::MetallicRoughness);
+    EXPECT_EQ(materialOf(scene, 1).baseColor, glm::vec4(0.25f, 0.5f, 0.75f, 0.5f));
+
+    const Scene plain = thin(3).import();
+    EXPECT_EQ(materialOf(plain).model, MaterialModel::SingleColor);
+    EXPECT_EQ(materialOf(plain).baseColor, glm::vec4(1.0f));
+    EXPECT_EQ(materialOf(plain).name, "default, unlit");
+}
+
+TEST(GltfThinSolids, aMaterialThatIsUnlitAnywayStaysOne) {
+    Builder builder = thin(0);
+    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})"));
+    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
+    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(materialOf(scene).name, "paint");
+}
+
+TEST(GltfThinSolids, emissionBesideTexturesIsLeftOutWithAWarning) {
+    Builder builder = thin(0);
+    builder.material().merge_patch(Json::parse(R"({"emissiveFactor": [1, 1, 1],
+        "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "baseColorTexture": {"index": 0}}})"));
+    builder.addTexture();
+    const Scene scene = builder.import();
+    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
+    EXPECT_NE(materialOf(scene).texture(TextureSlot::BaseColor).image, kNone);
+    EXPECT_TRUE(hasWarning(scene, "/materials/0: its emission is left out at points and lines"));
+}
+
+TEST(GltfThinSolids, diffuseColoursOfSpecularGlossinessAreShownToo) {
+    Builder builder = thin(0);
+    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness":
+        {"diffuseFactor": [0.5, 0.25, 0, 1]}}})"));
+    EXPECT_EQ(materialOf(builder.import()).baseColor, glm::vec4(0.5f, 0.25f, 0.0f, 1.0f));
+}
+
+TEST(GltfThinSolids, withNormalsTheyAreLitByThoseOfTheirFacesWithoutNormalMaps) {
+    Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
+    addNormals(builder, 2);
+    builder.material();
+    const Scene plain = builder.import();
+    EXPECT_EQ(materialOf(plain).model, MaterialModel::MetallicRoughness);
+    EXPECT_EQ(materialOf(plain).name, "paint");
+    EXPECT_GT(volumeOf(plain.meshes.at(0), 0), 0.0); // whose normals are those of faces
+    builder.json["materials"][0]["normalTexture"] = {{"index", 0}};
+    builder.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
+    builder.addTexture();
+    const Scene mapped = builder.import();
+    EXPECT_EQ(materialOf(mapped).name, "paint, without normal maps");
+    EXPECT_EQ(materialOf(mapped).texture(TextureSlot::Normal).image, kNone);
+    EXPECT_NE(materialOf(mapped).texture(TextureSlot::Emissive).image, kNone);
+}
+
+TEST(GltfThinSolids, variantsAreUnlitToo) {
+    Builder builder = thin(1);
+    builder.merge(R"({"extensionsUsed": ["KHR_materials_variants"],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
+        "materials": [{"name": "paint"}, {"name": "ruby"}]})");
+    builder.primitive()["material"] = 0;
+    builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
+        Json::parse(R"([{"material": 1, "variants": [0]}])");
+    builder.wishes.variant = "red";
+    EXPECT_EQ(materialOf(builder.import()).name, "ruby, unlit");
+}
+
+TEST(GltfThinSolids, clipsChangeTheColourOfBothMaterials) {
+    Builder builder = thin(0);
+    builder.material();
+    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
+    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1, 0, 0, 0, 1});
+    addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.rig.clips.at(0).channels.size(), 2u);
+    EXPECT_EQ(scene.rig.clips.at(1).channels.size(), 1u) << "what is unlit has no metalness";
+}
+
+// ---- Degenerate and refused ----------------------------------------------------------------------------------------
+
+TEST(GltfThinSolids, segmentsWithoutLengthDrawNothing) {
+    const Scene some = thin(3, {0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0}).import();
+    EXPECT_EQ(solidsOf(some.meshes.at(0)), 1u);
+    EXPECT_THAT(some.warnings, IsEmpty());
+    for (const int mode : {1, 2, 3}) {
+        const Scene none = thin(mode, {1, 2, 3, 1, 2, 3}).import();
+        EXPECT_THAT(none.meshes, IsEmpty());
+        EXPECT_THAT(none.notes, IsEmpty()) << "nothing is drawn";
+        EXPECT_THAT(none.warnings, ElementsAre(HasSubstr("/meshes/0/primitives/0: mesh 'mesh 0' has no line of any "
+                                                         "length and is left out")));
+    }
+}
+
+TEST(GltfThinSolids, aLineOfOneVertexDrawsNothing) {
+    for (const int mode : {1, 2, 3}) {
+        const Scene scene = thin(mode, {1, 2, 3}).import();
+        EXPECT_THAT(scene.meshes, IsEmpty());
+        EXPECT_TRUE(hasWarning(scene, "has no line of any length and is left out")) << mode;
+    }
+}
+
+/// Rounding moves the corners of what lies so far away by 1/16 m.
+TEST(GltfThinSolids, aSinglePointIsDrawnWhereverItLies) {
+    for (const float x : {0.0f, 1.0f, 1e6f, 3e38f}) {
+        const Mesh mesh = thin(0, {x, 0, 0}).import().meshes.at(0);
+        ASSERT_EQ(solidsOf(mesh), 1u);
+        glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+        for (std::size_t i = 0; i < kCornersOfSolid; ++i) {
+            least = glm::min(least, cornerOS(mesh, i));
+            most = glm::max(most, cornerOS(mesh, i));
+        }
+        for (glm::length_t axis = 0; axis < 3; ++axis) EXPECT_GT(most[axis], least[axis]) << x;
+        for (const glm::vec3& normal : mesh.normalsOS) EXPECT_NEAR(glm::length(normal), 1.0f, 1e-6f) << x;
+        if (x == 0.0f) {
+            EXPECT_NEAR(most.x - least.x, kPointLineWidths * kLineWidthShare, 1e-9) << "as in a model of 1 m";
+        }
+    }
+}
+
+TEST(GltfThinSolids, nodesThatFlattenEverythingAreNoFault) {
+    Builder builder = thin(1);
+    builder.json["nodes"][0]["scale"] = {0, 0, 0};
+    const Scene scene = builder.import();
+    EXPECT_EQ(solidsOf(scene.meshes.at(0)), 2u);
+    checkScene(scene);
+}
+
+TEST(GltfThinSolids, brokenOnesAreRefusedByName) {
+    for (int mode = 0; mode < 4; ++mode) {
+        const float nan = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_THAT(thin(mode, {0, 0, 0, nan, 0, 0}).error(),
+                    HasSubstr("/meshes/0/primitives/0/attributes/POSITION: accessor 1 of mesh 'mesh 0' holds "));
+        const auto errorOf = [mode](std::uint8_t index) {
+            Builder builder = thin(mode);
+            builder.primitive()["indices"] =
+                builder.add(std::vector<std::uint8_t>{0, index}, kUnsignedByteType, "SCALAR", 2);
+            return builder.error();
+        };
+        EXPECT_EQ(errorOf(4), "");
+        EXPECT_THAT(errorOf(5),
+                    HasSubstr("index 1 is 5, but mesh 'mesh 0' (/meshes/0/primitives/0) has only 5 vertices"));
+        EXPECT_THAT(errorOf(255), HasSubstr("is 255, which restarts a primitive"));
+    }
+}
+
+TEST(GltfThinSolids, theirSolidsAreChargedBeforeTheyAreMade) {
+    // 27 MB of solids from 20 KB of indices, or 40 KB of pairs; and a tenth of both.
+    const auto errorOf = [](int mode, std::size_t count) {
+        Builder builder = thin(mode);
+        std::vector<std::uint8_t> indices(count);
+        for (std::size_t i = 0; i < count; ++i) indices[i] = static_cast<std::uint8_t>(i % 5);
+        builder.primitive()["indices"] = builder.add(indices, kUnsignedByteType, "SCALAR", count);
+        return builder.error(16 * kMiB);
+    };
+    for (const int mode : {0, 2, 3}) {
+        EXPECT_EQ(errorOf(mode, 2000), "") << mode;
+        EXPECT_THAT(errorOf(mode, 20000), HasSubstr("model.gltf: /meshes/0/primitives/0: asks for ")) << mode;
+    }
+    EXPECT_THAT(errorOf(1, 40000), HasSubstr("model.gltf: /meshes/0/primitives/0: asks for "));
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
