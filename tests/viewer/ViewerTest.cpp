@@ -87,7 +87,8 @@ std::vector<int> ViewerTest::linesOf(const DrivenViewer& viewer, Section section
     while (y < shot.sizePixels.y && isBar(y)) ++y;
     std::vector<int> lines;
     int begin = -1, brightest = 0;
-    for (; y < shot.sizePixels.y && !isBar(y); ++y) {
+    constexpr int kRulePixels = 3; // as thick as lines between rows at most
+    for (; y < shot.sizePixels.y - kRulePixels && !(isBar(y) && isBar(y + kRulePixels)); ++y) {
         const int bright = brightness(y);
         if (bright > kLetterSteps) {
             if (begin < 0) begin = y;
