@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -98,7 +99,7 @@ double largestScale(const glm::dmat4& matrix) {
     return largest;
 }
 
-/// How large a scene is, and by how much its meshes are scaled at most.
+/// How large a scene is, by the boxes of its meshes, and by how much its meshes are scaled at most.
 struct Sizes {
     Box3 boundsWS;
     std::map<int, double> scales; ///< by mesh
@@ -114,6 +115,15 @@ Sizes sizesOf(const Scene& scene) {
             skinned[deformed.mesh] =
                 worldFromNode[static_cast<std::size_t>(skin.joints.front())] * skin.jointFromBind.front();
     }
+    std::vector<std::optional<Box3>> boxesOS(scene.meshes.size()); // once a mesh, however many nodes show it
+    const auto boxOf = [&](int mesh) -> const Box3& {
+        std::optional<Box3>& box = boxesOS[static_cast<std::size_t>(mesh)];
+        if (box) return *box;
+        box.emplace();
+        const Mesh& shown = scene.meshes[static_cast<std::size_t>(mesh)];
+        for (const std::uint32_t index : shown.indices) box->extend(glm::dvec3(shown.positionsOS[index]));
+        return *box;
+    };
     Sizes sizes;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshInstance& instance : scene.nodes[n].instances) {
@@ -121,9 +131,12 @@ Sizes sizesOf(const Scene& scene) {
             const glm::dmat4& worldFromMesh = found == skinned.end() ? worldFromNode[n] : found->second;
             double& scale = sizes.scales[instance.mesh];
             scale = std::max(scale, largestScale(worldFromMesh));
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-            for (const std::uint32_t index : mesh.indices)
-                sizes.boundsWS.extend(glm::dvec3(worldFromMesh * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0)));
+            const Box3& boxOS = boxOf(instance.mesh);
+            for (int corner = 0; corner < 8 && !boxOS.empty(); ++corner) {
+                const glm::bvec3 isMost((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+                sizes.boundsWS.extend(
+                    glm::dvec3(worldFromMesh * glm::dvec4(glm::mix(boxOS.min, boxOS.max, isMost), 1.0)));
+            }
         }
     return sizes;
 }

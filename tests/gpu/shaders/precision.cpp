@@ -275,6 +275,19 @@ TEST_F(PrecisionTest, normalsOfTrianglesAreStoredWithinTheirBound) {
     EXPECT_GE(worst, 0.5 * FACET_ERROR_RADIANS) << "the bound is not tight";
 }
 
+/// pow() alone is off by more.
+TEST_F(PrecisionTest, srgbIsDecodedToAFewRoundings) {
+    std::vector<glm::vec4> inputs;
+    for (int i = 0; i <= 4096; ++i) inputs.emplace_back(float(i) / 4096.0f);
+    const std::vector<glm::vec4> out =
+        bench.run("test/decode_srgb.comp", {{"FILTER_EXACT", "1"}}, inputs, inputs.size(), 1);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const double code = double(inputs[i].x);
+        const double wanted = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        ASSERT_NEAR(out[i].x, wanted, 6e-7 * wanted) << code;
+    }
+}
+
 // What a surface without tangents gets in their place.
 TEST_F(PrecisionTest, anyPerpendicularIsUnitAndAtRightAngles) {
     test::Random random(5);
