@@ -274,7 +274,7 @@ private:
         state_.requests.chosen = std::move(dropped.taken);
         if (dropped.left.empty()) return;
         log_.line("note " + dropped.left);
-        state_.notice = {std::move(dropped.left), false, true};
+        if (!state_.notice.isError) state_.notice = {.text = std::move(dropped.left), .outlivesLoad = true};
     }
 
     /// Names of files and in scenes may be of any language.

@@ -189,7 +189,7 @@ void addPicture(const ShownPicture& shown, std::size_t number, std::vector<glm::
     const Shares shares = sharesOf(masked);
     const std::size_t header = number * LIGHT_PICTURE_HEADER_TEXELS;
     texels[header] = glm::vec4(mean, float(std::max(map.width, map.height)));
-    texels[header + 1] = glm::vec4(glm::vec2(variancesOf(shown)), 0.0f, 0.0f);
+    texels[header + LIGHT_PICTURE_VARIANCES] = glm::vec4(glm::vec2(variancesOf(shown)), 0.0f, 0.0f);
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const PictureLevel& level = levels[i];
         texels[header + LIGHT_PICTURE_FIRST_LEVEL + i] =

@@ -245,12 +245,14 @@ private:
 };
 
 /// The triangles of the solids that points and lines become, each at its vertices, without normals (GltfThinSolids.h).
-void makeThin(Context& context, const std::string& place, int mode, std::vector<std::uint32_t> corners, Mesh& mesh) {
+void makeThin(Context& context, const std::string& place, int mode, std::vector<std::uint32_t> corners,
+              const Deforms& deforms, Mesh& mesh) {
     const auto who = [&] { return fmt::format("{}: {}", context.document.file, place); };
     LoadLedger& ledger = context.document.ledger;
     constexpr std::size_t kEnds = 2;
     ledger.charge(kEnds * (corners.size() + 1) * sizeof(std::uint32_t), who);
-    const std::vector<std::uint32_t> elements = thinElements(mode, std::move(corners), mesh.positionsOS);
+    const std::vector<std::uint32_t> elements =
+        thinElements(mode, std::move(corners), mesh.positionsOS, deforms.byTargets || deforms.byJoints);
     const std::size_t solids = elements.size() / (mode == kPoints ? 1 : kEnds);
     if (solids > std::numeric_limits<std::uint32_t>::max() / kCornersOfSolid)
         context.document.fail(place, fmt::format("draws {} points or lines, whose solids have more corners than 32-bit "
@@ -291,7 +293,7 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
         context.warn(fmt::format("{}: mesh '{}' has {} corners, which is no multiple of {}; the last {} is left out",
                                  place, mesh.name, corners.size(), each, each == 3 ? "triangle" : "line"));
     if (isThin(primitive)) {
-        makeThin(context, place, primitive.mode, std::move(corners), mesh);
+        makeThin(context, place, primitive.mode, std::move(corners), deforms, mesh);
     } else {
         if (reader.mode() != kTriangles) // three corners for every one after the second
             ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
@@ -303,7 +305,9 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
     ledger.settle(mark, heldBytes() + bytesOf(shape));
     if (mesh.indices.empty()) {
         context.warn(fmt::format("{}: mesh '{}' has no {} and is left out", place, mesh.name,
-                                 isThin(primitive) ? "line of any length" : "triangle"));
+                                 !isThin(primitive)          ? "triangle"
+                                 : primitive.mode == kPoints ? "point"
+                                                             : "line of any length"));
         return std::nullopt;
     }
     return shape;

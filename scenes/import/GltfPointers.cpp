@@ -136,6 +136,15 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     for (const int material : materials_.imported(static_cast<int>(index))) {
         const MaterialModel shown = context_.scene.materials[static_cast<std::size_t>(material)].model;
         if (shown == MaterialModel::SingleColor && !isOfUnlit) continue;
+        const bool hasEmission =
+            !isUnlit && shown == MaterialModel::SingleColor && stored.surface.emissive != glm::vec3(0.0f);
+        if (hasEmission && info->property == AnimatedProperty::BaseColor) {
+            context_.warn(
+                fmt::format("/materials/{}: a clip of its base colour is left out at points and lines without "
+                            "normals, whose colour has its emission too",
+                            index));
+            continue;
+        }
         animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, material));
     }
     return animated;

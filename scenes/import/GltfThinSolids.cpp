@@ -73,10 +73,16 @@ void inflate(Mesh& mesh, int mode, double lineWidthOS) {
     const bool isPoints = mode == kPoints;
     const SolidTriangles& triangles = isPoints ? kOctahedronTriangles : kPrismTriangles;
     double largest = 0.0;
-    for (const glm::vec3& place : mesh.positionsOS)
+    Box3 box;
+    for (const glm::vec3& place : mesh.positionsOS) {
+        box.extend(place);
         for (glm::length_t axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(double(place[axis])));
+    }
+    const glm::dvec3 sides = box.empty() ? glm::dvec3(0.0) : box.max - box.min;
+    const double longest = std::max({sides.x, sides.y, sides.z});
+    const double asked = isPoints ? kPointLineWidths * lineWidthOS : lineWidthOS;
     const double width =
-        std::max(isPoints ? kPointLineWidths * lineWidthOS : lineWidthOS, 2.0 * kLeastShareOfCoordinate * largest);
+        std::max(longest > 0.0 ? std::min(asked, longest) : asked, 2.0 * kLeastShareOfCoordinate * largest);
     for (std::size_t first = 0; first + kCornersOfSolid <= mesh.positionsOS.size(); first += kCornersOfSolid) {
         const std::span<glm::vec3> placesOS = std::span(mesh.positionsOS).subspan(first, kCornersOfSolid);
         // The first triangle of a prism lies around its start, the last around its end.
@@ -144,11 +150,11 @@ Sizes sizesOf(const Scene& scene) {
 } // namespace
 
 std::vector<std::uint32_t> thinElements(int mode, std::vector<std::uint32_t> corners,
-                                        const std::vector<glm::vec3>& positionsOS) {
+                                        const std::vector<glm::vec3>& positionsOS, bool endsMayMove) {
     if (mode == kPoints) return corners;
     std::vector<std::uint32_t> ends;
     const auto add = [&](std::uint32_t start, std::uint32_t end) {
-        if (positionsOS[start] != positionsOS[end]) ends.insert(ends.end(), {start, end});
+        if (endsMayMove || positionsOS[start] != positionsOS[end]) ends.insert(ends.end(), {start, end});
     };
     const std::size_t step = mode == kLines ? 2 : 1;
     ends.reserve(2 * (corners.size() / step + 1));
@@ -187,7 +193,7 @@ void sizeThinSolids(Context& context) {
         scale = std::max(scale, scaleOf(deformed.mesh));
     }
     const auto inflateAt = [&](Mesh& mesh, int mode, double scale) {
-        const double widthOS = lineWidthWS / scale;
+        const double widthOS = lineWidthWS / (scale > 0.0 ? scale : 1.0);
         if (std::isfinite(widthOS) && widthOS > 0.0) inflate(mesh, mode, widthOS);
     };
     std::map<int, int> shapes; // by mesh

@@ -18,10 +18,10 @@ inline constexpr double kPointLineWidths = 2.0;
 inline constexpr std::size_t kCornersOfSolid = 24;
 
 /// What the corners of a primitive draw in a glTF mode 0 to 3: of points one vertex each, of lines two a segment. A
-/// list's incomplete last segment is dropped, and so are segments without length. A loop of two vertices is one
-/// segment. Source: glTF 2.0 section 3.7.2.1.
+/// list's incomplete last segment is dropped, and so are segments without length unless their ends may move. A loop of
+/// two vertices is one segment. Source: glTF 2.0 section 3.7.2.1.
 std::vector<std::uint32_t> thinElements(int mode, std::vector<std::uint32_t> corners,
-                                        const std::vector<glm::vec3>& positionsOS);
+                                        const std::vector<glm::vec3>& positionsOS, bool endsMayMove);
 
 /// Of thinElements(), for each corner of the solids' triangles the vertex at which it stands: triangles without area
 /// until sizeThinSolids().
@@ -29,8 +29,8 @@ std::vector<std::uint32_t> cornersOfSolids(int mode, const std::vector<std::uint
 
 /// Gives all solids of the scene their size and normals, and notes that they are drawn. Called when all nodes,
 /// instances and skins are there. Of nodes that show one mesh at several scales the largest counts, and of skins their
-/// first joint; no solid becomes so thin that single precision cannot hold it. What a node flattens to nothing stays
-/// without area.
+/// first joint; no solid becomes so thin that single precision cannot hold it, nor wider than its mesh is long. What
+/// a node flattens to nothing, as a clip may begin, is as wide as at a scale of 1.
 void sizeThinSolids(Context& context);
 
 } // namespace tessera::scenes::gltf

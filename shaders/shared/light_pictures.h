@@ -9,6 +9,7 @@
 // A header: rgb the mean over the light's surface, a the longer side in texels; then xy the variances of the surface's
 // places along its two vectors, in parts of them; then of each level x the texel that it begins with, yz its width and
 // height, w how many levels there are.
+#define LIGHT_PICTURE_VARIANCES 1
 #define LIGHT_PICTURE_FIRST_LEVEL 2
 #define LIGHT_PICTURE_HEADER_TEXELS (LIGHT_PICTURE_FIRST_LEVEL + LIGHT_PICTURE_MOST_LEVELS)
 

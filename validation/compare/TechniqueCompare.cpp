@@ -137,8 +137,8 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<c
     return {};
 }
 
-/// Which stored channels are put into fp32 together: the alphas of a surface that is not anisotropic are equal in both
-/// of theirs, and with one of them alone in fp32 it would be lit as an anisotropic one.
+/// Which stored channels are put into fp32 together. An isotropic surface's two alphas are equal; microsurface holds
+/// one, tangent the other, and rounding only one would make it anisotropic.
 std::vector<std::vector<frame::Channel>> channelsOfOneError(const frame::FeatureSet& features,
                                                             const frame::GBufferLayout& layout) {
     using frame::Channel;

@@ -65,8 +65,8 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
     return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
 }
 
-/// Of an area light without range: the light itself, and what changes of it with the area P that it shows. That is
-/// rounded in parts of the largest; the light is P / (d^2 + P / pi), of which the derivative is (1 - light / pi)^2 /
+/// Of an area light without range: the light itself, and what changes of it with the area P that it shows. Rounding
+/// of P is relative to the largest P; the light is P / (d^2 + P / pi), of which the derivative is (1 - light / pi)^2 /
 /// d^2.
 double scaleOfArea(Light light, const glm::dvec3& positionWS) {
     if (!scenes::hasSurface(light)) return 0.0;
@@ -76,6 +76,7 @@ double scaleOfArea(Light light, const glm::dvec3& positionWS) {
     const glm::dvec3 toLight = light.positionWS - positionWS;
     light.type = LightType::Directional;
     const double radiance = truthAt(light, positionWS).irradiance.x;
+    if (radiance == 0.0) return 0.0;
     const double dark = 1.0 - arriving / (std::numbers::pi * radiance);
     return arriving + radiance * largest * dark * dark / glm::dot(toLight, toLight);
 }

@@ -87,8 +87,8 @@ const int kStretchTaps = 5;
 
 // The mean direction meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too,
 // which is linear: so its mean lies further by their covariance with the height, over the mean height. `variances` are
-// those of the surface's places, which count as far as a cosine sees: `turns` is the square of how many radians a step
-// along either vector turns, and their product. The variance of the height is at most that of heights spread evenly from
+// those of the surface's places, which count as far as a cosine sees: `turns` are the squares of how many radians a step
+// along either vector turns, and their mixed term. The variance of the height is at most that of heights spread evenly from
 // zero, a third of the squared mean; what the horizon cuts may have more.
 vec2 placeByHeight(vec2 variances, vec3 turns, vec2 slope, float meanHeight)
 {
@@ -120,8 +120,9 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise vec3 met = along != 0.0 ? direction * (height / along) : middle;
     precise float right2 = dot(right, right), up2 = dot(up, up), both = dot(right, up);
     // Of a light that touches the point, all that is seen lies there.
-    precise float distance2 = max(dot(met, met), 1e-12 * max(right2, up2));
-    if (!(distance2 < 1e30)) return lightPictureMean(picture);
+    precise float metres2 = dot(met, met);
+    if (!(metres2 < 1e30)) return lightPictureMean(picture);
+    precise float distance2 = max(metres2, 1e-12 * max(right2, up2));
     // The place by the two vectors, which the lobe's matrix has sheared.
     precise vec3 place = met - middle;
     precise float sheared = right2 * up2 - both * both;

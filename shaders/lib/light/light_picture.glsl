@@ -15,7 +15,7 @@ vec3 lightPictureMean(int picture)
 // Of the surface's places, along its two vectors.
 vec2 lightPictureVariances(int picture)
 {
-    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + 1).xy;
+    return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_VARIANCES).xy;
 }
 
 // As a + share (b - a), which is a where both are.

@@ -177,7 +177,7 @@ TEST(LightPictures, theVariancesOfAnOutlineAreThoseOfItsPlaces) {
             squares += at * at;
         }
         const glm::dvec2 wanted = squares / all - sum * sum / (all * all);
-        const glm::vec4 found = texels[shape * LIGHT_PICTURE_HEADER_TEXELS + 1];
+        const glm::vec4 found = texels[shape * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_VARIANCES];
         for (int i = 0; i < 2; ++i) EXPECT_NEAR(found[i], wanted[i], 5e-4) << shape << ", " << i;
     }
 }

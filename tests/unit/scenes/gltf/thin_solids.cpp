@@ -16,6 +16,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -232,6 +233,14 @@ TEST(GltfThinSolids, morphTargetsGoWithTheVertices) {
     EXPECT_LT(glm::distance(segments.at(0).end, glm::dvec3(1, 2, 0)), kRoundedLength);
 }
 
+TEST(GltfThinSolids, segmentsThatGrowAreThereFromTheBegin) {
+    Builder builder = thin(1, {1, 2, 3, 1, 2, 3});
+    const int moved = builder.add(std::vector<float>{0, 0, 0, 0, 2, 0}, kFloatType, "VEC3", 2);
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", moved}})});
+    builder.json["meshes"][0]["weights"] = Json::array({1});
+    EXPECT_EQ(solidsOf(builder.import().meshes.at(0)), 1u);
+}
+
 /// Whose joint is 10 times as large, and lies at x = 7.
 TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
     Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
@@ -343,6 +352,15 @@ TEST(GltfThinSolids, clipsChangeTheColourOfBothMaterials) {
     EXPECT_EQ(scene.rig.clips.at(1).channels.size(), 1u) << "what is unlit has no metalness";
 }
 
+TEST(GltfThinSolids, aClipOfTheColourLeavesOutWhatHoldsEmissionToo) {
+    Builder builder = thin(0);
+    builder.material()["emissiveFactor"] = {1, 0, 0};
+    addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1, 0, 0, 0, 1});
+    const Scene scene = builder.import();
+    EXPECT_THAT(scene.rig.clips.at(0).channels, IsEmpty());
+    EXPECT_THAT(scene.warnings, Contains(HasSubstr("/materials/0: a clip of its base colour is left out at points")));
+}
+
 // ---- Degenerate and refused ----------------------------------------------------------------------------------------
 
 TEST(GltfThinSolids, segmentsWithoutLengthDrawNothing) {
@@ -390,6 +408,17 @@ TEST(GltfThinSolids, nodesThatFlattenEverythingAreNoFault) {
     const Scene scene = builder.import();
     EXPECT_EQ(solidsOf(scene.meshes.at(0)), 2u);
     checkScene(scene);
+    const Mesh& mesh = scene.meshes.at(0);
+    EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), kLineWidthShare, kRoundedLength) << "it may grow";
+}
+
+TEST(GltfThinSolids, noSolidIsWiderThanItsMeshIsLong) {
+    Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
+    builder.merge(
+        R"({"nodes": [{"mesh": 0, "scale": [1e-6, 1e-6, 1e-6]}, {"mesh": 1}], "scenes": [{"nodes": [0, 1]}]})");
+    builder.json["meshes"].push_back(Json::parse(R"({"primitives": [{"attributes": {"POSITION": 0}}]})"));
+    const Mesh mesh = builder.import().meshes.at(0);
+    EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), 1.0, kRoundedLength);
 }
 
 TEST(GltfThinSolids, brokenOnesAreRefusedByName) {
