@@ -106,6 +106,14 @@ void ViewerTest::makeRoom(const DrivenViewer& viewer) {
     for (const Section open : {Section::View, Section::Scene}) toggle(viewer, open);
 }
 
+void ViewerTest::pickSphere(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
+    makeRoom(viewer);
+    const std::size_t mark = viewer.mark();
+    viewer.click(sphereIn(sizePixels));
+    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
+    viewer.pause(0.5);
+}
+
 void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
     viewer.click({200, barOf(viewer, section)});
     viewer.moveTo(middlePixel()); // where nothing lights up

@@ -92,6 +92,8 @@ protected:
     static void toggle(const DrivenViewer& viewer, Section section);
     /// Folds what is open, so that nothing scrolls where another section opens.
     static void makeRoom(const DrivenViewer& viewer);
+    /// Selects the material of sphereIn() by a click, which opens the panel of materials in the room that it makes.
+    static void pickSphere(const DrivenViewer& viewer, glm::ivec2 sizePixels);
     /// Opens the panel of lights, and adds one.
     static void addLight(const DrivenViewer& viewer);
     /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.

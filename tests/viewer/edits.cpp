@@ -323,11 +323,7 @@ TEST_F(ViewerLightLife, aPathIsChosenOpenedItsPointsDraggedSavedAndUndone) {
 TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     DrivenViewer viewer = open(kSpheres);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
-    makeRoom(viewer);
-    std::size_t mark = viewer.mark();
-    viewer.click(sphereIn(before.sizePixels)); // which opens the panel of materials
-    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
-    viewer.pause(0.5);
+    pickSphere(viewer, before.sizePixels);
     constexpr int kMetallicRow = 4;
     const glm::ivec2 middle = inRow(viewer, Section::Materials, kMetallicRow, 200);
     const std::size_t edited = viewer.mark();

@@ -25,14 +25,10 @@ protected:
 TEST_F(ViewerUndo, anEditOfAMaterialIsUndoneRedoneAndReverted) {
     DrivenViewer viewer = open(kSpheres);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
-    makeRoom(viewer);
-    std::size_t mark = viewer.mark();
-    viewer.click(sphereIn(before.sizePixels)); // which opens the panel of materials
-    EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10");
-    viewer.pause(0.5);
+    pickSphere(viewer, before.sizePixels);
     constexpr int kMetallic = 4; // its row
     const glm::ivec2 slider = inRow(viewer, Section::Materials, kMetallic, 200);
-    mark = viewer.mark();
+    const std::size_t mark = viewer.mark();
     viewer.drag(slider, {kPanelPixels - 2, slider.y});
     viewer.waitForWhole(mark);
     toggle(viewer, Section::Materials); // takes the outline away
