@@ -118,7 +118,7 @@ void Renderer::forgetReloaded() {
 /// What the view's shadows ask of the scene.
 void Renderer::makeForShadows(const frame::FrameSpec& spec) {
     frame::SceneGpu& scene = *uploaded_.front().scene;
-    if (spec.features[frame::Feature::Shadows]) scene.makeTriangleNormals();
+    if (spec.features[frame::Feature::Shadows]) scene.makeFacetNormals();
     if (spec.tracesShadows()) scene.makeCasters();
 }
 

@@ -79,7 +79,7 @@ struct ViewWiring {
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
         const UploadViewPass::Outputs uploaded = UploadViewPass::add(graph, spec, drawn);
         surfaces = {drawn, frame.scene, {uploaded.constants}, uploaded.rows, uploaded.commands, {}, uploaded.hook, {}};
-        if (!spec.features[frame::Feature::Shadows]) surfaces.scene.triangleNormals.reset();
+        if (!spec.features[frame::Feature::Shadows]) surfaces.scene.facetNormals.reset();
         const UploadLightsPass::Outputs lights = UploadLightsPass::add(graph, spec, drawn);
         lighting = {surfaces.view,
                     lights.constants,

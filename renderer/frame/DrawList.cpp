@@ -70,7 +70,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
             const scenes::Box3& boxOS = boxesOS[std::size_t(instance.mesh)];
             const glm::dvec3 centerOS = boxOS.empty() ? glm::dvec3(0.0) : 0.5 * (boxOS.min + boxOS.max);
             list.draws.push_back({instance.mesh, instance.material, int(node), own, mirrored, instance.castsShadow, 0,
-                                  0, largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
+                                  largestColors[std::size_t(instance.mesh)], transformed(boxOS, worldFromObject),
                                   reachOf(boxOS, worldFromObject),
                                   glm::dvec3(worldFromObject * glm::dvec4(centerOS, 1.0))});
         }
@@ -131,7 +131,6 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
         rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRWS[r]);
         rows.normal[r] = glm::vec4(normal[0][r], normal[1][r], normal[2][r], extra[r]);
     }
-    rows.firstTriangle = draw.firstTriangle;
     return rows;
 }
 

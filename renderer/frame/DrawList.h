@@ -19,7 +19,6 @@ struct Draw {
     bool mirrored = false;   ///< the node's transform turns the winding round
     bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
     int spreadingNumber = 0; ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
-    std::uint32_t firstTriangle = 0; ///< in the scene's index buffer
     float largestColor = 0;          ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
     scenes::Box3 boxWS{};            ///< around the mesh's own box; empty without vertices
     double reachMetres = 0; ///< the largest sum of magnitudes that fp32 adds a vertex up from, without the node's place
@@ -67,7 +66,6 @@ double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const Camera
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];
-    std::uint32_t firstTriangle = 0; ///< Draw::firstTriangle
 };
 
 /// Pixels [low, high) of a picture, lower-left origin.

@@ -50,7 +50,7 @@ SurfaceHandles SurfaceHandles::readGeometry(graph::PassBuilder& pass) const {
 SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
-    result.scene.triangleNormals = readWhereThere(pass, scene.triangleNormals, Access::StorageRead);
+    result.scene.facetNormals = readWhereThere(pass, scene.facetNormals, Access::VertexRead);
     result.spreadLight = readWhereThere(pass, spreadLight, Access::ImageRead);
     result.hook = readWhereThere(pass, hook, Access::UniformRead);
     return result;
@@ -79,10 +79,6 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<cons
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
                           std::optional<gpu::Blend> transmitting) const {
     view.bind(context);
-    if (scene.triangleNormals) {
-        const gpu::Buffer& normals = context.buffer(*scene.triangleNormals);
-        gpu::bindStorageBuffer(STORAGE_TRIANGLE_NORMALS, normals, 0, normals.bytes());
-    }
     if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
     if (spreadLight) gpu::bindImage(IMAGE_UNIT_SPREAD_LIGHT, context.texture(*spreadLight), gpu::ImageAccess::Read);
     const ViewDraws& draws = drawn->draws;
@@ -234,7 +230,7 @@ SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> 
         handles.materialTable = import("material_table", table);
     if (features.enteringLight()) handles.subsurfaces = import("subsurfaces", scene ? scene->subsurfaces() : nullptr);
     if (std::ranges::any_of(specs, [](const FrameSpec* spec) { return spec->features[Feature::Shadows]; }))
-        handles.triangleNormals = import("triangle_normals", scene ? scene->triangleNormals() : nullptr);
+        handles.facetNormals = import("facet_normals", scene ? scene->facetNormals() : nullptr);
     if (std::ranges::any_of(specs, &FrameSpec::tracesShadows))
         handles.casters = import("casters", scene ? scene->casters()->texels.get() : nullptr);
     return handles;

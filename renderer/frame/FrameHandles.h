@@ -82,7 +82,7 @@ struct SceneHandles {
     graph::BufferHandle materials;                      ///< shared::MaterialConstants of each
     std::optional<graph::BufferHandle> materialTable;   ///< where surfaces hold their material's number
     std::optional<graph::BufferHandle> subsurfaces;     ///< where lighting reads them: shared::SubsurfaceConstants
-    std::optional<graph::BufferHandle> triangleNormals; ///< where there are shadows: SceneGpu::makeTriangleNormals()
+    std::optional<graph::BufferHandle> facetNormals; ///< where there are shadows: a stream too, of lit surfaces
     std::optional<graph::BufferHandle> casters;         ///< where shadows are traced: shaders/shared/caster_tree.h
     EnvironmentHandles environment;                     ///< without constants; what some view has use for
     LobeHandles lobes;                                  ///< what some view has use for

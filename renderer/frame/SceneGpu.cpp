@@ -54,9 +54,9 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
 }
 
 /// The rows of a draw. Each view has a buffer of its own for them.
-const std::array<gpu::VertexAttribute, 7>& drawAttributes() {
-    static const std::array<gpu::VertexAttribute, 7> attributes = [] {
-        std::array<gpu::VertexAttribute, 7> result;
+const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
+    static const std::array<gpu::VertexAttribute, 6> attributes = [] {
+        std::array<gpu::VertexAttribute, 6> result;
         for (std::uint32_t row = 0; row < 3; ++row) {
             const std::size_t offset = row * sizeof(glm::vec4);
             result[row] = attribute(ATTRIBUTE_DRAW_POSITION_ROW0 + row, 4, nullptr, sizeof(DrawRows),
@@ -64,11 +64,6 @@ const std::array<gpu::VertexAttribute, 7>& drawAttributes() {
             result[3 + row] = attribute(ATTRIBUTE_DRAW_NORMAL_ROW0 + row, 4, nullptr, sizeof(DrawRows),
                                         offsetof(DrawRows, normal) + offset, 1);
         }
-        gpu::VertexAttribute& triangle = result.back();
-        triangle = attribute(ATTRIBUTE_DRAW_FIRST_TRIANGLE, 1, nullptr, sizeof(DrawRows),
-                             offsetof(DrawRows, firstTriangle), 1);
-        triangle.type = gpu::VertexType::Uint32;
-        triangle.integer = true;
         return result;
     }();
     return attributes;
@@ -98,17 +93,17 @@ std::uint64_t newRevision() {
 SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
                    scenes::SubsurfaceRequest subsurface)
     : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface),
-      materialsInUse_(scenes::inUse(scene).materials), geometry_(makeGeometry()), draws_(makeDraws(geometry_.ranges)),
-      materials_(makeMaterials()) {
+      materialsInUse_(scenes::inUse(scene).materials), geometry_(makeGeometry(scene, features)),
+      draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
     revisedMaterials_ = casterMaterials();
     casterRevision_ = newRevision();
 }
 
-SceneGpu::Geometry SceneGpu::makeGeometry() const {
-    const VertexStreams streams = makeVertexStreams(scene_, features_);
+SceneGpu::Geometry SceneGpu::makeGeometry(const scenes::Scene& scene, const FeatureSet& features) {
+    const VertexStreams streams = makeVertexStreams(scene, features);
     Geometry geometry;
-    geometry.tangentBases = tangentBases(scene_);
+    geometry.tangentBases = tangentBases(scene);
     geometry.ranges = streams.ranges;
     std::vector<gpu::VertexAttribute> attributes;
     const auto stream = [&](std::uint32_t location, const char* label, const auto& values) {
@@ -124,6 +119,10 @@ SceneGpu::Geometry SceneGpu::makeGeometry() const {
     stream(ATTRIBUTE_TEXCOORD0, "texture_coordinates_0", streams.texCoords[0]);
     stream(ATTRIBUTE_TEXCOORD1, "texture_coordinates_1", streams.texCoords[1]);
     stream(ATTRIBUTE_COLOR, "vertex_colors", streams.colors);
+    if (!streams.facetNormalsOS.empty()) {
+        geometry.facetNormals = std::make_unique<gpu::Buffer>(gpu::Buffer::of("facet_normals", streams.facetNormalsOS));
+        attributes.push_back(attribute(ATTRIBUTE_FACET_NORMAL, 3, geometry.facetNormals.get(), sizeof(glm::vec3)));
+    }
     for (const gpu::VertexAttribute& ofDraw : drawAttributes()) attributes.push_back(ofDraw);
     geometry.indices = std::make_unique<gpu::Buffer>(gpu::Buffer::of("indices", streams.indices));
     geometry.array = std::make_unique<gpu::VertexArray>("scene", attributes, geometry.indices.get());
@@ -135,7 +134,6 @@ SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     const std::vector<SpreadingObject> spreading = spreadingObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
-        draw.firstTriangle = draws.ranges.back().firstIndex / 3;
         const auto own = std::ranges::find(spreading, draw.instance, &SpreadingObject::instance);
         if (own != spreading.end()) draw.spreadingNumber = 1 + int(own - spreading.begin());
     }
@@ -173,7 +171,8 @@ SceneGpu::Materials SceneGpu::makeMaterials() const {
 
 void SceneGpu::updateMaterials() {
     std::optional<Geometry> geometry;
-    if (features_.tangents() && tangentBases(scene_) != geometry_.tangentBases) geometry = makeGeometry();
+    if (features_.tangents() && tangentBases(scene_) != geometry_.tangentBases)
+        geometry = makeGeometry(scene_, features_);
     // Transparent surfaces are drawn last, in an order of their own.
     std::optional<Draws> draws;
     if (geometry || transparentMaterials(scene_) != draws_.transparentMaterials)
@@ -190,7 +189,7 @@ void SceneGpu::updateMaterials() {
 }
 
 void SceneGpu::updateGeometry() {
-    Geometry geometry = makeGeometry();
+    Geometry geometry = makeGeometry(scene_, features_);
     Draws draws = makeDraws(geometry.ranges);
     Materials materials = makeMaterials();
     std::vector<CasterMaterial> revised = casterMaterials();
@@ -231,10 +230,17 @@ void SceneGpu::makeCasters() {
     treeMaterials_ = std::move(materials);
 }
 
-void SceneGpu::makeTriangleNormals() {
-    if (geometry_.triangleNormals) return;
-    const std::vector<glm::vec3> normals = triangleNormalsOS(scene_, geometry_.ranges);
-    geometry_.triangleNormals = std::make_unique<gpu::Buffer>(gpu::Buffer::of("triangle_normals", normals));
+void SceneGpu::makeFacetNormals() {
+    if (features_[Feature::Shadows]) return;
+    FeatureSet features = features_;
+    features.add(Feature::Shadows);
+    Geometry geometry = makeGeometry(scene_, features);
+    std::vector<VertexStreams::Range> ranges;
+    for (const Draw& draw : draws_.list.draws) ranges.push_back(geometry.ranges.at({draw.mesh, draw.material}));
+    // Nothing throws from here on.
+    features_ = features;
+    geometry_ = std::move(geometry);
+    draws_.ranges = std::move(ranges);
 }
 
 bool SceneGpu::shadersDecode(const scenes::Material& material, std::size_t slot) const {

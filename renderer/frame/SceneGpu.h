@@ -88,10 +88,11 @@ public:
     /// Those that were made last; null before.
     const Casters* casters() const { return casters_ ? &*casters_ : nullptr; }
 
-    /// triangleNormalsOS(), three floats each: what shadows ask of the triangles that are rasterised.
-    void makeTriangleNormals();
-    /// Null before.
-    const gpu::Buffer* triangleNormals() const { return geometry_.triangleNormals.get(); }
+    /// Uploads VertexStreams::facetNormalsOS, what shadows ask of the triangles that are rasterised, with the vertices
+    /// that they copy. Throws as updateGeometry().
+    void makeFacetNormals();
+    /// Null before, unless the features have shadows.
+    const gpu::Buffer* facetNormals() const { return geometry_.facetNormals.get(); }
 
 private:
     struct BoundTexture {
@@ -104,7 +105,7 @@ private:
         std::vector<std::unique_ptr<gpu::Buffer>> vertices;
         std::vector<const gpu::Buffer*> streams; ///< the same
         std::unique_ptr<gpu::Buffer> indices;
-        std::unique_ptr<gpu::Buffer> triangleNormals; ///< null until makeTriangleNormals()
+        std::unique_ptr<gpu::Buffer> facetNormals; ///< null until makeFacetNormals()
         std::unique_ptr<gpu::VertexArray> array;
     };
     struct Draws {
@@ -121,7 +122,7 @@ private:
     /// and the row of SubsurfaceConstants that lets it through.
     using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float, std::size_t>;
     std::vector<CasterMaterial> casterMaterials() const;
-    Geometry makeGeometry() const;
+    static Geometry makeGeometry(const scenes::Scene& scene, const FeatureSet& features);
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
     Materials makeMaterials() const;
     void uploadTextures();

@@ -26,10 +26,62 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
+/// Lets triangles begin at another corner where an earlier one ends in the same vertex and in another corner none does:
+/// the last vertex of each can then hold what is the triangle's own. `indices` are those of the mesh, or as many with
+/// vertices split.
+void turnTriangles(const scenes::Mesh& mesh, std::vector<std::uint32_t>& indices) {
+    std::vector<bool> isLast(mesh.positionsOS.size(), false);
+    for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        const auto vertex = [&](std::size_t corner) { return mesh.indices[first + corner]; };
+        std::size_t last = 2;
+        for (const std::size_t corner : {2u, 0u, 1u}) {
+            if (isLast[vertex(corner)]) continue;
+            last = corner;
+            break;
+        }
+        isLast[vertex(last)] = true;
+        const auto begin = indices.begin() + std::ptrdiff_t(first);
+        std::rotate(begin, begin + std::ptrdiff_t((last + 1) % 3), begin + 3);
+    }
+}
+
+/// Copies the last vertex of a triangle where that of an earlier one is the same.
+void splitLastVertices(const scenes::Mesh& mesh, TangentMesh& split) {
+    const std::size_t own = mesh.positionsOS.size();
+    std::vector<bool> isLast(own + split.copiedOf.size(), false);
+    for (std::size_t last = 2; last < split.indices.size(); last += 3) {
+        const std::uint32_t vertex = split.indices[last];
+        if (!isLast[vertex]) {
+            isLast[vertex] = true;
+            continue;
+        }
+        split.indices[last] = std::uint32_t(own + split.copiedOf.size());
+        split.copiedOf.push_back(vertex < own ? vertex : split.copiedOf[vertex - own]);
+        if (!split.tangentsOS.empty()) split.tangentsOS.push_back(glm::vec4(split.tangentsOS[vertex]));
+    }
+}
+
+/// By vertex: of the triangle whose last it is.
+void appendFacetNormals(std::vector<glm::vec3>& stream, const scenes::Mesh& mesh, const TangentMesh& split) {
+    const std::size_t own = mesh.positionsOS.size(), begin = stream.size();
+    stream.resize(begin + own + split.copiedOf.size(), glm::vec3(0.0f));
+    for (std::size_t first = 0; first + 2 < split.indices.size(); first += 3) {
+        const auto corner = [&](std::size_t c) {
+            const std::uint32_t vertex = split.indices[first + c];
+            return glm::dvec3(mesh.positionsOS[vertex < own ? vertex : split.copiedOf[vertex - own]]);
+        };
+        const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+        const double length = glm::length(normal);
+        if (length > 0.0) stream[begin + split.indices[first + 2]] = glm::vec3(normal / length);
+    }
+}
+
 VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh, const FeatureSet& features,
                                 const std::optional<TangentBasis>& basis) {
     TangentMesh split{mesh.indices, {}, mesh.tangentsOS};
     if (features.tangents() && basis) split = meshWithTangents(mesh, *basis);
+    turnTriangles(mesh, split.indices);
+    if (features[Feature::Shadows]) splitLastVertices(mesh, split);
     const VertexStreams::Range range{std::uint32_t(streams.indices.size()), std::uint32_t(split.indices.size()),
                                      std::int32_t(streams.positionsOS.size())};
     streams.indices.insert(streams.indices.end(), split.indices.begin(), split.indices.end());
@@ -39,10 +91,12 @@ VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh
     copy(streams.positionsOS, mesh.positionsOS, glm::vec3(0.0f));
     copy(streams.normalsOS, mesh.normalsOS, glm::vec3(0.0f));
     if (features.tangents())
-        append(streams.tangentsOS, split.tangentsOS, mesh.positionsOS.size(), {}, glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+        append(streams.tangentsOS, split.tangentsOS, mesh.positionsOS.size() + split.copiedOf.size(), {},
+               glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     if (features.texCoords()) copy(streams.texCoords[0], mesh.texCoords[0], glm::vec2(0.0f));
     if (features[Feature::TexCoord1]) copy(streams.texCoords[1], mesh.texCoords[1], glm::vec2(0.0f));
     if (features[Feature::VertexColor]) copy(streams.colors, mesh.colors, glm::vec4(1.0f));
+    if (features[Feature::Shadows]) appendFacetNormals(streams.facetNormalsOS, mesh, split);
     return range;
 }
 
@@ -117,22 +171,6 @@ VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& fe
         }
     }
     return streams;
-}
-
-std::vector<glm::vec3> triangleNormalsOS(const scenes::Scene& scene, const VertexStreams::Ranges& ranges) {
-    std::vector<glm::vec3> normals;
-    for (const auto& [key, range] : ranges) {
-        const scenes::Mesh& mesh = scene.meshes[std::size_t(key.first)];
-        const std::size_t first = range.firstIndex / 3, count = range.indexCount / 3;
-        if (normals.size() < first + count) normals.resize(first + count, glm::vec3(0.0f));
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto corner = [&](std::size_t c) { return glm::dvec3(mesh.positionsOS[mesh.indices[3 * i + c]]); };
-            const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-            const double length = glm::length(normal);
-            if (length > 0.0) normals[first + i] = glm::vec3(normal / length);
-        }
-    }
-    return normals;
 }
 
 } // namespace tessera::frame

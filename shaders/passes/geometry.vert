@@ -11,6 +11,7 @@ layout(location = ATTRIBUTE_TANGENT) in vec4 tangentOS;
 layout(location = ATTRIBUTE_TEXCOORD0) in vec2 inTexCoord0;
 layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
+layout(location = ATTRIBUTE_FACET_NORMAL) in vec3 facetNormalOS; // of the triangle whose last corner this is
 
 // Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz). w of
 // the first row is that sign, times 1 + spreadingNumber; of the second the largest of the mesh's vertex colours, 0 when
@@ -21,7 +22,6 @@ layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0) in vec4 drawNormal0;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 1) in vec4 drawNormal1;
 layout(location = ATTRIBUTE_DRAW_NORMAL_ROW0 + 2) in vec4 drawNormal2;
-layout(location = ATTRIBUTE_DRAW_FIRST_TRIANGLE) in uint drawFirstTriangle; // of the scene's index buffer
 
 invariant gl_Position;
 #if !DEPTH_ONLY
@@ -40,13 +40,13 @@ layout(location = 3) out vec2 texCoord1;
 layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
-#if (HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS) && !DEPTH_ONLY
+#if HAS_OBJECT_SPACE_NORMALS && !DEPTH_ONLY
 layout(location = 5) flat out vec3 normalFromObject0;
 layout(location = 6) flat out vec3 normalFromObject1;
 layout(location = 7) flat out vec3 normalFromObject2;
 #endif
 #if HAS_SHADOWS && !DEPTH_ONLY
-layout(location = 9) flat out uint firstTriangle;
+layout(location = 9) flat out vec3 facetNormalLS;
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
 layout(location = 11) flat out vec3 objectRow0;
@@ -106,9 +106,10 @@ void main()
     tangentLS = vec4(lsFromRWS(tangentRWS), tangentOS.w * sign(drawNormal0.w));
 #endif
 #if HAS_SHADOWS
-    firstTriangle = drawFirstTriangle;
+    precise vec3 turnedFacet = vec3(dot(drawNormal0.xyz, facetNormalOS), dot(drawNormal1.xyz, facetNormalOS), dot(drawNormal2.xyz, facetNormalOS));
+    facetNormalLS = turnedFacet;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
+#if HAS_OBJECT_SPACE_NORMALS
     normalFromObject0 = drawNormal0.xyz;
     normalFromObject1 = drawNormal1.xyz;
     normalFromObject2 = drawNormal2.xyz;

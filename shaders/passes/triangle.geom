@@ -26,10 +26,10 @@ layout(location = 1) in vec4 vertexTangentLS[];
 layout(location = 1) out vec4 tangentLS;
 #endif
 #if HAS_SHADOWS
-layout(location = 9) flat in uint vertexFirstTriangle[];
-layout(location = 9) flat out uint firstTriangle;
+layout(location = 9) flat in vec3 vertexFacetNormalLS[];
+layout(location = 9) flat out vec3 facetNormalLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
+#if HAS_OBJECT_SPACE_NORMALS
 layout(location = 5) flat in vec3 vertexNormalFromObject0[];
 layout(location = 6) flat in vec3 vertexNormalFromObject1[];
 layout(location = 7) flat in vec3 vertexNormalFromObject2[];
@@ -88,9 +88,9 @@ void main()
         tangentLS = vertexTangentLS[corner];
 #endif
 #if HAS_SHADOWS
-        firstTriangle = vertexFirstTriangle[corner];
+        facetNormalLS = vertexFacetNormalLS[2];
 #endif
-#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
+#if HAS_OBJECT_SPACE_NORMALS
         normalFromObject0 = vertexNormalFromObject0[corner];
         normalFromObject1 = vertexNormalFromObject1[corner];
         normalFromObject2 = vertexNormalFromObject2[corner];

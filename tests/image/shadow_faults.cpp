@@ -35,8 +35,8 @@ constexpr MapFault kMapFaults[] = {
      "point.texel = place.xy + (place.z * perMetre) * position.xy;",
      "point.texel = place.xy + (place.z * perMetre) * position.xy * vec2(1.0, -1.0);"},
     {"lights behind a surface", "lib/shadow/shadow_map.glsl", "isBehind ? 0.0 :", "false ? 0.0 :"},
-    {"another plane of the receiver", "lib/raster/facet_normal.glsl", "normalFromObject * normalOS;",
-     "normalFromObject * normalOS.yzx;"},
+    {"another plane of the receiver", "passes/geometry.vert", "facetNormalLS = turnedFacet;",
+     "facetNormalLS = turnedFacet.yzx;"},
 };
 
 class ShadowFaults : public test::ShadowTest {

@@ -22,7 +22,7 @@ layout(location = 0) in vec3 normalLS;
 #if HAS_TANGENTS
 layout(location = 1) in vec4 tangentLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
+#if HAS_OBJECT_SPACE_NORMALS
 layout(location = 5) flat in vec3 normalFromObject0;
 layout(location = 6) flat in vec3 normalFromObject1;
 layout(location = 7) flat in vec3 normalFromObject2;
@@ -84,15 +84,12 @@ Fragment rasterisedFragment()
 #if HAS_TANGENTS
     fragment.tangentLS = tangentLS;
 #endif
-#if HAS_OBJECT_SPACE_NORMALS || HAS_SHADOWS
-    // The vertex stage has the rows of the matrix.
-    mat3 normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
-#endif
 #if HAS_OBJECT_SPACE_NORMALS
-    fragment.normalFromObject = normalFromObject;
+    // The vertex stage has the rows of the matrix.
+    fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
 #endif
 #if HAS_SHADOWS
-    fragment.facetNormalLS = rasterisedFacetNormal(normalFromObject, fragment.frontFacing);
+    fragment.facetNormalLS = rasterisedFacetNormal(fragment.frontFacing);
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
     fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);

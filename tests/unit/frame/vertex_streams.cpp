@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "renderer/frame/Tangents.h"
+#include "scenes/Load.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {
@@ -220,7 +221,9 @@ TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
     mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     scene.nodes.resize(14);
     scene.materials.resize(14);
-    EXPECT_EQ(makeVertexStreams(scene, allFeatures()).positionsOS.size(), 14000u);
+    FeatureSet features = allFeatures();
+    features.has.reset(std::size_t(Feature::Shadows)); // they split vertices for their own reason
+    EXPECT_EQ(makeVertexStreams(scene, features).positionsOS.size(), 14000u);
 }
 
 TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleTime) {
@@ -250,12 +253,54 @@ TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleT
     EXPECT_GT(streams.positionsOS.size(), mesh.positionsOS.size() + kTriangles / 2);
 }
 
-TEST(VertexStreams, trianglesHaveTheNormalOfTheirFrontInTheirMeshesSpaceOrNone) {
+/// The facet normals of the triangles, in their order.
+std::vector<glm::vec3> facetNormals(const VertexStreams& streams, const VertexStreams::Range& range) {
+    std::vector<glm::vec3> normals;
+    for (std::uint32_t i = range.firstIndex + 2; i < range.firstIndex + range.indexCount; i += 3)
+        normals.push_back(streams.facetNormalsOS[std::size_t(range.baseVertex) + streams.indices[i]]);
+    return normals;
+}
+
+TEST(VertexStreams, theLastVertexOfEachTriangleHasTheNormalOfItsFrontOrNone) {
     scenes::Scene scene = twoMeshes();
-    scene.meshes[0].indices = {0, 1, 1, 0, 1, 2};
+    // A vertex may be last once; of four triangles with three vertices one has to copy its own.
+    scene.meshes[0].indices = {0, 1, 1, 0, 1, 2, 2, 1, 0, 2, 0, 1};
     const VertexStreams streams = makeVertexStreams(scene, allFeatures());
-    EXPECT_THAT(triangleNormalsOS(scene, streams.ranges),
-                ElementsAre(glm::vec3(0.0f), glm::vec3(0, 0, 1), glm::vec3(0, 0, -1)));
+    const VertexStreams::Range& range = streams.ranges.begin()->second;
+    const glm::vec3 front(0, 0, 1);
+    EXPECT_THAT(facetNormals(streams, range), ElementsAre(glm::vec3(0.0f), front, -front, front));
+    EXPECT_EQ(streams.facetNormalsOS.size(), streams.positionsOS.size());
+}
+
+TEST(VertexStreams, cornersOfTrianglesKeepTheirOrderAndPlacesWhateverTheFeatures) {
+    const scenes::Scene scene = scenes::loadScene("hall");
+    FeatureSet few;
+    const VertexStreams bare = makeVertexStreams(scene, few), full = makeVertexStreams(scene, allFeatures());
+    EXPECT_TRUE(bare.facetNormalsOS.empty());
+    std::size_t vertices = 0;
+    for (const scenes::Mesh& mesh : scene.meshes) vertices += mesh.positionsOS.size();
+    EXPECT_LE(bare.positionsOS.size(), vertices);
+    for (const auto& [key, range] : bare.ranges) {
+        const VertexStreams::Range& other = full.ranges.at(key);
+        const scenes::Mesh& mesh = scene.meshes[std::size_t(key.first)];
+        ASSERT_EQ(other.indexCount, range.indexCount);
+        for (std::uint32_t i = 0; i < range.indexCount; ++i) {
+            const glm::vec3 place =
+                bare.positionsOS[std::size_t(range.baseVertex) + bare.indices[range.firstIndex + i]];
+            ASSERT_EQ(full.positionsOS[std::size_t(other.baseVertex) + full.indices[other.firstIndex + i]], place);
+            // One of the three ways to go round the mesh's triangle.
+            const std::uint32_t first = i / 3 * 3;
+            const auto own = [&](std::uint32_t corner) { return mesh.positionsOS[mesh.indices[first + corner % 3]]; };
+            const auto drawn = [&](std::uint32_t corner) {
+                return bare
+                    .positionsOS[std::size_t(range.baseVertex) + bare.indices[range.firstIndex + first + corner]];
+            };
+            bool isTurned = false;
+            for (std::uint32_t turn = 0; turn < 3; ++turn)
+                isTurned |= drawn(0) == own(turn) && drawn(1) == own(turn + 1) && drawn(2) == own(turn + 2);
+            ASSERT_TRUE(isTurned) << scene.meshes[std::size_t(key.first)].name << " " << i / 3;
+        }
+    }
 }
 
 } // namespace
