@@ -49,6 +49,7 @@ FrameOptions forAnyScene(FrameOptions said) {
         if (setting.isOfScene) said.settings.erase(std::string(setting.key));
     // Its environment is turned and brightened as that command says; files that were saved of it have that already.
     for (const std::string_view key : scenes::kEnvironmentViewKeys) said.settings.erase(std::string(key));
+    said.defaultCamera = false;
     said.pose = {};
     said.lights.reset();
     said.import.variant.reset();

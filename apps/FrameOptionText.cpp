@@ -17,6 +17,7 @@ std::string frameOptionText(const FrameOptions& options) {
     if (options.clip) text += " --clip " + shellWord(*options.clip);
     text += viewer::hookText(options.hookValues);
     text += viewer::importText(options.import);
+    if (options.defaultCamera) text += " --default-camera";
     text += viewer::poseText(options.pose);
     if (options.environment) text += " --environment " + shellWord(*options.environment);
     text += viewer::backgroundText(options.background);

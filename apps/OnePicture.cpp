@@ -36,8 +36,9 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
                          "and lights may be out of range, behind the surfaces or off"
                        : "";
     if (scenes::triangleCount(scene) == 0) return "the scene has no triangles to draw";
-    return "the camera sees nothing of the scene; check --eye, --target, --near and --far; backs of one-sided "
-           "surfaces and triangles without area do not show";
+    return fmt::format("the camera sees nothing of the scene; {}check --eye, --target, --near and --far; backs of "
+                       "one-sided surfaces and triangles without area do not show",
+                       scene.supplied.camera ? "" : "give --default-camera, which sees all of it, or ");
 }
 
 void settleForReference(const FrameOptions& options, frame::FrameSettings& settings) {

@@ -123,6 +123,10 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         .add_flag("--strict", options.import.isStrict,
                   "Refuses a model of which a picture cannot be read; else a checkerboard is drawn for its colours")
         ->group("Reading");
+    command
+        .add_flag("--default-camera", options.defaultCamera,
+                  "Shows all of the scene by the camera that one without cameras gets, in the place of its own")
+        ->group("Camera");
     addPoint(command, "--eye", options.pose.eyeWS, "Moves the camera there; alone it looks the same way", "X,Y,Z")
         ->group("Camera");
     addPoint(command, "--target", options.pose.targetWS, "Turns the camera to look there", "X,Y,Z")->group("Camera");

@@ -103,6 +103,7 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {
     scenes::LoadOptions load;
     load.lights = options.lights;
     load.defaultLight = !options.noDefaultLight;
+    load.defaultCamera = options.defaultCamera;
     load.environment = options.environment;
     load.background = options.background;
     load.clip = options.clip;
@@ -152,6 +153,9 @@ Request resolveWithoutScene(const FrameOptions& options) {
     for (const engine::Setting& setting : engine::settingTable())
         if (const auto text = options.said(setting.key)) setting.read(request, *text, fromCommandLine(setting));
     if (options.memoryLimit) bytesNamed(*options.memoryLimit);
+    if (options.defaultCamera && options.said("camera"))
+        throw InputError("--camera chooses one of the scene's cameras, whose place --default-camera takes; give one of "
+                         "the two");
     return request;
 }
 

@@ -32,7 +32,8 @@ struct FrameOptions {
     std::optional<std::string> memoryLimit;
     std::optional<int> lights;
     bool noDefaultLight = false;
-    std::optional<std::string> environment;    ///< as scenes::LoadOptions has it
+    bool defaultCamera = false;                ///< as scenes::LoadOptions has it
+    std::optional<std::string> environment;    ///< the same
     std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same

@@ -32,6 +32,7 @@ class Keywords(TypedDict, total=False):
     variant: str | None
     light_units: str | None
     strict: bool | None
+    default_camera: bool | None
     eye: _Point | None
     target: _Point | None
     up: _Point | None

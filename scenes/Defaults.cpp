@@ -12,6 +12,7 @@
 #include "scenes/InUse.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
+#include "scenes/RigLinks.h"
 
 namespace tessera::scenes {
 namespace {
@@ -72,6 +73,12 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
     scene.supplied.camera = true;
 }
 
+void leaveOutCameras(Scene& scene) {
+    scene.supplied.replacesCameras = !scene.cameras.empty();
+    dropCameras(scene);
+    scene.options.camera.reset();
+}
+
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {
     if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
     scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
@@ -116,7 +123,7 @@ void addDefaultExposure(Scene& scene) {
 
 std::string suppliedText(const Scene& scene, Advice advice) {
     const bool isOptions = advice == Advice::Options;
-    const auto& [camera, light, exposureEV] = scene.supplied;
+    const auto& [camera, light, replacesCameras, exposureEV] = scene.supplied;
     std::string lacks, given;
     if (light) {
         lacks = "no light";
@@ -129,13 +136,14 @@ std::string suppliedText(const Scene& scene, Advice advice) {
                                       : "the panel Environment chooses another or none, and what is seen of it");
     }
     if (camera) {
-        lacks += light ? " and no camera" : "no camera";
+        if (!replacesCameras) lacks += light ? " and no camera" : "no camera";
         const bool isEmpty = triangleCount(scene) == 0;
-        given += fmt::format("{}{} by the supplied camera '{}'{}", light ? ", " : "",
+        given += fmt::format("{}{} by the supplied camera '{}'{}{}", light ? ", " : "",
                              isEmpty ? "seen around the origin" : "seen whole", kDefaultName,
+                             replacesCameras ? " in the place of its own" : "",
                              isEmpty ? ", as there are no triangles" : "");
     }
-    std::string text = lacks.empty() ? "" : fmt::format("{} in it: {}", lacks, given);
+    std::string text = lacks.empty() ? given : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
         text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV ({} chooses another{})",
                             text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV,

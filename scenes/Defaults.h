@@ -18,6 +18,10 @@ inline constexpr const char* kDefaultName = "default";
 /// Throws InputError when the bounds are too large to be numbers.
 void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
 
+/// Takes away the scene's own cameras and its wish for one of them, so that addDefaultCamera() gives it one in their
+/// place.
+void leaveOutCameras(Scene& scene);
+
 /// A scene without lights and environment gets the built-in studio with a blurred backdrop, unless every material in
 /// use is unlit. It is turned to stand around the scene's camera (the one its options name, else the first) as around
 /// that of addDefaultCamera().

@@ -215,6 +215,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         if (options.lights) keepLights(scene, static_cast<std::size_t>(*options.lights));
         requireDrawableLights(nameOrPath, scene.lights.size());
     }
+    if (options.defaultCamera) leaveOutCameras(scene);
     OwnEnvironment own = ownEnvironmentOf(scene);
     if (options.background) scene.background = glm::vec3(*options.background);
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);

@@ -17,8 +17,9 @@ namespace tessera::scenes {
 class LoadLedger;
 
 struct LoadOptions {
-    std::optional<int> lights; ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
-    bool defaultLight = true;  ///< light a scene without lights by the studio, unless all is unlit
+    std::optional<int> lights;  ///< built-in scenes generate this many (0 to kMostLights); files keep their first N
+    bool defaultLight = true;   ///< light a scene without lights by the studio, unless all is unlit
+    bool defaultCamera = false; ///< supply a camera even where the scene has its own, which are left out
     /// Takes the place of the scene's own, and its turn (layAs()): a built-in one's name, a picture file, or
     /// kNoEnvironment.
     std::optional<std::string> environment;

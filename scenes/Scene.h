@@ -90,10 +90,11 @@ struct SceneOptions {
     bool operator==(const SceneOptions&) const = default;
 };
 
-/// What a scene is given that its file lacks (scenes/Defaults.h).
+/// What a scene is given that its file lacks, or that was asked for in the place of its own (scenes/Defaults.h).
 struct Supplied {
     bool camera = false, light = false;
-    int exposureEV = 0; ///< whole stops, where its lights are much too bright or too dim for a display
+    bool replacesCameras = false; ///< the camera stands in the place of the scene's own
+    int exposureEV = 0;           ///< whole stops, where its lights are much too bright or too dim for a display
     bool operator==(const Supplied&) const = default;
 };
 

@@ -6,13 +6,15 @@ Usage: tools/khronos_models.py FOLDER OUTPUT [--program build/release/apps/tesse
                                [--expect docs/khronos-models.md]
 
 Of each model one file is shown, as it is without options: lit by the built-in studio, from the supplied camera, or by
-and from what the model brings. One that moves is shown at its begin, and looked at over the length of its first clip.
-OUTPUT receives
+and from what the model brings. How the supplied camera frames it is judged of each: one with cameras of its own is
+looked at by --default-camera too. One that moves is shown at its begin, and looked at over the length of its first
+clip. OUTPUT receives
 
   sheet.png    all pictures with their names, clipped at white
   table.md     model, status (right, approximate, refused, crashed or nothing to draw), figures and why
-  models.csv   the figures: mean luminance of the covered pixels; share of the picture's width or height, whichever is
-               more, that they span; whether they touch its edge; whose camera it is; seconds; warnings
+  models.csv   the figures: mean luminance of the covered pixels in the picture that is shown; share of the width or
+               height, whichever is more, that they span in the supplied camera's; whether they touch its edge; whose
+               camera the shown one is by; seconds; warnings
 
 With --document the table, and below it the totals, replace what stands between the two markers of that file. A model's
 status follows from the extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1
@@ -73,6 +75,7 @@ EXTENSIONS = {
     "KHR_xmp_json_ld": (RIGHT, "words about the model"),
 }
 SUPPLIED_CAMERA = "by the supplied camera"
+DEFAULT_CAMERA = "--default-camera"  # in the place of the model's own
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
 MOST_SECONDS = 900  # that a picture may take
@@ -166,9 +169,10 @@ def status_of(extensions, code, lines):
 
 # ---- Figures -------------------------------------------------------------------------------------------------------
 
-# Of what a model covers: mean luminance, the larger share of the picture's sides that it spans, and whether it touches
-# the edge, over all moments but the luminance; and whether the program supplied the camera.
-Figures = collections.namedtuple("Figures", "luminance span is_cut is_framed")
+# Of what a model covers: mean luminance in the picture that is shown; in those by the supplied camera, over all
+# moments, the larger share of the picture's sides that it spans, and whether it touches the edge; and whether the one
+# that is shown is by the supplied camera.
+Figures = collections.namedtuple("Figures", "luminance span is_cut is_supplied")
 # figures is None where there is no picture; whether it is known that there is one.
 Row = collections.namedtuple("Row", "name status why figures is_expected", defaults=(False,))
 
@@ -177,17 +181,17 @@ def percent(share):
     return f"{100.0 * share:.0f} %"
 
 
-def figures_of(pictures, is_framed):
-    """Of the pictures of one model at some moments, the first at its begin."""
-    boxes = [box for box in (picture.box() for picture in pictures) if box]
+def figures_of(shown, framed, is_supplied):
+    """Of the picture of one model at its begin, and those by the supplied camera at some moments."""
+    boxes = [box for box in (picture.box() for picture in framed) if box]
     if not boxes:
-        return Figures(0.0, 0.0, False, is_framed)
-    width, height = pictures[0].width, pictures[0].height
+        return Figures(shown.luminance(), 0.0, False, is_supplied)
+    width, height = framed[0].width, framed[0].height
     left, top = (min(box[side] for box in boxes) for side in (0, 1))
     right, bottom = (max(box[side] for box in boxes) for side in (2, 3))
     span = max((right - left + 1) / width, (bottom - top + 1) / height)
     is_cut = left == 0 or top == 0 or right == width - 1 or bottom == height - 1
-    return Figures(pictures[0].luminance(), span, is_cut, is_framed)
+    return Figures(shown.luminance(), span, is_cut, is_supplied)
 
 
 # Why a model fails, by the name in the totals.
@@ -205,8 +209,8 @@ def is_drawn(row):
 
 
 def is_judged(row):
-    """Whether the supplied camera is to frame it; where a model brings cameras, they are its own affair."""
-    return is_drawn(row) and row.figures.is_framed and row.figures.span > 0.0
+    """Whether there is something to frame: what covers nothing in any picture is black."""
+    return is_drawn(row) and max(row.figures.span, row.figures.luminance) > 0.0
 
 
 def faults_of(row):
@@ -229,7 +233,7 @@ def table_of(rows):
         if not is_drawn(row):
             return ["", "", "", ""]
         figures = row.figures
-        camera = "supplied" if figures.is_framed else "its own"
+        camera = "supplied" if figures.is_supplied else "its own"
         return [f"{figures.luminance:.2g}", f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
 
     names = ["model", "status", "luminance", "share", "edge", "camera", "why"]
@@ -417,12 +421,10 @@ def csv_of(rows):
 # ---- Program -------------------------------------------------------------------------------------------------------
 
 
-def render(program, path, picture, size, seconds=0.0):
-    """Of a model at a time: the exit code (None after MOST_SECONDS), the warnings without names of programs and files,
-    whether the program supplied the camera, and the stops by which it exposes a display picture."""
-    command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}"]
-    if seconds > 0.0:
-        command += ["--time", f"{seconds:g}"]
+def render(program, path, picture, size, *more):
+    """Of a model, with more options: the exit code (None after MOST_SECONDS), the warnings without names of programs and
+    files, whether the program supplied the camera, and the stops by which it exposes a display picture."""
+    command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}", *more]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS)
     except subprocess.TimeoutExpired:
@@ -442,19 +444,31 @@ def render(program, path, picture, size, seconds=0.0):
 def look_at(name, program, path, picture, size):
     """The row of a model, its RGB at its begin or None, and what was said."""
     document = document_of(path)
-    shown, said = [], []
-    for seconds in times_of(document):
+    begin, *later = times_of(document)
+
+    def look(seconds, *more):
         picture.unlink(missing_ok=True)
-        code, lines, is_framed, stops = render(program, path, picture, size, seconds)
-        said = said or lines
+        if seconds > 0.0:
+            more = ("--time", f"{seconds:g}", *more)
+        code, lines, is_supplied, stops = render(program, path, picture, size, *more)
+        seen = read_exr(picture.read_bytes()) if code == 0 else None
+        if seen:
+            seen.expose(stops)
+        return code, lines, is_supplied, seen
+
+    code, lines, is_supplied, shown = look(begin)
+    said, framed = lines, [shown] if is_supplied else []
+    for seconds in later if is_supplied else [begin, *later]:
         if code != 0:
-            return Row(name, *status_of(extensions_of(document), code, lines), None), None, lines
-        shown.append(read_exr(picture.read_bytes()))
-        shown[-1].expose(stops)
+            break
+        code, lines, _, seen = look(seconds, *([] if is_supplied else [DEFAULT_CAMERA]))
+        said = said or lines
+        framed.append(seen)
     picture.unlink(missing_ok=True)
-    status, why = status_of(extensions_of(document), 0, said)
-    figures = figures_of(shown, is_framed)
-    return Row(name, status, why, figures), shown[0].bytes(), said
+    extensions = extensions_of(document)
+    if code != 0:
+        return Row(name, *status_of(extensions, code, lines), None), None, lines
+    return Row(name, *status_of(extensions, 0, said), figures_of(shown, framed, is_supplied)), shown.bytes(), said
 
 
 def size_in(text):
@@ -494,7 +508,7 @@ def main(arguments):
             figures = ["", "", "", ""]
             if row.figures:
                 figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
-                figures.append("supplied" if row.figures.is_framed else "its own")
+                figures.append("supplied" if row.figures.is_supplied else "its own")
             rows.append(row)
             records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
             pictures.append((name, rgb))

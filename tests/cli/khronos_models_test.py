@@ -212,24 +212,35 @@ class KhronosModels(unittest.TestCase):
 
     def test_figures_are_those_of_all_moments(self):
         first, second = self.covering(8, 4, 9, 5, 0.25), self.covering(3, 4, 3, 5, 0.75)
-        figures = tool.figures_of([first, second], True)
+        figures = tool.figures_of(first, [first, second], True)
         self.assertAlmostEqual(figures.luminance, 0.25, 6)
         self.assertEqual(figures[1:], (7 / 20, False, True))
-        self.assertEqual(tool.figures_of([self.covering(3, 2, 3, 8)], True).span, 0.7, "of the height")
+        self.assertEqual(tool.figures_of(first, [self.covering(3, 2, 3, 8)], True).span, 0.7, "of the height")
         for box in ((0, 4, 5, 5), (8, 0, 9, 5), (8, 4, 19, 5), (8, 4, 9, 9)):
-            self.assertTrue(tool.figures_of([first, self.covering(*box)], True).is_cut, box)
-        self.assertEqual(tool.figures_of([self.covering(1, 1, 0, 0)], True), (0.0, 0.0, False, True))
+            self.assertTrue(tool.figures_of(first, [first, self.covering(*box)], True).is_cut, box)
+        nothing = self.covering(1, 1, 0, 0)
+        self.assertEqual(tool.figures_of(nothing, [nothing], True), (0.0, 0.0, False, True))
+
+    def test_a_model_with_cameras_is_framed_by_the_supplied_one_and_as_bright_as_by_its_own(self):
+        own, framed = self.covering(0, 0, 0, 0, 0.75), self.covering(4, 4, 15, 5, 0.25)
+        nothing = self.covering(1, 1, 0, 0)
+        self.assertEqual(tool.figures_of(own, [framed], False)[1:], (12 / 20, False, False))
+        for shown in (framed, nothing):
+            self.assertAlmostEqual(tool.figures_of(own, [shown], False).luminance, 0.75, 6)
+        self.assertEqual(tool.figures_of(own, [nothing], False).span, 0.0)
 
     def test_faults_are_told_of_what_the_supplied_camera_frames(self):
-        def faults(luminance, span, is_cut, is_framed=True, status="right"):
-            return tool.faults_of(tool.Row("A", status, "", tool.Figures(luminance, span, is_cut, is_framed)))
+        def faults(luminance, span, is_cut, is_supplied=True, status="right"):
+            return tool.faults_of(tool.Row("A", status, "", tool.Figures(luminance, span, is_cut, is_supplied)))
 
         self.assertEqual(faults(0.02, 0.55, False), [])
         self.assertEqual(faults(0.0199, 0.55, False), ["black"])
         self.assertEqual(faults(float("nan"), 0.55, False), ["black"])
         self.assertEqual(faults(0.02, 0.549, False), ["framed under 55 %"])
         self.assertEqual(faults(0.02, 1.0, True), ["cut off"])
-        self.assertEqual(faults(0.01, 0.5, True, is_framed=False), ["black"])
+        self.assertEqual(faults(0.01, 0.5, True, is_supplied=False), ["black", "framed under 55 %", "cut off"])
+        self.assertEqual(faults(0.5, 0.0, False, is_supplied=False), ["framed under 55 %"], "its own camera sees it")
+        self.assertEqual(faults(0.0, 0.55, False, is_supplied=False), ["black"], "its own camera sees nothing")
         self.assertEqual(faults(0.0, 0.0, False), ["black"], "it covers nothing")
         self.assertEqual(faults(0.0, 0.0, False, status="nothing to draw"), [])
         self.assertEqual(tool.faults_of(tool.Row("A", "crashed", "", None)), ["crashed"])
@@ -275,22 +286,28 @@ class KhronosModels(unittest.TestCase):
         (self.folder / f"{name}.exr").write_bytes(exr(8, 4, of, 3))
 
     def program(self):
-        """A stand-in for the program: Old is refused, Ill crashes, all others are what the file "shown" names."""
+        """A stand-in for the program: Old is refused, Ill crashes, all others are what the file "shown" names, and by
+        --default-camera what the file "framed" names."""
         program = self.folder / "tessera"
         program.write_text(f"""#!{shutil.which("sh")}
 echo "$*" >> {self.folder}/log
-case "$2" in
-    *Old.gltf) echo "tessera: error: $2: is glTF 1.0" >&2; exit 2 ;;
-    *Ill.gltf) kill -s SEGV $$ ;;
+case "$*" in
+    *Old.gltf*) echo "tessera: error: $2: is glTF 1.0" >&2; exit 2 ;;
+    *Ill.gltf*) kill -s SEGV $$ ;;
+    *--default-camera*)
+        echo "seen whole by the supplied camera 'default' in the place of its own"
+        cp "{self.folder}/$(cat {self.folder}/framed).exr" "$4" ;;
     *) cat {self.folder}/said >&2; cat {self.folder}/noted; cp "{self.folder}/$(cat {self.folder}/shown).exr" "$4" ;;
 esac
 """)
         program.chmod(0o755)
         return ["--program", str(program)]
 
-    def show(self, picture, *said, is_framed=False, stops=0):
+    def show(self, picture, *said, framed=None, stops=0):
+        """A picture by the supplied camera, or by the model's own where the one by the supplied is `framed`."""
         (self.folder / "shown").write_text(picture)
-        noted = "no camera in it: seen whole by the supplied camera 'default'\n" * is_framed
+        (self.folder / "framed").write_text(framed or "none")
+        noted = "no camera in it: seen whole by the supplied camera 'default'\n" * (framed is None)
         if stops != 0:
             noted += f"its lights are too dim for a display: exposed by {stops:+} EV (--exposure chooses another)\n"
         (self.folder / "noted").write_text(noted)
@@ -304,8 +321,9 @@ esac
         self.model("Box.gltf", ["KHR_materials_volume"])
         self.model("Old.gltf")
         self.picture("lit", 0.5)
+        self.picture("whole", 0.25, 1)
         program = self.program()
-        self.show("lit", "Box: something is left out")
+        self.show("lit", "Box: something is left out", framed="whole")
         document = self.folder / "document.md"
         document.write_text(f"{tool.BEGIN}\n{tool.END}\n")
         (self.folder / "out").mkdir()
@@ -313,15 +331,16 @@ esac
         code, failed = self.run_tool(*program, "--document", str(document))
         self.assertEqual((code, failed), (0, ""))
         log = (self.folder / "log").read_text().splitlines()
-        self.assertEqual(len(log), 2)
+        self.assertEqual(len(log), 3)
         self.assertRegex(log[0], r"^render .*/Box\.gltf -o .*/model\.exr --size 8x4$")
+        self.assertEqual(log[1], f"{log[0]} --default-camera")
         table = (self.folder / "out/table.md").read_text()
-        self.assertIn("| Box | approximate | 0.5 | 100 % | cut | its own | bodies show", table)
+        self.assertIn("| Box | approximate | 0.5 | 75 % | free | its own | bodies show", table)
         self.assertIn("; something is left out |", table)
         self.assertIn("| Old | refused |  |  |  |  | is glTF 1.0 |", table)
         self.assertIn(f"{table}\n2 models: 0 right, 1 approximate, 1 refused, ", document.read_text())
         rows = self.rows()
-        self.assertEqual((rows[0]["mean luminance"], rows[0]["span"], rows[0]["cut"]), ("0.5000", "1.000", "1"))
+        self.assertEqual((rows[0]["mean luminance"], rows[0]["span"], rows[0]["cut"]), ("0.5000", "0.750", "0"))
         self.assertEqual((rows[0]["camera"], rows[0]["warnings"]), ("its own", "something is left out"))
         self.assertEqual(rows[1]["mean luminance"], "")
         self.assertEqual(pixels_of((self.folder / "out/sheet.png").read_bytes())[:2], (16, 4 + tool.LINE))
@@ -332,7 +351,7 @@ esac
     def test_what_the_table_says_is_drawn_must_be(self):
         self.model("Box.gltf")
         self.model("Old.gltf")
-        self.picture("lit", 0.5)
+        self.picture("lit", 0.5, 1)
         program = self.program()
         self.show("lit")
         document = self.folder / "document.md"
@@ -380,22 +399,29 @@ esac
         self.picture("black", 0.01, 1)
         self.picture("small", 0.5, 4)
         self.picture("large", 0.5)
+        black = "Box: black: luminance 0.0100, spans 0.750\n"
+        small = "Box: framed under 55 %: luminance 0.5000, spans 0.500\n"
+        cut_off = "Box: cut off: luminance 0.5000, spans 1.000\n"
         cases = [
-            ("lit", "", True),
-            ("black", "Box: black: luminance 0.0100, spans 0.750\n", True),
-            ("small", "Box: framed under 55 %: luminance 0.5000, spans 0.500\n", True),
-            ("small", "", False),
-            ("large", "Box: cut off: luminance 0.5000, spans 1.000\n", True),
-            ("large", "", False),
+            ("lit", None, ""),
+            ("black", None, black),
+            ("small", None, small),
+            ("large", None, cut_off),
+            ("small", "lit", ""),
+            ("large", "lit", ""),
+            ("lit", "black", ""),
+            ("black", "lit", black),
+            ("lit", "small", small),
+            ("lit", "large", cut_off),
         ]
-        for picture, told, is_framed in cases:
-            self.show(picture, is_framed=is_framed)
-            self.assertEqual(self.run_tool(*program), (1 if told else 0, told), picture)
-        self.show("black", is_framed=True, stops=2)
+        for picture, framed, told in cases:
+            self.show(picture, framed=framed)
+            self.assertEqual(self.run_tool(*program), (1 if told else 0, told), (picture, framed))
+        self.show("black", stops=2)
         self.assertEqual(self.run_tool(*program), (0, ""))
         self.assertEqual(self.rows()[0]["mean luminance"], "0.0400", "as the display picture is exposed")
         self.model("Ill.gltf")
-        self.show("lit", is_framed=True)
+        self.show("lit")
         code, failed = self.run_tool(*program)
         self.assertEqual((code, failed), (1, "Ill: crashed: signal SIGSEGV\n"))
         self.assertEqual([row["status"] for row in self.rows()], ["right", "crashed"])
@@ -411,6 +437,12 @@ esac
         log = (self.folder / "log").read_text().splitlines()
         ends = ["--size 8x4", "--time 0.5", "--time 1", "--time 1.5", "--time 2"]
         self.assertEqual([line.endswith(end) for line, end in zip(log, ends, strict=True)], 5 * [True])
+        (self.folder / "log").unlink()
+        self.show("lit", framed="lit")
+        self.assertEqual(self.run_tool(*program), (0, ""))
+        log = (self.folder / "log").read_text().splitlines()
+        ends = ["--size 8x4", *(f"{end} --default-camera" for end in ends)]
+        self.assertEqual([line.endswith(end) for line, end in zip(log, ends, strict=True)], 6 * [True], "once by its own")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """khronos_sweep_test.py PROGRAM: every glTF model of the folder that TESSERA_ASSETS names is drawn by the program and
-does not crash; it is not black, and where the program supplies the camera it fills the picture without being cut off.
+does not crash; it is not black, and in the camera that the program supplies, by itself or by --default-camera in the
+place of the model's own, it fills the picture without being cut off.
 What docs/khronos-models.md says is drawn is. Skipped (77) without the folder."""
 
 import os

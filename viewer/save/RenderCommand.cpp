@@ -22,6 +22,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     text += hookText(request.hookValues);
     if (!request.defaultLight) text += " --no-default-light";
     text += importText(request.import);
+    if (request.defaultCamera) text += " --default-camera";
     return text + poseText(request.pose);
 }
 

@@ -14,6 +14,7 @@ struct RenderRequest : engine::ViewRequest {
     std::string source;                        ///< the scene's file or name
     std::optional<int> lights;                 ///< number requested of the load
     bool defaultLight = true;                  ///< the same
+    bool defaultCamera = false;                ///< the same
     std::optional<std::string> environment;    ///< the same
     std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same

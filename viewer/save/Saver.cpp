@@ -67,6 +67,7 @@ std::string Saver::command(glm::ivec2 sizePixels) {
     request.source = open.source();
     request.lights = open.load().lights;
     request.defaultLight = open.load().defaultLight;
+    request.defaultCamera = open.load().defaultCamera;
     request.environment = open.load().environment;
     request.background = open.load().background;
     request.clip = open.load().clip;

@@ -11,6 +11,26 @@
 #include "viewer/session/SceneSource.h"
 
 namespace tessera::viewer {
+namespace {
+
+/// What is said of a supplied camera, and all of its place besides: a command of another size would supply another
+/// camera.
+scenes::CameraChange placeOfSupplied(const scenes::Camera& camera, const scenes::CameraChange& said,
+                                     const scenes::Box3& boundsWS) {
+    const scenes::CameraChange place = changeOf(poseOf(scenes::changedCamera(camera, said), boundsWS), camera);
+    scenes::CameraChange change = said;
+    const auto complete = [](auto& one, const auto& other) {
+        if (!one) one = other;
+    };
+    complete(change.eyeWS, place.eyeWS);
+    complete(change.targetWS, place.targetWS);
+    complete(change.upWS, place.upWS);
+    complete(change.nearMetres, place.nearMetres);
+    complete(change.farMetres, place.farMetres);
+    return change;
+}
+
+} // namespace
 
 SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done)
     : options_(options), state_(state), log_(log), preferences_(options.preferences), loader_(std::move(done)) {
@@ -45,12 +65,11 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
         std::make_unique<OpenScene>(result->source, result->load, std::move(*result->scene), std::move(*result->origin),
                                     std::move(result->filtered), environmentSeenBy(first.look));
     scene->useCamera(first.look.settings.camera);
-    // A command of another size would supply another camera: so its place is said, and commands repeat it.
     const scenes::Camera& camera = scene->cameras()[std::size_t(first.look.settings.camera)];
-    if (first.pose != scenes::CameraChange())
+    if (isSupplied)
+        scene->place(placeOfSupplied(camera, first.pose, scene->boundsWS()));
+    else if (first.pose != scenes::CameraChange())
         scene->place(first.pose);
-    else if (isSupplied)
-        scene->place(changeOf(poseOf(camera, scene->boundsWS()), camera));
     show(*scene);
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);

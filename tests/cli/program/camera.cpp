@@ -69,6 +69,33 @@ TEST_F(CameraOptions, theDefaultLightReachesWhateverTheOptionsLookAt) {
     runGood(compare);
 }
 
+TEST_F(CameraOptions, theDefaultCameraShowsAFileAsOneWithoutCamerasIsShown) {
+    folder_.write("roof.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv 0 2 0\nf 1 2 3\nf 1 3 4\nf 2 4 3\nf 1 4 2\n");
+    folder_.write("bare.json", R"({"tessera": 1, "include": [{"file": "roof.obj"}]})");
+    folder_.write("away.json", R"({"tessera": 1, "include": [{"file": "roof.obj"}], "options": {"camera": "away"},
+        "cameras": [{"name": "front", "position": [0, 0, 5], "target": [0, 0, 0]},
+                    {"name": "away", "position": [9, 0, 0], "target": [10, 0, 0]}]})");
+    const auto made = [&](const char* scene, const Words& more) {
+        Words words{"--quiet", "render", scene, "--size", "27x48", "-o", "made.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        runGood(words);
+        return text("made.exr");
+    };
+    for (const Words& more : {Words{}, Words{"--fov", "30"}, Words{"--eye", "3,4,5", "--target", "0,1,0"}}) {
+        Words withDefault = more;
+        withDefault.insert(withDefault.begin(), "--default-camera");
+        const std::string picture = made("away.json", withDefault);
+        EXPECT_TRUE(picture == made("bare.json", more)) << more.size();
+        EXPECT_FALSE(picture == made("away.json", more)) << more.size();
+    }
+    const ProcessResult own = run({"render", "away.json", "--size", "48x27", "-o", "a.exr"});
+    EXPECT_THAT(own.err, testing::HasSubstr("sees nothing of the scene; give --default-camera, which sees all of it"));
+    EXPECT_THAT(runGood({"plan", "away.json", "--default-camera"}),
+                testing::HasSubstr("seen whole by the supplied camera 'default' in the place of its own"));
+    expectError(2, {"render", "none.json", "-o", "a.exr", "--default-camera", "--camera", "front"},
+                {"whose place --default-camera takes; give one of the two"});
+}
+
 TEST_F(CameraOptions, invalidCameraValuesAreRefusedInOneLine) {
     const Words render{"render", "spheres", "-o", "a.exr"};
     const auto expectRefused = [&](const Words& more, const std::string& part) {

@@ -96,6 +96,18 @@ TEST(FirstLook, optionsThatNameThingsOfTheFirstSceneDoNotApplyToAnother) {
     EXPECT_EQ(first.look.settings.camera, 0);
     EXPECT_FALSE(first.look.settings.soloLight);
     EXPECT_EQ(first.pose, scenes::CameraChange());
+    said.defaultCamera = true;
+    EXPECT_FALSE(forAnyScene(said).defaultCamera);
+}
+
+TEST(FirstLook, aCameraOfTheSceneAndTheOneInItsPlaceAreRefusedTogether) {
+    FrameOptions said;
+    said.defaultCamera = true;
+    EXPECT_NO_THROW(resolveWithoutScene(said));
+    said.settings["camera"] = "0";
+    EXPECT_THROW(resolveWithoutScene(said), InputError);
+    said.defaultCamera = false;
+    EXPECT_NO_THROW(resolveWithoutScene(said));
 }
 
 TEST(FirstLook, theMostExposureOfTheWindowIsExactlyThatOfTheCommandLine) {

@@ -45,6 +45,7 @@ const std::map<std::string_view, SaidTwice>& saidTwice() {
         {"variant", {{.text = "deep red"}, {"--variant", "deep red"}}},
         {"light_units", {{.text = "watt"}, {"--light-units", "watt"}}},
         {"strict", {{.isOn = true}, {"--strict"}}},
+        {"default_camera", {{.isOn = true}, {"--default-camera"}}},
         {"eye", {{.point = {1.0, 0.1, -3.0}}, {"--eye", "1,0.1,-3"}}},
         {"target", {{.point = {4.0, 5.0, 6.0}}, {"--target", "4,5,6"}}},
         {"up", {{.point = {0.0, 0.0, 1.0}}, {"--up", "0,0,1"}}},

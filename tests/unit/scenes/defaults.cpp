@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/Pose.h"
+#include "scenes/RigLinks.h"
+#include "tests/unit/scenes/RiggedScene.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::scenes {
@@ -51,6 +54,27 @@ TEST(DefaultCamera, neverReplacesTheAuthors) {
     addDefaultCamera(scene);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(suppliedText(scene), "");
+}
+
+TEST(DefaultCamera, inThePlaceOfTheAuthorsItStandsWhereItWouldWithoutThemAndNoClipMovesIt) {
+    Scene scene = riggedScene();
+    ASSERT_FALSE(scene.cameras.empty());
+    scene.options.camera = scene.cameras[0].name;
+    Scene bare = scene;
+    dropCameras(bare);
+    addDefaultCamera(bare);
+    leaveOutCameras(scene);
+    addDefaultCamera(scene);
+    EXPECT_EQ(scene.cameras, bare.cameras);
+    EXPECT_FALSE(scene.options.camera) << "there is no such camera any more";
+    EXPECT_EQ(suppliedText(scene), "seen whole by the supplied camera 'default' in the place of its own");
+    poseScene(scene, 1.0);
+    EXPECT_EQ(scene.cameras, bare.cameras);
+
+    Scene without = tinyScene();
+    leaveOutCameras(without);
+    addDefaultCamera(without);
+    EXPECT_EQ(suppliedText(without), "no camera in it: seen whole by the supplied camera 'default'");
 }
 
 Scene litByDefault(Scene scene) {

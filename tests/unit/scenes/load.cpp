@@ -167,6 +167,33 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     EXPECT_FALSE(loadScene(file, options).environment);
 }
 
+TEST(LoadScene, withTheDefaultCameraAFileIsSeenAndLitAsOneWithoutCamerasIs) {
+    const test::TempFolder folder;
+    folder.write("triangle.obj", "v 0 0 0\nv 9 0 1\nv 0 1 3\nf 1 2 3\n");
+    constexpr const char* kBegin = R"({"tessera": 1, "include": [{"file": "triangle.obj"}])";
+    const std::string bare = folder.write("bare.json", std::string(kBegin) + "}").string();
+    const std::string seen = folder
+                                 .write("seen.json", std::string(kBegin) + R"(, "options": {"camera": "side"},
+        "cameras": [{"name": "away", "position": [0, 0, 99], "target": [0, 0, 100]},
+                    {"name": "side", "position": [99, 0, 0], "target": [0, 0, 0]}]})")
+                                 .string();
+    LoadOptions options;
+    options.aspect = 0.5;
+    const Scene expected = loadScene(bare, options), own = loadScene(seen, options);
+    EXPECT_EQ(own.cameras.size(), 2u);
+    options.defaultCamera = true;
+    const Scene scene = loadScene(seen, options);
+    EXPECT_EQ(scene.cameras, expected.cameras);
+    EXPECT_FALSE(scene.options.camera);
+    ASSERT_TRUE(own.environment && expected.environment && scene.environment);
+    EXPECT_EQ(scene.environment->rotationDegrees, expected.environment->rotationDegrees);
+    EXPECT_NE(own.environment->rotationDegrees, expected.environment->rotationDegrees) << "around the camera 'side'";
+    options.environment = "studio";
+    EXPECT_EQ(loadScene(seen, options).environment->rotationDegrees, expected.environment->rotationDegrees)
+        << "and so one that is chosen";
+    EXPECT_EQ(loadScene(bare, options).cameras, expected.cameras);
+}
+
 TEST(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
     const test::TempFolder folder;
     const std::string file = folder

@@ -71,6 +71,7 @@ void expectSame(const RenderRequest& request) {
     scenes::LoadOptions load;
     load.lights = request.lights;
     load.defaultLight = request.defaultLight;
+    load.defaultCamera = request.defaultCamera;
     load.environment = request.environment;
     load.background = request.background;
     load.clip = request.clip;
@@ -159,12 +160,23 @@ TEST(RenderCommand, allSettingsAtOnceAreReadBackToTheLastBit) {
     expectSame(perspective);
 }
 
+TEST(RenderCommand, theDefaultCameraIsWrittenWithItsPlace) {
+    const tessera::test::TempFolder folder;
+    RenderRequest request = requestOf(sceneFile(folder, R"({"camera": "plan of $HOME"})"));
+    request.defaultCamera = true;
+    expectSame(request);
+    request.pose.eyeWS = glm::dvec3(0.1, 0.2, 9.0);
+    request.pose.targetWS = glm::dvec3(0.1, 0.2, 0.3);
+    expectSame(request);
+}
+
 TEST(RenderCommand, everyChangedOptionIsWritten) {
     const tessera::test::TempFolder folder;
     RenderRequest request = everythingSaid(sceneFile(folder));
     const scenes::Scene scene = scenes::loadScene(request.source);
     std::string said = renderCommand(request, scene, "a.exr");
     request.pose.fovYDegrees = 50.0;
+    request.defaultCamera = true;
     said += renderCommand(request, scene, "a.exr");
     app::FrameOptions options;
     CLI::App command;

@@ -37,8 +37,8 @@ protected:
     }
 
     /// Opens a scene and waits for it; whether it is there, else why not is in failure_.
-    bool open(const std::string& source) {
-        switch_.open(source);
+    bool open(const std::string& source, const scenes::LoadOptions& load = {}) {
+        switch_.open(source, load);
         for (int i = 0; i < 6000 && !switch_.hasResult(); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         EXPECT_TRUE(switch_.hasResult()) << "after a minute";
@@ -272,6 +272,25 @@ TEST_F(SceneSwitchTest, aSuppliedCameraFitsTheWindowAndItsPlaceIsSaidForCommands
     state_.pictureAspect = 2.0;
     ASSERT_TRUE(open(file));
     EXPECT_EQ(shown(), moved) << "as it was left, whatever the window is now";
+}
+
+TEST_F(SceneSwitchTest, theDefaultCameraIsThatOfTheSceneItWasAskedForAndCommandsOfAnySizeRepeatItsPlace) {
+    const std::string file = sceneFile("a.json");
+    scenes::LoadOptions load;
+    load.defaultCamera = true;
+    saidPose_.fovYDegrees = 20.0;
+    state_.pictureAspect = 0.5;
+    ASSERT_TRUE(open(file, load));
+    EXPECT_EQ(state_.open->cameras().size(), 1u);
+    EXPECT_TRUE(state_.open->load().defaultCamera) << "and the command says so";
+    EXPECT_DOUBLE_EQ(shown().fovYRadians, glm::radians(20.0));
+    for (const double aspect : {0.5, 4.0}) {
+        load.aspect = aspect;
+        const scenes::Camera supplied = scenes::loadScene(file, load).cameras.at(0);
+        EXPECT_EQ(scenes::changedCamera(supplied, state_.open->cameraChange()), shown()) << aspect;
+    }
+    ASSERT_TRUE(open(sceneFile("b.json")));
+    EXPECT_EQ(state_.open->cameras().size(), 2u);
 }
 
 TEST_F(SceneSwitchTest, everyCameraOfABuiltInSceneKeepsItsWidthInANarrowerPictureAndCommandsRepeatIt) {
