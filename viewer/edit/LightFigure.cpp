@@ -364,7 +364,7 @@ std::optional<std::size_t> handleAt(std::span<const LightHandle> handles, const 
 }
 
 std::string hintOf(const LightHandle& handle) {
-    return handle.moves() ? fmt::format("Drag to move along {}", "xyz"[handle.arm]) : std::string();
+    return handle.moves() ? fmt::format("Drag to move along {}", handle.axisName()) : std::string();
 }
 
 PointerShape pointerShapeOf(const LightHandle& handle) {

@@ -30,6 +30,8 @@ struct LightHandle {
     bool turns() const { return isDraggedAnywhere() && corner == scenes::kNone; }
     /// Whether it is one of the arms, which move the light.
     bool moves() const { return arm != scenes::kNone; }
+    /// Of an arm: the world's axis along which it moves the light.
+    char axisName() const { return "xyz"[arm]; }
     bool isDraggedAnywhere() const { return parameter == nullptr && !moves(); }
 };
 
