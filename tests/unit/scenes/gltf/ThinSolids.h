@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/import/GltfThinSolids.h"
-#include "tests/unit/scenes/gltf/GltfBuilder.h"
+#include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 /// Files of points and lines, and what becomes of them.
 namespace tessera::scenes::gltf::test {
