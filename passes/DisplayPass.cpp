@@ -15,8 +15,8 @@ namespace {
 
 shared::DisplayConstants displayConstants(const frame::FrameSettings& settings) {
     shared::DisplayConstants constants{};
-    constants.exposure =
-        glm::vec4(std::exp2(settings.exposureEV), float(frame::countScaleLog2(settings.view)), 0.0f, 0.0f);
+    constants.exposure.x = std::exp2(settings.exposureEV);
+    constants.scales.x = float(frame::countScaleLog2(settings.view));
     return constants;
 }
 

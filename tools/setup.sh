@@ -37,6 +37,10 @@ quietly() {
     rm -f "$log"
 }
 
+hasApt() {
+    command -v apt-get >/dev/null && command -v dpkg-query >/dev/null
+}
+
 aptGet() {
     local elevate=()
     [ "$(id -u)" -eq 0 ] || elevate=(sudo)
@@ -49,7 +53,7 @@ ensurePackages() {
     local sets=$* stamp
     stamp=$root/build/.packages-${sets// /-}-$(cksum <"$packageTable" | tr ' ' '-')
     [ ! -e "$stamp" ] || return 0
-    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    if ! hasApt; then
         local tool lacking=()
         for tool in cmake ninja glad; do command -v "$tool" >/dev/null || lacking+=("$tool"); done
         [ ${#lacking[@]} -eq 0 ] || fail "This machine has no apt-get to install what is missing (${lacking[*]}): install CMake 3.25, Ninja," \

@@ -75,6 +75,17 @@ void Document::openFile(const std::string& file) {
     open(file);
 }
 
+void Document::takeDrops() {
+    const std::vector<std::string> files = window_.takeDrops();
+    if (files.empty()) return;
+    Dropped dropped = takeDropped(files);
+    state_.files.reset();
+    state_.requests.chosen = std::move(dropped.taken);
+    if (dropped.left.empty()) return;
+    log_.line("note " + dropped.left);
+    if (!state_.notice.isError) state_.notice = {.text = std::move(dropped.left), .outlivesLoad = true};
+}
+
 /// Reads the open scene again: its materials and pictures are others.
 void Document::openVariant(const std::string& variant) {
     if (!state_.open) return;
@@ -234,6 +245,13 @@ void Document::saveAs(const std::string& path, glm::ivec2 size) {
     const FileType* const type = fileTypeOf(path);
     if (type == nullptr || type->saves != FileType::Saves::Scene) return saver_.picture(size, path);
     saver_.scene(path);
+}
+
+void Document::copyCommand(glm::ivec2 size) {
+    if (hasEdits() && !saveScene()) return;
+    state_.command = saver_.command(size);
+    window_.setClipboard(state_.command);
+    state_.notice = {"Copied: " + state_.command, false};
 }
 
 std::optional<double> Document::keepAt() const {

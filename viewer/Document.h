@@ -40,6 +40,8 @@ public:
     void begin();
 
     // ---- Another scene ----
+    /// Of files that were dropped on the window one is to be opened, and the user is told of the others.
+    void takeDrops();
     /// These three may ask first.
     void open(const std::string& source);
     /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
@@ -72,6 +74,8 @@ public:
     bool saveScene();
     void savePicture(glm::ivec2 size, const char* ending);
     void saveAs(const std::string& path, glm::ivec2 size);
+    /// Puts the command that renders the picture on the clipboard. It draws a file, so edits are saved before.
+    void copyCommand(glm::ivec2 size);
 
     // ---- Edits that are not saved ----
     bool hasEdits() const { return state_.open && state_.open->isEdited(); }

@@ -18,10 +18,9 @@
 #include "renderer/gpu/Debug.h"
 #include "viewer/Document.h"
 #include "viewer/panels/Frame.h"
-#include "viewer/panels/Legend.h"
 #include "viewer/panels/ProgressBox.h"
 #include "viewer/panels/ShownText.h"
-#include "viewer/session/FileTypes.h"
+#include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
 #include "viewer/session/SceneEdits.h"
@@ -205,7 +204,7 @@ private:
             log_.line("note " + fault);
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
         }
-        if (const std::vector<std::string> files = window_.takeDrops(); !files.empty()) takeDrop(files);
+        document_.takeDrops();
         if (!isVisible()) return; // input waits, so that no key that is let go is missed
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
@@ -266,15 +265,6 @@ private:
             return; // the picture that answers is yet to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
-    }
-
-    void takeDrop(const std::vector<std::string>& files) {
-        Dropped dropped = takeDropped(files);
-        state_.files.reset();
-        state_.requests.chosen = std::move(dropped.taken);
-        if (dropped.left.empty()) return;
-        log_.line("note " + dropped.left);
-        if (!state_.notice.isError) state_.notice = {.text = std::move(dropped.left), .outlivesLoad = true};
     }
 
     /// Names of files and in scenes may be of any language.
@@ -346,7 +336,7 @@ private:
         if (requests.askWhereToSave) document_.askWhereToSave(saver_.freeName(".json"));
         if (requests.saveAs) document_.saveAs(*requests.saveAs, size);
         if (requests.saveTrace) saver_.trace();
-        if (requests.copyCommand) copyCommand(size);
+        if (requests.copyCommand) document_.copyCommand(size);
         if (requests.scatter) replaceByScattered(state_);
         if (requests.pick) log_.line("picked " + selectMaterialAt(state_, *requests.pick, size));
         if (requests.turnAbout && turnAboutPlace(state_, *requests.turnAbout, size)) log_.line("turns about a surface");
@@ -354,13 +344,6 @@ private:
         Look look = state_.active();
         look.settings.sizePixels = size;
         measurements_.judgeLights(facts_, screen_, look);
-    }
-
-    void copyCommand(glm::ivec2 size) {
-        if (document_.hasEdits() && !document_.saveScene()) return;
-        state_.command = saver_.command(size);
-        window_.setClipboard(state_.command);
-        state_.notice = {"Copied: " + state_.command, false};
     }
 
     /// Advances animations and damped movements.

@@ -58,7 +58,7 @@ vec3 codeValues(vec4 shown)
 #elif DISPLAY_MAPPING == DISPLAY_DISTANCE
     return vec3(10.0 / (10.0 + max(value, 0.0)));
 #elif DISPLAY_MAPPING == DISPLAY_COUNT
-    return heatColor(heatPositionOfCount(value.r, display.exposure.y));
+    return heatColor(heatPositionOfCount(value.r, display.scales.x));
 #elif DISPLAY_MAPPING == DISPLAY_IDS
     return colorOfIds(value);
 #elif DISPLAY_MAPPING == DISPLAY_COMPRESSED

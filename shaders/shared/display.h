@@ -21,7 +21,8 @@
 SHARED_BEGIN
 
 struct DisplayConstants {
-    vec4 exposure; // x factor 2^EV, y end of the scale of counts as a power of two
+    vec4 exposure; // x factor 2^EV
+    vec4 scales;   // x end of the scale of counts, as a power of two
 };
 
 SHARED_END

@@ -125,6 +125,16 @@ class Scripts(unittest.TestCase):
             self.assertTrue(self.called("ctest")[0].endswith(f" of {self.root}/build/python"), self.calls)
             self.assertIn("tessera_python", self.called("ninja")[1])
 
+    def testWithoutAptTheTestsOfThePythonModuleAreOnlyRunWhenAskedFor(self):
+        (self.machine / "bin/apt-get").unlink()
+        self.script(self.machine / "bin" / "ctest", 'echo "ctest $* of $TESSERA_PYTHON_MODULE" >> "$MACHINE/log"')
+        result = self.run_("test", "--all")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without --python", result.stderr)
+        self.assertTrue(self.called("ctest")[0].endswith(" of "), self.calls)
+        self.assertEqual(self.run_("test", "--all", "--python").stderr.count("--python"), 0)
+        self.assertTrue(self.called("ctest")[0].endswith(f" of {self.root}/build/python"), self.calls)
+
     def testWhatOnlyTheSlowTestsNeedIsOnlyInstalledForThem(self):
         for name in ("slurmctld", "slurmd", "slurm-client", "munge", "parallel", "python3-venv"):
             with self.subTest(name):

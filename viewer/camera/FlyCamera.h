@@ -24,7 +24,7 @@ public:
     /// sixteenth and 16 times the speed that it begins with.
     void changeSpeed(double steps);
     /// Is as much faster or slower than it began as another one, which may be of another scene.
-    void takeSpeed(const FlyCamera& other) { speedSteps_ = other.speedSteps_; }
+    void takeSpeedFactor(const FlyCamera& other) { speedSteps_ = other.speedSteps_; }
     /// Of keys that are held without Shift.
     double metresPerSecond() const;
     /// Keys held from now on.

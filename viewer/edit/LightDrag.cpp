@@ -130,7 +130,7 @@ std::string LightDrag::text(const scenes::Light& light, double timeSeconds) cons
         return fmt::format("{} {:.3g} m", handle_.parameter->label, light.*handle_.parameter->member);
     if (handle_.moves()) {
         const double metres = scenes::lightAtTime(light, timeSeconds).positionWS[handle_.arm];
-        return fmt::format("Position {} {:.3f} m", "xyz"[handle_.arm], shown(metres, 0.0005));
+        return fmt::format("Position {} {:.3f} m", handle_.axisName(), shown(metres, 0.0005));
     }
     if (!handle_.turns()) {
         const glm::vec2& corner = light.corners.metres[std::size_t(handle_.corner)];

@@ -5,23 +5,15 @@
 #include <limits>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "scenes/AreaLight.h"
+#include "viewer/edit/HandlePlacer.h"
 
 namespace tessera::viewer {
 namespace {
 
-constexpr double kArm = 70.0;        ///< from a light's middle or end to the handle of its direction
-constexpr double kMoveArm = 100.0;   ///< the same to the ends of the arms that move a light, where they lie across
-constexpr double kMostArm = 0.2;     ///< of both, share of the picture's shorter side: they must not reach the viewer
-constexpr double kLeastAway = 20.0;  ///< of handles from the light's middle, where its marker is
-constexpr double kLeastTurn = 40.0;  ///< the same of its direction's, which stands clear of the others
-constexpr double kLeastApart = 20.0; ///< of handles from each other: a press takes what lies within 9
-constexpr double kMostAside = 200.0; ///< that a handle gives way to others
-constexpr double kLeastWay = 1.0;    ///< from the middle, below which what is dragged anywhere has no way outwards
-constexpr double kLeastSeen = 0.02;  ///< sine to the line of sight of axes that can be dragged along: 1 degree
-constexpr double kLeastArmSeen = 0.20791169081775934; ///< the same of arms: 12 degrees, 21 of their 100 are seen then
+constexpr double kArm = 70.0;       ///< from a light's middle or end to the handle of its direction
+constexpr double kMoveArm = 100.0;  ///< the same to the ends of the arms that move a light, where they lie across
+constexpr double kMostArm = 0.2;    ///< of both, share of the picture's shorter side: they must not reach the viewer
 constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
 constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
 constexpr int kCircleSteps = 48;
@@ -53,7 +45,7 @@ std::optional<Rim> rimOf(double radiusMetres, double eyeMetres) {
 class FigureMaker {
 public:
     FigureMaker(const scenes::Light& light, const PictureView& view, double scale, LightFigure& figure)
-        : light_(light), view_(view), scale_(scale), figure_(figure) {}
+        : light_(light), view_(view), scale_(scale), figure_(figure), placer_(light, view, scale, figure) {}
 
     void make() {
         const scenes::LightTypeInfo& info = scenes::infoOf(light_.type);
@@ -118,63 +110,6 @@ private:
         return found != info.parameters.end() ? &*found : scenes::sizeParameter(info);
     }
 
-    bool isInPicture(const glm::dvec2& place) const {
-        return glm::all(glm::greaterThanEqual(place, glm::dvec2(0.0))) &&
-               glm::all(glm::lessThanEqual(place, view_.size()));
-    }
-
-    /// Keeps a handle so far from the light's marker, which would be taken in its place, and outwards clear of the
-    /// handles before it. A sun has neither. Returns whether the picture has such a place.
-    bool standOff(LightHandle& handle, double least) const {
-        if (figure_.sun) return true;
-        const std::optional<glm::dvec2> middle = view_.placeOf(figure_.middleWS);
-        if (!middle) return false;
-        const glm::dvec2 away = handle.truePlace - *middle;
-        glm::dvec2 way = handle.way;
-        if (handle.isDraggedAnywhere()) // at the middle: between sides that are level and upright
-            way = glm::normalize(glm::length(away) < kLeastWay * scale_ ? glm::dvec2(1.0, -1.0) : away);
-        if (glm::length(away) < least * scale_) handle.place = *middle + least * scale_ * way;
-        const auto isClear = [&](const glm::dvec2& place) {
-            return std::ranges::none_of(figure_.handles, [&](const LightHandle& other) {
-                return glm::distance(other.place, place) < kLeastApart * scale_;
-            });
-        };
-        constexpr double kStep = 0.25 * kLeastApart;
-        for (double aside = 0.0; aside <= kMostAside; aside += kStep) {
-            const glm::dvec2 place = handle.place + aside * scale_ * way;
-            if (!isClear(place)) continue;
-            if (!isInPicture(place)) return false;
-            handle.place = place;
-            return true;
-        }
-        return false;
-    }
-
-    /// If the picture shows it, and a drag would change something.
-    void add(LightHandle handle) {
-        handle.number = count_++;
-        const std::optional<glm::dvec2> shown = view_.placeOf(handle.positionWS);
-        if (!shown) return;
-        handle.truePlace = handle.place = *shown;
-        const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.moves() ? figure_.middleWS : handle.positionWS);
-        if (handle.turns()) {
-            standOff(handle, kLeastTurn);
-        } else if (handle.isDraggedAnywhere()) { // a corner, whose plane must not be seen from its edge
-            if (std::abs(glm::dot(light_.directionWS, towardsWS)) < kLeastSeen) return;
-            standOff(handle, kLeastAway);
-        } else {
-            const double leastSeen = handle.moves() ? kLeastArmSeen : kLeastSeen;
-            if (glm::length(glm::cross(handle.axisWS, towardsWS)) < leastSeen) return;
-            const auto beyond =
-                view_.placeOf(handle.positionWS + *view_.metresPerUnit(handle.positionWS) * handle.axisWS);
-            if (!beyond || *beyond == *shown) return;
-            handle.way = glm::normalize(*beyond - *shown);
-            const bool isClear = standOff(handle, kLeastAway);
-            if (handle.moves() && !isClear) return; // the light is moved by its marker, too
-        }
-        if (isInPicture(handle.place)) figure_.handles.push_back(handle);
-    }
-
     /// Handles on both sides of the middle that change a length along an axis.
     void addPair(float scenes::Light::*member, const glm::dvec3& axisWS, double share) {
         for (const double side : {1.0, -1.0}) {
@@ -183,7 +118,7 @@ private:
             handle.axisWS = side * axisWS;
             handle.share = share;
             handle.positionWS = figure_.middleWS + share * double(light_.*member) * handle.axisWS;
-            add(handle);
+            placer_.add(handle);
         }
     }
 
@@ -248,7 +183,7 @@ private:
             LightHandle handle;
             handle.corner = int(i);
             handle.positionWS = outline[i];
-            add(handle);
+            placer_.add(handle);
         }
         outline.push_back(outline.front());
         figure_.outlinesWS.push_back(outline);
@@ -273,7 +208,7 @@ private:
         handle.axisWS = outwardsWS;
         handle.isRound = true;
         handle.positionWS = positionWS;
-        add(handle);
+        placer_.add(handle);
     }
 
     void addSphere() {
@@ -320,7 +255,7 @@ private:
         handle.axisWS = light_.directionWS;
         handle.positionWS = figure_.middleWS + (reachMetres + *arm) * light_.directionWS;
         figure_.outlinesWS.push_back({figure_.middleWS + reachMetres * light_.directionWS, handle.positionWS});
-        add(handle);
+        placer_.add(handle);
     }
 
     /// Along the axes of the world. For an arm that points nearly at the eye, or away, a little of the picture would be
@@ -333,7 +268,7 @@ private:
             handle.arm = axis;
             handle.axisWS[axis] = 1.0;
             handle.positionWS = figure_.middleWS + *arm * handle.axisWS;
-            add(handle);
+            placer_.add(handle);
         }
     }
 
@@ -341,7 +276,7 @@ private:
     const PictureView& view_;
     double scale_;
     LightFigure& figure_;
-    int count_ = 0; ///< of handles
+    HandlePlacer placer_;
 };
 
 } // namespace
@@ -350,30 +285,6 @@ LightFigure lightFigure(const scenes::Light& light, const PictureView& view, dou
     LightFigure figure;
     FigureMaker(light, view, scale, figure).make();
     return figure;
-}
-
-std::optional<std::size_t> handleAt(std::span<const LightHandle> handles, const glm::dvec2& place, double reach) {
-    std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        const double distance = glm::distance(handles[i].place, place);
-        if (distance > reach) continue;
-        reach = distance;
-        nearest = i;
-    }
-    return nearest;
-}
-
-std::string hintOf(const LightHandle& handle) {
-    return handle.moves() ? fmt::format("Drag to move along {}", "xyz"[handle.arm]) : std::string();
-}
-
-PointerShape pointerShapeOf(const LightHandle& handle) {
-    if (handle.isDraggedAnywhere()) return PointerShape::AnyWay;
-    constexpr double kSteep = 2.414213562373095; // tan of 67.5 degrees, halfway to the next shape
-    const glm::dvec2& way = handle.way;
-    if (std::abs(way.x) > kSteep * std::abs(way.y)) return PointerShape::LeftRight;
-    if (std::abs(way.y) > kSteep * std::abs(way.x)) return PointerShape::UpDown;
-    return way.x * way.y > 0.0 ? PointerShape::Falling : PointerShape::Rising; // y counts downwards
 }
 
 } // namespace tessera::viewer

@@ -27,12 +27,6 @@ const char* titleOf(frame::DebugView view) {
     return view == frame::DebugView::Overdraw ? "Surfaces a pixel shades" : "Lights a pixel visits";
 }
 
-/// The largest count of a side's picture, if it shows this view.
-std::optional<float> mostOf(const Facts& facts, int side, frame::DebugView view) {
-    const std::optional<Facts::MostCount>& most = facts.mostCounts[std::size_t(side)];
-    return most && most->view == view ? std::optional(most->most) : std::nullopt;
-}
-
 /// A titled bar of heat colours, up to the largest count where that is known, else to the end of the colours' scale.
 void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float> most, float log2Colours,
              float scale) {
@@ -110,11 +104,6 @@ std::string shownLightText(const engine::DrawnShadows& shadows, const std::vecto
 
 } // namespace
 
-float countColorsLog2(const State& state, const Facts& facts, int side, frame::DebugView view) {
-    const std::optional<float> most = mostOf(facts, side, view);
-    return state.fitsCountColors && most ? shared::heatScaleLog2(*most) : float(frame::countScaleLog2(view));
-}
-
 void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale) {
     if (state.compare == Compare::Difference) return;
     for (int side = 0; side < state.sides(); ++side) {
@@ -123,7 +112,7 @@ void drawLegend(const State& state, const Facts& facts, const PictureArea& area,
         const PictureArea part = partOf(state, area, side);
         if (showsCounts(*look)) {
             const frame::DebugView view = look->settings.view;
-            drawBar(part, view, mostOf(facts, side, view), countColorsLog2(state, facts, side, view), scale);
+            drawBar(part, view, facts.mostCountOf(side, view), countColorsLog2(state, facts, side, view), scale);
         }
         const std::optional<engine::DrawnShadows>& shadows = facts.shadows[std::size_t(side)];
         if (!shadows) continue;

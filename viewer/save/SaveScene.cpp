@@ -41,7 +41,7 @@ void saveOpenScene(State& state, const std::string& path) {
         throw;
     }
     open.becomes(std::filesystem::absolute(path).string());
-    for (Look& look : state.looks) setEnvironmentSeenBy(look, open.environmentView());
+    state.viewEnvironmentBy(open.environmentView());
     noteRecent(state.recent, open.source());
 }
 

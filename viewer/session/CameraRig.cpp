@@ -27,7 +27,7 @@ void CameraRig::setMode(Mode mode) {
 
 void CameraRig::moveAs(const CameraRig& other) {
     setMode(other.mode_);
-    fly_.takeSpeed(other.fly_);
+    fly_.takeSpeedFactor(other.fly_);
 }
 
 void CameraRig::rotate(const glm::dvec2& dragPixels, double heightPixels) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "renderer/frame/DebugViews.h"
+#include "shaders/shared/heat.h"
 #include "viewer/edit/Brightness.h"
 #include "viewer/edit/LightList.h"
 
@@ -38,6 +40,11 @@ bool showsTermOfOne(frame::DebugView view) {
 
 bool showsCounts(const Look& look) {
     return frame::displayMapping(look.settings.view, look.settings.layout) == frame::DisplayMapping::Count;
+}
+
+float countColorsLog2(const State& state, const Facts& facts, int side, frame::DebugView view) {
+    const std::optional<float> most = facts.mostCountOf(side, view);
+    return state.fitsCountColors && most ? shared::heatScaleLog2(*most) : float(frame::countScaleLog2(view));
 }
 
 Look drawnLook(const State& state, int side) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/session/Facts.h"
 #include "viewer/session/State.h"
 
 /// What is drawn of what the user chose, and how it is called.
@@ -13,6 +14,10 @@ bool showsTermOfOne(frame::DebugView view);
 
 /// The picture shows how many there are of something, in heat colours.
 bool showsCounts(const Look& look);
+
+/// Where the heat colours of a side's picture that shows this view end, as a power of two: at the largest count where
+/// it is known and they are to fit it, as in the files of `tessera render`, else where that view always can.
+float countColorsLog2(const State& state, const Facts& facts, int side, frame::DebugView view);
 
 /// The look of a side as it is drawn: views of D, G and F show the selected light, else the brightest at what the
 /// scene's camera looks at, unless one shines alone.

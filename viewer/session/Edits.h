@@ -1,15 +1,12 @@
 #pragma once
 #include <cstddef>
-#include <memory>
-#include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
-#include "renderer/frame/EnvironmentFilter.h"
 #include "scenes/RigLinks.h"
 #include "viewer/edit/LightList.h"
-#include "viewer/session/CameraRig.h"
+#include "viewer/session/SeenEnvironment.h"
+#include "viewer/session/ShownCamera.h"
 
 /// What can be undone. An edit holds what the scene does not have now: before an edit is undone that is what was there
 /// before, afterwards what it made. Undoing and redoing are the same exchange.
@@ -33,15 +30,6 @@ struct HookEdit {
     float other = 0.0f;
 };
 
-/// An environment with all that belongs to it.
-struct Surrounding {
-    std::optional<scenes::Environment> environment;
-    scenes::EnvironmentView view; ///< that it is seen by: OpenScene::environmentView()
-    bool isSupplied = false;      ///< scenes::Supplied::light
-    std::shared_ptr<const frame::FilteredEnvironment> filtered;
-    std::vector<std::string> warnings;    ///< all of the scene
-    std::vector<std::string> ownWarnings; ///< those of them that the environment brought
-};
 struct EnvironmentEdit {
     Surrounding other;
 };
@@ -52,12 +40,6 @@ struct EnvironmentViewEdit {
     scenes::EnvironmentView own, view;
 };
 
-/// Which camera is looked through, and where it is.
-struct CameraView {
-    int camera = 0;
-    scenes::CameraChange placed; ///< OpenScene::placed()
-    CameraRig rig;
-};
 struct CameraEdit {
     CameraView other;
 };

@@ -52,6 +52,11 @@ struct Facts {
         float most;
     };
     std::array<std::optional<MostCount>, 2> mostCounts;
+    /// That of a side, if its picture shows this view.
+    std::optional<float> mostCountOf(int side, frame::DebugView view) const {
+        const std::optional<MostCount>& most = mostCounts[std::size_t(side)];
+        return most && most->view == view ? std::optional(most->most) : std::nullopt;
+    }
     std::optional<Inspection> inspection;
     /// Where the picture shows the selected material.
     struct MaterialContours {

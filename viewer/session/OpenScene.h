@@ -1,16 +1,16 @@
 #pragma once
-#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scenes/Clips.h"
-#include "scenes/Defaults.h"
 #include "scenes/write/SceneOrigin.h"
-#include "viewer/session/CameraRig.h"
-#include "viewer/session/EnvironmentJob.h"
 #include "viewer/session/History.h"
+#include "viewer/session/SeenEnvironment.h"
+#include "viewer/session/ShownCamera.h"
 
 namespace tessera::viewer {
 
@@ -58,7 +58,7 @@ public:
     /// Turns and brightens the environment, besides its own numbers. Nothing happens where there is none.
     void changeEnvironmentView(const scenes::EnvironmentView& changed, Gesture gesture = Gesture::Once);
     /// What looks show it by.
-    const scenes::EnvironmentView& environmentView() const { return environmentView_; }
+    const scenes::EnvironmentView& environmentView() const { return environment_.view(); }
     /// The drag that edits with Gesture::GoesOn is over.
     void endGesture() { history_.endGesture(); }
     /// Undoes or redoes a step; null where there is none, else the edit, after the exchange.
@@ -76,32 +76,36 @@ public:
     /// Plays another clip, as --clip takes it, from its beginning. Throws InputError where that does not exist, or
     /// moves something too far away; the one before then stays.
     void playClip(const std::string& nameOrNumber);
-    /// Whether the clip that plays moves the camera that is shown, or would.
-    bool clipMovesCamera() const { return scenes::movesCamera(scene_, camera_); }
-    /// Whether that camera goes with the clip: one that was moved by hand, or placed, stays the user's.
-    bool followsClipCamera() const { return isLed() && clipMovesCamera(); }
-    /// Goes to the clip's camera and along with it, or stays here.
+    /// Goes to the clip's camera and along with it, or stays here. A step of the history where it went.
     void followClipCamera(bool follows);
     /// Counts changes of what clips move.
     std::uint64_t geometryRevision() const { return geometryRevision_; }
-    std::uint64_t environmentRevision() const { return environmentRevision_; }
+    std::uint64_t environmentRevision() const { return environment_.revision(); }
     /// Of its environment, which a renderer need not filter; may be null.
-    const std::shared_ptr<const frame::FilteredEnvironment>& filteredEnvironment() const { return filtered_; }
+    const std::shared_ptr<const frame::FilteredEnvironment>& filteredEnvironment() const {
+        return environment_.filtered();
+    }
     /// Counts changes of the picture: edits, and movements of the camera.
-    std::uint64_t revision() const { return revision_; }
+    std::uint64_t revision() const { return revision_ + shown_.revision(); }
     std::uint64_t materialRevision() const { return materialRevision_; }
 
     const scenes::Box3& boundsWS() const { return boundsWS_; } ///< over the clips that play
-    /// The cameras of the scene at the time that is shown, without later movements.
-    const std::vector<scenes::Camera>& cameras() const { return cameras_; }
-    /// The same as its file begins with them.
-    const std::vector<scenes::Camera>& loadedCameras() const { return loadedCameras_; }
-    int camera() const { return camera_; }
-    CameraRig& rig() { return rig_; }
-    const CameraRig& rig() const { return rig_; }
+
+    // ---- The camera that is shown, as ShownCamera says ----
+    const std::vector<scenes::Camera>& cameras() const { return shown_.cameras(); }
+    const std::vector<scenes::Camera>& loadedCameras() const { return shown_.loadedCameras(); }
+    int camera() const { return shown_.index(); }
+    CameraRig& rig() { return shown_.rig(); }
+    const CameraRig& rig() const { return shown_.rig(); }
+    const scenes::CameraChange& placed() const { return shown_.placed(); }
+    bool clipMovesCamera() const { return shown_.isOfClip(); }
+    bool followsClipCamera() const { return shown_.followsClip(); }
+    scenes::CameraChange cameraChange() const { return shown_.change(); }
     /// Looks through another of the scene's cameras, to begin with. One of a built-in scene is placed with a taller
     /// field of view where the picture that load() names is narrower than the 16:9 that it is made for.
     void useCamera(int camera);
+    void place(const scenes::CameraChange& change) { shown_.place(change); }
+    void applyRig() { shown_.applyRig(); }
     // Jumps of the camera are steps of the history too, unless it is there already.
     void jumpToCamera(int camera);
     void jumpHome();
@@ -111,22 +115,8 @@ public:
     void jumpTo(std::string what, const scenes::Box3& boundsWS, double aspect);
     /// Slides there where orbits turn about a point.
     void turnAbout(const glm::dvec3& pivotWS);
-    /// Begins with the change of the scene's camera: what changedCamera() makes of it, to the last bit. Orbiting turns
-    /// about the target that it says. Throws InputError for values that no camera can have, and then does nothing.
-    void place(const scenes::CameraChange& change);
-    /// What place() put last; empty where the scene's camera is its own.
-    const scenes::CameraChange& placed() const { return placed_; }
-    /// What makes the camera that is shown of the scene's, as a command line says it, to the last bit. Empty where they
-    /// are the same.
-    scenes::CameraChange cameraChange() const;
-    /// Puts the scene's camera to where the rig is. To be called after the rig moved.
-    void applyRig();
 
 private:
-    const scenes::Camera& sceneCamera() const { return cameras_[std::size_t(camera_)]; }
-    /// Orbits turn about what the camera shows in the middle of its picture; where that is nothing, about the middle of
-    /// the scene.
-    CameraPose poseThrough(const scenes::Camera& camera) const;
     void apply(std::string what, Edit edit, Gesture gesture = Gesture::Once);
     void exchange(Edit& edit);
     /// The same of an edit that was made at another time of the clip.
@@ -134,44 +124,32 @@ private:
     void exchange(LightsEdit& edit);
     void exchange(MaterialEdit& edit);
     void exchange(HookEdit& edit);
-    void exchange(EnvironmentEdit& edit);
-    void exchange(EnvironmentViewEdit& edit);
-    void exchange(CameraEdit& edit);
-    CameraView view() const { return {camera_, placed_, rig_}; }
+    void exchange(EnvironmentEdit& edit) { environment_.exchange(edit.other); }
+    void exchange(EnvironmentViewEdit& edit) { environment_.exchange(edit.own, edit.view); }
+    void exchange(CameraEdit& edit) { shown_.exchange(edit.other); }
     /// Makes what the views make of environments their own.
     void takeAsSeen();
-    /// Keeps where the camera was before a jump that has begun.
+    /// Jumps, and keeps where the camera was.
+    void jump(std::string what, const std::function<void()>& begin);
+    /// The same of a jump that has begun.
     void keepJump(std::string what, CameraView before);
-    /// Whether the camera that is shown goes where the scene has it.
-    bool isLed() const;
     /// Poses a scene that has poses, and leaves the user's camera to the user.
     void pose(double timeSeconds);
-    /// Puts the camera that is shown to where the clip has it, or else back to where the rig is.
-    void placeShownCamera();
-    /// Begins anew with a camera and its pose.
-    void begin(const scenes::Camera& start, const CameraPose& home);
 
     std::string source_;
     scenes::LoadOptions load_;
     scenes::Scene scene_;
     scenes::SceneOrigin origin_;
-    scenes::OwnEnvironment ownEnvironment_; ///< as the file has it
-    scenes::EnvironmentView environmentView_;
+    SeenEnvironment environment_;
     scenes::Box3 boundsWS_;
-    std::vector<scenes::Camera> cameras_, loadedCameras_;
-    bool mayFollow_ = true; ///< the clip's camera
-    int camera_ = 0;
-    scenes::CameraChange placed_; ///< made the camera that the rig started as
-    CameraRig rig_;
+    ShownCamera shown_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0;
     History history_;
     double clipSeconds_;        ///< as clipSeconds() says
     double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused
     double shownSeconds_ = 0.0; ///< of the clip
-    std::uint64_t materialRevision_ = 0, environmentRevision_ = 0, geometryRevision_ = 0;
-    std::shared_ptr<const frame::FilteredEnvironment> filtered_;
-    std::vector<std::string> environmentWarnings_; ///< of the latest that was taken
+    std::uint64_t materialRevision_ = 0, geometryRevision_ = 0;
 };
 
 } // namespace tessera::viewer

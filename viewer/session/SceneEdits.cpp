@@ -48,10 +48,6 @@ bool isFull(const State& state) {
     return state.open->scene().lights.size() >= std::size_t(scenes::kMostLights);
 }
 
-void showEnvironmentAsSeen(State& state) {
-    for (Look& look : state.looks) setEnvironmentSeenBy(look, state.open->environmentView());
-}
-
 /// What was exchanged is where the user looks.
 void show(State& state, const Edit& edit) {
     if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
@@ -60,7 +56,7 @@ void show(State& state, const Edit& edit) {
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
         state.selectedMaterial = int(material->index);
     } else if (std::holds_alternative<EnvironmentViewEdit>(edit)) {
-        showEnvironmentAsSeen(state);
+        state.viewEnvironmentBy(state.open->environmentView());
     } else if (std::holds_alternative<CameraEdit>(edit)) {
         for (Look& look : state.looks) look.settings.camera = state.open->camera();
     }
@@ -156,7 +152,7 @@ void replaceByScattered(State& state) {
 void viewEnvironment(State& state, const scenes::EnvironmentView& view, Gesture gesture) {
     if (!state.open || !state.open->scene().environment) return;
     state.open->changeEnvironmentView(view, gesture);
-    showEnvironmentAsSeen(state);
+    state.viewEnvironmentBy(state.open->environmentView());
 }
 
 void undo(State& state) {

@@ -73,10 +73,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     show(*scene);
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
-    for (Look& look : state_.looks) {
-        look = hadScene_ ? rebased(look, base_, first.look) : first.look;
-        setEnvironmentSeenBy(look, scene->environmentView()); // turning the one before was an edit of that scene
-    }
+    for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
+    state_.viewEnvironmentBy(scene->environmentView()); // turning the one before was an edit of that scene
     // The other side of a comparison begins with a technique that shades the other way, and is as fast with many
     // lights.
     if (!hadScene_)

@@ -9,6 +9,10 @@ void State::shareSettings() {
             if (setting.isShared && &look != &active()) setting.value.copy(look, active());
 }
 
+void State::viewEnvironmentBy(const scenes::EnvironmentView& view) {
+    for (Look& look : looks) setEnvironmentSeenBy(look, view);
+}
+
 std::set<int> State::allSelectedLights() const {
     if (selectedLight == scenes::kNone) return {};
     return selectedLights.contains(selectedLight) ? selectedLights : std::set<int>{selectedLight};

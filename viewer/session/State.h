@@ -145,6 +145,8 @@ struct State {
     const Look& active() const { return looks[std::size_t(activeSide)]; }
     /// What both sides share: where, when and how bright.
     void shareSettings();
+    /// Has both sides turn and brighten the environment as the open scene does: OpenScene::environmentView().
+    void viewEnvironmentBy(const scenes::EnvironmentView& view);
     /// Heeds what was selected since it was called last, wherever: its panel is to come into view.
     void noteSelection();
 

@@ -20,7 +20,7 @@ shader::ProgramDesc countColorsProgram() {
 void CountColors::update(shader::ProgramLibrary& programs, const Target& radiance, const Target& display,
                          float log2Most) {
     shared::DisplayConstants constants{};
-    constants.exposure = glm::vec4(1.0f, log2Most, 0.0f, 0.0f);
+    constants.scales.x = log2Most;
     if (!constants_)
         constants_ = std::make_unique<gpu::Buffer>("count colors constants", sizeof constants, gpu::BufferUse::Dynamic);
     constants_->uploadValue(constants);

@@ -18,7 +18,7 @@ void Difference::update(shader::ProgramLibrary& programs, const Target& radiance
     if (!image_ || image_->sizePixels() != radianceA.sizePixels())
         image_ = std::make_unique<Target>("difference", graph::Format::Rgba8Unorm, radianceA.sizePixels());
     shared::DisplayConstants constants{};
-    constants.exposure = glm::vec4(factor);
+    constants.exposure.x = factor;
     if (!constants_)
         constants_ = std::make_unique<gpu::Buffer>("difference constants", sizeof constants, gpu::BufferUse::Dynamic);
     constants_->uploadValue(constants);

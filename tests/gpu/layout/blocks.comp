@@ -39,4 +39,5 @@ void main()
     outputs[19 + 2 * TEXTURE_SLOT_COUNT] = view.depthKey;
     outputs[20 + 2 * TEXTURE_SLOT_COUNT] = vec4(view.sizePixels);
     outputs[21 + 2 * TEXTURE_SLOT_COUNT] = vec4(lighting.slices);
+    outputs[22 + 2 * TEXTURE_SLOT_COUNT] = display.scales;
 }

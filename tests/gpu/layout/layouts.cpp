@@ -19,7 +19,7 @@ using testing::ElementsAre;
 /// Name, offset, and the stride of its array or columns (0: neither).
 using Place = std::tuple<std::string, std::size_t, std::size_t>;
 
-constexpr std::size_t kOutputs = 22 + 2 * TEXTURE_SLOT_COUNT;
+constexpr std::size_t kOutputs = 23 + 2 * TEXTURE_SLOT_COUNT;
 
 class LayoutTest : public test::GlTest {
 protected:
@@ -85,8 +85,8 @@ TEST_F(LayoutTest, materialConstantsLieExactlyWhereTheDriverReadsThem) {
 TEST_F(LayoutTest, displayConstantsLieExactlyWhereTheDriverReadsThem) {
     using shared::DisplayConstants;
     EXPECT_EQ(bytes("DisplayBlock"), sizeof(DisplayConstants));
-    EXPECT_THAT(places("DisplayBlock"),
-                ElementsAre(Place("display.exposure", offsetof(DisplayConstants, exposure), 0)));
+    EXPECT_THAT(places("DisplayBlock"), ElementsAre(Place("display.exposure", offsetof(DisplayConstants, exposure), 0),
+                                                    Place("display.scales", offsetof(DisplayConstants, scales), 0)));
 }
 
 TEST_F(LayoutTest, blocksAreBoundWhereTheSharedListSays) {
@@ -112,6 +112,7 @@ TEST_F(LayoutTest, theShaderReadsTheValuesThatCppWrote) {
     material.uvRow1[6] = {9, 10, 11, 12};
     shared::DisplayConstants display{};
     display.exposure = {1.5f, 2.5f, 3.5f, 4.5f};
+    display.scales = {5.5f, 6.5f, 7.5f, 8.5f};
     const gpu::Buffer viewBuffer("view", sizeof view), lightingBuffer("lighting", sizeof lighting),
         materialBuffer("material", sizeof material), displayBuffer("display", sizeof display);
     viewBuffer.uploadValue(view);
@@ -133,7 +134,8 @@ TEST_F(LayoutTest, theShaderReadsTheValuesThatCppWrote) {
     EXPECT_EQ(out[18 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(lighting.tileGrid));
     EXPECT_EQ(out[19 + 2 * TEXTURE_SLOT_COUNT], view.depthKey);
     EXPECT_EQ(out[20 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(view.sizePixels));
-    EXPECT_EQ(out.back(), glm::vec4(lighting.slices));
+    EXPECT_EQ(out[21 + 2 * TEXTURE_SLOT_COUNT], glm::vec4(lighting.slices));
+    EXPECT_EQ(out.back(), display.scales);
 }
 
 TEST_F(LayoutTest, everyMemberOfALightIsExactlyOneTexelOfEveryStore) {

@@ -58,7 +58,7 @@ TEST(FlyCamera, twoStepsDoubleTheSpeedWithinASixteenthAnd16TimesIt) {
     expectTimes(-8.0, 1.0);
     expectTimes(-100.0, 1.0 / 16.0);
     FlyCamera large(rig.fly.pose(), rig.lens, {1000.0 * kBox.min, 1000.0 * kBox.max});
-    large.takeSpeed(rig.fly);
+    large.takeSpeedFactor(rig.fly);
     EXPECT_NEAR(large.metresPerSecond(), 1000.0 / 16.0 * usual, 1e-9) << "of its own scene";
 }
 

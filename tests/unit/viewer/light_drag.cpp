@@ -150,7 +150,7 @@ TEST(LightDrag, anArmMovesItsLightAlongItsAxisAlone) {
             int arms = 0;
             for (const LightHandle& handle : lightFigure(light, view, 1.0).handles) {
                 if (!handle.moves()) continue;
-                SCOPED_TRACE(std::string(type.name) + " " + "xyz"[handle.arm]);
+                SCOPED_TRACE(std::string(type.name) + " " + handle.axisName());
                 ++arms;
                 const glm::dvec2 way = 25.0 * handle.way;
                 for (const bool isOneSided : {false, true}) {

@@ -61,7 +61,7 @@ TEST(LightFigure, theHandlesOfEveryTypeAreThoseOfTheDocument) {
                 continue;
             }
             if (handle.moves()) {
-                arms += (arms.empty() ? "" : ", ") + std::string(1, "xyz"[handle.arm]);
+                arms += (arms.empty() ? "" : ", ") + std::string(1, handle.axisName());
                 continue;
             }
             std::string label = handle.parameter != nullptr ? handle.parameter->label : "corners";

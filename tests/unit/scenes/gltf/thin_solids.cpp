@@ -12,11 +12,11 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
+#include "tests/unit/scenes/gltf/ThinSolids.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -24,29 +24,9 @@ using testing::IsEmpty;
 /// Of lengths of about 1: far above the rounding of positions, 6e-8, and far below a line's width, 2.5e-3.
 constexpr double kRoundedLength = 1e-6;
 
-/// The longest side of their bounds is 2.
-const std::vector<float> kFivePlaces{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
-
-/// The builder's primitive as one of a mode, of its own positions.
-Builder thin(int mode, const std::vector<float>& positions = kFivePlaces) {
-    Builder builder;
-    builder.primitive()["attributes"]["POSITION"] = builder.add(positions, kFloatType, "VEC3", positions.size() / 3);
-    builder.primitive()["mode"] = mode;
-    return builder;
-}
-
-void addNormals(Builder& builder, std::size_t count) {
-    builder.primitive()["attributes"]["NORMAL"] =
-        builder.add(std::vector<float>(3 * count, 1.0f), kFloatType, "VEC3", count);
-}
-
 std::size_t solidsOf(const Mesh& mesh) {
     EXPECT_EQ(mesh.indices.size() % kCornersOfSolid, 0u);
     return mesh.indices.size() / kCornersOfSolid;
-}
-
-glm::dvec3 cornerOS(const Mesh& mesh, std::size_t i) {
-    return glm::dvec3(mesh.positionsOS.at(mesh.indices.at(i)));
 }
 
 /// The middle of the solid of a point, or of an end of a prism's axis.
@@ -79,24 +59,6 @@ void expectSegments(const Mesh& mesh, const std::vector<std::pair<std::size_t, s
         EXPECT_LT(glm::distance(segments[i].start, place(expected[i].first)), kRoundedLength) << i;
         EXPECT_LT(glm::distance(segments[i].end, place(expected[i].second)), kRoundedLength) << i;
     }
-}
-
-/// A closed surface's, positive where its triangles turn outwards; and each normal is that of its triangle.
-double volumeOf(const Mesh& mesh, std::size_t solid) {
-    double volume = 0.0;
-    for (std::size_t i = solid * kCornersOfSolid; i < (solid + 1) * kCornersOfSolid; i += 3) {
-        const glm::dvec3 a = cornerOS(mesh, i), b = cornerOS(mesh, i + 1), c = cornerOS(mesh, i + 2);
-        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
-        const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
-        for (std::size_t k = 0; k < 3; ++k)
-            // Places are rounded by 6e-8 of the bounds, 1e-4 of a solid's width of 2.5e-3 of them.
-            EXPECT_GT(glm::dot(glm::dvec3(mesh.normalsOS.at(mesh.indices.at(i + k))), normal), 1.0 - 1e-3) << i;
-    }
-    return volume;
-}
-
-const Material& materialOf(const Scene& scene, std::size_t instance = 0) {
-    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(instance).material));
 }
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------
@@ -258,107 +220,6 @@ TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
     const glm::dvec3 along = segmentsOf(mesh).at(0).end - segmentsOf(mesh).at(0).start;
     EXPECT_LT(glm::distance(along, glm::dvec3(10, 0, 0)), 10.0 * kRoundedLength);
     EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), 10.0 * kLineWidthShare, 10.0 * kRoundedLength);
-}
-
-// ---- Materials -----------------------------------------------------------------------------------------------------
-
-TEST(GltfThinSolids, withoutNormalsTheyShowBaseColourAndEmissionUnlit) {
-    Builder builder = thin(0);
-    builder.material().merge_patch(Json::parse(R"({"emissiveFactor": [0.5, 0, 0.25], "alphaMode": "MASK",
-        "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 0.5]}})"));
-    Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
-    const Scene scene = builder.import();
-    EXPECT_EQ(materialOf(scene).model, MaterialModel::SingleColor);
-    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.75f, 0.5f, 1.0f, 0.5f));
-    EXPECT_EQ(materialOf(scene).alphaMode, AlphaMode::Mask);
-    EXPECT_EQ(materialOf(scene).name, "paint, unlit");
-    EXPECT_EQ(materialOf(scene, 1).name, "paint");
-    EXPECT_EQ(materialOf(scene, 1).model, MaterialModel::MetallicRoughness);
-    EXPECT_EQ(materialOf(scene, 1).baseColor, glm::vec4(0.25f, 0.5f, 0.75f, 0.5f));
-
-    const Scene plain = thin(3).import();
-    EXPECT_EQ(materialOf(plain).model, MaterialModel::SingleColor);
-    EXPECT_EQ(materialOf(plain).baseColor, glm::vec4(1.0f));
-    EXPECT_EQ(materialOf(plain).name, "default, unlit");
-}
-
-TEST(GltfThinSolids, aMaterialThatIsUnlitAnywayStaysOne) {
-    Builder builder = thin(0);
-    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})"));
-    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.materials.size(), 1u);
-    EXPECT_EQ(materialOf(scene).name, "paint");
-}
-
-TEST(GltfThinSolids, emissionBesideTexturesIsLeftOutWithAWarning) {
-    Builder builder = thin(0);
-    builder.material().merge_patch(Json::parse(R"({"emissiveFactor": [1, 1, 1],
-        "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "baseColorTexture": {"index": 0}}})"));
-    builder.addTexture();
-    const Scene scene = builder.import();
-    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
-    EXPECT_NE(materialOf(scene).texture(TextureSlot::BaseColor).image, kNone);
-    EXPECT_TRUE(hasWarning(scene, "/materials/0: its emission is left out at points and lines"));
-}
-
-TEST(GltfThinSolids, diffuseColoursOfSpecularGlossinessAreShownToo) {
-    Builder builder = thin(0);
-    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_pbrSpecularGlossiness":
-        {"diffuseFactor": [0.5, 0.25, 0, 1]}}})"));
-    EXPECT_EQ(materialOf(builder.import()).baseColor, glm::vec4(0.5f, 0.25f, 0.0f, 1.0f));
-}
-
-TEST(GltfThinSolids, withNormalsTheyAreLitByThoseOfTheirFacesWithoutNormalMaps) {
-    Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
-    addNormals(builder, 2);
-    builder.material();
-    const Scene plain = builder.import();
-    EXPECT_EQ(materialOf(plain).model, MaterialModel::MetallicRoughness);
-    EXPECT_EQ(materialOf(plain).name, "paint");
-    EXPECT_GT(volumeOf(plain.meshes.at(0), 0), 0.0); // whose normals are those of faces
-    builder.json["materials"][0]["normalTexture"] = {{"index", 0}};
-    builder.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
-    builder.addTexture();
-    const Scene mapped = builder.import();
-    EXPECT_EQ(materialOf(mapped).name, "paint, without normal maps");
-    EXPECT_EQ(materialOf(mapped).texture(TextureSlot::Normal).image, kNone);
-    EXPECT_NE(materialOf(mapped).texture(TextureSlot::Emissive).image, kNone);
-}
-
-TEST(GltfThinSolids, variantsAreUnlitToo) {
-    Builder builder = thin(1);
-    builder.merge(R"({"extensionsUsed": ["KHR_materials_variants"],
-        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
-        "materials": [{"name": "paint"}, {"name": "ruby"}]})");
-    builder.primitive()["material"] = 0;
-    builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
-        Json::parse(R"([{"material": 1, "variants": [0]}])");
-    builder.wishes.variant = "red";
-    EXPECT_EQ(materialOf(builder.import()).name, "ruby, unlit");
-}
-
-TEST(GltfThinSolids, clipsChangeTheColourOfBothMaterials) {
-    Builder builder = thin(0);
-    builder.material();
-    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
-    addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1, 0, 0, 0, 1});
-    addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.rig.clips.at(0).channels.size(), 2u);
-    EXPECT_EQ(scene.rig.clips.at(1).channels.size(), 1u) << "what is unlit has no metalness";
-}
-
-TEST(GltfThinSolids, aClipOfTheColourLeavesOutWhatHoldsEmissionToo) {
-    Builder builder = thin(0);
-    builder.material()["emissiveFactor"] = {1, 0, 0};
-    addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1, 0, 0, 0, 1});
-    const Scene scene = builder.import();
-    EXPECT_THAT(scene.rig.clips.at(0).channels, IsEmpty());
-    EXPECT_THAT(scene.warnings, Contains(HasSubstr("/materials/0: a clip of its base colour is left out at points")));
 }
 
 // ---- Degenerate and refused ----------------------------------------------------------------------------------------

@@ -9,9 +9,8 @@
 
 #include "scenes/AreaLight.h"
 #include "tests/support/AreaLights.h"
-#include "tests/support/LightPictures.h"
 #include "tests/support/Random.h"
-#include "validation/reference/LightSurface.h"
+#include "tests/unit/validation/reference/ShiningAreas.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/reference/SeenArea.h"
 
@@ -21,36 +20,10 @@ namespace {
 using scenes::LightType;
 using scenes::MaterialModel;
 using std::numbers::pi;
-
-// Of the integral as it is by default. Rules that differ by 2e-5 of it are themselves a few times 1e-6 wrong; most of
-// that is where the horizon cuts a light.
-constexpr double kCubature = 2e-5;
-
-/// Of radiance 1, without a range.
-ShiningLight shiningArea(LightType type, const glm::dvec3& middle, const glm::dvec3& direction = {0, 0, -1}) {
-    ShiningLight shining;
-    shining.light.type = type;
-    shining.light.directionWS = direction;
-    shining.light.radiusMetres = 0.5f;
-    shining.color = glm::dvec3(1.0);
-    shining.positionRWS = middle;
-    shining.rangeMetres = double(scenes::kInfinity);
-    return shining;
-}
-
-ShiningLight rectangle(const glm::dvec3& middle, const glm::dvec3& direction, const glm::dvec3& along, float width,
-                       float height) {
-    ShiningLight shining = shiningArea(LightType::Rectangle, middle, direction);
-    shining.light.alongWS = along;
-    shining.light.widthMetres = width;
-    shining.light.heightMetres = height;
-    return shining;
-}
-
-/// Of a point at the origin whose normal is +Z, without the model's 1/pi.
-double factorOf(const ShiningLight& light, const glm::dvec3& normal = {0, 0, 1}, const Settings& settings = {}) {
-    return irradianceOf(light, glm::dvec3(0.0), normal, settings).g / pi;
-}
+using test::factorOf;
+using test::kCubature;
+using test::rectangle;
+using test::shiningArea;
 
 SurfacePoint surfaceOf(MaterialModel model, double alpha = 1.0) {
     SurfacePoint point;
@@ -418,36 +391,6 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
     // A tenth of what a picture of rough metals is held to, relMse 1e-6, and no more than is told.
     EXPECT_LE(squares / seen, 1e-7);
     EXPECT_LE(squares, squaresTold);
-}
-
-// ---- Pictures ------------------------------------------------------------------------------------------------------
-
-TEST(ReferenceLightPictures, anEvenPictureIsAFactorOfTheLight) {
-    for (const LightType type : test::kFlatTypes) {
-        ShiningLight plain = shiningArea(type, {0.2, 0.3, 0.8}, glm::normalize(glm::dvec3(0.1, 0.2, -1.0)));
-        plain.light.alongWS = scenes::usualAlong(plain.light.directionWS);
-        ShiningLight pictured = plain;
-        pictured.light.texture = test::evenLightTexture(glm::vec3(0.375f));
-        EXPECT_NEAR(factorOf(pictured), 0.375 * factorOf(plain), 2.0 * kCubature * factorOf(plain));
-        EXPECT_NEAR(meanFactor(pictured.light).g, 0.375, 1e-12);
-    }
-}
-
-TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
-    // Two columns of texels are sharp in the middle where many texels a side are: the ramp is a 256th of the width.
-    const ShiningLight whole = rectangle({0.3, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 1.0f);
-    ShiningLight pictured = whole;
-    pictured.light.texture = test::lightTexture(256, 1, [](int x, int) { return glm::vec3(x < 128 ? 1.0f : 0.0f); });
-    // The left half lies against `along`.
-    const ShiningLight left = rectangle({-0.2, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 1.0f, 1.0f);
-    EXPECT_NEAR(factorOf(pictured), factorOf(left), 1e-4 * factorOf(whole));
-    pictured.light.texture = test::lightTexture(1, 256, [](int, int y) { return glm::vec3(y < 128 ? 1.0f : 0.0f); });
-    // Across: direction x along is -y, and the picture's top lies that way.
-    const ShiningLight top = rectangle({0.3, -0.25, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 0.5f);
-    EXPECT_NEAR(factorOf(pictured), factorOf(top), 1e-4 * factorOf(whole));
-    const LightSurface surface(pictured, pictured.positionRWS);
-    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, -0.4, 1.0))), glm::dvec3(1.0));
-    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, 0.4, 1.0))), glm::dvec3(0.0));
 }
 
 } // namespace

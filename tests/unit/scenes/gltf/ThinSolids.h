@@ -1,0 +1,51 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenes/import/GltfThinSolids.h"
+#include "tests/unit/scenes/gltf/AnimationBuilder.h"
+
+/// Files of points and lines, and what becomes of them.
+namespace tessera::scenes::gltf::test {
+
+/// The longest side of their bounds is 2.
+inline const std::vector<float> kFivePlaces{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
+
+/// The builder's primitive as one of a mode, of its own positions.
+inline Builder thin(int mode, const std::vector<float>& positions = kFivePlaces) {
+    Builder builder;
+    builder.primitive()["attributes"]["POSITION"] = builder.add(positions, kFloatType, "VEC3", positions.size() / 3);
+    builder.primitive()["mode"] = mode;
+    return builder;
+}
+
+inline void addNormals(Builder& builder, std::size_t count) {
+    builder.primitive()["attributes"]["NORMAL"] =
+        builder.add(std::vector<float>(3 * count, 1.0f), kFloatType, "VEC3", count);
+}
+
+inline glm::dvec3 cornerOS(const Mesh& mesh, std::size_t i) {
+    return glm::dvec3(mesh.positionsOS.at(mesh.indices.at(i)));
+}
+
+/// A closed surface's, positive where its triangles turn outwards; and each normal is that of its triangle.
+inline double volumeOf(const Mesh& mesh, std::size_t solid) {
+    double volume = 0.0;
+    for (std::size_t i = solid * kCornersOfSolid; i < (solid + 1) * kCornersOfSolid; i += 3) {
+        const glm::dvec3 a = cornerOS(mesh, i), b = cornerOS(mesh, i + 1), c = cornerOS(mesh, i + 2);
+        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+        const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+        for (std::size_t k = 0; k < 3; ++k)
+            // Places are rounded by 6e-8 of the bounds, 1e-4 of a solid's width of 2.5e-3 of them.
+            EXPECT_GT(glm::dot(glm::dvec3(mesh.normalsOS.at(mesh.indices.at(i + k))), normal), 1.0 - 1e-3) << i;
+    }
+    return volume;
+}
+
+inline const Material& materialOf(const Scene& scene, std::size_t instance = 0) {
+    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(instance).material));
+}
+
+} // namespace tessera::scenes::gltf::test

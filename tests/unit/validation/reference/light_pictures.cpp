@@ -1,0 +1,45 @@
+// Integrals over area lights that shine by a picture.
+#include "tests/support/LightPictures.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/AreaLight.h"
+#include "tests/support/AreaLights.h"
+#include "tests/unit/validation/reference/ShiningAreas.h"
+#include "validation/reference/AreaLights.h"
+#include "validation/reference/LightSurface.h"
+
+namespace tessera::reference {
+namespace {
+
+TEST(ReferenceLightPictures, anEvenPictureIsAFactorOfTheLight) {
+    for (const LightType type : test::kFlatTypes) {
+        ShiningLight plain = test::shiningArea(type, {0.2, 0.3, 0.8}, glm::normalize(glm::dvec3(0.1, 0.2, -1.0)));
+        plain.light.alongWS = scenes::usualAlong(plain.light.directionWS);
+        ShiningLight pictured = plain;
+        pictured.light.texture = test::evenLightTexture(glm::vec3(0.375f));
+        EXPECT_NEAR(test::factorOf(pictured), 0.375 * test::factorOf(plain),
+                    2.0 * test::kCubature * test::factorOf(plain));
+        EXPECT_NEAR(meanFactor(pictured.light).g, 0.375, 1e-12);
+    }
+}
+
+TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
+    // Two columns of texels are sharp in the middle where many texels a side are: the ramp is a 256th of the width.
+    const ShiningLight whole = test::rectangle({0.3, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 1.0f);
+    ShiningLight pictured = whole;
+    pictured.light.texture = test::lightTexture(256, 1, [](int x, int) { return glm::vec3(x < 128 ? 1.0f : 0.0f); });
+    // The left half lies against `along`.
+    const ShiningLight left = test::rectangle({-0.2, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 1.0f, 1.0f);
+    EXPECT_NEAR(test::factorOf(pictured), test::factorOf(left), 1e-4 * test::factorOf(whole));
+    pictured.light.texture = test::lightTexture(1, 256, [](int, int y) { return glm::vec3(y < 128 ? 1.0f : 0.0f); });
+    // Across: direction x along is -y, and the picture's top lies that way.
+    const ShiningLight top = test::rectangle({0.3, -0.25, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 0.5f);
+    EXPECT_NEAR(test::factorOf(pictured), test::factorOf(top), 1e-4 * test::factorOf(whole));
+    const LightSurface surface(pictured, pictured.positionRWS);
+    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, -0.4, 1.0))), glm::dvec3(1.0));
+    EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, 0.4, 1.0))), glm::dvec3(0.0));
+}
+
+} // namespace
+} // namespace tessera::reference
