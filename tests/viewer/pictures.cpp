@@ -20,6 +20,14 @@ protected:
     void expectThePictureOfRender();
     /// On 256 texels, or on 64.
     void expectSpreadLightOfACameraThatMoves();
+    /// What the window tells of the pixel under the pointer once all rests; inspecting begins for it, and ends.
+    static std::string saidOfPixel(const DrivenViewer& viewer) {
+        const std::size_t mark = viewer.mark();
+        viewer.key("i");
+        const std::string said = viewer.waitFor("inspected ", mark);
+        viewer.key("i");
+        return said;
+    }
 };
 using ViewerPicturesSlow = ViewerPictures;
 
@@ -116,6 +124,79 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
     viewer.key("Escape"); // the message
     viewer.pause(0.3);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("i"); }) == alone);
+    after(viewer, [&] { viewer.key("3"); });
+    const std::string normals = saidOfPixel(viewer);
+    const std::size_t picture = normals.find("; normal "), ray = normals.find("; shading normal ");
+    ASSERT_TRUE(picture != std::string::npos && ray != std::string::npos) << normals;
+    glm::dvec3 ofPicture(0.0), ofRay(0.0);
+    std::sscanf(normals.c_str() + picture, "; normal %lf %lf %lf", &ofPicture.x, &ofPicture.y, &ofPicture.z);
+    std::sscanf(normals.c_str() + ray, "; shading normal %lf %lf %lf", &ofRay.x, &ofRay.y, &ofRay.z);
+    EXPECT_NEAR(glm::length(ofRay), 1.0, 1e-3) << normals;
+    // Four digits are told, and a rasteriser may snap corners by 1/256 of a pixel, which of this sphere of some 45
+    // pixels turns the normal by 1e-4. The triangle's own normal is off by up to 0.05.
+    EXPECT_LT(glm::distance(ofPicture, ofRay), 1e-3) << normals;
+}
+
+TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
+    DrivenViewer viewer =
+        open({"lattice", "--fov", "45", "--lights", "64", "--technique", "clustered_forward", "--view", "lights"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    std::size_t mark = viewer.mark();
+    viewer.key("shift+F12");
+    const Picture counts = exr(savedFile(viewer.waitFor("saved ", mark)));
+    viewer.key("Escape"); // the message
+    viewer.pause(0.3);
+    const auto countAt = [&](glm::ivec2 pixel) {
+        return counts.pixel(std::size_t(pixel.y * counts.width + pixel.x))[0];
+    };
+    // The one that visits most in the middle of the left half, away from the divider and from edges of surfaces.
+    glm::ivec2 pixel(0);
+    for (int y = size.y / 4; y < size.y * 3 / 4; ++y)
+        for (int x = size.x / 8; x < size.x * 3 / 8; ++x) {
+            const glm::ivec2 here(x, y);
+            const float count = countAt(here);
+            bool isAlike = count > countAt(pixel);
+            for (const glm::ivec2 off : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)})
+                isAlike = isAlike && countAt(here + off) == count;
+            if (isAlike) pixel = here;
+        }
+    const int most = int(countAt(pixel));
+    ASSERT_GT(most, 0);
+    viewer.moveTo(kPictureCorner + pixel);
+    const auto expectSaid = [](const std::string& said, const std::string& part) {
+        EXPECT_NE(said.find(part), std::string::npos) << part << "\nin\n" << said;
+    };
+    const std::string visited = fmt::format("visits {} light{}", most, most == 1 ? "" : "s");
+    std::string said = saidOfPixel(viewer);
+    expectSaid(said, fmt::format("; lights {}; shown #", most));
+    expectSaid(said, fmt::format("; {}, ", visited));
+
+    mark = viewer.mark();
+    viewer.key("x"); // split
+    viewer.key("z");
+    viewer.key("t"); // forward at the right, which visits all
+    viewer.waitForWhole(mark);
+    said = saidOfPixel(viewer);
+    expectSaid(said, fmt::format("; Left; lights {}; shown #", most));
+    const std::size_t right = said.find("; Right; lights ");
+    ASSERT_NE(right, std::string::npos) << said;
+    int all = 0;
+    ASSERT_EQ(std::sscanf(said.c_str() + right, "; Right; lights %d", &all), 1) << said;
+    EXPECT_GT(all, most);
+    expectSaid(said, fmt::format("; {}; Right; ", visited));
+    expectSaid(said, fmt::format("; visits {0} lights; difference {1} {1} {1}; material ", all, most - all));
+
+    mark = viewer.mark();
+    viewer.key("7"); // lit pictures
+    viewer.key("z");
+    viewer.key("7");
+    viewer.waitForWhole(mark);
+    said = saidOfPixel(viewer);
+    expectSaid(said, "; Left; linear ");
+    expectSaid(said, fmt::format("; {}; Right; linear ", visited));
+    expectSaid(said, fmt::format("; visits {} lights; difference 0 0 0; material ", all));
+    EXPECT_TRUE(said.ends_with(" it")) << said;
+    EXPECT_EQ(said.find(" it"), said.size() - 3) << "the lights that reach the place are told more than once: " << said;
 }
 
 TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
@@ -156,6 +237,13 @@ TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
     EXPECT_TRUE(
         said.starts_with(fmt::format("inspected {}, {} of {}x{}; ", figures.worstX, figures.worstY, size.x, size.y)))
         << said << " against " << figures.worstX << ", " << figures.worstY;
+    const auto valuesOf = [&](const Picture& side) {
+        const float* const rgba = side.pixel(std::size_t(figures.worstY * side.width + figures.worstX));
+        return fmt::format("{:.4g} {:.4g} {:.4g}", rgba[0], rgba[1], rgba[2]);
+    };
+    EXPECT_NE(said.find(fmt::format("; Left; normal {}; shown #", valuesOf(left))), std::string::npos) << said;
+    EXPECT_NE(said.find(fmt::format("; Right; linear {}; shown #", valuesOf(right))), std::string::npos) << said;
+    EXPECT_EQ(said.find("; difference "), std::string::npos) << "of different views: " << said;
 }
 
 TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {

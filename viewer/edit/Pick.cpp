@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "validation/reference/CameraRays.h"
+#include "validation/reference/NormalAt.h"
 #include "validation/reference/Objects.h"
 #include "validation/reference/Visibility.h"
 
@@ -19,7 +20,7 @@ std::optional<Pick> instanceNumbered(const scenes::Scene& scene, std::size_t num
         }
         const scenes::MeshInstance& instance = instances[number];
         if (3 * triangle >= scene.meshes[std::size_t(instance.mesh)].indices.size()) return {};
-        return Pick{int(node), int(number), instance.mesh, instance.material, int(triangle), {}};
+        return Pick{int(node), int(number), instance.mesh, instance.material, int(triangle), {}, {}};
     }
     return {};
 }
@@ -40,7 +41,9 @@ std::optional<Pick> pickedByRay(const scenes::Scene& scene, const scenes::Camera
         if (!nearest || hit.depthMetres < nearest->depthMetres) nearest = hit;
     if (!nearest) return {};
     std::optional<Pick> pick = instanceNumbered(scene, nearest->object->number, nearest->triangle);
-    if (pick) pick->positionWS = rays.eyeWS() + ray.at(nearest->depthMetres);
+    if (!pick) return {};
+    pick->positionWS = rays.eyeWS() + ray.at(nearest->depthMetres);
+    pick->normalWS = reference::normalAt(*nearest, textures);
     return pick;
 }
 

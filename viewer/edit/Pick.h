@@ -13,6 +13,7 @@ struct Pick {
     int material = scenes::kNone;
     int triangle = scenes::kNone; ///< of the mesh
     glm::dvec3 positionWS{0.0};   ///< where the pixel shows it
+    glm::dvec3 normalWS{0.0};     ///< that is lit there, as the view `normal` shows it
 };
 
 /// The nearest surface, transparent ones too, that a camera shows at a pixel; rows count from the top. By rays in

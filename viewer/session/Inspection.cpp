@@ -14,6 +14,10 @@ std::string numbers(const glm::dvec3& values) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", values.x, values.y, values.z);
 }
 
+std::string visits(std::size_t lights) {
+    return fmt::format("visits {} light{}", lights, lights == 1 ? "" : "s");
+}
+
 void addSide(std::vector<std::string>& lines, const InspectedSide& side) {
     const frame::DebugViewInfo& view = frame::debugViewInfo(side.view);
     if (view.mapping == frame::DisplayMapping::Count)
@@ -37,11 +41,16 @@ std::vector<std::string> inspectionLines(const Inspection& inspection) {
     std::vector<std::string> lines{fmt::format("{}, {} of {}x{}", inspection.pixel.x, inspection.pixel.y,
                                                inspection.sizePixels.x, inspection.sizePixels.y)};
     const auto& [left, right] = inspection.sides;
-    if (left && right) lines.emplace_back("Left");
-    if (left) addSide(lines, *left);
-    if (left && right) {
-        lines.emplace_back("Right");
-        addSide(lines, *right);
+    const bool compares = left && right;
+    const auto addCompared = [&](const char* name, const InspectedSide& side) {
+        lines.emplace_back(name);
+        addSide(lines, side);
+        if (side.visitedLights) lines.push_back(visits(*side.visitedLights));
+    };
+    if (left && !compares) addSide(lines, *left);
+    if (compares) {
+        addCompared("Left", *left);
+        addCompared("Right", *right);
         if (left->view == right->view)
             lines.push_back("difference " + numbers(glm::dvec3(left->radiance) - glm::dvec3(right->radiance)));
     }
@@ -53,9 +62,15 @@ std::vector<std::string> inspectionLines(const Inspection& inspection) {
     const InspectedSurface& surface = *inspection.surface;
     lines.push_back("material " + surface.material);
     lines.push_back(fmt::format("depth {:.4g} m", surface.depthMetres));
-    lines.push_back("face normal " + numbers(surface.normalWS));
-    lines.push_back(fmt::format("{} light{} reach{} it", surface.reachingLights, surface.reachingLights == 1 ? "" : "s",
-                                surface.reachingLights == 1 ? "es" : ""));
+    lines.push_back("shading normal " + numbers(surface.shadingNormalWS));
+    lines.push_back("face normal " + numbers(surface.faceNormalWS));
+    const std::size_t reaching = surface.reachingLights;
+    if (left && left->visitedLights && !compares)
+        lines.push_back(
+            fmt::format("{}, {} reach{} it", visits(*left->visitedLights), reaching, reaching == 1 ? "es" : ""));
+    else
+        lines.push_back(
+            fmt::format("{} light{} reach{} it", reaching, reaching == 1 ? "" : "s", reaching == 1 ? "es" : ""));
     return lines;
 }
 
@@ -71,15 +86,19 @@ std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scen
         return glm::dvec3(worldFromNode * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0));
     };
     const glm::dvec3 firstWS = cornerWS(0);
-    glm::dvec3 normalWS = glm::normalize(glm::cross(cornerWS(1) - firstWS, cornerWS(2) - firstWS));
+    glm::dvec3 faceNormalWS = glm::normalize(glm::cross(cornerWS(1) - firstWS, cornerWS(2) - firstWS));
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
     const glm::dvec3 towardsViewerWS = isPerspective ? eyeWS - picked->positionWS : backWS;
-    if (glm::dot(normalWS, towardsViewerWS) < 0.0) normalWS = -normalWS;
+    if (glm::dot(faceNormalWS, towardsViewerWS) < 0.0) faceNormalWS = -faceNormalWS;
+    const scenes::Material& material = scene.materials[std::size_t(picked->material)];
     InspectedSurface surface;
-    surface.material = scene.materials[std::size_t(picked->material)].name;
+    surface.material = material.name;
     surface.depthMetres = glm::dot(eyeWS - picked->positionWS, backWS);
-    surface.normalWS = normalWS;
+    surface.shadingNormalWS = picked->normalWS;
+    surface.faceNormalWS = faceNormalWS;
     surface.reachingLights = lightsReaching(scene.lights, picked->positionWS, timeSeconds);
+    surface.isTransparent = scenes::isTransparent(material);
+    surface.takesLight = material.model != scenes::MaterialModel::SingleColor;
     return surface;
 }
 

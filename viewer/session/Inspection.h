@@ -19,14 +19,18 @@ struct InspectedSide {
     glm::vec4 radiance{0.0f}; ///< linear, before exposure; its fourth number is the share that is covered
     glm::u8vec4 display{0};   ///< code values
     frame::DebugView view = frame::DebugView::Final; ///< whose values these are
+    std::optional<std::size_t> visitedLights = {};   ///< by the pixel, as the surface takes light; none: nobody knows
 };
 
 /// The surface there, found by a ray; its numbers are those of no picture.
 struct InspectedSurface {
     std::string material;
-    double depthMetres = 0.0;       ///< along the view axis
-    glm::dvec3 normalWS{0.0};       ///< of the triangle, towards the viewer
-    std::size_t reachingLights = 0; ///< that are on and shine so far, and that way, whatever lies between
+    double depthMetres = 0.0;        ///< along the view axis
+    glm::dvec3 shadingNormalWS{0.0}; ///< that is lit: between the vertices' normals, and with the normal map
+    glm::dvec3 faceNormalWS{0.0};    ///< of the triangle, towards the viewer
+    std::size_t reachingLights = 0;  ///< that are on and shine so far, and that way, whatever lies between
+    bool isTransparent = false;
+    bool takesLight = true;
 };
 
 struct Inspection {

@@ -21,18 +21,21 @@ void Target::copyFrom(const gpu::Texture& source) {
     gpu::blit(gpu::Framebuffer(gpu::Attachments{{&source}}), framebuffer_, true, false);
 }
 
-void DrawnPicture::take(const engine::Renderer& renderer, const Look& look, bool radiance) {
+void DrawnPicture::take(const engine::Renderer& renderer, const Look& look, Kept kept) {
     look_ = look;
     copyInto(display_, "shown display", renderer.displayTexture());
     countScaleLog2_ = float(frame::countScaleLog2(look.settings.view));
-    hasRadiance_ = radiance;
-    if (radiance) copyInto(radiance_, "shown radiance", renderer.radianceTexture());
+    hasRadiance_ = kept.radiance;
+    lights_.reset();
+    if (kept.lights && PictureLights::areTold(look)) lights_.emplace(renderer);
+    if (kept.radiance) copyInto(radiance_, "shown radiance", renderer.radianceTexture());
 }
 
 void DrawnPicture::clear() {
     display_.reset();
     radiance_.reset();
     hasRadiance_ = false;
+    lights_.reset();
 }
 
 } // namespace tessera::viewer

@@ -6,6 +6,7 @@
 #include "engine/Renderer.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "viewer/session/Look.h"
+#include "viewer/show/PictureLights.h"
 
 namespace tessera::viewer {
 
@@ -26,14 +27,21 @@ private:
 /// The latest complete picture of one side of the window. It stays unchanged while the next one is drawn, or fails.
 class DrawnPicture {
 public:
-    /// Copies the renderer's latest picture, on request with its radiance.
-    void take(const engine::Renderer& renderer, const Look& look, bool radiance);
+    /// What is kept of a picture besides what a display shows of it.
+    struct Kept {
+        bool radiance = false;
+        bool lights = false; ///< where they are told; waits for the GPU
+    };
+    /// Copies the renderer's latest picture.
+    void take(const engine::Renderer& renderer, const Look& look, Kept kept);
     void clear();
 
     bool isThere() const { return display_ != nullptr; }
     const Look& look() const { return look_; } ///< with the size it was drawn at
     const Target& display() const { return *display_; }
     const Target* radiance() const { return hasRadiance_ ? radiance_.get() : nullptr; }
+    /// Null where they were not kept.
+    const PictureLights* lights() const { return lights_ ? &*lights_ : nullptr; }
     /// Of views that show counts: where the scale of the display picture's colours ends, as a power of two.
     float countScaleLog2() const { return countScaleLog2_; }
     void setCountScale(float log2Most) { countScaleLog2_ = log2Most; }
@@ -42,6 +50,7 @@ private:
     Look look_;
     std::unique_ptr<Target> display_, radiance_;
     bool hasRadiance_ = false; ///< of the picture shown
+    std::optional<PictureLights> lights_;
     float countScaleLog2_ = 0.0f;
 };
 

@@ -49,6 +49,20 @@ bool Inspector::take(Facts& facts) {
     return true;
 }
 
+void Inspector::findSurface(Inspection& inspection, const State& state, const Screen& screen) const {
+    const scenes::Scene& scene = state.open->scene();
+    inspection.surface = surfaceAt(scene, scene.cameras[std::size_t(state.open->camera())], subject_->sizePixels,
+                                   subject_->pixel, state.active().settings.timeSeconds);
+    inspection.isSurfaceKnown = true;
+    if (!inspection.surface || inspection.surface->isTransparent) return; // lists are told of opaque surfaces
+    for (std::size_t side = 0; side < inspection.sides.size(); ++side) {
+        const PictureLights* const lights = screen.picture(int(side)).lights();
+        if (!inspection.sides[side] || lights == nullptr) continue;
+        const std::optional<std::size_t> visited = lights->visitedAt(subject_->pixel);
+        if (visited) inspection.sides[side]->visitedLights = inspection.surface->takesLight ? *visited : 0;
+    }
+}
+
 bool Inspector::update(Facts& facts, const State& state, const Screen& screen, std::uint64_t picture, bool isAtRest) {
     const std::optional<glm::vec2> place = state.inspectedPlace();
     if (!place || !state.open) {
@@ -68,10 +82,8 @@ bool Inspector::update(Facts& facts, const State& state, const Screen& screen, s
         ask(subject, screen);
     } else if (awaitsRest_ && isAtRest && facts.inspection) {
         awaitsRest_ = false;
-        const scenes::Scene& scene = state.open->scene();
-        facts.inspection->surface = surfaceAt(scene, scene.cameras[std::size_t(state.open->camera())], size,
-                                              subject.pixel, state.active().settings.timeSeconds);
-        facts.inspection->isSurfaceKnown = isChanged = true;
+        findSurface(*facts.inspection, state, screen);
+        isChanged = true;
     }
     return isChanged;
 }

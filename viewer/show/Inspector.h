@@ -29,6 +29,7 @@ private:
     };
     void ask(const Subject& subject, const Screen& screen);
     bool take(Facts& facts);
+    void findSurface(Inspection& inspection, const State& state, const Screen& screen) const;
 
     std::optional<gpu::TexelReader> reader_; ///< made when it is needed first
     std::optional<Subject> subject_;         ///< was asked for last

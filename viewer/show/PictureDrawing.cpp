@@ -30,7 +30,7 @@ PictureDrawing::PictureDrawing(State& state, Facts& facts, Screen& screen, Windo
       calls_(std::move(calls)) {}
 
 bool PictureDrawing::isWhole() const {
-    return !state_.open || screen_.scaleOf(wanted_) >= restScale();
+    return !state_.open || (screen_.scaleOf(wanted_) >= restScale() && !lacksLights());
 }
 
 bool PictureDrawing::lacksLight() const {
@@ -87,9 +87,10 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
         pulse_.another();
     }
     if (cancelled_) return false;
-    if (have >= restScale() && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
+    const bool isWholeNow = isWhole();
+    if (isWholeNow && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
         return spreadSlice(Screen::Reach::All);
-    if (have >= restScale() || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
+    if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;
     if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
     if (isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen)) return spreadSlice(Screen::Reach::Seen);
@@ -188,7 +189,10 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const bool isNewKind = screen_.isNewKind(wanted_);
     if (screen_.lacksPrograms(wanted_)) facts_.progress = announced(); // until it is given up, or told how far it is
     try {
-        Screen::Drawn drawn = screen_.draw(wanted_, scale, stay, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
+        // They wait for the GPU, which pictures of moving things have no time for.
+        const bool keepsLights = state_.inspects && isAtRest && scale >= restScale();
+        Screen::Drawn drawn =
+            screen_.draw(wanted_, scale, stay, keepsLights, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
         if (drawn.gaveUp) {
             ++givenUp_;
             log_.line(fmt::format("gave up scale {:.4g}", scale));

@@ -47,6 +47,8 @@ public:
 
 private:
     double restScale() const;
+    /// Whether the whole picture has yet to be drawn with what an inspected pixel tells of lights.
+    bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.knowsLights(); }
     double movingScale() const;
     /// The scale of the next picture at rest: the whole one, or, where that takes long, one with twice the sides.
     double nextScale() const;

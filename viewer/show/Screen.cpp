@@ -161,7 +161,15 @@ void Screen::takeEdits() {
     environmentRevision_ = scene_->environmentRevision();
 }
 
-Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp) {
+bool Screen::knowsLights() const {
+    const std::size_t sides = drawn_ ? std::size_t(drawn_->sides) : 0;
+    return std::all_of(pictures_.begin(), pictures_.begin() + std::ptrdiff_t(sides), [](const DrawnPicture& picture) {
+        return picture.lights() != nullptr || !PictureLights::areTold(picture.look());
+    });
+}
+
+Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights,
+                           const std::function<bool()>& givesUp) {
     const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay == Stay::Passes;
     // Graphics cards light what comes into view within the frame.
     const bool isLimited = !isAnew && stay == Stay::Passes && context_.capabilities().isSoftware;
@@ -202,7 +210,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, const 
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
             DrawnPicture& taken = side + 1 < wanted.sides ? waiting_ : pictures_[std::size_t(side)];
-            taken.take(*renderer_, look, wanted.keepsRadiance);
+            taken.take(*renderer_, look, {wanted.keepsRadiance, keepsLights});
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {

@@ -83,11 +83,14 @@ public:
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
+    /// Whether the pictures have kept what they tell of the lights that their pixels visit, which those of draw() do
+    /// that are asked to.
+    bool knowsLights() const;
     /// Draws the wanted pictures at a scale; those that pass at a smaller one, with small atlases, where light must be
     /// spread anew, and on a software rasteriser without spreading the light of what has come into view. `givesUp` may
     /// be null, and may show the pictures as they were before; where it ends the frame, or the frame fails, they stay
     /// so. Throws as Renderer::draw does.
-    Drawn draw(const Wanted& wanted, double scale, Stay stay, const std::function<bool()>& givesUp);
+    Drawn draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights, const std::function<bool()>& givesUp);
     /// Redraws the current pictures after a change of shaders, and spreads their light again.
     void forget() {
         drawn_.reset();

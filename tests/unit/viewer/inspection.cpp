@@ -35,10 +35,32 @@ TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
                 ElementsAre("606, 303 of 980x778", "Left", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "Right",
                             "linear 0.5 0.125 3", "shown #bc63ff  188 99 255", "difference 0 0.125 -1", "no surface"));
     inspection.sides[1].reset();
-    inspection.surface = {"paint", 3.5, {0.0, 0.0, 1.0}, 1};
+    inspection.surface = {"paint", 3.5, {0.6, 0.0, 0.8}, {0.0, 0.0, 1.0}, 1};
     EXPECT_THAT(inspectionLines(inspection),
                 ElementsAre("606, 303 of 980x778", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "material paint",
-                            "depth 3.5 m", "face normal 0 0 1", "1 light reaches it"));
+                            "depth 3.5 m", "shading normal 0.6 0 0.8", "face normal 0 0 1", "1 light reaches it"));
+}
+
+TEST(Inspection, itsLinesTellTheLightsThatEachSideVisitsAndOnceThoseThatReachThePlace) {
+    Inspection inspection;
+    inspection.sides[0].emplace().visitedLights = 38;
+    inspection.isSurfaceKnown = true;
+    inspection.surface.emplace().reachingLights = 12;
+    EXPECT_EQ(inspectionLines(inspection).back(), "visits 38 lights, 12 reach it");
+    inspection.sides[0]->visitedLights = 1;
+    inspection.surface->reachingLights = 1;
+    EXPECT_EQ(inspectionLines(inspection).back(), "visits 1 light, 1 reaches it");
+    inspection.sides[1].emplace().visitedLights = 1024;
+    const auto compared = [&] {
+        std::vector<std::string> counts;
+        for (const std::string& line : inspectionLines(inspection))
+            if (line == "Left" || line == "Right" || line.find("light") != std::string::npos) counts.push_back(line);
+        return counts;
+    };
+    EXPECT_THAT(compared(), ElementsAre("Left", "visits 1 light", "Right", "visits 1024 lights", "1 light reaches it"));
+    inspection.sides[0]->visitedLights.reset();
+    EXPECT_THAT(compared(), ElementsAre("Left", "Right", "visits 1024 lights", "1 light reaches it"))
+        << "of one side it is not known";
 }
 
 TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) {
@@ -64,11 +86,48 @@ TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) 
         ASSERT_TRUE(front);
         EXPECT_EQ(front->material, "paint");
         EXPECT_NEAR(front->depthMetres, 5.0, 1e-9);
-        EXPECT_LT(glm::distance(front->normalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
+        EXPECT_LT(glm::distance(front->faceNormalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
+        EXPECT_LT(glm::distance(front->shadingNormalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
+        EXPECT_TRUE(front->takesLight);
+        EXPECT_FALSE(front->isTransparent);
         EXPECT_EQ(front->reachingLights, 1u);
     }
     EXPECT_NEAR(at(orthographic({0, 0, 7}, {0, 0, 0}, 2.0), {70, 30}).value().depthMetres, 7.0, 1e-9);
     EXPECT_FALSE(at(perspective({0, 0, 5}, {0, 0, 0}), {1, 1}));
+    scene.materials[0].model = scenes::MaterialModel::SingleColor;
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    const auto pane = at(perspective({0, 0, 5}, {0, 0, 0}), {50, 50});
+    ASSERT_TRUE(pane);
+    EXPECT_FALSE(pane->takesLight);
+    EXPECT_TRUE(pane->isTransparent);
+}
+
+TEST(Inspection, theShadingNormalLiesBetweenTheVerticesNormalsUnlessAMapReplacesIt) {
+    scenes::Scene scene;
+    scene.materials.resize(1);
+    scenes::Mesh card;
+    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    card.normalsOS = {{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}};
+    card.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    card.indices = {0, 1, 2, 0, 2, 3};
+    scene.meshes = {card};
+    scene.nodes.emplace_back().instances = {{0, 0}};
+    const auto inspected = [&] {
+        return surfaceAt(scene, orthographic({0, 0, 5}, {0, 0, 0}, 2.0), {100, 100}, {62, 30}, 0.0).value();
+    };
+    constexpr double kRounding = 1e-7;                // of the vertices' normals, which are fp32
+    const double across = (62.5 - 50.0) / 50.0 * 2.0; // of the pixel's centre, metres
+    EXPECT_LT(glm::distance(inspected().shadingNormalWS, glm::normalize(glm::dvec3(0.6 * across, 0.0, 0.8))),
+              kRounding);
+    EXPECT_LT(glm::distance(inspected().faceNormalWS, glm::dvec3(0.0, 0.0, 1.0)), 1e-9);
+    scenes::Image& map = scene.images.emplace_back();
+    map.width = map.height = 1;
+    map.texels = {std::byte{51}, std::byte{204}, std::byte{230}, std::byte{255}};
+    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Object;
+    const glm::dvec3 texel = 2.0 * glm::dvec3(51.0, 204.0, 230.0) / 255.0 - 1.0;
+    EXPECT_LT(glm::distance(inspected().shadingNormalWS, glm::normalize(texel)), kRounding);
+    EXPECT_LT(glm::distance(inspected().faceNormalWS, glm::dvec3(0.0, 0.0, 1.0)), 1e-9);
 }
 
 } // namespace
