@@ -19,8 +19,8 @@ struct Draw {
     bool mirrored = false;   ///< the node's transform turns the winding round
     bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
     int spreadingNumber = 0; ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
-    float largestColor = 0;          ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
-    scenes::Box3 boxWS{};            ///< around the mesh's own box; empty without vertices
+    float largestColor = 0;  ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
+    scenes::Box3 boxWS{};    ///< around the mesh's own box; empty without vertices
     double reachMetres = 0; ///< the largest sum of magnitudes that fp32 adds a vertex up from, without the node's place
     glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
 };

@@ -79,14 +79,14 @@ struct LobeHandles {
 struct SceneHandles {
     std::vector<graph::BufferHandle> vertices; ///< a stream each
     graph::BufferHandle indices;
-    graph::BufferHandle materials;                      ///< shared::MaterialConstants of each
-    std::optional<graph::BufferHandle> materialTable;   ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> subsurfaces;     ///< where lighting reads them: shared::SubsurfaceConstants
-    std::optional<graph::BufferHandle> facetNormals; ///< where there are shadows: a stream too, of lit surfaces
-    std::optional<graph::BufferHandle> casters;         ///< where shadows are traced: shaders/shared/caster_tree.h
-    EnvironmentHandles environment;                     ///< without constants; what some view has use for
-    LobeHandles lobes;                                  ///< what some view has use for
-    std::optional<graph::BufferHandle> lightPictures;   ///< where lights have any: shaders/shared/light_pictures.h
+    graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
+    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
+    std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
+    std::optional<graph::BufferHandle> facetNormals;  ///< where there are shadows: a stream too, of lit surfaces
+    std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
+    EnvironmentHandles environment;                   ///< without constants; what some view has use for
+    LobeHandles lobes;                                ///< what some view has use for
+    std::optional<graph::BufferHandle> lightPictures; ///< where lights have any: shaders/shared/light_pictures.h
 };
 
 /// The scene as a view draws it.
