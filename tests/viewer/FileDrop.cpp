@@ -3,30 +3,21 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include <xcb/xcb.h>
 
+#include "tests/viewer/XReply.h"
+
 namespace tessera::test {
 namespace {
-
-struct FreedByC {
-    void operator()(void* memory) const { std::free(memory); }
-};
-template <class Reply>
-using OwnedReply = std::unique_ptr<Reply, FreedByC>;
 
 /// A program from which something is dragged: it never shows the window that X11's messages go to.
 class DragSource {
 public:
-    DragSource(const std::string& display, xcb_window_t target)
-        : connection_(xcb_connect(display.c_str(), nullptr), &xcb_disconnect), target_(target) {
-        if (xcb_connection_has_error(connection_.get()) != 0)
-            throw std::runtime_error("cannot connect to the display " + display);
+    DragSource(const std::string& display, xcb_window_t target) : connection_(connectTo(display)), target_(target) {
         const xcb_window_t root = xcb_setup_roots_iterator(xcb_get_setup(connection_.get())).data->root;
         own_ = xcb_generate_id(connection_.get());
         xcb_create_window(connection_.get(), 0, own_, root, 0, 0, 1, 1, 0, XCB_WINDOW_CLASS_INPUT_ONLY,
@@ -106,7 +97,7 @@ private:
         send(request.requestor, event);
     }
 
-    std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)> connection_;
+    XConnection connection_;
     xcb_window_t target_, own_ = 0;
 };
 

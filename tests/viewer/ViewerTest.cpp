@@ -174,4 +174,13 @@ Picture ViewerTest::exr(const std::string& name) const {
     return underLedger(validation::readPicture, (folder_.path() / name).string());
 }
 
+Picture ViewerTest::savedRadiance(const DrivenViewer& viewer) const {
+    const std::size_t mark = viewer.mark();
+    viewer.key("shift+F12");
+    Picture picture = exr(savedFile(viewer.waitFor("saved ", mark)));
+    viewer.key("Escape");
+    viewer.pause(0.3);
+    return picture;
+}
+
 } // namespace tessera::test

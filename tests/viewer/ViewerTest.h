@@ -96,6 +96,14 @@ protected:
     static void pickSphere(const DrivenViewer& viewer, glm::ivec2 sizePixels);
     /// Opens the panel of lights, and adds one.
     static void addLight(const DrivenViewer& viewer);
+    /// A light of the list in the open panel of lights, which nothing has scrolled: its switch, and its name.
+    static glm::ivec2 lightSwitch(const DrivenViewer& viewer, int light) { return {17, lightY(viewer, light)}; }
+    static glm::ivec2 lightName(const DrivenViewer& viewer, int light) { return {120, lightY(viewer, light)}; }
+    /// A place in a row of the light that is selected, the first one below the list being 1.
+    static glm::ivec2 inLightRow(const DrivenViewer& viewer, int row, int x) {
+        constexpr int kListPixels = 197; // from the middle of the bar, with the buttons above the list
+        return {x, barOf(viewer, Section::Lights) + kListPixels + row * kRowPixels};
+    }
     /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.
     static void chooseScene(const DrivenViewer& viewer, std::string_view builtin);
     static void chooseRecentScene(const DrivenViewer& viewer, int index);
@@ -114,9 +122,18 @@ protected:
     /// The name after "saved " in a line of the log.
     static std::string savedFile(const std::string& line) { return line.substr(line.find(' ') + 1); }
     Picture exr(const std::string& name) const;
+    /// Saves the radiance that is shown, of a comparison that of the side that the panels control, and takes the
+    /// message away that says so.
+    Picture savedRadiance(const DrivenViewer& viewer) const;
 
     TempFolder folder_;
     static inline std::unique_ptr<Desktop> desktop_;
+
+private:
+    static int lightY(const DrivenViewer& viewer, int light) {
+        constexpr int kFirstPixels = 67, kLightPixels = 23;
+        return barOf(viewer, Section::Lights) + kFirstPixels + light * kLightPixels;
+    }
 };
 
 } // namespace tessera::test

@@ -208,17 +208,9 @@ TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
     viewer.key("x"); // difference
     viewer.key("3"); // another view at the left
     viewer.waitForWhole(mark);
-    const auto savedSide = [&] {
-        mark = viewer.mark();
-        viewer.key("shift+F12");
-        Picture picture = exr(savedFile(viewer.waitFor("saved ", mark)));
-        viewer.key("Escape"); // the message
-        viewer.pause(0.3);
-        return picture;
-    };
-    const Picture left = savedSide();
+    const Picture left = savedRadiance(viewer);
     viewer.key("z"); // the other side
-    const Picture right = savedSide();
+    const Picture right = savedRadiance(viewer);
     const validation::RadianceFigures figures = validation::radianceFigures(left, right);
     ASSERT_GT(figures.maxRel, 0.0);
 

@@ -19,6 +19,7 @@ protected:
     /// Whether the box of progress stands over the picture's lower part: nothing else has its grey in so many pixels.
     static bool hasBox(const DrivenViewer& viewer) {
         constexpr glm::ivec3 kBox(20, 21, 24);
+        constexpr int kLeastPixels = 10000; // of some 21000, words and a bar included, in a window of any size
         const Shot shot = viewer.capture();
         const glm::ivec2 picture = shot.sizePixels - kPictureCorner;
         const Shot part = shot.part(kPictureCorner + glm::ivec2(picture.x / 4, picture.y * 3 / 5),
@@ -26,7 +27,7 @@ protected:
         int boxed = 0;
         for (int y = 0; y < part.sizePixels.y; ++y)
             for (int x = 0; x < part.sizePixels.x; ++x) boxed += part.at({x, y}) == kBox ? 1 : 0;
-        return boxed > part.sizePixels.x * part.sizePixels.y / 20;
+        return boxed > kLeastPixels;
     }
     /// Scales of the pictures drawn between two places of the log.
     static std::vector<double> scales(const DrivenViewer& viewer, std::size_t from, std::size_t to) {
@@ -46,8 +47,9 @@ protected:
         viewer.key("Escape");
         viewer.waitFor("cancelled scale ", mark);
         const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
-        // A band takes some 100 ms, a view of the window as much, and xdotool has to start.
-        EXPECT_LE(took.count(), 600.0);
+        // A band takes some 100 ms, a view of a window of 1280 x 800 as much, and xdotool has to start.
+        const double viewMs = 100.0 * screenPixels().x * screenPixels().y / (1280.0 * 800.0);
+        EXPECT_LE(took.count(), 500.0 + viewMs);
         viewer.pause(0.5);
     }
 };

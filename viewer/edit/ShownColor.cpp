@@ -25,9 +25,14 @@ glm::vec3 swatchOfColor(const glm::vec3& linear) {
 }
 
 glm::vec3 colorOfCode(const glm::vec3& code, const glm::vec3& codeBefore, const glm::vec3& linearBefore, float scale) {
+    const auto byteOf = [](float value) { return std::lround(255.0f * value); };
+    // A picker's fields of numbers and digits round all channels to bytes, whichever was edited.
+    const auto isSame = [&](float value, float before) {
+        return value == before || value == float(byteOf(before)) / 255.0f;
+    };
     glm::vec3 linear = linearBefore;
     for (int i = 0; i < 3; ++i)
-        if (code[i] != codeBefore[i])
+        if (!isSame(code[i], codeBefore[i]))
             linear[i] = float(double(scale) * linearFromSrgb(std::clamp(double(code[i]), 0.0, 1.0)));
     return linear;
 }

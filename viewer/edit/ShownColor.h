@@ -15,7 +15,8 @@ glm::vec3 codeOfColor(const glm::vec3& linear, float scale);
 /// The same by its own swatchScale(): what a swatch shows, of brighter colours without their brightness.
 glm::vec3 swatchOfColor(const glm::vec3& linear);
 
-/// The linear colour of a code that was edited. A channel whose code is the same as before stays to the last bit.
+/// The linear colour of a code that was edited. A channel whose code is the same as before, or that rounded to a byte,
+/// stays to the last bit.
 glm::vec3 colorOfCode(const glm::vec3& code, const glm::vec3& codeBefore, const glm::vec3& linearBefore, float scale);
 
 /// "#674848 in sRGB, linear 0.133 0.0648 0.0648"; brighter ones "4 x #ffbc89 ...".

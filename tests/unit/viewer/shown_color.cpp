@@ -25,10 +25,14 @@ TEST(ShownColor, ofBrighterThanADisplayTheHueIsShown) {
 
 TEST(ShownColor, whatIsPickedIsTheLinearValueOfItsCode) {
     const glm::vec3 before(0.402f, 0.1f, 0.3f), code = codeOfColor(before, 1.0f);
-    const glm::vec3 picked = colorOfCode({170.0f / 255.0f, code.y, code.z}, code, before, 1.0f);
-    EXPECT_NEAR(picked.x, 0.402f, 0.002f);
+    const glm::vec3 picked = colorOfCode({200.0f / 255.0f, code.y, code.z}, code, before, 1.0f);
+    EXPECT_NEAR(picked.x, 0.57758f, 1e-5f);
     EXPECT_EQ(picked.y, before.y) << "a channel that was not edited changed";
     EXPECT_EQ(picked.z, before.z);
+    // The picker's field of digits rounds all channels to bytes.
+    const auto rounded = [](float value) { return std::round(255.0f * value) / 255.0f; };
+    const glm::vec3 typed = colorOfCode({200.0f / 255.0f, rounded(code.y), rounded(code.z)}, code, before, 1.0f);
+    EXPECT_EQ(typed, glm::vec3(picked.x, before.y, before.z));
     EXPECT_EQ(colorOfCode({0.0f, 0.0f, 1.0f}, code, before, 8.0f), glm::vec3(0.0f, 0.0f, 8.0f));
 }
 

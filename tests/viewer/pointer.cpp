@@ -1,0 +1,73 @@
+// The pointer's shape, which says what a press does.
+#include <functional>
+
+#include "tests/viewer/Cursor.h"
+#include "tests/viewer/ViewerTest.h"
+
+namespace tessera::test {
+namespace {
+
+class ViewerPointer : public ViewerTest {
+protected:
+    /// The pointer's shape once it is as expected; after 10 s what it is then.
+    static Cursor cursorOnce(const DrivenViewer& viewer, const std::function<bool(const Cursor&)>& isExpected) {
+        Cursor cursor = cursorOf(desktop_->display());
+        for (int i = 0; i < 100 && !isExpected(cursor); ++i) {
+            viewer.pause(0.1);
+            cursor = cursorOf(desktop_->display());
+        }
+        return cursor;
+    }
+};
+
+TEST_F(ViewerPointer, hasShapesOfItsOwnOnHandlesAndOnTheDivider) {
+    // A rectangle in the picture's middle, 5 m ahead, of which its edge is seen: the picture shows 5 m of height there.
+    folder_.write("panel.json", R"({
+        "tessera": 1,
+        "base": {"file": "builtin:room"},
+        "lights": [{"name": "panel", "type": "rectangle", "position": [0, 1.5, -2.5], "direction": [0, -1, 0],
+                    "along": [1, 0, 0], "width": 2, "height": 0.5, "intensity": 8}],
+        "cameras": [{"name": "front", "position": [0, 1.5, 2.5], "target": [0, 1.5, -2.5],
+                     "fovYDegrees": 53.13010235415598}]
+    })");
+    DrivenViewer viewer = open({"panel.json"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const glm::ivec2 middle = kPictureCorner + size / 2;
+    const glm::ivec2 beside = kPictureCorner + glm::ivec2(size.x / 8, size.y / 4); // nothing is dragged there
+    viewer.key("m");
+    viewer.click(middle); // on the marker: the light is selected
+    const auto isWide = [](const Cursor& cursor) { return cursor.extentPixels().x > cursor.extentPixels().y; };
+    const auto isTall = [](const Cursor& cursor) { return cursor.extentPixels().x < cursor.extentPixels().y; };
+
+    const glm::ivec2 side = middle + glm::ivec2(size.y / 5, 0);
+    viewer.moveTo(side);
+    const Cursor leftRight = cursorOnce(viewer, isWide);
+    EXPECT_TRUE(isWide(leftRight)) << "its width is dragged to the sides";
+    viewer.moveTo(beside);
+    const Cursor plain = cursorOnce(viewer, [&](const Cursor& cursor) { return cursor != leftRight; });
+    EXPECT_FALSE(plain == leftRight);
+    EXPECT_GT(plain.extentPixels().x, 0) << "there is no pointer";
+
+    constexpr int kTipPixels = 100, kDirectionPixels = 70; // of the arm along y, and of the direction's handle
+    const auto isAnother = [&](const Cursor& cursor) { return cursor != plain && cursor != leftRight; };
+    viewer.moveTo(middle - glm::ivec2(0, kTipPixels));
+    const Cursor upDown = cursorOnce(viewer, isAnother);
+    EXPECT_TRUE(isAnother(upDown) && isTall(upDown)) << "an arm along y is dragged up and down";
+    viewer.moveTo(beside);
+    EXPECT_TRUE(cursorOnce(viewer, [&](const Cursor& cursor) { return cursor == plain; }) == plain);
+    viewer.moveTo(middle + glm::ivec2(0, kDirectionPixels));
+    const auto isHand = [&](const Cursor& cursor) { return isAnother(cursor) && cursor != upDown; };
+    EXPECT_TRUE(isHand(cursorOnce(viewer, isHand))) << "a direction is dragged anywhere";
+
+    // The divider is in the picture's middle, and from top to bottom.
+    const glm::ivec2 divider(middle.x, size.y / 8);
+    viewer.moveTo(divider);
+    EXPECT_TRUE(cursorOnce(viewer, [&](const Cursor& cursor) { return cursor == plain; }) == plain);
+    viewer.key("x");
+    EXPECT_TRUE(cursorOnce(viewer, [&](const Cursor& cursor) { return cursor == leftRight; }) == leftRight);
+    viewer.moveTo(divider + glm::ivec2(40, 0));
+    EXPECT_TRUE(cursorOnce(viewer, [&](const Cursor& cursor) { return cursor == plain; }) == plain);
+}
+
+} // namespace
+} // namespace tessera::test
