@@ -171,10 +171,12 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     expectSaid(said, fmt::format("; lights {}; shown #", most));
     expectSaid(said, fmt::format("; {}, ", visited));
 
-    mark = viewer.mark();
     viewer.key("x"); // split
     viewer.key("z");
-    viewer.key("t"); // forward at the right, which visits all
+    viewer.pause(0.5);
+    mark = viewer.mark();
+    viewer.key("t"); // forward at the right, two on from its default, which visits all
+    viewer.key("t");
     viewer.waitForWhole(mark);
     said = saidOfPixel(viewer);
     expectSaid(said, fmt::format("; Left; lights {}; shown #", most));
@@ -186,9 +188,10 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     expectSaid(said, fmt::format("; {}; Right; ", visited));
     expectSaid(said, fmt::format("; visits {0} lights; difference {1} {1} {1}; material ", all, most - all));
 
-    mark = viewer.mark();
     viewer.key("7"); // lit pictures
     viewer.key("z");
+    viewer.pause(0.5);
+    mark = viewer.mark();
     viewer.key("7");
     viewer.waitForWhole(mark);
     said = saidOfPixel(viewer);

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
+
+#include "base/Utf8.h"
 
 namespace tessera::viewer {
 namespace {
@@ -13,11 +16,22 @@ namespace {
 constexpr int kMostNumbers = 100000;
 constexpr std::size_t kLongestStem = 120; ///< file systems end names at 255 bytes, of which some are ours
 
-std::string plain(std::string stem) {
-    stem.resize(std::min(stem.size(), kLongestStem));
-    for (char& c : stem)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.') c = '-';
-    return stem;
+/// Letters beyond ASCII stay, as long as they are whole letters of UTF-8.
+std::string plain(std::string_view stem) {
+    stem = beginningOf(stem, kLongestStem);
+    std::string name;
+    while (!stem.empty()) {
+        const std::size_t letter = letterBytes(stem), bytes = std::max<std::size_t>(letter, 1);
+        const char first = stem.front();
+        const bool isPlain =
+            letter > 1 || std::isalnum(static_cast<unsigned char>(first)) || first == '_' || first == '.';
+        if (isPlain)
+            name += stem.substr(0, bytes);
+        else
+            name += '-';
+        stem.remove_prefix(bytes);
+    }
+    return name;
 }
 
 } // namespace

@@ -68,16 +68,17 @@ Gui::~Gui() {
 void Gui::applyScale(float scale) {
     scale_ = scale;
     applyFonts(letters_, std::floor(kFontPixels * scale), ranges_);
-    ImGui_ImplOpenGL3_DestroyFontsTexture(); // made anew when the next frame begins
     applyTheme(scale);
 }
 
 void Gui::beginFrame(std::span<const InputEvent> events) {
+    ImGui_ImplOpenGL3_NewFrame(); // the first makes what is on the GPU
     if (letters_.takeNew() || window_.contentScale() != scale_) {
-        ImGui_ImplOpenGL3_DestroyDeviceObjects();
+        // Nothing else: Dear ImGui 1.86 takes buffers that are made anew to be as large as those before.
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
         applyScale(window_.contentScale());
+        ImGui_ImplOpenGL3_CreateFontsTexture();
     }
-    ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
     // The backend tells where pointer and buttons are now; a frame shows them as they were when its events happened.

@@ -31,6 +31,14 @@ TEST_F(FreePath, aNameIsOneWordOfAShell) {
     EXPECT_EQ(freePath("my model (v2)/$x", ".json"), "tessera-my-model--v2---x-001.json");
 }
 
+TEST_F(FreePath, aNameKeepsLettersOfAllLanguagesWhole) {
+    const std::string lamp = "\xe7\x81\xaf"; // U+706F
+    EXPECT_EQ(freePath(lamp + " a\xc3\xa9\xff", ".json"), "tessera-" + lamp + "-a\xc3\xa9--001.json");
+    std::string lamps;
+    for (int i = 0; i < 50; ++i) lamps += lamp;
+    EXPECT_EQ(freePath("x" + lamps, ".json"), "tessera-x" + lamps.substr(0, 117) + "-001.json");
+}
+
 TEST_F(FreePath, aNameIsNotLongerThanFileSystemsAllow) {
     EXPECT_LT(freePath(std::string(250, 'x'), ".trace.json").string().size(), 200u);
 }
