@@ -86,17 +86,18 @@ void Document::takeDrops() {
     if (!state_.notice.isError) state_.notice = {.text = std::move(dropped.left), .outlivesLoad = true};
 }
 
-/// Reads the open scene again: its materials and pictures are others.
+/// Reads the open scene again, since its materials and pictures are others. Edits go on there.
 void Document::openVariant(const std::string& variant) {
     if (!state_.open) return;
-    const Question question{Question::About::Opening, state_.open->source(), variant};
-    if (mayLeave(question)) load(question.scene, question.variant);
+    load(state_.open->source(), variant);
+    keepsEdits_ = true;
 }
 
 /// Opens a scene in the place of this one, with its edits until then; or this one again, in a variant.
 void Document::load(const std::string& source, const std::optional<std::string>& variant) {
     editsLeft_ = state_.open ? state_.open->edits() : 0;
     loadingVariant_ = variant;
+    keepsEdits_ = false;
     scenes::LoadOptions load;
     if (variant && state_.open) {
         load = state_.open->load();
@@ -121,11 +122,15 @@ void Document::take(Answer answer) {
 }
 
 void Document::adoptLoaded() {
-    // The user was not asked about edits made during the load.
-    const bool hasNewEdits = state_.open && state_.open->edits() != editsLeft_;
-    if (scenes_.hasScene() && hasNewEdits && !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
+    const scenes::Scene* const loaded = scenes_.scene();
+    const bool goesOn = keepsEdits_ && loaded != nullptr && state_.open && state_.open->source() == state_.loading &&
+                        state_.open->canGoOnAs(*loaded);
+    // The user was not asked about edits made during the load, nor about a variant's.
+    const bool isUnasked = state_.open && (keepsEdits_ || state_.open->edits() != editsLeft_);
+    if (loaded != nullptr && isUnasked && !goesOn &&
+        !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
         return scenes_.discard();
-    std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& loaded) { screen_.open(loaded); });
+    std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& shown) { screen_.open(shown); });
     if (!scene) return;
     measurements_.clear(facts_);
     drawing_.resume();
@@ -136,11 +141,13 @@ void Document::adoptLoaded() {
     if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
     recovery_.forget();
     try {
+        if (goesOn) scene->goOnFrom(*state_.open);
         adoptRecovered(*scene);
     } catch (const std::exception& error) {
         fail_(error.what());
     }
     state_.open = std::move(scene);
+    state_.viewEnvironmentBy(state_.open->environmentView());
 }
 
 /// Edits that were left are now this window's, and still not saved.

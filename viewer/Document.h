@@ -42,7 +42,7 @@ public:
     // ---- Another scene ----
     /// Of files that were dropped on the window one is to be opened, and the user is told of the others.
     void takeDrops();
-    /// These three may ask first.
+    /// These may ask first; a variant only where it lacks materials that were edited.
     void open(const std::string& source);
     /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
     void openFile(const std::string& file);
@@ -115,6 +115,7 @@ private:
     bool isDiscarding_ = false;                 ///< the window closes without another question
     std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
     std::optional<std::string> loadingVariant_; ///< of load()
+    bool keepsEdits_ = false;                   ///< what is loading is to go on with the edits of the open scene
     Recovery recovery_;
     EnvironmentJob environments_;
     SceneSwitch scenes_; ///< last: its thread ends before what it wakes

@@ -169,7 +169,7 @@ TEST_F(ViewerEdits, editsDuringALoadAreNotDiscardedWithoutRequest) {
     viewer.waitFor("opened ", mark);
 }
 
-TEST_F(ViewerEdits, aVariantOfTheMaterialsTakesThePlaceOfEditsByAnAnswerAlone) {
+TEST_F(ViewerEdits, anotherVariantOfTheMaterialsKeepsEditsAndTheirHistory) {
     folder_.write("red.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
         [{"name": "red"}]}}})");
     folder_.write("painted.json", R"({"tessera": 1, "base": {"file": "builtin:spheres", "lights": 0},
@@ -179,27 +179,21 @@ TEST_F(ViewerEdits, aVariantOfTheMaterialsTakesThePlaceOfEditsByAnAnswerAlone) {
     const glm::ivec2 aside = middlePixel() + glm::ivec2(150, 0);
     const Shot turned = after(viewer, [&] { viewer.drag(middlePixel(), aside, "shift", 3); }); // the environment
     EXPECT_GT(differingShare(turned, before, 4), 0.1);
-    const auto chooseRed = [&] {
-        // The list of variants is under that of scenes, a button and a line; its second entry is the first variant.
-        constexpr int kListPixels = 90, kRedPixels = 42;
-        const glm::ivec2 list(200, barOf(viewer, Section::Scene) + kListPixels);
-        const std::size_t mark = viewer.mark();
-        viewer.click(list);
-        viewer.click(list + glm::ivec2(0, kRedPixels));
-        viewer.moveTo(middlePixel());
-        viewer.waitFor("edits are not saved", mark);
-        viewer.pause(0.5);
-    };
-    chooseRed();
-    viewer.key("Escape");
-    viewer.pause(0.5);
-    EXPECT_TRUE(pictureIn(viewer, turned.sizePixels) == turned) << "the edit is lost";
-    chooseRed();
+    // The list of variants is under that of scenes, a button and a line; its second entry is the first variant.
+    constexpr int kListPixels = 90, kRedPixels = 42;
+    const glm::ivec2 list(200, barOf(viewer, Section::Scene) + kListPixels);
     const std::size_t mark = viewer.mark();
-    viewer.key("d");
+    viewer.click(list);
+    viewer.click(list + glm::ivec2(0, kRedPixels));
+    viewer.moveTo(middlePixel());
     viewer.waitFor("opened ", mark);
-    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == before);
-    viewer.key("ctrl+q"); // without a question: the edit is left behind
+    EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == turned) << "the edit is lost";
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == before);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+y"); }) == turned);
+    viewer.key("ctrl+q");
+    viewer.waitFor("edits are not saved", mark);
+    viewer.pause(0.5);
+    viewer.key("d");
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -52,6 +53,10 @@ public:
     /// Calls `change` with the edit of each step.
     void forEach(const std::function<void(Edit& edit)>& change) {
         for (Step& step : steps_) change(step.edit);
+    }
+    /// Whether all edits are so.
+    bool allOf(const std::function<bool(const Edit& edit)>& isSo) const {
+        return std::ranges::all_of(steps_, [&](const Step& step) { return isSo(step.edit); });
     }
 
 private:

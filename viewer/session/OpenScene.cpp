@@ -193,6 +193,31 @@ const Edit* OpenScene::redo() {
     return history_.redo([this](Edit& edit) { exchangeLater(edit); });
 }
 
+void OpenScene::step(std::ptrdiff_t steps) {
+    for (; steps < 0; ++steps) undo();
+    for (; steps > 0; --steps) redo();
+}
+
+bool OpenScene::canGoOnAs(const scenes::Scene& loaded) const {
+    return history_.stepsToSaved() && history_.allOf([&](const Edit& edit) {
+        const auto* const material = std::get_if<MaterialEdit>(&edit);
+        if (material == nullptr) return true;
+        if (material->index >= loaded.materials.size()) return false;
+        const scenes::Material& there = loaded.materials[material->index];
+        const scenes::Material& here = scene_.materials[material->index];
+        return there.name == here.name && there.textures == here.textures && there.textures == material->other.textures;
+    });
+}
+
+void OpenScene::goOnFrom(OpenScene& other) {
+    const std::ptrdiff_t steps = other.history_.stepsToSaved().value();
+    other.step(steps);
+    history_ = std::exchange(other.history_, {});
+    CameraView here = shown_.view();
+    step(-steps);
+    shown_.exchange(here);
+}
+
 void OpenScene::exchangeLater(Edit& edit) {
     exchange(edit);
     if (std::holds_alternative<LightsEdit>(edit)) scenes::restLights(scene_); // another clip may play now

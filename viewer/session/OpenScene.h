@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -64,6 +65,12 @@ public:
     /// Undoes or redoes a step; null where there is none, else the edit, after the exchange.
     const Edit* undo();
     const Edit* redo();
+    /// Whether goOnFrom() may be called of the same scene with other materials, as it was just loaded: steps lead to
+    /// what is saved of this one, and all materials that were edited are there, with their textures.
+    bool canGoOnAs(const scenes::Scene& loaded) const;
+    /// Takes over the history of an open scene that was loaded from the same file, and with it what was edited. The
+    /// camera stays where it is here. The other is then as it was saved, without a history.
+    void goOnFrom(OpenScene& other);
     /// From now on its edits are not saved, whatever is undone: what it was opened from is no scene of the user's.
     void markUnsaved() { history_.markUnsaved(); }
 
@@ -129,6 +136,8 @@ private:
     void exchange(CameraEdit& edit) { shown_.exchange(edit.other); }
     /// Makes what the views make of environments their own.
     void takeAsSeen();
+    /// Undoes so many steps where they are negative, else redoes them.
+    void step(std::ptrdiff_t steps);
     /// Jumps, and keeps where the camera was.
     void jump(std::string what, const std::function<void()>& begin);
     /// The same of a jump that has begun.

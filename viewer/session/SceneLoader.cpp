@@ -90,9 +90,9 @@ bool SceneLoader::hasResult() const {
     return result_.has_value();
 }
 
-bool SceneLoader::hasScene() const {
+const scenes::Scene* SceneLoader::scene() const {
     const std::lock_guard lock(mutex_);
-    return result_ && result_->scene;
+    return result_ && result_->scene ? &*result_->scene : nullptr;
 }
 
 std::optional<SceneLoader::Result> SceneLoader::take() {

@@ -40,8 +40,8 @@ public:
     /// The result of the latest start(), once.
     std::optional<Result> take();
     bool hasResult() const;
-    /// Whether that is a scene.
-    bool hasScene() const;
+    /// The scene that it is; null where there is none. Until take() or start().
+    const scenes::Scene* scene() const;
 
 private:
     struct Request {

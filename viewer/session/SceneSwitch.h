@@ -21,8 +21,8 @@ public:
     bool hasResult() const { return loader_.hasResult(); }
     /// Of SceneLoader.
     std::optional<EnvironmentShare> environmentShare() const { return loader_.environmentShare(); }
-    /// Whether the load gave a scene and did not fail.
-    bool hasScene() const { return loader_.hasScene(); }
+    /// What the load gave; null where it failed. Until the next call of open(), take() or discard().
+    const scenes::Scene* scene() const { return loader_.scene(); }
     /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state
     /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
     /// nothing has changed but that no scene waits.

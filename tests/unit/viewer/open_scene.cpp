@@ -195,5 +195,84 @@ TEST(OpenScene, aDragOfAHooksParameterIsOneStepAndIsUndone) {
     EXPECT_EQ(strength(), 1.25f);
 }
 
+/// A scene in a variant that has a material of its own, under the others.
+scenes::Scene inVariant(const char* ownMaterial) {
+    scenes::Scene scene = Opened::made();
+    for (const char* name : {"paint", ownMaterial}) scene.materials.emplace_back().name = name;
+    scene.lights.resize(2);
+    return scene;
+}
+
+template <class Change>
+void edit(OpenScene& open, const Change& change) {
+    scenes::Light light = open.scene().lights[1];
+    scenes::Material material = open.scene().materials[0];
+    change(light, material);
+    open.changeLight(1, light);
+    open.changeMaterial(0, material);
+}
+
+TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
+    for (const bool isSaved : {false, true}) {
+        OpenScene before("model.gltf", {}, inVariant("ruby"), {});
+        edit(before, [](scenes::Light& light, scenes::Material& material) {
+            light.intensity = 3.0f;
+            material.perceptualRoughness = 0.25f;
+        });
+        // The file then has these.
+        scenes::Scene loaded = inVariant("sky");
+        if (isSaved) {
+            before.becomes("saved.json");
+            loaded.lights = before.scene().lights;
+            loaded.materials[0] = before.scene().materials[0];
+        }
+        before.jumpToCamera(1);
+        edit(before, [](scenes::Light& light, scenes::Material&) { light.intensity = 5.0f; });
+        ASSERT_NE(before.undo(), nullptr);
+        ASSERT_TRUE(before.canGoOnAs(loaded));
+        const scenes::Light light = before.scene().lights[1];
+        const scenes::Material material = before.scene().materials[0];
+
+        OpenScene now("model.gltf", {}, loaded, {});
+        now.goOnFrom(before);
+        EXPECT_EQ(now.scene().lights[1], light);
+        EXPECT_EQ(now.scene().materials[0], material);
+        EXPECT_EQ(now.scene().materials[1].name, "sky");
+        EXPECT_EQ(now.camera(), 0) << "a jump of the other moves this one's camera";
+        EXPECT_EQ(now.isEdited(), !isSaved);
+        EXPECT_EQ(now.history().undoable(), 3u);
+        ASSERT_NE(now.redo(), nullptr);
+        EXPECT_EQ(now.scene().lights[1].intensity, 5.0f);
+        while (now.undo() != nullptr) {
+        }
+        EXPECT_EQ(now.scene().lights, inVariant("sky").lights);
+        EXPECT_EQ(now.scene().materials, inVariant("sky").materials);
+        EXPECT_EQ(now.isEdited(), isSaved);
+    }
+}
+
+TEST(OpenScene, aVariantDoesNotGoOnWithEditsOfMaterialsThatItLacksOrFromAStateThatNoStepLeadsTo) {
+    const auto changeOwn = [](OpenScene& open, float roughness) {
+        scenes::Material material = open.scene().materials[1];
+        material.perceptualRoughness = roughness;
+        open.changeMaterial(1, material);
+    };
+    OpenScene open("model.gltf", {}, inVariant("ruby"), {});
+    EXPECT_TRUE(open.canGoOnAs(inVariant("sky")));
+    changeOwn(open, 0.25f);
+    EXPECT_FALSE(open.canGoOnAs(inVariant("sky")));
+    EXPECT_TRUE(open.canGoOnAs(inVariant("ruby")));
+    scenes::Scene fewer = inVariant("ruby");
+    fewer.materials.pop_back();
+    EXPECT_FALSE(open.canGoOnAs(fewer));
+    scenes::Scene otherPicture = inVariant("ruby");
+    otherPicture.materials[1].texture(scenes::TextureSlot::BaseColor).image = 0;
+    EXPECT_FALSE(open.canGoOnAs(otherPicture));
+    open.becomes("saved.json");
+    open.undo();
+    changeOwn(open, 0.75f); // in the place of what was saved
+    EXPECT_FALSE(open.canGoOnAs(inVariant("ruby")));
+}
+
 } // namespace
 } // namespace tessera::viewer
