@@ -68,7 +68,9 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
     });
     if (found == uploaded_.end()) {
         if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // before there are three
-        auto scene = std::make_unique<frame::SceneGpu>(shown_, features, filter, subsurface);
+        frame::FeatureSet uploads = features;
+        if (spec.features[frame::Feature::Shadows]) uploads.add(frame::Feature::Shadows);
+        auto scene = std::make_unique<frame::SceneGpu>(shown_, uploads, filter, subsurface);
         uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
     } else {
         if (found->geometryChanged)

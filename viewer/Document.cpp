@@ -116,7 +116,10 @@ void Document::take(Answer answer) {
         return load(recovering_);
     }
     if (answer == Answer::Keep && !saveScene()) return; // where that fails nothing else happens
-    if (question->about == Question::About::Opening) return load(question->scene, question->variant);
+    if (question->about == Question::About::Opening) {
+        const bool isVariant = question->variant && state_.open; // of what was saved just now
+        return load(isVariant ? state_.open->source() : question->scene, question->variant);
+    }
     isDiscarding_ = true;
     window_.close();
 }
@@ -136,12 +139,12 @@ void Document::adoptLoaded() {
     drawing_.resume();
     facts_.shadows = {};
     state_.timings.clear();
-    environments_.discard(); // it was chosen for the scene before
+    if (!goesOn) environments_.discard(); // it was chosen for the scene before
     // What was asked about the edits of the scene before is settled.
     if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
-    recovery_.forget();
     try {
         if (goesOn) scene->goOnFrom(*state_.open);
+        recovery_.forget();
         adoptRecovered(*scene);
     } catch (const std::exception& error) {
         fail_(error.what());
@@ -236,10 +239,16 @@ bool Document::mayWrite(const std::string& path) {
     }
 }
 
+/// A variant that is being loaded would go on with what the scene was until now: it is loaded of the file.
+void Document::writeScene(const std::string& path) {
+    saver_.scene(path);
+    if (keepsEdits_ && !state_.loading.empty()) openVariant(*loadingVariant_);
+}
+
 bool Document::saveScene() {
     const std::string path = saver_.freeName(".json");
     if (!mayWrite(path)) return false;
-    saver_.scene(path);
+    writeScene(path);
     return true;
 }
 
@@ -251,7 +260,7 @@ void Document::saveAs(const std::string& path, glm::ivec2 size) {
     if (!mayWrite(path)) return;
     const FileType* const type = fileTypeOf(path);
     if (type == nullptr || type->saves != FileType::Saves::Scene) return saver_.picture(size, path);
-    saver_.scene(path);
+    writeScene(path);
 }
 
 void Document::copyCommand(glm::ivec2 size) {

@@ -42,7 +42,7 @@ public:
     // ---- Another scene ----
     /// Of files that were dropped on the window one is to be opened, and the user is told of the others.
     void takeDrops();
-    /// These may ask first; a variant only where it lacks materials that were edited.
+    /// These may ask first; a variant only where edits cannot go on in it.
     void open(const std::string& source);
     /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
     void openFile(const std::string& file);
@@ -97,6 +97,7 @@ private:
     void load(const std::string& source, const std::optional<std::string>& variant = {});
     void adoptRecovered(OpenScene& scene);
     bool mayWrite(const std::string& path);
+    void writeScene(const std::string& path);
 
     const ViewerOptions& options_;
     State& state_;

@@ -26,25 +26,6 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
-/// Lets triangles begin at another corner where an earlier one ends in the same vertex and in another corner none does:
-/// the last vertex of each can then hold what is the triangle's own. `indices` are those of the mesh, or as many with
-/// vertices split.
-void turnTriangles(const scenes::Mesh& mesh, std::vector<std::uint32_t>& indices) {
-    std::vector<bool> isLast(mesh.positionsOS.size(), false);
-    for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
-        const auto vertex = [&](std::size_t corner) { return mesh.indices[first + corner]; };
-        std::size_t last = 2;
-        for (const std::size_t corner : {2u, 0u, 1u}) {
-            if (isLast[vertex(corner)]) continue;
-            last = corner;
-            break;
-        }
-        isLast[vertex(last)] = true;
-        const auto begin = indices.begin() + std::ptrdiff_t(first);
-        std::rotate(begin, begin + std::ptrdiff_t((last + 1) % 3), begin + 3);
-    }
-}
-
 /// Copies the last vertex of a triangle where that of an earlier one is the same.
 void splitLastVertices(const scenes::Mesh& mesh, TangentMesh& split) {
     const std::size_t own = mesh.positionsOS.size();
@@ -80,7 +61,6 @@ VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh
                                 const std::optional<TangentBasis>& basis) {
     TangentMesh split{mesh.indices, {}, mesh.tangentsOS};
     if (features.tangents() && basis) split = meshWithTangents(mesh, *basis);
-    turnTriangles(mesh, split.indices);
     if (features[Feature::Shadows]) splitLastVertices(mesh, split);
     const VertexStreams::Range range{std::uint32_t(streams.indices.size()), std::uint32_t(split.indices.size()),
                                      std::int32_t(streams.positionsOS.size())};

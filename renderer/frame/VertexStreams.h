@@ -14,9 +14,8 @@ namespace tessera::frame {
 
 /// All meshes of a scene that are drawn, end to end, one array a vertex attribute. Streams that no feature needs are
 /// empty; where a mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates,
-/// computed tangents). A mesh whose materials want different tangents is there once for each. Triangles begin at other
-/// corners than in their mesh, so that few of them share their last one; the order of triangles and of their corners,
-/// and so what is rasterised, does not depend on the features.
+/// computed tangents). A mesh whose materials want different tangents is there once for each. Triangles and their
+/// corners stay in the mesh's order.
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;
@@ -32,7 +31,7 @@ struct VertexStreams {
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
     /// With shadows: of the triangle whose last corner a vertex is, unit, out of the front of its mesh; zero without an
-    /// area. Where triangles still shared their last corner it was copied.
+    /// area. Where triangles share their last corner it is copied.
     std::vector<glm::vec3> facetNormalsOS;
 };
 /// What the streams are called that such features need, in their order.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <system_error>
 #include <unordered_map>
@@ -33,7 +34,9 @@ constexpr std::size_t kMostOptions = 256; ///< far more than there are settings
 
 /// How much of a scene its base made.
 struct BaseSize {
-    std::size_t materials, images;
+    std::size_t materials = 0, images = 0;
+    /// Another variant of it was asked for than the document names: its own materials have other numbers there.
+    bool isInOtherVariant = false;
 };
 
 /// Where each name stands that elements of a kind have so far.
@@ -106,14 +109,14 @@ private:
             if (!base) cameraNames.add(ownCameras.back().name, cameras[i]);
         }
 
+        BaseSize baseSize;
         if (base) {
-            readBase(*base, scene);
+            baseSize = readBase(*base, scene);
             if (replacesLights) keepLights(scene, 0);
             if (replacesCameras) dropCameras(scene);
             if (options) scene.options = SceneOptions();
         }
         scene.warnings.insert(scene.warnings.end(), lightWarnings.begin(), lightWarnings.end());
-        const BaseSize baseSize{scene.materials.size(), scene.images.size()};
         if (surroundings.background) scene.background = *surroundings.background;
         if (environment) addEnvironment(*environment, surroundings, scene);
         for (const JsonValue& include : includes) addInclude(include, scene);
@@ -188,7 +191,7 @@ private:
     }
 
     /// All of a scene as it is alone, under the name of this one.
-    void readBase(const JsonValue& value, Scene& scene) {
+    BaseSize readBase(const JsonValue& value, Scene& scene) {
         JsonObject object = value.object();
         const JsonValue file = object.require("file");
         LoadOptions options;
@@ -208,6 +211,8 @@ private:
         std::string name = std::move(scene.name);
         scene = inVariant(variant, [&] { return load(file, options); });
         scene.name = std::move(name);
+        const std::optional<std::string>& asked = ledger_.wishes().variant;
+        return {scene.materials.size(), scene.images.size(), variant && asked && *asked != variant->text()};
     }
 
     /// What `read` makes of a file, in a variant that its document names, where no other was asked for before.
@@ -336,6 +341,16 @@ private:
     static void replaceMaterial(const JsonValue& material, const JsonValue& replaces, const BaseSize& base,
                                 Images& images, Scene& scene) {
         if (base.materials == 0) replaces.fail("there is no material of a base to replace; remove it");
+        if (base.isInOtherVariant) {
+            const auto there = static_cast<std::size_t>(replaces.integer(0, std::numeric_limits<int>::max()));
+            const std::string name = material.object().require("name").text();
+            if (there >= base.materials || scene.materials[there].name != name) {
+                scene.warnings.push_back(
+                    fmt::format("{}: '{}', which replaces material {}, is of another variant and left out",
+                                material.file().string(), name, there));
+                return;
+            }
+        }
         const auto index = static_cast<std::size_t>(replaces.integer(0, static_cast<int>(base.materials) - 1));
         scene.materials[index] = readMaterial(material, images);
     }

@@ -64,7 +64,8 @@ Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
             material.update(write::materialJson(now[i], origin.images));
             materials.push_back(std::move(material));
         } else if (replaced != origin.replacedMaterials.end()) {
-            materials.push_back(Json::parse(replaced->second));
+            Json material = Json::parse(replaced->second);
+            if (material["name"] == now[i].name) materials.push_back(std::move(material)); // else of another variant
         }
     }
     return materials;

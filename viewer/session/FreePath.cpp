@@ -16,6 +16,14 @@ namespace {
 constexpr int kMostNumbers = 100000;
 constexpr std::size_t kLongestStem = 120; ///< file systems end names at 255 bytes, of which some are ours
 
+/// Whether a letter beyond ASCII shows nothing, or turns those after it round: C1 controls, and U+2000 to U+206F, where
+/// spaces, ends of lines and marks of direction are.
+bool isUnseen(std::string_view letter) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
+    return (letter.size() == 2 && byte(0) == 0xc2 && byte(1) <= 0xa0) ||
+           (letter.size() == 3 && byte(0) == 0xe2 && (byte(1) == 0x80 || byte(1) == 0x81));
+}
+
 /// Letters beyond ASCII stay, as long as they are whole letters of UTF-8.
 std::string plain(std::string_view stem) {
     stem = beginningOf(stem, kLongestStem);
@@ -23,8 +31,9 @@ std::string plain(std::string_view stem) {
     while (!stem.empty()) {
         const std::size_t letter = letterBytes(stem), bytes = std::max<std::size_t>(letter, 1);
         const char first = stem.front();
-        const bool isPlain =
-            letter > 1 || std::isalnum(static_cast<unsigned char>(first)) || first == '_' || first == '.';
+        const bool isPlain = letter > 1
+                                 ? !isUnseen(stem.substr(0, letter))
+                                 : std::isalnum(static_cast<unsigned char>(first)) || first == '_' || first == '.';
         if (isPlain)
             name += stem.substr(0, bytes);
         else

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -198,22 +199,55 @@ void OpenScene::step(std::ptrdiff_t steps) {
     for (; steps > 0; --steps) redo();
 }
 
-bool OpenScene::canGoOnAs(const scenes::Scene& loaded) const {
-    return history_.stepsToSaved() && history_.allOf([&](const Edit& edit) {
-        const auto* const material = std::get_if<MaterialEdit>(&edit);
-        if (material == nullptr) return true;
-        if (material->index >= loaded.materials.size()) return false;
-        const scenes::Material& there = loaded.materials[material->index];
-        const scenes::Material& here = scene_.materials[material->index];
-        return there.name == here.name && there.textures == here.textures && there.textures == material->other.textures;
-    });
+/// Whether a scene that was just loaded has what this one, as it is saved, has, as far as the history changes it or
+/// counts by it.
+bool OpenScene::isLike(const scenes::Scene& loaded) const {
+    const auto isSameLight = [](const scenes::Light& one, const scenes::Light& other) {
+        return one.name == other.name && one.type == other.type;
+    };
+    const auto isSameParameter = [](const scenes::HookParameter& one, const scenes::HookParameter& other) {
+        return one.name == other.name;
+    };
+    // Edits of lights know by these which of them clips move.
+    const auto isSameNumber = [](const scenes::RestNumber& one, const scenes::RestNumber& other) {
+        return one.property == other.property && one.element == other.element && one.slot == other.slot;
+    };
+    const auto parameters = [](const scenes::Scene& scene) {
+        return scene.hook ? std::span(scene.hook->parameters) : std::span<const scenes::HookParameter>();
+    };
+    return std::ranges::equal(scene_.lights, loaded.lights, isSameLight) &&
+           scene_.cameras.size() == loaded.cameras.size() &&
+           scene_.environment.has_value() == loaded.environment.has_value() &&
+           std::ranges::equal(parameters(scene_), parameters(loaded), isSameParameter) &&
+           std::ranges::equal(scene_.rig.numbers, loaded.rig.numbers, isSameNumber) &&
+           history_.allOf([&](const Edit& edit) {
+               const auto* const material = std::get_if<MaterialEdit>(&edit);
+               return material == nullptr ||
+                      (material->index < loaded.materials.size() &&
+                       scenes::restingMaterial(scene_, material->index) == loaded.materials[material->index]);
+           });
+}
+
+bool OpenScene::canGoOnAs(const scenes::Scene& loaded) {
+    const std::optional<std::ptrdiff_t> steps = history_.stepsToSaved();
+    if (!steps) return false;
+    step(*steps);
+    const bool can = isLike(loaded);
+    step(-*steps);
+    return can;
 }
 
 void OpenScene::goOnFrom(OpenScene& other) {
     const std::ptrdiff_t steps = other.history_.stepsToSaved().value();
     other.step(steps);
     history_ = std::exchange(other.history_, {});
-    CameraView here = shown_.view();
+    // Steps of the camera and of the environment's view exchange what the other began with.
+    if (scene_.environment) {
+        scenes::EnvironmentView own = scenes::ownViewOf(*scene_.environment), view = other.environmentView();
+        environment_.exchange(own, view);
+    }
+    CameraView here = shown_.view(), before = other.shown_.view();
+    shown_.exchange(before);
     step(-steps);
     shown_.exchange(here);
 }

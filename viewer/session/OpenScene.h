@@ -66,8 +66,9 @@ public:
     const Edit* undo();
     const Edit* redo();
     /// Whether goOnFrom() may be called of the same scene with other materials, as it was just loaded: steps lead to
-    /// what is saved of this one, and all materials that were edited are there, with their textures.
-    bool canGoOnAs(const scenes::Scene& loaded) const;
+    /// what is saved of this one, and that has the same lights, cameras and animated numbers, and the same of each
+    /// material that was edited. Throws what undo() throws.
+    bool canGoOnAs(const scenes::Scene& loaded);
     /// Takes over the history of an open scene that was loaded from the same file, and with it what was edited. The
     /// camera stays where it is here. The other is then as it was saved, without a history.
     void goOnFrom(OpenScene& other);
@@ -136,6 +137,7 @@ private:
     void exchange(CameraEdit& edit) { shown_.exchange(edit.other); }
     /// Makes what the views make of environments their own.
     void takeAsSeen();
+    bool isLike(const scenes::Scene& loaded) const;
     /// Undoes so many steps where they are negative, else redoes them.
     void step(std::ptrdiff_t steps);
     /// Jumps, and keeps where the camera was.

@@ -26,13 +26,7 @@ void Surrounding::takeAsSeen() {
 
 Surrounding SeenEnvironment::replacedBy(ChosenEnvironment chosen) const {
     if (chosen.environment) scenes::layAs(own_, *chosen.environment);
-    Surrounding next{std::move(chosen.environment), view_,           false,
-                     std::move(chosen.filtered),    scene_.warnings, std::move(chosen.warnings)};
-    // What was said of the environment before is over.
-    std::erase_if(next.warnings,
-                  [&](const std::string& warning) { return std::ranges::find(warnings_, warning) != warnings_.end(); });
-    next.warnings.insert(next.warnings.end(), next.ownWarnings.begin(), next.ownWarnings.end());
-    return next;
+    return {std::move(chosen.environment), view_, false, std::move(chosen.filtered), std::move(chosen.warnings)};
 }
 
 void SeenEnvironment::exchange(Surrounding& other) {
@@ -40,8 +34,10 @@ void SeenEnvironment::exchange(Surrounding& other) {
     std::swap(view_, other.view);
     std::swap(scene_.supplied.light, other.isSupplied);
     std::swap(filtered_, other.filtered);
-    std::swap(scene_.warnings, other.warnings);
-    std::swap(warnings_, other.ownWarnings);
+    std::erase_if(scene_.warnings,
+                  [&](const std::string& warning) { return std::ranges::find(warnings_, warning) != warnings_.end(); });
+    std::swap(warnings_, other.warnings);
+    scene_.warnings.insert(scene_.warnings.end(), warnings_.begin(), warnings_.end());
     ++revision_;
 }
 

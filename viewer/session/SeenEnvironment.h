@@ -18,8 +18,7 @@ struct Surrounding {
     scenes::EnvironmentView view; ///< that it is seen by: SeenEnvironment::view()
     bool isSupplied = false;      ///< scenes::Supplied::light
     std::shared_ptr<const frame::FilteredEnvironment> filtered;
-    std::vector<std::string> warnings;    ///< all of the scene
-    std::vector<std::string> ownWarnings; ///< those of them that the environment brought
+    std::vector<std::string> warnings; ///< that it brought; of one that a file brought they stay with the scene
     /// Makes what its view makes of the environment the environment's own.
     void takeAsSeen();
 };
@@ -54,7 +53,7 @@ private:
     scenes::OwnEnvironment own_; ///< as the file has it
     scenes::EnvironmentView view_;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;
-    std::vector<std::string> warnings_; ///< of the latest that was taken
+    std::vector<std::string> warnings_; ///< Surrounding::warnings
     std::uint64_t revision_ = 0;
 };
 

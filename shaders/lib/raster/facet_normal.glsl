@@ -5,7 +5,8 @@
 #pragma once
 #include "lib/surface/camera.glsl"
 
-layout(location = 9) flat in vec3 facetNormalLS; // out of the front of the mesh, of any length
+// Out of the front of the mesh, of any length. The last vertex provokes, as everywhere in OpenGL without a word.
+layout(location = 9) flat in vec3 facetNormalLS;
 
 vec3 rasterisedFacetNormal(bool frontFacing)
 {

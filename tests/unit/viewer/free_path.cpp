@@ -34,6 +34,7 @@ TEST_F(FreePath, aNameIsOneWordOfAShell) {
 TEST_F(FreePath, aNameKeepsLettersOfAllLanguagesWhole) {
     const std::string lamp = "\xe7\x81\xaf"; // U+706F
     EXPECT_EQ(freePath(lamp + " a\xc3\xa9\xff", ".json"), "tessera-" + lamp + "-a\xc3\xa9--001.json");
+    EXPECT_EQ(freePath("a\xe2\x80\xae\xc2\x85z", ".json"), "tessera-a--z-001.json"); // U+202E, U+0085
     std::string lamps;
     for (int i = 0; i < 50; ++i) lamps += lamp;
     EXPECT_EQ(freePath("x" + lamps, ".json"), "tessera-x" + lamps.substr(0, 117) + "-001.json");

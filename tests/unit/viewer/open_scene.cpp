@@ -239,10 +239,16 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
         EXPECT_EQ(now.scene().materials[0], material);
         EXPECT_EQ(now.scene().materials[1].name, "sky");
         EXPECT_EQ(now.camera(), 0) << "a jump of the other moves this one's camera";
+        EXPECT_EQ(now.environmentView(), before.environmentView());
         EXPECT_EQ(now.isEdited(), !isSaved);
         EXPECT_EQ(now.history().undoable(), 3u);
         ASSERT_NE(now.redo(), nullptr);
         EXPECT_EQ(now.scene().lights[1].intensity, 5.0f);
+        now.useCamera(1); // as it was left
+        now.undo();
+        EXPECT_EQ(now.camera(), 1);
+        now.undo();
+        EXPECT_EQ(now.camera(), 0) << "where the jump began";
         while (now.undo() != nullptr) {
         }
         EXPECT_EQ(now.scene().lights, inVariant("sky").lights);
@@ -268,6 +274,15 @@ TEST(OpenScene, aVariantDoesNotGoOnWithEditsOfMaterialsThatItLacksOrFromAStateTh
     scenes::Scene otherPicture = inVariant("ruby");
     otherPicture.materials[1].texture(scenes::TextureSlot::BaseColor).image = 0;
     EXPECT_FALSE(open.canGoOnAs(otherPicture));
+    scenes::Scene otherLights = inVariant("ruby");
+    otherLights.lights.pop_back();
+    EXPECT_FALSE(open.canGoOnAs(otherLights));
+    scenes::Scene otherThickness = inVariant("ruby");
+    otherThickness.materials[1].thicknessMetres += 1.0f;
+    EXPECT_FALSE(open.canGoOnAs(otherThickness));
+    scenes::Scene otherNumbers = inVariant("ruby");
+    otherNumbers.rig.numbers.emplace_back().property = scenes::AnimatedProperty::LightIntensity;
+    EXPECT_FALSE(open.canGoOnAs(otherNumbers));
     open.becomes("saved.json");
     open.undo();
     changeOwn(open, 0.75f); // in the place of what was saved

@@ -302,6 +302,43 @@ TEST(SceneText, theVariantThatIsShownIsSavedAlsoBySavedFilesOfSavedFiles) {
     expectSameScene(saved(again, originAgain, second), again);
 }
 
+TEST(SceneText, whatIsEditedOfAVariantsOwnMaterialIsLeftOutOfOthersAndSaid) {
+    const SceneFolder folder;
+    const std::string car = folder
+                                .write("car.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}, {"name": "bare"}]}},
+        "materials": [{"name": "paint"}, {"name": "ruby"}, {"name": "sapphire"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions":
+            {"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [0]},
+                                                     {"material": 2, "variants": [1]}]}}}]}],
+        "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})")
+                                .string();
+    LoadOptions red;
+    red.import.variant = "red";
+    Scene scene = loadScene(car, red);
+    const SceneOrigin origin = originOf(car, red, scene);
+    scene.materials[0].metallic = 0.5f;
+    scene.materials[1].metallic = 0.25f;
+    const std::filesystem::path first = folder.path() / "first.json", second = folder.path() / "second.json";
+    saved(scene, origin, first);
+    for (const char* name : {"blue", "bare"}) {
+        LoadOptions other;
+        other.import.variant = name;
+        const Scene shown = loadScene(first.string(), other);
+        EXPECT_EQ(shown.materials[0].metallic, 0.5f) << "a material of all variants";
+        if (shown.materials.size() > 1) {
+            EXPECT_EQ(shown.materials[1].name, "sapphire");
+            EXPECT_EQ(shown.materials[1].metallic, 1.0f);
+        }
+        ASSERT_EQ(shown.warnings.size(), 1u);
+        EXPECT_EQ(shown.warnings[0], "'ruby', which replaces material 1, is of another variant and left out");
+        // Saved in this variant it loads back the same, now without a word.
+        Scene again = saved(shown, originOf(first.string(), other, shown), second);
+        EXPECT_EQ(again.materials, shown.materials);
+        EXPECT_TRUE(again.warnings.empty());
+    }
+}
+
 TEST(SceneText, theClipThatWasChosenIsSaved) {
     const SceneFolder folder;
     const std::string file = folder
