@@ -39,6 +39,7 @@ constexpr double kNoticeSeconds = 6.0;
 constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
 constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
 constexpr double kEndPeriodSeconds = 0.25;  ///< how often a signal to end is looked for
+constexpr double kNextInputSeconds = 0.01;  ///< within which a pointer that moves is heard of again
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -89,6 +90,12 @@ private:
         return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest() ||
                outline_.awaitsRest();
     }
+    /// Until when the next movement of a pointer that drags is waited for: a picture that takes longer, and only shows
+    /// how the one before goes on, would delay the answer to it.
+    double glidesFrom() const {
+        const bool waits = window_.isButtonHeld() && isMoving(state_) && facts_.ms > 1000.0 * kNextInputSeconds;
+        return waits ? shownAt_ + kNextInputSeconds : 0.0;
+    }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();
@@ -96,7 +103,9 @@ private:
     }
     bool hasPicturePlace() const { return isVisible() && areaPixels().width > 0 && areaPixels().height > 0; }
     bool isDue() const {
-        if (window_.hasActivity() || document_.hasResult() || pulse_.settleFrames > 0) return true;
+        if (window_.hasActivity() || document_.hasResult()) return true;
+        if (now() < glidesFrom()) return isVisible() && !window_.input().empty();
+        if (pulse_.settleFrames > 0) return true;
         if (isVisible() && document_.isLoading() && now() >= backgroundToldAt_) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() &&
@@ -107,6 +116,7 @@ private:
         if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = kEndPeriodSeconds;
         const auto atMost = [&](double most) { seconds = std::min(seconds, most); };
+        if (const double wait = glidesFrom() - now(); wait > 0.0) atMost(wait);
         if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));

@@ -26,42 +26,39 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
-/// Copies the last vertex of a triangle where that of an earlier one is the same.
-void splitLastVertices(const scenes::Mesh& mesh, TangentMesh& split) {
+/// By vertex, the normal of the triangles that end with it: where those of two differ, the second gets a copy of the
+/// vertex. A triangle without an area shows nothing and shares any.
+std::vector<glm::vec3> splitByFacets(const scenes::Mesh& mesh, TangentMesh& split) {
     const std::size_t own = mesh.positionsOS.size();
-    std::vector<bool> isLast(own + split.copiedOf.size(), false);
-    for (std::size_t last = 2; last < split.indices.size(); last += 3) {
-        const std::uint32_t vertex = split.indices[last];
-        if (!isLast[vertex]) {
-            isLast[vertex] = true;
-            continue;
-        }
-        split.indices[last] = std::uint32_t(own + split.copiedOf.size());
-        split.copiedOf.push_back(vertex < own ? vertex : split.copiedOf[vertex - own]);
-        if (!split.tangentsOS.empty()) split.tangentsOS.push_back(glm::vec4(split.tangentsOS[vertex]));
-    }
-}
-
-/// By vertex: of the triangle whose last it is.
-void appendFacetNormals(std::vector<glm::vec3>& stream, const scenes::Mesh& mesh, const TangentMesh& split) {
-    const std::size_t own = mesh.positionsOS.size(), begin = stream.size();
-    stream.resize(begin + own + split.copiedOf.size(), glm::vec3(0.0f));
+    const auto ownVertex = [&](std::uint32_t vertex) { return vertex < own ? vertex : split.copiedOf[vertex - own]; };
+    std::vector<glm::vec3> normalsOS(own + split.copiedOf.size(), glm::vec3(0.0f));
     for (std::size_t first = 0; first + 2 < split.indices.size(); first += 3) {
         const auto corner = [&](std::size_t c) {
-            const std::uint32_t vertex = split.indices[first + c];
-            return glm::dvec3(mesh.positionsOS[vertex < own ? vertex : split.copiedOf[vertex - own]]);
+            return glm::dvec3(mesh.positionsOS[ownVertex(split.indices[first + c])]);
         };
         const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
         const double length = glm::length(normal);
-        if (length > 0.0) stream[begin + split.indices[first + 2]] = glm::vec3(normal / length);
+        if (!(length > 0.0)) continue;
+        const glm::vec3 normalOS(normal / length);
+        const std::uint32_t last = split.indices[first + 2];
+        if (normalsOS[last] == glm::vec3(0.0f)) {
+            normalsOS[last] = normalOS;
+        } else if (normalsOS[last] != normalOS) {
+            split.indices[first + 2] = std::uint32_t(normalsOS.size());
+            split.copiedOf.push_back(ownVertex(last));
+            if (!split.tangentsOS.empty()) split.tangentsOS.push_back(glm::vec4(split.tangentsOS[last]));
+            normalsOS.push_back(normalOS);
+        }
     }
+    return normalsOS;
 }
 
 VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh, const FeatureSet& features,
                                 const std::optional<TangentBasis>& basis) {
     TangentMesh split{mesh.indices, {}, mesh.tangentsOS};
     if (features.tangents() && basis) split = meshWithTangents(mesh, *basis);
-    if (features[Feature::Shadows]) splitLastVertices(mesh, split);
+    std::vector<glm::vec3> facetNormalsOS;
+    if (features[Feature::Shadows]) facetNormalsOS = splitByFacets(mesh, split);
     const VertexStreams::Range range{std::uint32_t(streams.indices.size()), std::uint32_t(split.indices.size()),
                                      std::int32_t(streams.positionsOS.size())};
     streams.indices.insert(streams.indices.end(), split.indices.begin(), split.indices.end());
@@ -76,7 +73,7 @@ VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh
     if (features.texCoords()) copy(streams.texCoords[0], mesh.texCoords[0], glm::vec2(0.0f));
     if (features[Feature::TexCoord1]) copy(streams.texCoords[1], mesh.texCoords[1], glm::vec2(0.0f));
     if (features[Feature::VertexColor]) copy(streams.colors, mesh.colors, glm::vec4(1.0f));
-    if (features[Feature::Shadows]) appendFacetNormals(streams.facetNormalsOS, mesh, split);
+    streams.facetNormalsOS.insert(streams.facetNormalsOS.end(), facetNormalsOS.begin(), facetNormalsOS.end());
     return range;
 }
 

@@ -30,8 +30,8 @@ struct VertexStreams {
     std::vector<glm::vec4> tangentsOS;
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
-    /// With shadows: of the triangle whose last corner a vertex is, unit, out of the front of its mesh; zero without an
-    /// area. Where triangles share their last corner it is copied.
+    /// With shadows: of the triangles that end with a vertex, unit, out of the front of its mesh; of those without an
+    /// area any. Where two of one end have different ones, the vertex is there once for each.
     std::vector<glm::vec3> facetNormalsOS;
 };
 /// What the streams are called that such features need, in their order.
