@@ -223,7 +223,7 @@ private:
         Scene scene = read();
         ledger_.wishVariant(before);
         if (variant && std::ranges::find(scene.variants, variant->text()) == scene.variants.end())
-            variant->failUnknown("variant of the model", variant->text(),
+            variant->failUnknown("variant", variant->text(),
                                  std::vector<std::string_view>(scene.variants.begin(), scene.variants.end()));
         return scene;
     }
@@ -346,7 +346,7 @@ private:
             const std::string name = material.object().require("name").text();
             if (there >= base.materials || scene.materials[there].name != name) {
                 scene.warnings.push_back(
-                    fmt::format("{}: '{}', which replaces material {}, is of another variant and left out",
+                    fmt::format("{}: '{}', which replaces material {}, is not in this variant and left out",
                                 material.file().string(), name, there));
                 return;
             }

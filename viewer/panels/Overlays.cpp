@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "viewer/session/DrawnLook.h"
+#include "viewer/window/Fonts.h"
 
 namespace tessera::viewer {
 namespace {
@@ -17,7 +18,6 @@ constexpr ImU32 kPlain = IM_COL32(220, 222, 228, 255);
 constexpr ImU32 kActive = IM_COL32(140, 195, 255, 255); ///< the side that panels and keys change
 enum class Corner { UpperLeft, UpperRight };
 
-constexpr float kTitleSize = 1.8f; ///< of a view's name, in heights of other words
 constexpr ImU32 kBehindName = IM_COL32(20, 21, 24, 200);
 
 /// Words in a corner of a part of the picture, beyond which they do not reach. `top` is how much of the part's height
@@ -42,9 +42,10 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
     if (look.settings.view == frame::DebugView::Final) return;
     constexpr float kLeastEms = 16.0f, kMostShare = 0.25f;
     ImFont* const font = ImGui::GetFont();
+    ImFont* const titleFont = ImGui::GetIO().Fonts->Fonts.back(); // of that size, where fonts are installed
     const float em = ImGui::GetFontSize(), pad = 5.0f * scale, width = part.size.x - 6.0f * pad;
     const std::string name = viewName(look, lights), meaning = viewMeaning(look.settings.view);
-    const ImVec2 nameSize = font->CalcTextSizeA(kTitleSize * em, FLT_MAX, width, name.c_str());
+    const ImVec2 nameSize = titleFont->CalcTextSizeA(kTitleSize * em, FLT_MAX, width, name.c_str());
     const ImVec2 meaningSize = font->CalcTextSizeA(em, FLT_MAX, width, meaning.c_str());
     const ImVec2 size(std::max(nameSize.x, meaningSize.x), nameSize.y + meaningSize.y);
     if (width < kLeastEms * em || top + size.y > kMostShare * part.size.y) return;
@@ -53,7 +54,7 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
     const float y = part.corner.y + top + 2.0f * pad;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
-    list.AddText(font, kTitleSize * em, {x, y}, kPlain, name.c_str(), nullptr, width);
+    list.AddText(titleFont, kTitleSize * em, {x, y}, kPlain, name.c_str(), nullptr, width);
     list.AddText(font, em, {x, y + nameSize.y}, kPlain, meaning.c_str(), nullptr, width);
     top += size.y + 2.5f * pad;
 }
@@ -62,13 +63,14 @@ bool areEqual(const Facts& facts) {
     return facts.figures && !facts.figuresAreOld && facts.figures->bitEqual == 1.0;
 }
 
-void drawDifferenceNames(const Facts& facts, const std::vector<scenes::Light>* lights, const PictureArea& area,
-                         float scale) {
+void drawDifferenceNames(const State& state, const Facts& facts, const std::vector<scenes::Light>* lights,
+                         const PictureArea& area, float scale) {
     const auto& [left, right] = facts.shown;
     float top = 0.0f;
     if (left && right) {
         const std::array<std::string, 2> names = sideNames(*left, *right, lights);
-        drawName(fmt::format("{} against {}", names[0], names[1]), area, Corner::UpperLeft, kPlain, scale, top);
+        drawName(fmt::format("{} against {}, {:.4g} times", names[0], names[1], state.amplification), area,
+                 Corner::UpperLeft, kPlain, scale, top);
     }
     if (areEqual(facts))
         drawName(fmt::format("No difference: all {} covered pixels are equal in every bit", facts.figures->covered),
@@ -94,7 +96,7 @@ void drawDivider(const State& state, const PictureArea& area, float scale) {
 void drawNames(const State& state, const Facts& facts, const PictureArea& area, float scale) {
     const auto& [left, right] = facts.shown;
     const std::vector<scenes::Light>* const lights = state.open ? &state.open->scene().lights : nullptr;
-    if (state.compare == Compare::Difference) return drawDifferenceNames(facts, lights, area, scale);
+    if (state.compare == Compare::Difference) return drawDifferenceNames(state, facts, lights, area, scale);
     if (!left) return;
     const std::array<std::string, 2> names =
         right ? sideNames(*left, *right, lights) : std::array{lookName(*left, lights), std::string()};

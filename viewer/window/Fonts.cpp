@@ -52,16 +52,18 @@ void applyFonts(const Letters& letters, float heightPixels, std::vector<std::uin
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     fonts.Clear();
     ranges = letters.ranges();
-    ImFontConfig config;
-    config.SizePixels = heightPixels;
-    config.GlyphRanges = ranges.data();
-    if (!addFirst(kFontFiles, config)) {
-        config.GlyphRanges = nullptr;
-        fonts.AddFontDefault(&config);
-        return;
+    for (const float sizePixels : {heightPixels, kTitleSize * heightPixels}) {
+        ImFontConfig config;
+        config.SizePixels = sizePixels;
+        config.GlyphRanges = ranges.data();
+        if (!addFirst(kFontFiles, config)) {
+            config.GlyphRanges = nullptr;
+            fonts.AddFontDefault(&config);
+            return;
+        }
+        config.MergeMode = true;
+        if (letters.hasEastAsian()) addFirst(kEastAsianFontFiles, config);
     }
-    config.MergeMode = true;
-    if (letters.hasEastAsian()) addFirst(kEastAsianFontFiles, config);
 }
 
 } // namespace tessera::viewer

@@ -101,7 +101,7 @@ TEST(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
     red.import.variant = "red";
     EXPECT_EQ(worn(loadScene(folder.write("cars.json", cars).string(), red)), "ruby ruby ruby ruby ");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "car.gltf", "variant": "rde"}})"),
-              "/base/variant: there is no variant of the model 'rde'; did you mean 'red'?");
+              "/base/variant: there is no variant 'rde'; did you mean 'red'?");
 }
 
 TEST(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {

@@ -331,7 +331,7 @@ TEST(SceneText, whatIsEditedOfAVariantsOwnMaterialIsLeftOutOfOthersAndSaid) {
             EXPECT_EQ(shown.materials[1].metallic, 1.0f);
         }
         ASSERT_EQ(shown.warnings.size(), 1u);
-        EXPECT_EQ(shown.warnings[0], "'ruby', which replaces material 1, is of another variant and left out");
+        EXPECT_EQ(shown.warnings[0], "'ruby', which replaces material 1, is not in this variant and left out");
         // Saved in this variant it loads back the same, now without a word.
         Scene again = saved(shown, originOf(first.string(), other, shown), second);
         EXPECT_EQ(again.materials, shown.materials);
