@@ -45,7 +45,7 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
     ImFont* const titleFont = ImGui::GetIO().Fonts->Fonts.back(); // of that size, where fonts are installed
     const float em = ImGui::GetFontSize(), pad = 5.0f * scale, width = part.size.x - 6.0f * pad;
     const std::string name = viewName(look, lights), meaning = viewMeaning(look.settings.view);
-    const ImVec2 nameSize = titleFont->CalcTextSizeA(kTitleSize * em, FLT_MAX, width, name.c_str());
+    const ImVec2 nameSize = titleFont->CalcTextSizeA(titlePixels(em), FLT_MAX, width, name.c_str());
     const ImVec2 meaningSize = font->CalcTextSizeA(em, FLT_MAX, width, meaning.c_str());
     const ImVec2 size(std::max(nameSize.x, meaningSize.x), nameSize.y + meaningSize.y);
     if (width < kLeastEms * em || top + size.y > kMostShare * part.size.y) return;
@@ -54,7 +54,7 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
     const float y = part.corner.y + top + 2.0f * pad;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
-    list.AddText(titleFont, kTitleSize * em, {x, y}, kPlain, name.c_str(), nullptr, width);
+    list.AddText(titleFont, titlePixels(em), {x, y}, kPlain, name.c_str(), nullptr, width);
     list.AddText(font, em, {x, y + nameSize.y}, kPlain, meaning.c_str(), nullptr, width);
     top += size.y + 2.5f * pad;
 }

@@ -52,7 +52,7 @@ void applyFonts(const Letters& letters, float heightPixels, std::vector<std::uin
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     fonts.Clear();
     ranges = letters.ranges();
-    for (const float sizePixels : {heightPixels, kTitleSize * heightPixels}) {
+    for (const float sizePixels : {heightPixels, titlePixels(heightPixels)}) {
         ImFontConfig config;
         config.SizePixels = sizePixels;
         config.GlyphRanges = ranges.data();

@@ -1,12 +1,15 @@
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "viewer/window/Letters.h"
 
 namespace tessera::viewer {
 
-/// The height of titles, such as a view's name, in heights of other words.
-inline constexpr float kTitleSize = 1.8f;
+/// The height of titles, such as a view's name, beside words of a height: whole pixels.
+inline float titlePixels(float heightPixels) {
+    return std::floor(1.8f * heightPixels);
+}
 
 /// Puts fonts of the system that have these letters in the place of those that Dear ImGui has: one of a height in
 /// pixels, and last one of titles; its own alone, of western letters, where none is installed. `ranges` is what the
