@@ -66,6 +66,19 @@ protected:
                 arguments.push_back(word);
         return DrivenViewer(*desktop_, folder_.path(), arguments, environment);
     }
+    /// A rectangle in the picture's middle, 5 m ahead, of which its edge is seen: the picture shows 5 m of height
+    /// there.
+    DrivenViewer openPanel() {
+        folder_.write("panel.json", R"({
+            "tessera": 1,
+            "base": {"file": "builtin:room"},
+            "lights": [{"name": "panel", "type": "rectangle", "position": [0, 1.5, -2.5], "direction": [0, -1, 0],
+                        "along": [1, 0, 0], "width": 2, "height": 0.5, "intensity": 8}],
+            "cameras": [{"name": "front", "position": [0, 1.5, 2.5], "target": [0, 1.5, -2.5],
+                         "fovYDegrees": 53.13010235415598}]
+        })");
+        return open({"panel.json"});
+    }
     /// What the window shows of the picture, of the size that the viewer drew.
     static Shot pictureIn(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
         return viewer.capture().part(kPictureCorner, sizePixels);

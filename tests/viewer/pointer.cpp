@@ -21,16 +21,7 @@ protected:
 };
 
 TEST_F(ViewerPointer, hasShapesOfItsOwnOnHandlesAndOnTheDivider) {
-    // A rectangle in the picture's middle, 5 m ahead, of which its edge is seen: the picture shows 5 m of height there.
-    folder_.write("panel.json", R"({
-        "tessera": 1,
-        "base": {"file": "builtin:room"},
-        "lights": [{"name": "panel", "type": "rectangle", "position": [0, 1.5, -2.5], "direction": [0, -1, 0],
-                    "along": [1, 0, 0], "width": 2, "height": 0.5, "intensity": 8}],
-        "cameras": [{"name": "front", "position": [0, 1.5, 2.5], "target": [0, 1.5, -2.5],
-                     "fovYDegrees": 53.13010235415598}]
-    })");
-    DrivenViewer viewer = open({"panel.json"});
+    DrivenViewer viewer = openPanel();
     const glm::ivec2 size = viewer.waitForWhole(0);
     const glm::ivec2 middle = kPictureCorner + size / 2;
     const glm::ivec2 beside = kPictureCorner + glm::ivec2(size.x / 8, size.y / 4); // nothing is dragged there
