@@ -1,6 +1,5 @@
 #include "passes/GBufferPass.h"
 
-#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 
 namespace tessera::passes {
@@ -33,8 +32,7 @@ GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpe
             gpu::PipelineState state;
             state.depthTest = hasDepth ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
             state.depthWrite = !hasDepth;
-            gpu::drawInBands([&] { out.read.surfaces.draw(context, frame::SurfaceHandles::Kind::Opaque, state); },
-                             gpu::BandCost::Geometry);
+            out.read.surfaces.drawOpaqueInParts(context, state);
         });
 }
 

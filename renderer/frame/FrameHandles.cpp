@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/light_lists.h"
 #include "shaders/shared/slots.h"
@@ -72,18 +73,34 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, Kind kind, con
 void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<const Batch> batches,
                                const gpu::PipelineState& state) const {
     drawn->scene->drawDepth(
-        {context.buffer(rows), context.buffer(commands)}, batches, state,
+        buffers(context), batches, state,
         {context.program(depthPrograms[0]), depthPrograms.size() > 1 ? &context.program(depthPrograms[1]) : nullptr});
+}
+
+void SurfaceHandles::bind(const graph::PassContext& context) const {
+    view.bind(context);
+    if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
+    if (spreadLight) gpu::bindImage(IMAGE_UNIT_SPREAD_LIGHT, context.texture(*spreadLight), gpu::ImageAccess::Read);
 }
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
                           std::optional<gpu::Blend> transmitting) const {
-    view.bind(context);
-    if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
-    if (spreadLight) gpu::bindImage(IMAGE_UNIT_SPREAD_LIGHT, context.texture(*spreadLight), gpu::ImageAccess::Read);
+    bind(context);
     const ViewDraws& draws = drawn->draws;
-    drawn->scene->draw({context.buffer(rows), context.buffer(commands)},
-                       kind == Kind::Opaque ? draws.opaque : draws.transparent, state, transmitting);
+    drawn->scene->draw(buffers(context), kind == Kind::Opaque ? draws.opaque : draws.transparent, state, transmitting);
+}
+
+void SurfaceHandles::drawOpaqueInParts(const graph::PassContext& context, const gpu::PipelineState& state) const {
+    const std::vector<gpu::DrawIndexedCommand> all = drawn->scene->commandsOf(drawn->draws);
+    const std::vector<Batch>& batches = drawn->draws.opaque;
+    std::size_t triangles = 0;
+    for (const Batch& batch : batches)
+        for (int i = 0; i < batch.count; ++i) triangles += trianglesIn(all[std::size_t(batch.first + i)]);
+    gpu::drawInParts(triangles, [&](std::size_t first, std::size_t count) {
+        if (count == triangles) return draw(context, Kind::Opaque, state);
+        bind(context);
+        drawn->scene->drawPart(buffers(context), batches, state, {all, first, count});
+    });
 }
 
 LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {

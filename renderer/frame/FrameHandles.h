@@ -106,9 +106,11 @@ struct SurfaceHandles {
     /// Draws the surfaces of a kind with the program in use, as SceneGpu::draw().
     void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
               std::optional<gpu::Blend> transmitting = {}) const;
+    /// The same of opaque surfaces as gpu::drawInParts(), for a pass whose geometry takes long.
+    void drawOpaqueInParts(const graph::PassContext& context, const gpu::PipelineState& state) const;
 
-    /// The same for a pass that wants depth alone and has the programs of depthPrograms(). Materials are read only
-    /// where some have holes.
+    /// The same as draw() for a pass that wants depth alone and has the programs of depthPrograms(). Materials are read
+    /// only where some have holes.
     SurfaceHandles readDepth(graph::PassBuilder& pass, const std::vector<shader::ProgramDesc>& programs) const;
     void drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
     /// The same of any batches, for a pass that binds a camera itself.
@@ -117,6 +119,10 @@ struct SurfaceHandles {
 
 private:
     SurfaceHandles readGeometry(graph::PassBuilder& pass) const;
+    void bind(const graph::PassContext& context) const;
+    SceneGpu::ViewBuffers buffers(const graph::PassContext& context) const {
+        return {context.buffer(rows), context.buffer(commands)};
+    }
 };
 
 /// Light lists (shaders/shared/light_lists.h), where a pass finds the lights of a pixel in them.

@@ -1,8 +1,11 @@
 #include "renderer/frame/SceneGpu.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -347,6 +350,32 @@ void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, con
             gpu::setState(own);
         }
         drawBatch();
+    }
+}
+
+void SceneGpu::drawPart(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+                        const Part& part) const {
+    assert(state.blend == gpu::Blend::None && !state.farSides);
+    bindVertices(view);
+    int boundMaterial = -1;
+    std::size_t next = 0; // the number of the next draw's first triangle
+    for (const Batch& batch : batches) {
+        bool isBound = false;
+        for (const gpu::DrawIndexedCommand& command :
+             part.commands.subspan(std::size_t(batch.first), std::size_t(batch.count))) {
+            const std::size_t own = std::exchange(next, next + trianglesIn(command));
+            const std::size_t begin = std::max(own, part.first), end = std::min(next, part.first + part.count);
+            if (begin >= end) continue;
+            if (!isBound) {
+                const scenes::Material& material = scene_.materials[std::size_t(batch.material)];
+                gpu::setState(stateOf(state, material.doubleSided, batch.mirrored));
+                if (batch.material != boundMaterial) bindMaterial(batch.material);
+                boundMaterial = batch.material;
+                isBound = true;
+            }
+            gpu::drawIndexed(command.firstIndex + std::uint32_t(3 * (begin - own)), std::uint32_t(3 * (end - begin)),
+                             command.baseVertex, command.baseInstance);
+        }
     }
 }
 

@@ -20,6 +20,10 @@
 
 namespace tessera::frame {
 
+inline std::size_t trianglesIn(const gpu::DrawIndexedCommand& command) {
+    return command.indexCount / 3;
+}
+
 /// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded, nor meshes and
 /// textures that nothing drawn uses, and a table of materials only where they do not vary. With
 /// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
@@ -52,13 +56,22 @@ public:
     /// blending of materials that transmit.
     void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
               std::optional<gpu::Blend> transmitting = {}) const;
+    /// Triangles [first, first + count) of all that batches draw, in their order.
+    struct Part {
+        std::span<const gpu::DrawIndexedCommand> commands; ///< commandsOf() the view
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+    /// The same as draw() of a part. Blended surfaces cannot be divided: of each batch one side comes before the other.
+    void drawPart(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
+                  const Part& part) const;
     /// What depth alone is drawn with.
     struct DepthPrograms {
         const gpu::Program& bare;             ///< samples nothing and takes no material
         const gpu::Program* masked = nullptr; ///< of materials with holes; null where there are none, or where
                                               ///< a hole may count as surface, as in bounds of depths
     };
-    /// The same for passes that want depth alone: materials are bound only where they have holes.
+    /// The same as draw() for passes that want depth alone: materials are bound only where they have holes.
     void drawDepth(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
                    const DepthPrograms& programs) const;
 

@@ -12,10 +12,14 @@
 namespace tessera::gpu {
 namespace {
 
-/// What a band should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
-constexpr double kBandMs = 12.0;
-/// Of draws whose geometry each band repeats, at most, unless bands are slow.
-constexpr int kGeometryBands = 4;
+/// What a piece should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
+constexpr double kPieceMs = 12.0;
+/// Triangles of the first part: llvmpipe transforms and bins as many in about 1 ms.
+constexpr std::size_t kFirstTriangles = 8192;
+/// Smaller parts would save nothing: binding and waiting take as long.
+constexpr std::size_t kFewestTriangles = 256;
+/// Parts begin in so many bands, until pixels are seen to be quick.
+constexpr int kFirstBands = 4;
 /// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
 constexpr int kRowStep = 64;
 /// Where bands are slow all the same, their height and width change in steps of this.
@@ -31,10 +35,15 @@ thread_local State state;
 
 /// Rows of the next band, from what the latest one took.
 int nextRows(int rows, double elapsedMs) {
-    const double wanted = rows * kBandMs / std::max(elapsedMs, 0.1);
+    const double wanted = rows * kPieceMs / std::max(elapsedMs, 0.1);
     // A single slow band, such as one whose shader was compiled first, must not shrink the next ones to nothing.
     const int steps = int(std::clamp(wanted, rows * 0.5, rows * 4.0)) / kRowStep;
     return std::max(steps, 1) * kRowStep;
+}
+
+/// As many rows or a few more, and at least one step of them.
+int wholeSteps(int rows) {
+    return std::max((rows + kRowStep - 1) / kRowStep, 1) * kRowStep;
 }
 
 /// Waits for the issued draws and asks whether to go on; under BandedDrawing.
@@ -43,6 +52,73 @@ void askToGoOn() {
     if (!state.givesUp()) return;
     state.givesUp = nullptr;
     throw graph::Interrupted();
+}
+
+/// How large bands are; drawing changes it.
+struct Bands {
+    int rows = 0;
+    int columns = 0;            ///< of its pieces
+    int usualRows = 0;          ///< where pixels are quick, at least
+    double growsWithinMs = 0.0; ///< until then, two of a piece must fit into that
+};
+
+/// BandProgress::share before and after a draw.
+struct Shares {
+    double before = 0.0;
+    double after = 1.0;
+};
+
+/// Draws a piece: `width` by `height` pixels of the area from a column and a row on. Returns what it took in
+/// milliseconds.
+double drawPiece(const std::function<void()>& draw, int column, int row, int width, int height) {
+    const BandedArea area = state.area;
+    const CpuTimer clock;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(area.x + column, area.y + row, width, height);
+    draw();
+    glScissor(area.x, area.y, area.width, area.height);
+    if (!area.isScissored) glDisable(GL_SCISSOR_TEST);
+    glFinish();
+    return clock.elapsedMs();
+}
+
+/// Draws all of the area band by band, and asks before each but that with which the share begins at 0. Returns what the
+/// slowest piece took in milliseconds.
+double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& shares) {
+    const BandedArea area = state.area;
+    const double longestMs = state.pace.longestMs;
+    double slowestOfAllMs = 0.0;
+    for (int row = 0; row < area.height;) {
+        double slowestMs = 0.0; // of the band's pieces
+        const int height = std::min(bands.rows, area.height - row);
+        for (int column = 0; column < area.width;) {
+            const double pixels = double(row) * area.width + double(height) * column;
+            const double share =
+                shares.before + (shares.after - shares.before) * pixels / (double(area.width) * area.height);
+            if (share > 0.0) {
+                state.progress.share = share;
+                askToGoOn();
+            }
+            const int width = std::min(bands.columns, area.width - column);
+            const double ms = drawPiece(draw, column, row, width, height);
+            slowestMs = std::max(slowestMs, ms);
+            column += width;
+            // Narrower than the picture only where even the lowest bands are slow.
+            if (ms > longestMs && bands.rows == kSlowStep)
+                bands.columns = std::max(bands.columns / 4, kSlowStep);
+            else if (2.0 * ms < longestMs && width == bands.columns) // not of one that the edge cut
+                bands.columns = std::min(bands.columns * 2, area.width);
+        }
+        row += height;
+        slowestOfAllMs = std::max(slowestOfAllMs, slowestMs);
+        if (slowestMs > longestMs)
+            bands.rows = std::max(bands.rows / 4 / kSlowStep * kSlowStep, kSlowStep);
+        else if (bands.columns == area.width && bands.rows >= bands.usualRows)
+            bands.rows = std::clamp(nextRows(bands.rows, slowestMs), bands.usualRows, wholeSteps(area.height));
+        else if (bands.columns == area.width && 2.0 * slowestMs < bands.growsWithinMs)
+            bands.rows = std::min(bands.rows * 2, bands.usualRows);
+    }
+    return slowestOfAllMs;
 }
 
 } // namespace
@@ -106,44 +182,29 @@ void setBandedArea(const BandedArea& area) {
     state.area = area;
 }
 
-void drawInBands(const std::function<void()>& draw, BandCost cost) {
-    const BandedArea area = state.area;
+void drawInBands(const std::function<void()>& draw) {
+    const BandedArea& area = state.area;
     if (!state.givesUp || area.width == 0 || (area.height <= kRowStep && !state.pace.beginsSlow)) return draw();
-    const int quarter = (area.height / kGeometryBands + kRowStep - 1) / kRowStep * kRowStep;
-    const int usualRows = cost == BandCost::Geometry ? quarter : kRowStep;
-    int rows = state.pace.beginsSlow ? kSlowStep : usualRows, columns = area.width;
-    for (int row = 0; row < area.height;) {
-        double slowestMs = 0.0; // of the band's pieces
-        for (int column = 0; column < area.width;) {
-            if (row + column > 0) {
-                const double here = double(std::min(rows, area.height - row)) * column;
-                state.progress.share = (double(row) * area.width + here) / (double(area.width) * area.height);
-                askToGoOn();
-            }
-            const CpuTimer clock;
-            glEnable(GL_SCISSOR_TEST);
-            const int width = std::min(columns, area.width - column);
-            glScissor(area.x + column, area.y + row, width, std::min(rows, area.height - row));
-            draw();
-            glScissor(area.x, area.y, area.width, area.height);
-            if (!area.isScissored) glDisable(GL_SCISSOR_TEST);
-            glFinish();
-            const double ms = clock.elapsedMs();
-            slowestMs = std::max(slowestMs, ms);
-            column += width;
-            // Narrower than the picture only where even the lowest bands are slow.
-            if (ms > state.pace.longestMs && rows == kSlowStep)
-                columns = std::max(columns / 4, kSlowStep);
-            else if (2.0 * ms < state.pace.longestMs && width == columns) // not of one that the edge cut
-                columns = std::min(columns * 2, area.width);
-        }
-        row += rows;
-        if (slowestMs > state.pace.longestMs)
-            rows = std::max(rows / 4 / kSlowStep * kSlowStep, kSlowStep);
-        else if (columns == area.width && rows >= usualRows)
-            rows = std::max(nextRows(rows, slowestMs), usualRows);
-        else if (columns == area.width && 2.0 * slowestMs < state.pace.longestMs)
-            rows = std::min(rows * 2, usualRows);
+    Bands bands{state.pace.beginsSlow ? kSlowStep : kRowStep, area.width, kRowStep, state.pace.longestMs};
+    drawBands(draw, bands, {0.0, 1.0});
+}
+
+void drawInParts(std::size_t triangles, const std::function<void(std::size_t first, std::size_t count)>& draw) {
+    const BandedArea area = state.area;
+    if (!state.givesUp || area.width == 0) return draw(0, triangles);
+    const int whole = wholeSteps(area.height), first = wholeSteps(area.height / kFirstBands);
+    // Where a part takes as long as it should, it is the part that gets smaller: lower bands would repeat its geometry.
+    Bands bands{state.pace.beginsSlow ? kSlowStep : first, area.width, whole, std::min(kPieceMs, state.pace.longestMs)};
+    std::size_t part = kFirstTriangles;
+    for (std::size_t done = 0; done < triangles;) {
+        const std::size_t count = std::min(part, triangles - done);
+        const auto share = [&](std::size_t number) { return double(number) / double(triangles); };
+        const double slowestMs = drawBands([&] { draw(done, count); }, bands, {share(done), share(done + count)});
+        done += count;
+        // The next part may cover more pixels than this one, so it grows by steps, and only where bands need not.
+        const double most = bands.rows >= whole && bands.columns == area.width ? 2.0 : 1.0;
+        const double factor = std::clamp(kPieceMs / std::max(slowestMs, 0.1), 0.5, most);
+        part = std::max(std::size_t(double(part) * factor), kFewestTriangles);
     }
 }
 

@@ -9,14 +9,14 @@ namespace tessera::gpu {
 
 /// How finely draws are divided.
 struct BandPace {
-    bool beginsSlow =
-        false; ///< pixels are known to take long: even geometry is drawn in small pieces from the first on
+    bool beginsSlow = false; ///< pixels are known to take long: bands are low from the first on
     /// A longer piece delays the answer to input too much, even if smaller pieces cost more in total.
     double longestMs = 100.0;
 };
 
-/// While one lives, drawInBands() draws band by band, waits for each, and calls `givesUp`; if that returns true, it
-/// throws graph::Interrupted. The pixels of a complete frame do not depend on it. At most one lives on a thread.
+/// While one lives, drawInBands() and drawInParts() draw piece by piece, wait for each, and call `givesUp`; if that
+/// returns true, they throw graph::Interrupted. The pixels of a complete frame do not depend on it. At most one lives
+/// on a thread.
 class BandedDrawing {
 public:
     explicit BandedDrawing(std::function<bool()> givesUp, BandPace pace = {});
@@ -25,15 +25,15 @@ public:
     BandedDrawing& operator=(const BandedDrawing&) = delete;
 };
 
-/// The main cost of a draw besides its pixels.
-enum class BandCost {
-    Nothing, ///< as narrow bands as are needed
-    Geometry ///< each band repeats it: a few bands, as long as they are not slow
-};
-
 /// Issues `draw` once, or under BandedDrawing once per band of rows, scissored to the band: of the bound framebuffer,
-/// or of the rectangle that setScissor() restricts draws to. The draw must write pixels only, and each on its own.
-void drawInBands(const std::function<void()>& draw, BandCost cost = BandCost::Nothing);
+/// or of the rectangle that setScissor() restricts draws to. The draw must write pixels only, and each on its own. Each
+/// band repeats its geometry.
+void drawInBands(const std::function<void()>& draw);
+
+/// For draws whose geometry takes long: `draw` issues triangles [first, first + count) of all `triangles`, one after
+/// the other. It is called once with all of them, or under BandedDrawing with a part at a time, in their order, so that
+/// none is transformed twice; where pixels take long as well, each part in bands as above.
+void drawInParts(std::size_t triangles, const std::function<void(std::size_t first, std::size_t count)>& draw);
 
 /// A pass has ended. Under BandedDrawing: waits for the issued draws and calls `givesUp`.
 void endBandedPass();
@@ -41,7 +41,7 @@ void endBandedPass();
 /// How far the frame is that is drawn under BandedDrawing, for its `givesUp`.
 struct BandProgress {
     std::size_t passes = 0; ///< that have ended
-    double share = 0.0;     ///< of the pixels of the draw in progress
+    double share = 0.0;     ///< of the draw in progress: of its pixels, or of its triangles
 };
 BandProgress bandProgress();
 
@@ -60,7 +60,7 @@ private:
     std::unique_ptr<Bound> bound_;
 };
 
-/// Pixels that drawInBands() divides.
+/// Pixels that bands divide.
 struct BandedArea {
     int x = 0;
     int y = 0;

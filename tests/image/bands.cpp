@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "engine/Rendering.h"
@@ -128,6 +130,25 @@ TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
 }
 TEST_F(BandsSlow, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
     expectToldHowFar();
+}
+
+TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {
+    const scenes::Scene scene = scenes::loadScene("lattice"); // the parts end within its spheres
+    engine::Renderer renderer(context(), scene);
+    const engine::RenderedFrame whole = renderer.render(engine::Technique::Deferred, small());
+    std::vector<int> asked(renderer.backend().passTimings().size() + 1); // by the pass in progress, within it
+    const gpu::BandedDrawing banded([&asked] {
+        const gpu::BandProgress progress = gpu::bandProgress();
+        if (progress.share > 0.0) ++asked.at(progress.passes);
+        return false;
+    });
+    const engine::RenderedFrame pieces = renderer.render(engine::Technique::Deferred, small());
+    EXPECT_EQ(pieces.radiance, whole.radiance);
+    const std::vector<gpu::PassTiming> passes = renderer.backend().passTimings();
+    const auto gbuffer = std::ranges::find(passes, "gbuffer", &gpu::PassTiming::name);
+    ASSERT_NE(gbuffer, passes.end());
+    // Bands alone would be four: after the first part there are more, each of twice the triangles at most.
+    EXPECT_GE(asked[std::size_t(gbuffer - passes.begin())], 5);
 }
 
 TEST_F(Bands, withoutBandedDrawingTheCallbackIsNotCalled) {

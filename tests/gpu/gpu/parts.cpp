@@ -1,0 +1,114 @@
+// Draws in parts (Bands.h): which triangles and which pixels each piece has.
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "renderer/gpu/Bands.h"
+#include "renderer/gpu/Commands.h"
+#include "renderer/gpu/Texture.h"
+#include "renderer/graph/Execute.h"
+#include "tests/support/GlContext.h"
+
+// Entry points of OpenGL as the loader has them, whose header is renderer/gpu's own, and OpenGL's numbers (gl.xml of
+// the Khronos registry).
+extern "C" {
+extern void (*glad_glGetIntegerv)(unsigned, int*);
+extern unsigned char (*glad_glIsEnabled)(unsigned);
+}
+
+namespace tessera::gpu {
+namespace {
+
+bool isScissored() {
+    return glad_glIsEnabled(0x0C11) != 0; // GL_SCISSOR_TEST
+}
+
+/// The triangles of a part, on all pixels that its pieces have.
+struct DrawnPart {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::vector<int> timesDrawn; ///< by pixel
+};
+
+class PartsTest : public test::GlTest {
+protected:
+    static constexpr int kWidth = 90, kHeight = 300; // no multiples of a band's rows or of a piece's columns
+    static constexpr std::size_t kPixels = std::size_t(kWidth) * kHeight;
+
+    void SetUp() override { bindFramebuffer(framebuffer_); }
+    /// Draws nothing, but takes `ms`.
+    void draw(std::size_t triangles, int ms = 0) {
+        drawInParts(triangles, [&](std::size_t first, std::size_t count) {
+            if (parts.empty() || parts.back().first != first)
+                parts.push_back({first, count, std::vector<int>(kPixels)});
+            EXPECT_EQ(parts.back().count, count);
+            int box[4] = {0, 0, kWidth, kHeight};               // x, y, width, height
+            if (isScissored()) glad_glGetIntegerv(0x0C10, box); // GL_SCISSOR_BOX
+            for (int y = box[1]; y < box[1] + box[3]; ++y)
+                for (int x = box[0]; x < box[0] + box[2]; ++x)
+                    ++parts.back().timesDrawn.at(std::size_t(y) * kWidth + std::size_t(x));
+            std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+        });
+    }
+    void expectAllDrawnOnce(std::size_t triangles) const {
+        std::size_t next = 0;
+        for (const DrawnPart& part : parts) {
+            ASSERT_EQ(part.first, next);
+            next += part.count;
+            EXPECT_EQ(part.timesDrawn, std::vector<int>(kPixels, 1)) << "triangles from " << part.first;
+        }
+        EXPECT_EQ(next, triangles);
+    }
+
+    std::vector<DrawnPart> parts; ///< in the order in which they were drawn
+
+private:
+    Texture texture_{"parts", {graph::Format::Rgba8Unorm, kWidth, kHeight, 1}};
+    Framebuffer framebuffer_{Attachments{{&texture_}}};
+};
+
+TEST_F(PartsTest, withoutBandedDrawingAllTrianglesAreDrawnAtOnce) {
+    draw(100'000);
+    ASSERT_EQ(parts.size(), 1u);
+    expectAllDrawnOnce(100'000);
+}
+
+TEST_F(PartsTest, everyTriangleIsDrawnOnceOnEveryPixelAndInOrder) {
+    for (const BandPace& pace :
+         {BandPace{}, BandPace{.beginsSlow = true}, BandPace{.beginsSlow = true, .longestMs = 0}}) {
+        SCOPED_TRACE(testing::Message() << pace.beginsSlow << ' ' << pace.longestMs);
+        parts.clear();
+        double share = 0.0;
+        const auto watch = [&share] {
+            EXPECT_GT(bandProgress().share, share);
+            EXPECT_LT(bandProgress().share, 1.0);
+            share = bandProgress().share;
+            return false;
+        };
+        const BandedDrawing banded(watch, pace);
+        draw(20'000);
+        EXPECT_GT(parts.size(), 1u);
+        expectAllDrawnOnce(20'000);
+        EXPECT_FALSE(isScissored());
+    }
+}
+
+TEST_F(PartsTest, quickPartsGrow) {
+    const BandedDrawing banded([] { return false; });
+    draw(1'000'000);
+    expectAllDrawnOnce(1'000'000);
+    const auto larger = [](const DrawnPart& a, const DrawnPart& b) { return a.count < b.count; };
+    EXPECT_GT(std::ranges::max_element(parts, larger)->count, 4 * parts.front().count);
+}
+
+TEST_F(PartsTest, partsThatTakeLongShrinkAndCanBeAbandoned) {
+    const BandedDrawing banded([this] { return parts.size() == 3; });
+    EXPECT_THROW(draw(1'000'000, 20), graph::Interrupted);
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(parts[1].count, parts[0].count / 2);
+    EXPECT_EQ(parts[2].count, parts[1].count / 2);
+}
+
+} // namespace
+} // namespace tessera::gpu
