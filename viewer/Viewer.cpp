@@ -239,6 +239,8 @@ private:
         const int givenUp = drawing_.givenUp();
         const gpu::Rectangle place = areaPixels();
         const bool drew = drawing_.update({place.width, place.height});
+        // The frame that answers the input begins at once. This one heard of none, so it has nothing new to show.
+        if (drawing_.gaveUpAtRest()) return;
         attempt([this] {
             if (screen_.renderer() &&
                 measurements_.update(facts_, state_, screen_, drawing_.wanted(), drawing_.isWhole()))

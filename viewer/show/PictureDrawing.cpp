@@ -61,6 +61,7 @@ void PictureDrawing::cancel() {
 }
 
 bool PictureDrawing::update(glm::ivec2 sizePixels) {
+    gaveUpAtRest_ = false;
     if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // until the window says so no more
     const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
     facts_.isPreparing = facts_.isSpreading = false;
@@ -195,6 +196,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
             screen_.draw(wanted_, scale, stay, keepsLights, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
         if (drawn.gaveUp) {
             ++givenUp_;
+            gaveUpAtRest_ = isAtRest;
             log_.line(fmt::format("gave up scale {:.4g}", scale));
             return false;
         }

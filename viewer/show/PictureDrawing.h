@@ -34,6 +34,8 @@ public:
     const Screen::Wanted& wanted() const { return wanted_; }
     std::uint64_t pictures() const { return pictures_; } ///< that were drawn
     int givenUp() const { return givenUp_; }             ///< since the latest of them
+    /// The latest update() gave up a picture at rest.
+    bool gaveUpAtRest() const { return gaveUpAtRest_; }
     bool isWhole() const;
     /// Nothing is left to draw: it is whole, or the user wants no more of it.
     bool isSettled() const { return isWhole() || cancelled_ == wanted_; }
@@ -82,6 +84,7 @@ private:
     std::uint64_t kinds_ = 0; ///< of pictures, one after the other
     int announcements_ = 0;   ///< frames for which the next picture has been announced
     int givenUp_ = 0;
+    bool gaveUpAtRest_ = false;
     bool wasUnlike_ = false;                     ///< the latest picture took more than later ones like it will
     double nextTold_ = 0.0;                      ///< when progress is told next
     std::optional<Screen::Wanted> cancelled_;    ///< is drawn no further
