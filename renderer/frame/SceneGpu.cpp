@@ -122,7 +122,7 @@ SceneGpu::Geometry SceneGpu::makeGeometry(const scenes::Scene& scene, const Feat
     stream(ATTRIBUTE_TEXCOORD0, "texture_coordinates_0", streams.texCoords[0]);
     stream(ATTRIBUTE_TEXCOORD1, "texture_coordinates_1", streams.texCoords[1]);
     stream(ATTRIBUTE_COLOR, "vertex_colors", streams.colors);
-    if (!streams.facetNormalsOS.empty()) {
+    if (features[Feature::Shadows]) { // also of a scene without triangles, whose frame may ask for it all the same
         geometry.facetNormals = std::make_unique<gpu::Buffer>(gpu::Buffer::of("facet_normals", streams.facetNormalsOS));
         attributes.push_back(attribute(ATTRIBUTE_FACET_NORMAL, 3, geometry.facetNormals.get(), sizeof(glm::vec3)));
     }

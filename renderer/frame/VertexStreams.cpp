@@ -105,18 +105,20 @@ std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
 /// Vertices that meshes may take up beyond their own for the tangents of further materials: about 2 GiB of them.
 constexpr std::size_t kMostCopiedVertices = std::size_t(1) << 25;
 
-/// Derived by MikkTSpace, each corner of a triangle may need a vertex of its own.
-std::size_t mostVertices(const scenes::Mesh& mesh, const Version& version) {
+/// Derived by MikkTSpace, each corner of a triangle may need a vertex of its own; with shadows the last one may.
+std::size_t mostVertices(const scenes::Mesh& mesh, const Version& version, const FeatureSet& features) {
     const bool splits =
         mesh.tangentsOS.empty() && version.basis && version.basis->method == scenes::TangentMethod::MikkTSpace;
-    return splits ? std::max(mesh.positionsOS.size(), mesh.indices.size()) : mesh.positionsOS.size();
+    if (splits) return std::max(mesh.positionsOS.size(), mesh.indices.size());
+    return mesh.positionsOS.size() + (features[Feature::Shadows] ? mesh.indices.size() / 3 : 0);
 }
 
-void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<Version>>& versions) {
+void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<Version>>& versions,
+                      const FeatureSet& features) {
     std::size_t copied = 0;
     for (std::size_t mesh = 0; mesh < versions.size(); ++mesh) {
         for (std::size_t further = 1; further < versions[mesh].size(); ++further)
-            copied += mostVertices(scene.meshes[mesh], versions[mesh][further]);
+            copied += mostVertices(scene.meshes[mesh], versions[mesh][further], features);
         if (copied > kMostCopiedVertices)
             throw InputError(
                 fmt::format("materials need different tangents of their meshes, which takes copies of more than {} "
@@ -140,7 +142,7 @@ std::vector<std::string> streamNames(const FeatureSet& features) {
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features) {
     VertexStreams streams;
     const std::vector<std::vector<Version>> versions = versionsOf(scene);
-    if (features.tangents()) requireFewCopies(scene, versions);
+    if (features.tangents()) requireFewCopies(scene, versions, features);
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         for (const Version& version : versions[mesh]) {
             const VertexStreams::Range range = appendMesh(streams, scene.meshes[mesh], features, version.basis);

@@ -31,7 +31,7 @@ struct VertexStreams {
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
     /// With shadows: of the triangles that end with a vertex, unit, out of the front of its mesh; of those without an
-    /// area any. Where two of one end have different ones, the vertex is there once for each.
+    /// area any. Where triangles of one end have different ones, each that differs from the first has a copy of it.
     std::vector<glm::vec3> facetNormalsOS;
 };
 /// What the streams are called that such features need, in their order.

@@ -358,6 +358,33 @@ scenes::Scene floorBeforeWall() {
     return scene;
 }
 
+// Their triangles bring vertices of their own, with which all meshes move in the buffers.
+TEST_F(Shadows, thatAreTurnedOnLaterAreThoseOfANewRenderer) {
+    const scenes::Scene scene = sceneOfCasters();
+    engine::Renderer renderer(context(), scene), newRenderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {96, 54};
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    const std::vector<float> lit = renderer.render(engine::Technique::Deferred, settings).radiance;
+    settings.shadows = kAllLightsCast;
+    const std::vector<float> shadowed = renderer.render(engine::Technique::Deferred, settings).radiance;
+    EXPECT_NE(shadowed, lit);
+    EXPECT_EQ(shadowed, newRenderer.render(engine::Technique::Deferred, settings).radiance);
+    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    EXPECT_EQ(renderer.render(engine::Technique::Deferred, settings).radiance, lit);
+}
+
+TEST_F(Shadows, ofASceneWithoutTrianglesNothingIsMissingWhereAllFeaturesAre) {
+    scenes::Scene scene = scenes::loadScene("room");
+    scene.meshes.clear();
+    scene.nodes.clear();
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {32, 18};
+    settings.shadows = kAllLightsCast;
+    expectPruningIsUnseen(renderer, settings);
+}
+
 // With several samples a pixel on the edge between the two is lit once for each of them, and its centre lies on one
 // only: beyond the edge the floor's plane goes on behind the wall, and the wall's below the floor.
 TEST_F(Shadows, severalSamplesAreLitWhereTheirTriangleIsAndNotBehindTheNext) {

@@ -37,6 +37,11 @@ glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels) {
     return glm::clamp(pixel, glm::ivec2(0), sizePixels - 1);
 }
 
+std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::optional<std::size_t> ofOpaque) {
+    if (surface.isTransparent || !ofOpaque) return std::nullopt; // another surface is before the opaque one
+    return surface.takesLight ? *ofOpaque : 0;
+}
+
 std::vector<std::string> inspectionLines(const Inspection& inspection) {
     std::vector<std::string> lines{fmt::format("{}, {} of {}x{}", inspection.pixel.x, inspection.pixel.y,
                                                inspection.sizePixels.x, inspection.sizePixels.y)};
@@ -98,7 +103,7 @@ std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scen
     surface.faceNormalWS = faceNormalWS;
     surface.reachingLights = lightsReaching(scene.lights, picked->positionWS, timeSeconds);
     surface.isTransparent = scenes::isTransparent(material);
-    surface.takesLight = material.model != scenes::MaterialModel::SingleColor;
+    surface.takesLight = scenes::infoOf(material.model).isLit;
     return surface;
 }
 

@@ -44,6 +44,9 @@ struct Inspection {
 /// The pixel at a place of a picture, a share of its size from the upper left.
 glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels);
 
+/// How many lights a pixel of this surface visits, of the lights that its opaque surface visits by light lists.
+std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::optional<std::size_t> ofOpaque);
+
 /// The lines that tell it.
 std::vector<std::string> inspectionLines(const Inspection& inspection);
 

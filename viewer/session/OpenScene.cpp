@@ -222,9 +222,9 @@ bool OpenScene::isLike(const scenes::Scene& loaded) const {
            std::ranges::equal(scene_.rig.numbers, loaded.rig.numbers, isSameNumber) &&
            history_.allOf([&](const Edit& edit) {
                const auto* const material = std::get_if<MaterialEdit>(&edit);
-               return material == nullptr ||
-                      (material->index < loaded.materials.size() &&
-                       scenes::restingMaterial(scene_, material->index) == loaded.materials[material->index]);
+               return material == nullptr || (material->index < loaded.materials.size() &&
+                                              scenes::restingMaterial(scene_, material->index) ==
+                                                  scenes::restingMaterial(loaded, material->index));
            });
 }
 

@@ -54,12 +54,11 @@ void Inspector::findSurface(Inspection& inspection, const State& state, const Sc
     inspection.surface = surfaceAt(scene, scene.cameras[std::size_t(state.open->camera())], subject_->sizePixels,
                                    subject_->pixel, state.active().settings.timeSeconds);
     inspection.isSurfaceKnown = true;
-    if (!inspection.surface || inspection.surface->isTransparent) return; // lists are told of opaque surfaces
+    if (!inspection.surface) return;
     for (std::size_t side = 0; side < inspection.sides.size(); ++side) {
         const PictureLights* const lights = screen.picture(int(side)).lights();
         if (!inspection.sides[side] || lights == nullptr) continue;
-        const std::optional<std::size_t> visited = lights->visitedAt(subject_->pixel);
-        if (visited) inspection.sides[side]->visitedLights = inspection.surface->takesLight ? *visited : 0;
+        inspection.sides[side]->visitedLights = visitsOf(*inspection.surface, lights->visitedAt(subject_->pixel));
     }
 }
 

@@ -222,8 +222,16 @@ TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
     scene.nodes.resize(14);
     scene.materials.resize(14);
     FeatureSet features = allFeatures();
-    features.has.reset(std::size_t(Feature::Shadows)); // they split vertices for their own reason
+    features.has.reset(std::size_t(Feature::Shadows)); // whose copies count, as the next test has it
     EXPECT_EQ(makeVertexStreams(scene, features).positionsOS.size(), 14000u);
+}
+
+TEST(VertexStreams, copiesOfLastVerticesCountWithThoseForManyTransforms) {
+    scenes::Scene scene = sceneOfManyTransforms(1000);
+    scenes::Mesh& mesh = scene.meshes[0];
+    mesh.indices.assign(3 << 20, 0); // 39 times a third as many are too many
+    mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+    EXPECT_THROW(makeVertexStreams(scene, allFeatures()), InputError);
 }
 
 TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleTime) {
@@ -272,6 +280,65 @@ TEST(VertexStreams, theLastVertexOfEachTriangleHasTheNormalOfItsFront) {
     EXPECT_THAT(facetNormals(streams, range), ElementsAre(front, front, -front, front, -front));
     EXPECT_EQ(streams.positionsOS.size(), 3u + 1u + 3u);
     EXPECT_EQ(streams.facetNormalsOS.size(), streams.positionsOS.size());
+}
+
+/// Waves of triangles that share vertices. Every other two columns mirror their texture, so that tangents split the
+/// vertices between them; there and elsewhere two triangles of different planes end with the same vertex.
+scenes::Scene wavyScene() {
+    constexpr std::uint32_t kSide = 9;
+    scenes::Scene scene = scenes::tinyScene();
+    scenes::Mesh& mesh = scene.meshes[0];
+    mesh = {};
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const float number = float(mesh.positionsOS.size());
+            mesh.positionsOS.emplace_back(float(x), float(y), std::sin(1.3f * float(x)) * std::cos(0.7f * float(y)));
+            mesh.normalsOS.push_back(glm::normalize(glm::vec3(0.01f * number, 0.0f, 1.0f)));
+            mesh.texCoords[0].emplace_back(float(x % 4 < 3 ? x % 4 : 1), float(y));
+            mesh.texCoords[1].emplace_back(number, -number);
+            mesh.colors.emplace_back(number, 0.0f, 1.0f, 1.0f);
+            if (x + 1 == kSide || y + 1 == kSide) continue;
+            const std::uint32_t a = y * kSide + x, b = a + 1, c = a + kSide, d = c + 1;
+            if (x % 4 < 2)
+                mesh.indices.insert(mesh.indices.end(), {a, b, d, c, a, d});
+            else
+                mesh.indices.insert(mesh.indices.end(), {b, d, a, d, c, a});
+        }
+    scene.images.emplace_back();
+    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    return scene;
+}
+
+TEST(VertexStreams, copiesOfLastVerticesKeepAllTheirOtherAttributes) {
+    const scenes::Scene scene = wavyScene();
+    const FeatureSet features = allFeatures();
+    FeatureSet unshadowed = features;
+    unshadowed.has.reset(std::size_t(Feature::Shadows));
+    const VertexStreams bare = makeVertexStreams(scene, unshadowed), full = makeVertexStreams(scene, features);
+    EXPECT_GT(bare.positionsOS.size(), scene.meshes[0].positionsOS.size()) << "tangents split nothing";
+    EXPECT_GT(full.positionsOS.size(), bare.positionsOS.size()) << "no triangle's end was copied";
+    ASSERT_EQ(full.indices.size(), bare.indices.size());
+    const auto expectSame = [&](const auto& copied, const auto& wanted, const char* what) {
+        ASSERT_EQ(copied.size(), full.positionsOS.size()) << what;
+        for (std::size_t corner = 0; corner < full.indices.size(); ++corner)
+            ASSERT_EQ(copied[full.indices[corner]], wanted[bare.indices[corner]]) << what << " of corner " << corner;
+    };
+    expectSame(full.positionsOS, bare.positionsOS, "position");
+    expectSame(full.normalsOS, bare.normalsOS, "normal");
+    expectSame(full.tangentsOS, bare.tangentsOS, "tangent");
+    expectSame(full.texCoords[0], bare.texCoords[0], "first coordinates");
+    expectSame(full.texCoords[1], bare.texCoords[1], "second coordinates");
+    expectSame(full.colors, bare.colors, "colour");
+    ASSERT_EQ(full.facetNormalsOS.size(), full.positionsOS.size());
+    for (std::size_t corner = 0; corner < full.indices.size(); corner += 3) {
+        glm::dvec3 area(0.0); // by Newell: the sum over the edges
+        for (std::size_t i = 0; i < 3; ++i)
+            area += glm::cross(glm::dvec3(full.positionsOS[full.indices[corner + i]]),
+                               glm::dvec3(full.positionsOS[full.indices[corner + (i + 1) % 3]]));
+        const glm::dvec3 stored(full.facetNormalsOS[full.indices[corner + 2]]);
+        // Of fp32 three roundings.
+        EXPECT_LT(glm::distance(stored, glm::normalize(area)), 3.0 * 0x1p-24) << "triangle " << corner / 3;
+    }
 }
 
 TEST(VertexStreams, cornersOfTrianglesKeepTheirOrderAndPlacesWhereTheLastOnesAreCopied) {

@@ -63,6 +63,16 @@ TEST(Inspection, itsLinesTellTheLightsThatEachSideVisitsAndOnceThoseThatReachThe
         << "of one side it is not known";
 }
 
+TEST(Inspection, ofWhatTakesNoLightNoneAreVisitedAndOfWhatIsTransparentItIsNotKnown) {
+    InspectedSurface surface;
+    EXPECT_EQ(visitsOf(surface, 38), 38u);
+    EXPECT_EQ(visitsOf(surface, std::nullopt), std::nullopt);
+    surface.takesLight = false;
+    EXPECT_EQ(visitsOf(surface, 38), 0u);
+    surface.isTransparent = true;
+    EXPECT_EQ(visitsOf(surface, 38), std::nullopt);
+}
+
 TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) {
     scenes::Scene scene;
     scene.materials.resize(1);

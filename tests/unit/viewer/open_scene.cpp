@@ -277,6 +277,9 @@ TEST(OpenScene, aVariantDoesNotGoOnWithEditsOfMaterialsThatItLacksOrFromAStateTh
     scenes::Scene otherLights = inVariant("ruby");
     otherLights.lights.pop_back();
     EXPECT_FALSE(open.canGoOnAs(otherLights));
+    scenes::Scene otherTypes = inVariant("ruby");
+    otherTypes.lights[1].type = scenes::LightType::Directional;
+    EXPECT_FALSE(open.canGoOnAs(otherTypes));
     scenes::Scene otherThickness = inVariant("ruby");
     otherThickness.materials[1].thicknessMetres += 1.0f;
     EXPECT_FALSE(open.canGoOnAs(otherThickness));

@@ -1,5 +1,6 @@
 // Opened scenes whose clips play: what moves, what is edited meanwhile, and what stays.
 #include "base/Error.h"
+#include "scenes/Clips.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
@@ -276,6 +277,20 @@ TEST(OpenScene, anEditOfAMaterialHoldsNothingOfTheClipThatPlaysMeanwhile) {
     open.redo();
     EXPECT_EQ(material(), edited);
     EXPECT_EQ(scenes::restingMaterials(open.scene())[0].metallic, 0.125f) << "what is saved";
+}
+
+TEST(OpenScene, aVariantGoesOnWithEditsOfAMaterialThatAClipChanges) {
+    scenes::Scene loaded = riggedAndShining();
+    scenes::playClip(loaded, "shine"); // as of a file that names it
+    scenes::poseScene(loaded, 0.0);
+    ASSERT_EQ(loaded.materials[0].metallic, 0.5f) << "unlike at rest";
+    OpenScene open("rigged.gltf", {}, loaded, {});
+    scenes::Material edited = open.scene().materials[0];
+    edited.baseColor.x = 0.25f;
+    open.changeMaterial(0, edited);
+    EXPECT_TRUE(open.canGoOnAs(loaded));
+    loaded.materials[0].baseColor.y = 0.5f;
+    EXPECT_FALSE(open.canGoOnAs(loaded));
 }
 
 TEST(OpenScene, aNumberThatIsEditedWhileItsClipStandsIsThereAgainAfterTheClip) {
