@@ -104,7 +104,7 @@ TEST_F(PartsTest, quickPartsGrow) {
 
 TEST_F(PartsTest, partsThatTakeLongShrinkAndCanBeAbandoned) {
     const BandedDrawing banded([this] { return parts.size() == 3; });
-    EXPECT_THROW(draw(1'000'000, 20), graph::Interrupted);
+    EXPECT_THROW(draw(1'000'000, 40), graph::Interrupted);
     ASSERT_EQ(parts.size(), 3u);
     EXPECT_EQ(parts[1].count, parts[0].count / 2);
     EXPECT_EQ(parts[2].count, parts[1].count / 2);
