@@ -53,6 +53,18 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
     }
 }
 
+TEST_F(LightRows, showNoMinusBeforeZeroAndChangeNothingByThat) {
+    scenes::Scene scene = scenes::loadScene("room", {});
+    scene.lights.assign(1, {});
+    scene.lights[0].positionWS = {-1e-9, -0.0, -2.0};
+    State state = test::stateOf(std::move(scene));
+    state.selectedLight = 0;
+    const std::string text = textOf([&] { lightsPanel(state); });
+    EXPECT_EQ(text.find("-0.000"), std::string::npos) << text;
+    EXPECT_NE(text.find("-2.000"), std::string::npos) << text;
+    EXPECT_EQ(state.open->scene().lights[0].positionWS.x, -1e-9);
+}
+
 TEST_F(LightRows, ofWhatShinesStandTogetherBeforeAllElse) {
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
         const std::string text = textOfLight(type.type);
