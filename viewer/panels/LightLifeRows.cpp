@@ -88,7 +88,7 @@ bool keyRow(scenes::Light& light, const scenes::LightKeyedInfo& member, std::siz
 bool keyRows(scenes::Light& light, const scenes::LightKeyedInfo& member, double timeSeconds, double sceneSizeMetres) {
     bool changed = false;
     ImGui::PushID(member.name.data());
-    row(fmt::format("Keys of {}", member.name).c_str());
+    row(fmt::format("Keys of {}", member.label).c_str());
     if (ImGui::Button(fmt::format("Add at {}###add", numberText("%.2f s", timeSeconds)).c_str())) {
         addKey(light, member.member, timeSeconds);
         changed = true;

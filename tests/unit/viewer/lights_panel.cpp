@@ -119,7 +119,7 @@ TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
         EXPECT_TRUE(state.open->scene().lights[0] == before) << "drawing it changes nothing";
     };
     const auto change = [&](const auto& edit) { test::changeLight(state, 0, edit); };
-    expectRows("still", {"Keys of position", "Keys of color", "Keys of intensity", "Add at 1.50 s"},
+    expectRows("still", {"Keys of position", "Keys of colour", "Keys of intensity", "Add at 1.50 s"},
                {"Way", "Keys of direction", "Period", "Between"});
     change([](scenes::Light& light) { light.type = scenes::LightType::Spot; });
     expectRows("a spot", {"Keys of direction"}, {"Way"});
