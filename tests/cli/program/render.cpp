@@ -55,7 +55,7 @@ TEST_F(Render, exrIsTheLinearPictureThatPngShows) {
 }
 
 TEST_F(Render, theReferenceShowsThePictureOfEveryTechniqueAndWritesSequencesToo) {
-    const Words frame{"render", "room", "--size", "64x36", "--exposure", "1"};
+    const Words frame{"render", "room", "--camera", "corner", "--size", "64x36", "--exposure", "1"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), frame.begin(), frame.end());
         return more;
