@@ -5,6 +5,7 @@
 #include "apps/BenchRun.h"
 #include "apps/Commands.h"
 #include "apps/DemoBench.h"
+#include "apps/FilterEnvironment.h"
 #include "apps/FrameOptionText.h"
 #include "apps/OutputFolder.h"
 #include "apps/Outputs.h"
@@ -191,6 +192,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     const Outputs outputs = outputsOf(files, request, result.techniques);
     {
         engine::Renderer renderer(*context, request.scene);
+        filterEnvironment(request, renderer, global.quiet);
         validation::CompareRequest comparison = comparisonOf(request, result.techniques);
         Progress progress("rendering", validation::stepCount(request.scene, comparison), global.quiet);
         comparison.renderedOne = [&progress] { progress.advance(); };

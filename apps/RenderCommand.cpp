@@ -24,6 +24,7 @@
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "renderer/shader/SourceTree.h"
+#include "scenes/CameraNames.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "validation/compare/ReferencePicture.h"
@@ -102,6 +103,17 @@ void warnOfPicture(const std::string& path, const std::string& fault, bool& hasW
     spdlog::warn("{}", oneLine(path + ": " + fault));
 }
 
+/// Prints which cameras the scene has besides, where the user chose none and placed none: once nothing stands in the
+/// way of a picture, since an error is all that is said of a mistake.
+void tellOfCameras(const FrameOptions& options, const Request& request, bool isQuiet) {
+    const auto camera = std::size_t(request.settings.camera);
+    const std::string others = scenes::otherCamerasText(request.scene, camera);
+    if (isQuiet || others.empty() || options.said("camera") || options.pose.eyeWS) return;
+    fmt::print("{}\n",
+               oneLine(fmt::format("camera '{}' of {}; --camera takes {}", scenes::nameOfCamera(request.scene, camera),
+                                   request.scene.cameras.size(), others)));
+}
+
 /// Without a context, unless the scene's hook needs one to run: the display picture has exposure and sRGB alone.
 void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
     frame::FrameSettings& settings = job.request.settings;
@@ -111,6 +123,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
+    tellOfCameras(options.frame, job.request, global.quiet);
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
     for (const std::string& text : unheededByReference(options.frame, job.request)) spdlog::warn("{}", text);
     if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
@@ -186,6 +199,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
             request, request.scene,
             makerText(fmt::format("{} {}", context->capabilities().renderer, context->capabilities().version)));
     if (job.pictures() == 0) return;
+    tellOfCameras(frame, request, global.quiet);
     engine::Renderer renderer(*context, request.scene);
     filterEnvironment(request, renderer, global.quiet);
     // One picture is soon made, but for light that spreads over surfaces.

@@ -7,6 +7,7 @@
 #include "engine/ChooseSamples.h"
 #include "engine/ChooseView.h"
 #include "engine/SettingValues.h"
+#include "scenes/CameraNames.h"
 #include "scenes/Limits.h"
 
 namespace tessera::engine {
@@ -49,9 +50,7 @@ SettingValue sceneCamera() {
     value.text = [](const ViewRequest& request, const scenes::Scene* scene) {
         const std::size_t index = std::size_t(request.settings.camera);
         if (scene == nullptr || index >= scene->cameras.size()) return numberText(request.settings.camera);
-        const std::string& name = scene->cameras[index].name;
-        const bool isCalledSo = !name.empty() && scenes::cameraCalled(*scene, name) == index;
-        return isCalledSo ? name : numberText(request.settings.camera);
+        return scenes::nameOfCamera(*scene, index);
     };
     value.read = [](ViewRequest& request, const std::string& text, const TextSource& source) {
         if (source.scene) request.settings.camera = cameraNamed(*source.scene, text);

@@ -69,6 +69,7 @@ std::string clipText(const Scene& scene) {
     const Rig& rig = scene.rig;
     if (rig.clips.empty()) return {};
     if (rig.playing.empty()) return fmt::format("no clip of {}", rig.clips.size());
+    const std::string others = rig.clips.size() == 1 ? "the only one" : fmt::format("of 0 to {}", rig.clips.size() - 1);
     std::string text;
     for (const int playing : rig.playing) {
         const Clip& clip = rig.clips[std::size_t(playing)];
@@ -77,8 +78,7 @@ std::string clipText(const Scene& scene) {
         const std::string length = clip.channels.empty() ? "which moves nothing"
                                    : seconds == 0.0      ? "a pose without duration"
                                                          : fmt::format("{:.3g} s", seconds);
-        text += fmt::format("{}clip {} '{}' of {}, {}", text.empty() ? "" : "; ", playing, clip.name, rig.clips.size(),
-                            length);
+        text += fmt::format("{}clip {} '{}' ({}), {}", text.empty() ? "" : "; ", playing, clip.name, others, length);
     }
     return text;
 }

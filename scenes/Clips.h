@@ -16,7 +16,7 @@ std::vector<int> clipsCalled(const Rig& rig, const std::string& nameOrNumber);
 /// Lets the clips play that are called so, and puts numbers that others changed to rest. Throws as clipsCalled().
 void playClip(Scene& scene, const std::string& nameOrNumber);
 
-/// "clip 0 'Walk' of 3, 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
+/// "clip 0 'Walk' (of 0 to 2), 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
 std::string clipText(const Scene& scene);
 
 /// Whether any clip is chosen.

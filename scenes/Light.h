@@ -254,7 +254,8 @@ constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
 
 struct LightKeyedInfo {
     LightKeyed member;
-    std::string_view name; ///< in a light's "keyframes" of scene files
+    std::string_view name;  ///< in a light's "keyframes" of scene files
+    std::string_view label; ///< for people
     std::variant<glm::dvec3 Light::*, glm::vec3 Light::*, float Light::*> at; ///< its field's bounds hold between keys
     /// Linear keys are joined along great circles, at constant speed, and values are unit vectors.
     bool isOnSphere = false;
@@ -270,10 +271,10 @@ struct LightKeyedInfo {
 
 namespace detail {
 inline constexpr std::array kKeyedMembers{
-    LightKeyedInfo{LightKeyed::Position, "position", &Light::positionWS},
-    LightKeyedInfo{LightKeyed::Direction, "direction", &Light::directionWS, true},
-    LightKeyedInfo{LightKeyed::Color, "color", &Light::color},
-    LightKeyedInfo{LightKeyed::Intensity, "intensity", &Light::intensity},
+    LightKeyedInfo{LightKeyed::Position, "position", "position", &Light::positionWS},
+    LightKeyedInfo{LightKeyed::Direction, "direction", "direction", &Light::directionWS, true},
+    LightKeyedInfo{LightKeyed::Color, "color", "colour", &Light::color},
+    LightKeyedInfo{LightKeyed::Intensity, "intensity", "intensity", &Light::intensity},
 };
 consteval bool areKeyedMembersSound() {
     for (std::size_t i = 0; i < kKeyedMembers.size(); ++i)

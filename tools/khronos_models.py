@@ -432,6 +432,8 @@ def render(program, path, picture, size, *more):
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
+        if line.startswith("tessera: note: "):  # of what the machine keeps, not of the model
+            continue
         line = line.replace(str(path.parent) + "/", "")
         for prefix in ("tessera: ", "error: ", "warning: ", f"{path.stem}: ", f"{path.name}: "):
             line = line.removeprefix(prefix)

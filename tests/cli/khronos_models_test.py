@@ -311,7 +311,8 @@ esac
         if stops != 0:
             noted += f"its lights are too dim for a display: exposed by {stops:+} EV (--exposure chooses another)\n"
         (self.folder / "noted").write_text(noted)
-        (self.folder / "said").write_text("".join(f"tessera: warning: {line}\n" for line in said))
+        (self.folder / "said").write_text(
+            "tessera: note: of no model\n" + "".join(f"tessera: warning: {line}\n" for line in said))
 
     def rows(self):
         with open(self.folder / "out/models.csv", newline="") as file:

@@ -73,7 +73,7 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
 std::vector<int> ViewerTest::linesOf(const DrivenViewer& viewer, Section section) {
     // Bars alone reach to the first column; the widgets beside labels begin behind the others. Lines and frames are
     // less bright against the panels than any letter, and letters that are greyed less than half as bright as others.
-    constexpr int kBarColumn = 6, kFirstColumn = 10, kEndColumn = 105, kLetterSteps = 60, kBrightSteps = 110;
+    constexpr int kBarColumn = 6, kFirstColumn = 10, kEndColumn = 105, kLetterSteps = 85, kBrightSteps = 110;
     const int bar = barOf(viewer, section);
     const Shot shot = viewer.capture();
     const glm::ivec3 behind = shot.at({kBarColumn, 1});

@@ -37,7 +37,7 @@ protected:
 
     /// The field of hexadecimal digits in the picker that a click on a swatch has opened: the lowest of its fields.
     static glm::ivec2 digitsOf(const DrivenViewer& viewer, glm::ivec2 swatch) {
-        constexpr glm::ivec3 kField(46, 47, 50); // as the theme fills them
+        constexpr glm::ivec3 kField(13, 13, 14); // as the theme fills them
         constexpr int kBehindDigits = 150, kLeastHeight = 15;
         for (int tried = 0; tried < 50; ++tried) {
             const Shot shot = viewer.capture();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "viewer/edit/LightList.h"
+#include "viewer/edit/NumberText.h"
 
 namespace tessera::viewer {
 namespace {
@@ -124,22 +125,19 @@ void LightDrag::resize(scenes::Light& light, double timeSeconds, const SightLine
 }
 
 std::string LightDrag::text(const scenes::Light& light, double timeSeconds) const {
-    // No minus before a zero of so many decimals.
-    const auto shown = [](double value, double least) { return std::abs(value) < least ? 0.0 : value; };
     if (handle_.parameter != nullptr)
         return fmt::format("{} {:.3g} m", handle_.parameter->label, light.*handle_.parameter->member);
     if (handle_.moves()) {
         const double metres = scenes::lightAtTime(light, timeSeconds).positionWS[handle_.arm];
-        return fmt::format("Position {} {:.3f} m", handle_.axisName(), shown(metres, 0.0005));
+        return fmt::format("Position {} {}", handle_.axisName(), numberText("%.3f m", metres));
     }
     if (!handle_.turns()) {
         const glm::vec2& corner = light.corners.metres[std::size_t(handle_.corner)];
-        return fmt::format("Corner {} at {:.3g}, {:.3g} m", handle_.corner, corner.x, corner.y);
+        return fmt::format("Corner {} at {}, {}", handle_.corner, numberText("%.3g", corner.x),
+                           numberText("%.3g m", corner.y));
     }
-    constexpr double kLeast = 0.005;
-    const glm::dvec3& direction = light.directionWS;
-    return fmt::format("Direction {:.2f}, {:.2f}, {:.2f}", shown(direction.x, kLeast), shown(direction.y, kLeast),
-                       shown(direction.z, kLeast));
+    const auto component = [&](int axis) { return numberText("%.2f", light.directionWS[axis]); };
+    return fmt::format("Direction {}, {}, {}", component(0), component(1), component(2));
 }
 
 } // namespace tessera::viewer

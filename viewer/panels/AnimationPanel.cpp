@@ -43,10 +43,11 @@ void timeRow(State& state) {
     const bool isBounded = clipSeconds > 0.0;
     const double least = isBounded ? 0.0 : -kMostSeconds, most = isBounded ? clipSeconds : kMostSeconds;
     row("Time");
-    edit(state.active().settings.timeSeconds, least, most, [&](double& seconds) {
+    constexpr const char* kSeconds = "%.2f s";
+    editShown(state.active().settings.timeSeconds, least, most, kSeconds, [&](double& seconds) {
         return isBounded
-                   ? ImGui::SliderScalar("##Time", ImGuiDataType_Double, &seconds, &least, &most, "%.2f s")
-                   : ImGui::DragScalar("##Time", ImGuiDataType_Double, &seconds, 0.02f, nullptr, nullptr, "%.2f s");
+                   ? ImGui::SliderScalar("##Time", ImGuiDataType_Double, &seconds, &least, &most, kSeconds)
+                   : ImGui::DragScalar("##Time", ImGuiDataType_Double, &seconds, 0.02f, nullptr, nullptr, kSeconds);
     });
 }
 

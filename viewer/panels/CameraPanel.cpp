@@ -29,8 +29,9 @@ void cameraPanel(State& state) {
     if (ImGui::Button("Home")) open.jumpHome();
     tip("Back to the scene's camera");
     const CameraPose pose = rig.pose();
-    fact("Eye", fmt::format("{:.3f} {:.3f} {:.3f} m", pose.eyeWS.x, pose.eyeWS.y, pose.eyeWS.z));
-    fact("Pivot at", fmt::format("{:.3f} m", pose.focusMetres));
+    const auto metres = [](double value) { return numberText("%.3f", value); };
+    fact("Eye", fmt::format("{} {} {} m", metres(pose.eyeWS.x), metres(pose.eyeWS.y), metres(pose.eyeWS.z)));
+    fact("Pivot at", metres(pose.focusMetres) + " m");
 }
 
 } // namespace tessera::viewer

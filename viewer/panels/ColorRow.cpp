@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cfloat>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/edit/ShownColor.h"
@@ -61,7 +62,7 @@ bool colorRow(const char* label, glm::vec3& color, float most) {
     if (ImGui::BeginPopup(kPicker)) {
         closeOnEscape();
         isEdited |= edit(color, 0.0f, most, [scale](glm::vec3& edited) { return picker(edited, scale); });
-        ImGui::TextUnformatted(colorText(color).c_str());
+        if (scale > 1.0f) ImGui::TextUnformatted(fmt::format("all times {:.3g}: brighter than white", scale).c_str());
         ImGui::EndPopup();
     }
     ImGui::PopID();

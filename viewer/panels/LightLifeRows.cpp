@@ -21,6 +21,7 @@ namespace {
 constexpr double kFirstWayShare = 0.05; ///< of the scene's size: how far a light goes that begins to move
 constexpr float kStepShare = 0.001f;    ///< the same: a pixel of a drag of a place
 constexpr float kSecondsPerPixel = 0.02f;
+constexpr const char* kValue = "##value";
 
 /// What is left of a row beside buttons at its end.
 float widthBeside(int buttons) {
@@ -37,24 +38,19 @@ bool endButton(const char* label, const char* meaning) {
     return isPressed;
 }
 
-bool dragNumbers(glm::dvec3& value, int numbers, float speed, double least, double most, const char* format) {
-    return edit(value, least, most, [&](glm::dvec3& edited) {
-        return ImGui::DragScalarN("##value", ImGuiDataType_Double, &edited.x, numbers, speed, nullptr, nullptr, format);
-    });
-}
-
 // ---- Keyframes -----------------------------------------------------------------------------------------------------
 
 bool keyValue(const scenes::LightKeyedInfo& member, glm::dvec3& value, double sceneSizeMetres) {
     switch (member.member) {
     case scenes::LightKeyed::Position:
-        return dragNumbers(value, 3, kStepShare * float(sceneSizeMetres), -kMostMetres, kMostMetres, "%.3f");
+        return dragNumbers(kValue, value, 3, kStepShare * float(sceneSizeMetres), -kMostMetres, kMostMetres, "%.3f");
     case scenes::LightKeyed::Direction:
-        return dragNumbers(value, 3, 0.01f, -kMostDirection, kMostDirection, "%.3f");
+        return dragNumbers(kValue, value, 3, 0.01f, -kMostDirection, kMostDirection, "%.3f");
     case scenes::LightKeyed::Color:
-        return dragNumbers(value, 3, 0.004f, 0.0, double(kMostLightColor), "%.3g");
+        return dragNumbers(kValue, value, 3, 0.004f, 0.0, double(kMostLightColor), "%.3g");
     case scenes::LightKeyed::Intensity:
-        return dragNumbers(value, 1, 0.01f * std::max(float(value.x), 0.01f), 0.0, double(kMostIntensity), "%.4g");
+        return dragNumbers(kValue, value, 1, 0.01f * std::max(float(value.x), 0.01f), 0.0, double(kMostIntensity),
+                           "%.4g");
     case scenes::LightKeyed::Count:
         break;
     }
@@ -68,9 +64,10 @@ bool keyRow(scenes::Light& light, const scenes::LightKeyedInfo& member, std::siz
     ImGui::PushID(int(key));
     double seconds = keysOf(light, member.member)->timesSeconds[key];
     ImGui::SetNextItemWidth(labelWidth() - ImGui::GetStyle().ItemInnerSpacing.x);
-    if (edit(seconds, -kMostSeconds, kMostSeconds, [](double& edited) {
+    constexpr const char* kSeconds = "%.2f s";
+    if (editShown(seconds, -kMostSeconds, kMostSeconds, kSeconds, [](double& edited) {
             return ImGui::DragScalar("##time", ImGuiDataType_Double, &edited, kSecondsPerPixel, nullptr, nullptr,
-                                     "%.2f s");
+                                     kSeconds);
         })) {
         moveKey(light, member.member, key, seconds);
         changed = true;
@@ -91,8 +88,8 @@ bool keyRow(scenes::Light& light, const scenes::LightKeyedInfo& member, std::siz
 bool keyRows(scenes::Light& light, const scenes::LightKeyedInfo& member, double timeSeconds, double sceneSizeMetres) {
     bool changed = false;
     ImGui::PushID(member.name.data());
-    row(fmt::format("Keys of {}", member.name).c_str());
-    if (ImGui::Button(fmt::format("Add at {:.2f} s###add", timeSeconds).c_str())) {
+    row(fmt::format("Keys of {}", member.label).c_str());
+    if (ImGui::Button(fmt::format("Add at {}###add", numberText("%.2f s", timeSeconds)).c_str())) {
         addKey(light, member.member, timeSeconds);
         changed = true;
     }
@@ -138,7 +135,7 @@ bool pointRows(scenes::Light& light, double sceneSizeMetres) {
             row(fmt::format("Point {}", i).c_str());
             ImGui::SetNextItemWidth(widthBeside(2));
             glm::dvec3 placeWS = light.animation->pointsWS[point];
-            if (dragNumbers(placeWS, 3, kStepShare * float(sceneSizeMetres), -kMostMetres, kMostMetres, "%.2f"))
+            if (dragNumbers(kValue, placeWS, 3, kStepShare * float(sceneSizeMetres), -kMostMetres, kMostMetres, "%.2f"))
                 changed |= movePathPoint(light, point, placeWS);
             if (endButton("+", "Adds a point behind this one")) added = point;
             ImGui::BeginDisabled(count <= 2);

@@ -162,9 +162,10 @@ bool cornerRows(scenes::Light& light, double sceneSizeMetres) {
         const std::string label = fmt::format("Corner {}", i);
         row(label.c_str());
         glm::vec2 corner = light.corners.metres[i];
-        const bool moved = edit(corner, -most, most, [&](glm::vec2& place) {
+        constexpr const char* kMetres = "%.3g m";
+        const bool moved = editShown(corner, -most, most, kMetres, [&](glm::vec2& place) {
             return ImGui::DragFloat2(("##" + label).c_str(), &place.x, float(0.001 * sceneSizeMetres), -most, most,
-                                     "%.3g m");
+                                     kMetres);
         });
         if (moved) changed |= moveCorner(light, i, corner);
     }

@@ -49,26 +49,23 @@ bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
     const bool hasSlider = kind.sliderLeast < kind.sliderMost;
     const bool isBounded = hasSlider || (std::isfinite(kind.least) && std::isfinite(kind.most));
     row(setting.panelLabel().c_str(), setting.help);
-    const auto slideOrDrag = [&](auto& edited, auto least, auto most, const auto& slide, const auto& drag) {
-        return edit(edited, least, most, [&](auto& number) { return isBounded ? slide(number) : drag(number); });
-    };
     bool isEdited = false;
     if (kind.isWhole) {
         constexpr double kMostWhole = 1e9;
         const int least = int(std::max(kind.least, -kMostWhole)), most = int(std::min(kind.most, kMostWhole));
         int edited = int(value);
-        isEdited = slideOrDrag(
-            edited, least, most, [&](int& n) { return ImGui::SliderInt(id.c_str(), &n, least, most); },
-            [&](int& n) { return ImGui::DragInt(id.c_str(), &n); });
+        isEdited = edit(edited, least, most, [&](int& n) {
+            return isBounded ? ImGui::SliderInt(id.c_str(), &n, least, most) : ImGui::DragInt(id.c_str(), &n);
+        });
         if (isEdited) value = edited;
     } else {
         const float sliderLeast = hasSlider ? kind.sliderLeast : float(kind.least);
         const float sliderMost = hasSlider ? kind.sliderMost : float(kind.most);
         float edited = float(value);
-        isEdited = slideOrDrag(
-            edited, float(kind.least), float(kind.most),
-            [&](float& n) { return ImGui::SliderFloat(id.c_str(), &n, sliderLeast, sliderMost, kind.format); },
-            [&](float& n) { return ImGui::DragFloat(id.c_str(), &n, 0.01f, 0.0f, 0.0f, kind.format); });
+        isEdited = editShown(edited, float(kind.least), float(kind.most), kind.format, [&](float& n) {
+            return isBounded ? ImGui::SliderFloat(id.c_str(), &n, sliderLeast, sliderMost, kind.format)
+                             : ImGui::DragFloat(id.c_str(), &n, 0.01f, 0.0f, 0.0f, kind.format);
+        });
         if (isEdited) value = std::clamp(double(edited), kind.least, kind.most);
     }
     if (isEdited) setting.read(look, fmt::format("{}", value));

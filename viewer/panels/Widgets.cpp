@@ -121,8 +121,9 @@ Gesture widgetGesture() {
 
 bool slider(const char* label, float& value, float least, float most, const char* format) {
     row(label);
-    return edit(value, least, most,
-                [&](float& edited) { return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format); });
+    return editShown(value, least, most, format, [&](float& edited) {
+        return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format);
+    });
 }
 
 bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format) {
@@ -133,18 +134,26 @@ bool logarithmicSlider(const char* label, float& value, float least, float most,
 }
 
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees) {
+    constexpr const char* kDegrees = "%.1f deg";
     row(label);
     return edit(radians, glm::radians(leastDegrees), glm::radians(mostDegrees), [&](float& edited) {
-        return ImGui::SliderAngle(idOf(label).c_str(), &edited, leastDegrees, mostDegrees, "%.1f deg");
+        auto degrees = float(shownNumber(kDegrees, glm::degrees(edited)));
+        if (!ImGui::SliderFloat(idOf(label).c_str(), &degrees, leastDegrees, mostDegrees, kDegrees)) return false;
+        edited = glm::radians(degrees);
+        return true;
+    });
+}
+
+bool dragNumbers(const char* id, glm::dvec3& value, int numbers, float speed, double least, double most,
+                 const char* format) {
+    return editShown(value, least, most, format, [&](glm::dvec3& edited) {
+        return ImGui::DragScalarN(id, ImGuiDataType_Double, &edited.x, numbers, speed, nullptr, nullptr, format);
     });
 }
 
 bool dragVector(const char* label, glm::dvec3& value, float speed, double most) {
     row(label);
-    return edit(value, -most, most, [&](glm::dvec3& edited) {
-        return ImGui::DragScalarN(idOf(label).c_str(), ImGuiDataType_Double, &edited.x, 3, speed, nullptr, nullptr,
-                                  "%.3f");
-    });
+    return dragNumbers(idOf(label).c_str(), value, 3, speed, -most, most, "%.3f");
 }
 
 std::string labelOf(std::string_view name) {

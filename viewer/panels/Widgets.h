@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viewer/edit/Bounded.h"
+#include "viewer/edit/NumberText.h"
 #include "viewer/session/History.h"
 
 namespace tessera::viewer {
@@ -44,6 +45,19 @@ bool edit(Value& value, Number least, Number most, const Widget& widget) {
     return std::exchange(value, edited) != edited;
 }
 
+/// The same of a widget that prints its numbers by a printf format: as shownNumber() says. What the user does not edit
+/// stays to the last bit.
+template <typename Value, typename Number, typename Widget>
+bool editShown(Value& value, Number least, Number most, const char* format, const Widget& widget) {
+    return edit(value, least, most, [&](Value& edited) {
+        const Value before = edited, shown = Value(shownNumber(format, before));
+        edited = shown;
+        if (!widget(edited)) return false;
+        edited = unlessShown(edited, shown, before);
+        return true;
+    });
+}
+
 /// Whether the edit of a widget that was just shown is one of many that the user makes with it in one go.
 Gesture widgetGesture();
 
@@ -53,7 +67,10 @@ bool slider(const char* label, float& value, float least, float most, const char
 bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format);
 /// The same of an angle, which is shown in degrees.
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees);
-/// The components of a vector, in a row of its own; `speed` is theirs a pixel of a drag.
+/// The first so many components of a vector, without a label; `speed` is theirs a pixel of a drag.
+bool dragNumbers(const char* id, glm::dvec3& value, int numbers, float speed, double least, double most,
+                 const char* format);
+/// All of them, in a row of its own.
 bool dragVector(const char* label, glm::dvec3& value, float speed, double most);
 /// The channels of a linear colour from 0 to `most`, in a row of its own; above 1 for emitters. Its swatch opens a
 /// picker in sRGB.

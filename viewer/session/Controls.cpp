@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 
 #include "viewer/edit/LightList.h"
+#include "viewer/edit/NumberText.h"
 #include "viewer/session/Keys.h"
 #include "viewer/session/SceneEdits.h"
 
@@ -48,7 +48,7 @@ int markedLight(const State& state, const PictureArea& area, const glm::vec2& po
 }
 
 std::string turnText(float degrees) {
-    return fmt::format("Environment {:.1f}\xc2\xb0", degrees);
+    return "Environment " + numberText("%.1f\xc2\xb0", degrees);
 }
 
 bool* flyKey(FlyKeys& keys, int key) {

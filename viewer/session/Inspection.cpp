@@ -5,13 +5,15 @@
 #include <fmt/format.h>
 
 #include "viewer/edit/Brightness.h"
+#include "viewer/edit/NumberText.h"
 #include "viewer/edit/Pick.h"
 
 namespace tessera::viewer {
 namespace {
 
 std::string numbers(const glm::dvec3& values) {
-    return fmt::format("{:.4g} {:.4g} {:.4g}", values.x, values.y, values.z);
+    const auto text = [&](int component) { return numberText("%.4g", values[component]); };
+    return fmt::format("{} {} {}", text(0), text(1), text(2));
 }
 
 std::string visits(std::size_t lights) {

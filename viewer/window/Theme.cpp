@@ -19,11 +19,13 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_TextDisabled] = grey(0.52f);
     colors[ImGuiCol_WindowBg] = grey(0.115f);
     colors[ImGuiCol_ChildBg] = grey(0.0f, 0.0f);
-    colors[ImGuiCol_PopupBg] = grey(0.14f, 0.98f);
-    colors[ImGuiCol_Border] = grey(0.24f);
-    colors[ImGuiCol_FrameBg] = grey(0.18f);
-    colors[ImGuiCol_FrameBgHovered] = grey(0.23f);
-    colors[ImGuiCol_FrameBgActive] = grey(0.28f);
+    colors[ImGuiCol_PopupBg] = grey(0.12f);
+    // Around fields, whose ground is too dark to stand out from a panel's.
+    colors[ImGuiCol_Border] = grey(0.41f);
+    // Darker than a panel, so that the grab of a slider stands out from them and a number can be read on both.
+    colors[ImGuiCol_FrameBg] = grey(0.05f);
+    colors[ImGuiCol_FrameBgHovered] = grey(0.075f);
+    colors[ImGuiCol_FrameBgActive] = grey(0.09f);
     colors[ImGuiCol_TitleBg] = grey(0.09f);
     colors[ImGuiCol_TitleBgActive] = grey(0.13f);
     colors[ImGuiCol_ScrollbarBg] = grey(0.1f, 0.6f);
@@ -32,8 +34,8 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_ScrollbarGrabActive] = grey(0.44f);
     colors[ImGuiCol_CheckMark] = accent(1.2f);
     // Dim: the number is written across it.
-    colors[ImGuiCol_SliderGrab] = accent(0.55f);
-    colors[ImGuiCol_SliderGrabActive] = accent(0.75f);
+    colors[ImGuiCol_SliderGrab] = accent(0.72f);
+    colors[ImGuiCol_SliderGrabActive] = accent(0.76f);
     colors[ImGuiCol_Button] = grey(0.22f);
     colors[ImGuiCol_ButtonHovered] = grey(0.29f);
     colors[ImGuiCol_ButtonActive] = accent(0.8f);
@@ -59,6 +61,7 @@ void applyTheme(float scale) {
     style.PopupRounding = 3.0f;
     style.ScrollbarRounding = 3.0f;
     style.WindowBorderSize = 0.0f;
+    style.FrameBorderSize = 1.0f;
     style.WindowPadding = {8.0f, 8.0f};
     style.FramePadding = {6.0f, 3.0f};
     style.ItemSpacing = {6.0f, 5.0f};

@@ -23,7 +23,12 @@ namespace fs = std::filesystem;
 ProcessResult Cli::run(const Words& arguments, const Environment& environment) const {
     Words command{kProgram};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    return runProcess(command, {folder_.path(), environment, 60.0});
+    ProcessResult result = runProcess(command, {folder_.path(), environment, 60.0});
+    // Which test is the first to use a map is chance, but where it has a cache of its own.
+    if (const std::size_t note = result.err.find(kFilteringNote);
+        note != std::string::npos && !environment.contains("XDG_CACHE_HOME"))
+        result.err.erase(note, kFilteringNote.size());
+    return result;
 }
 
 std::string Cli::runGood(const Words& arguments, const Environment& environment) const {

@@ -26,6 +26,11 @@ protected:
     static inline const Environment kNoGraphics{
         {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
 
+    /// What is said on stderr before a map is filtered.
+    static inline const std::string kFilteringNote =
+        "tessera: note: filtering the environment, once for each map: that takes seconds\n";
+
+    /// Without kFilteringNote, unless the environment has an XDG_CACHE_HOME.
     ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
     /// Expects exit code 0 and a silent stderr; returns stdout.
     std::string runGood(const Words& arguments, const Environment& environment = {}) const;

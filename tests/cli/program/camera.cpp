@@ -35,7 +35,7 @@ TEST_F(CameraOptions, aPlacedCameraIsExactlyTheOneOfASceneFileOfTheSameNumbers) 
     const Words rolled{"--eye", "-3,4,5", "--target", "0,0,0", "--up", "1,0,0.25"};
     const std::string picture = rendered(rolled);
     EXPECT_FALSE(picture == rendered({rolled.begin(), rolled.end() - 2})) << "up turns the picture";
-    EXPECT_FALSE(picture == rendered({})) << "the scene's own camera";
+    EXPECT_FALSE(picture == rendered({"--camera", "front"})) << "the scene's own camera";
 }
 
 TEST_F(CameraOptions, everyCommandThatLooksAtAFrameTakesThem) {
@@ -44,6 +44,36 @@ TEST_F(CameraOptions, everyCommandThatLooksAtAFrameTakesThem) {
                 testing::HasSubstr(kNoneInView));
     EXPECT_THAT(runGood({"plan", "lattice"}), testing::Not(testing::HasSubstr(kNoneInView)));
     runGood({"compare", "spheres", "--techniques", "forward", "--size", "48x27", "--eye", "3,2,-4"});
+}
+
+TEST_F(CameraOptions, furtherCamerasAreNamedWhereNoneIsChosen) {
+    const auto said = [&](const Words& more, const char* scene = "room") {
+        Words words{"render", scene, "--size", "16x9", "-o", "a.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        return runGood(words);
+    };
+    const std::string line = "camera 'corner' of 2; --camera takes 'back'\n";
+    EXPECT_EQ(said({}), line);
+    EXPECT_EQ(said({"--fov", "50"}), line);
+    EXPECT_EQ(said({"--technique", "reference"}), line);
+    EXPECT_EQ(said({"--camera", "0"}), "");
+    EXPECT_EQ(said({"--quiet"}), "");
+    EXPECT_EQ(said({"--eye", "0.5,1.5,2", "--target", "0,1,-1"}), "") << "a camera of the user's own";
+    std::string cameras;
+    for (int i = 0; i < 9; ++i)
+        cameras += fmt::format(R"({}{{"name": "c{}", "position": [-1.5, 1.75, 2.75], "target": [0.4, 1.1, -1.5]}})",
+                               i == 0 ? "" : ", ", i);
+    folder_.write("many.json", R"({"tessera": 1, "base": {"file": "builtin:room"}, "options": {"camera": "c2"},
+                                   "cameras": [)" +
+                                   cameras + "]}");
+    EXPECT_EQ(said({}, "many.json"), "camera 'c2' of 9; --camera takes 'c0', 'c1', 'c3', 'c4', 'c5' and 3 more\n");
+    runGood({"plan", "room", "--camera", "back", "--json", "p.json"});
+    nlohmann::json chosen;
+    for (const nlohmann::json& choice : json("p.json")["choices"])
+        if (choice["what"] == "camera") chosen = choice;
+    EXPECT_EQ(chosen["chosen"], "back");
+    EXPECT_EQ(chosen["why"], "the one that the setting camera names, else the first; it also takes 'corner'");
+    EXPECT_THAT(runGood({"plan", "room"}), testing::HasSubstr("'back'"));
 }
 
 TEST_F(CameraOptions, theDefaultLightReachesWhateverTheOptionsLookAt) {

@@ -52,12 +52,12 @@ protected:
 };
 
 TEST_F(PlayedClips, timeMovesTheClipThatPlays) {
-    EXPECT_EQ(runGood(command({"-o", "a.exr"})), "clip 0 'slide' of 2, 1 s\n");
+    EXPECT_EQ(runGood(command({"-o", "a.exr"})), "clip 0 'slide' (of 0 to 1), 1 s\n");
     EXPECT_EQ(sides("a.exr")[1], 0);
     EXPECT_EQ(runGood(command({"-o", "b.exr", "--time", "1", "--quiet"})), "");
     EXPECT_EQ(sides("b.exr")[0], 0);
     EXPECT_EQ(sides("b.exr")[1], sides("a.exr")[0]);
-    EXPECT_EQ(runGood(command({"-o", "c.exr", "--time", "1", "--clip", "1"})), "clip 1 'shrink' of 2, 1 s\n");
+    EXPECT_EQ(runGood(command({"-o", "c.exr", "--time", "1", "--clip", "1"})), "clip 1 'shrink' (of 0 to 1), 1 s\n");
     EXPECT_LT(sides("c.exr")[0] + sides("c.exr")[1], sides("a.exr")[0] / 2);
     EXPECT_EQ(runGood(command({"-o", "d.exr", "--time", "1", "--clip", "none"})), "no clip of 2\n");
     EXPECT_EQ(sides("d.exr")[0], sides("d.exr")[1]);

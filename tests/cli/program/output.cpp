@@ -43,7 +43,7 @@ TEST_F(Output, placesWhereNothingCanBeWrittenAreNamedAndNeverTouched) {
 
 TEST_F(Output, aFullDiskIsAnErrorThatKeepsTheOlderPicture) {
     fs::create_symlink("/dev/full", folder_.path() / "full.exr");
-    expectError(kFailed, {"render", "room", "--size", "16x9", "-o", "full.exr"},
+    expectError(kFailed, {"render", "room", "--camera", "corner", "--size", "16x9", "-o", "full.exr"},
                 {"full.exr", "No space left", "free some space"});
     expectError(kFailed, {"plan", "room", "--json", "/dev/full"}, {"/dev/full", "No space left"});
 

@@ -55,7 +55,7 @@ TEST_F(Render, exrIsTheLinearPictureThatPngShows) {
 }
 
 TEST_F(Render, theReferenceShowsThePictureOfEveryTechniqueAndWritesSequencesToo) {
-    const Words frame{"render", "room", "--size", "64x36", "--exposure", "1"};
+    const Words frame{"render", "room", "--camera", "corner", "--size", "64x36", "--exposure", "1"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), frame.begin(), frame.end());
         return more;
@@ -302,6 +302,23 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
               warned(depth + "No material that transmits has a thickness or is rough"));
     EXPECT_THAT(said({"--glass-depth", "2", "--against", "reference"}, "compare"),
                 testing::HasSubstr(depth + "No material that transmits"));
+}
+
+TEST_F(Render, thatAMapIsFilteredIsToldOnceAndNotAtAllWhereItIsQuiet) {
+    writeQuad(R"({"name": "paint", "model": "lambert"})", "[]");
+    runGood({"render", "room", "--size", "16x8", "-o", "map.exr"}); // so small a map is soon filtered
+    const auto said = [&](const char* command, const char* cache, const Words& more) {
+        Words words{command, "quad.json", "--environment", "map.exr", "--size", "16x9"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProcessResult result = run(words, {{"XDG_CACHE_HOME", path(cache)}});
+        EXPECT_EQ(result.exitCode, 0);
+        return result.err;
+    };
+    const Words picture{"-o", "a.png"};
+    EXPECT_EQ(said("render", "first", picture), kFilteringNote);
+    EXPECT_EQ(said("render", "first", picture), "") << "it was kept";
+    EXPECT_EQ(said("compare", "second", {"--techniques", "deferred"}), kFilteringNote);
+    EXPECT_EQ(said("render", "third", {"-o", "a.png", "--quiet"}), "");
 }
 
 TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {

@@ -16,7 +16,7 @@ TEST(Clips, areChosenByNameThenByNumber) {
     scene.rig.clips[1].name = "0";
     playClip(scene, "0");
     EXPECT_EQ(scene.rig.playing, std::vector{1});
-    EXPECT_EQ(clipText(scene), "clip 1 '0' of 2, 1 s");
+    EXPECT_EQ(clipText(scene), "clip 1 '0' (of 0 to 1), 1 s");
     playClip(scene, "bend");
     EXPECT_EQ(scene.rig.playing, std::vector{0});
     playClip(scene, "1");
@@ -40,9 +40,9 @@ TEST(Clips, thoseWithoutDurationAreCalledPoses) {
         sampler.values.resize(sampler.valuesPerKey() * std::size_t(sampler.width));
     }
     playClip(scene, "0");
-    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, a pose without duration");
+    EXPECT_EQ(clipText(scene), "clip 0 'bend' (the only one), a pose without duration");
     clip.channels.clear();
-    EXPECT_EQ(clipText(scene), "clip 0 'bend' of 1, which moves nothing");
+    EXPECT_EQ(clipText(scene), "clip 0 'bend' (the only one), which moves nothing");
 }
 
 TEST(Clips, aSceneWithoutAnyHasNoPoses) {

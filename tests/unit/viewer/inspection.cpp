@@ -35,7 +35,7 @@ TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
                 ElementsAre("606, 303 of 980x778", "Left", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "Right",
                             "linear 0.5 0.125 3", "shown #bc63ff  188 99 255", "difference 0 0.125 -1", "no surface"));
     inspection.sides[1].reset();
-    inspection.surface = {"paint", 3.5, {0.6, 0.0, 0.8}, {0.0, 0.0, 1.0}, 1};
+    inspection.surface = {"paint", 3.5, {0.6, -0.0, 0.8}, {0.0, 0.0, 1.0}, 1};
     EXPECT_THAT(inspectionLines(inspection),
                 ElementsAre("606, 303 of 980x778", "linear 0.5 0.25 2", "shown #bc89ff  188 137 255", "material paint",
                             "depth 3.5 m", "shading normal 0.6 0 0.8", "face normal 0 0 1", "1 light reaches it"));

@@ -53,6 +53,18 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
     }
 }
 
+TEST_F(LightRows, showNoMinusBeforeZeroAndChangeNothingByThat) {
+    scenes::Scene scene = scenes::loadScene("room", {});
+    scene.lights.assign(1, {});
+    scene.lights[0].positionWS = {-1e-9, -0.0, -2.0};
+    State state = test::stateOf(std::move(scene));
+    state.selectedLight = 0;
+    const std::string text = textOf([&] { lightsPanel(state); });
+    EXPECT_EQ(text.find("-0.000"), std::string::npos) << text;
+    EXPECT_NE(text.find("-2.000"), std::string::npos) << text;
+    EXPECT_EQ(state.open->scene().lights[0].positionWS.x, -1e-9);
+}
+
 TEST_F(LightRows, ofWhatShinesStandTogetherBeforeAllElse) {
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
         const std::string text = textOfLight(type.type);
@@ -107,7 +119,7 @@ TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
         EXPECT_TRUE(state.open->scene().lights[0] == before) << "drawing it changes nothing";
     };
     const auto change = [&](const auto& edit) { test::changeLight(state, 0, edit); };
-    expectRows("still", {"Keys of position", "Keys of color", "Keys of intensity", "Add at 1.50 s"},
+    expectRows("still", {"Keys of position", "Keys of colour", "Keys of intensity", "Add at 1.50 s"},
                {"Way", "Keys of direction", "Period", "Between"});
     change([](scenes::Light& light) { light.type = scenes::LightType::Spot; });
     expectRows("a spot", {"Keys of direction"}, {"Way"});

@@ -239,6 +239,10 @@ TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
     }
     EXPECT_TRUE(isOpen());
     EXPECT_EQ(color, before);
+    ImGui::GetIO().MousePos = {-1.0f, -1.0f};
+    const std::string opened = textOf(draw); // to the end of the picker
+    EXPECT_EQ(std::count(opened.begin(), opened.end(), '#'), 1) << "hexadecimal digits, once" << opened;
+    EXPECT_NE(opened.find("all times 3.5"), std::string::npos) << opened;
 }
 
 TEST_F(Panels, aTipGoesWithTheClick) {

@@ -22,7 +22,7 @@ TEST(GltfAnimation, aNodeMovesAsItsChannelsSay) {
     ASSERT_EQ(scene.rig.playing, std::vector{0});
     expectPlace(drawnAt(scene, 0.25)[0], {0.5, 0.0, 0.0});
     expectPlace(drawnAt(scene, 9.0)[1], {3.0, 0.0, 0.0});
-    EXPECT_EQ(clipText(scene), "clip 0 'clip' of 1, 1 s");
+    EXPECT_EQ(clipText(scene), "clip 0 'clip' (the only one), 1 s");
 }
 
 TEST(GltfAnimation, ofChannelsThatChangeTheSameThingTheLastIsKept) {

@@ -1,0 +1,16 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "scenes/Scene.h"
+
+/// How cameras of a scene are called, as cameraCalled() takes it.
+namespace tessera::scenes {
+
+/// Its name, else, where that chooses none or another one, its number.
+std::string nameOfCamera(const Scene& scene, std::size_t camera);
+
+/// "'side', 'top' and 3 more": the other cameras of the scene; empty where there are none.
+std::string otherCamerasText(const Scene& scene, std::size_t camera);
+
+} // namespace tessera::scenes

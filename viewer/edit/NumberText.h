@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+
+#include <glm/glm.hpp>
+
+/// Numbers as the viewer prints them: a number that rounds to zero has no minus, as in "-0.000".
+namespace tessera::viewer {
+
+/// The number, or 0 where a printf format of one double would print it without any digit but 0.
+double shownNumber(const char* format, double value);
+/// The same of each component.
+template <glm::length_t N, typename Number>
+glm::vec<N, Number> shownNumber(const char* format, glm::vec<N, Number> value) {
+    for (glm::length_t i = 0; i < N; ++i) value[i] = Number(shownNumber(format, double(value[i])));
+    return value;
+}
+
+/// The shownNumber() by its format.
+std::string numberText(const char* format, double value);
+
+/// What was edited of a number that was shown in the place of another: that other where nothing was.
+template <typename Number>
+Number unlessShown(Number edited, Number shown, Number before) {
+    return edited == shown ? before : edited;
+}
+/// The same of each component.
+template <glm::length_t N, typename Number>
+glm::vec<N, Number> unlessShown(glm::vec<N, Number> edited, const glm::vec<N, Number>& shown,
+                                const glm::vec<N, Number>& before) {
+    for (glm::length_t i = 0; i < N; ++i) edited[i] = unlessShown(edited[i], shown[i], before[i]);
+    return edited;
+}
+
+} // namespace tessera::viewer
