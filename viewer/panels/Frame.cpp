@@ -69,7 +69,9 @@ void showSection(State& state, const Facts& facts, const Section& section) {
     const bool wasOpen = known != state.sections.end() ? known->second : section.isOpen;
     const bool isRevealed = section.selected && state.reveals == section.selected;
     ImGui::SetNextItemOpen(wasOpen || isRevealed);
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f); // borders are for what takes input
     const bool isOpen = ImGui::CollapsingHeader(section.title);
+    ImGui::PopStyleVar();
     if (isRevealed) {
         state.reveals.reset();
         if (!wasOpen || !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.0f);
