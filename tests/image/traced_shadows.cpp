@@ -360,7 +360,7 @@ scenes::Scene floorBeforeWall() {
 
 // Their triangles bring vertices of their own, with which all meshes move in the buffers.
 TEST_F(Shadows, thatAreTurnedOnLaterAreThoseOfANewRenderer) {
-    const scenes::Scene scene = sceneOfCasters();
+    const scenes::Scene scene = test::everythingScene();
     engine::Renderer renderer(context(), scene), newRenderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = {96, 54};
