@@ -23,6 +23,7 @@
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
 #include "viewer/session/PointAt.h"
+#include "viewer/session/Pulse.h"
 #include "viewer/session/SceneEdits.h"
 #include "viewer/show/Inspector.h"
 #include "viewer/show/MaterialOutline.h"
@@ -39,7 +40,6 @@ constexpr double kNoticeSeconds = 6.0;
 constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
 constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
 constexpr double kEndPeriodSeconds = 0.25;  ///< how often a signal to end is looked for
-constexpr double kNextInputSeconds = 0.01;  ///< within which a pointer that moves is heard of again
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -90,12 +90,7 @@ private:
         return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest() ||
                outline_.awaitsRest();
     }
-    /// Until when the next movement of a pointer that drags is waited for: a picture that takes longer, and only shows
-    /// how the one before goes on, would delay the answer to it.
-    double glidesFrom() const {
-        const bool waits = window_.isButtonHeld() && isMoving(state_) && facts_.ms > 1000.0 * kNextInputSeconds;
-        return waits ? shownAt_ + kNextInputSeconds : 0.0;
-    }
+    double glidesFrom() const { return Gliding{window_.isButtonHeld(), isMoving(state_), facts_.ms, shownAt_}.from(); }
     /// A minimised window shows nothing; a pending picture waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();

@@ -3,6 +3,8 @@
 
 #include "scenes/AreaLight.h"
 #include "scenes/Material.h"
+#include "scenes/Scene.h"
+#include "tests/support/AreaLights.h"
 
 /// Lights and surfaces of tests of area lights.
 namespace tessera::test {
@@ -18,6 +20,20 @@ inline scenes::Light areaLight(scenes::LightType type, const glm::dvec3& positio
     light.radiusMetres = type == scenes::LightType::Rectangle ? 0.0f : 0.3f;
     light.intensity = radiance;
     return light;
+}
+
+/// The scene's lights and one of each type, with and without a range, from the front and on both sides.
+inline scenes::Scene withAreaLights(scenes::Scene scene) {
+    double x = -1.5;
+    for (const scenes::LightType type : kAreaTypes) {
+        scenes::Light light = areaLight(type, {x, 1.0, 1.5}, {-0.3 * x, -0.5, -1.0}, 3.0f);
+        light.rangeMetres = type == scenes::LightType::Disk ? 4.0f : scenes::kInfinity;
+        light.isTwoSided = type == scenes::LightType::Disk;
+        light.corners.metres[2] = {0.1f, -0.1f}; // points inwards
+        scene.lights.push_back(light);
+        x += 1.0;
+    }
+    return scene;
 }
 
 /// Of both sides of a quad.

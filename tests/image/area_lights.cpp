@@ -20,20 +20,6 @@ using engine::Technique;
 using scenes::LightType;
 using namespace test;
 
-/// The scene's lights and one of each type, with and without a range, from the front and on both sides.
-scenes::Scene withAreaLights(scenes::Scene scene) {
-    double x = -1.5;
-    for (const LightType type : kAreaTypes) {
-        scenes::Light light = areaLight(type, {x, 1.0, 1.5}, {-0.3 * x, -0.5, -1.0}, 3.0f);
-        light.rangeMetres = type == LightType::Disk ? 4.0f : scenes::kInfinity;
-        light.isTwoSided = type == LightType::Disk;
-        light.corners.metres[2] = {0.1f, -0.1f}; // points inwards
-        scene.lights.push_back(light);
-        x += 1.0;
-    }
-    return scene;
-}
-
 class AreaLights : public ShadowTest {
 protected:
     void expectAllTechniquesAlike();

@@ -3,10 +3,14 @@
 
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "scenes/Load.h"
+#include "tests/image/AreaLightTest.h"
 #include "tests/support/GlContext.h"
+#include "tests/support/Sweep.h"
 #include "tests/support/TestScenes.h"
+#include "viewer/session/Inspection.h"
 
 namespace tessera {
 namespace {
@@ -15,8 +19,22 @@ using culling::Method;
 using engine::Technique;
 using viewer::PictureLights;
 
+struct ListCase {
+    Technique technique;
+    std::optional<Method> method;
+    bool culls = true;
+};
+constexpr ListCase kListCases[] = {{Technique::Forward, {}, false},
+                                   {Technique::Deferred, {}, false},
+                                   {Technique::TiledDeferred, Method::Tile25d},
+                                   {Technique::ForwardPlus, Method::TileMinmax},
+                                   {Technique::ClusteredDeferred, Method::Zbin},
+                                   {Technique::ClusteredForward, Method::Cluster}};
+
 class PictureLightsTold : public test::GlTest {
 protected:
+    using NearestSurfaces = std::vector<std::optional<viewer::InspectedSurface>>;
+
     static engine::ViewRequest request(Technique technique, frame::DebugView view, std::optional<Method> method = {}) {
         engine::ViewRequest asked{technique, {}};
         asked.settings.sizePixels = {150, 85}; // of tiles that are cut off
@@ -24,7 +42,66 @@ protected:
         asked.settings.culling.method = method;
         return asked;
     }
+
+    /// By pixel, rows from the top, as far as visitsOf() asks: transparent ones too.
+    static NearestSurfaces nearestSurfaces(engine::Renderer& renderer, const scenes::Scene& scene) {
+        std::vector<viewer::InspectedSurface> ofInstances;
+        for (const scenes::Node& node : scene.nodes)
+            for (const scenes::MeshInstance& instance : node.instances) {
+                const scenes::Material& material = scene.materials[std::size_t(instance.material)];
+                viewer::InspectedSurface& surface = ofInstances.emplace_back();
+                surface.isTransparent = scenes::isTransparent(material);
+                surface.takesLight = scenes::infoOf(material.model).isLit;
+            }
+        engine::ViewRequest asked = request(Technique::Forward, frame::DebugView::Ids);
+        asked.settings.idsOfNearest = true;
+        renderer.draw({&asked, 1});
+        const engine::RenderedFrame ids = renderer.download();
+        NearestSurfaces surfaces(ids.radiance.size() / 4);
+        for (std::size_t pixel = 0; pixel < surfaces.size(); ++pixel) {
+            const auto instance = std::size_t(ids.radiance[4 * pixel]); // counted from 1
+            if (instance > 0) surfaces[pixel] = ofInstances.at(instance - 1);
+        }
+        return surfaces;
+    }
+
+    /// `shown` is a picture of the view `lights`.
+    static void expectShown(const PictureLights& lights, const engine::RenderedFrame& shown,
+                            const NearestSurfaces& surfaces, bool culls) {
+        std::set<std::size_t> counts;
+        int wrong = 0, bare = 0, transparent = 0, unlit = 0;
+        for (int y = 0; y < shown.height; ++y)
+            for (int x = 0; x < shown.width; ++x) {
+                const std::size_t pixel = std::size_t(y) * std::size_t(shown.width) + std::size_t(x);
+                const std::optional<viewer::InspectedSurface>& surface = surfaces[pixel];
+                const std::optional<std::size_t> ofOpaque = lights.visitedAt({x, y});
+                if (!surface) {
+                    ++bare;
+                    wrong += ofOpaque.has_value();
+                    continue;
+                }
+                const std::optional<std::size_t> visited = viewer::visitsOf(*surface, ofOpaque);
+                if (surface->isTransparent) {
+                    ++transparent;
+                    wrong += visited.has_value();
+                    continue;
+                }
+                wrong += !visited || float(*visited) != shown.radiance[4 * pixel];
+                unlit += !surface->takesLight;
+                if (visited && surface->takesLight) counts.insert(*visited);
+            }
+        EXPECT_EQ(wrong, 0);
+        EXPECT_GT(bare, 0);
+        EXPECT_GT(transparent, 0);
+        EXPECT_GT(unlit, 0);
+        EXPECT_EQ(counts.size() > 1, culls);
+    }
+
+    /// Of Lambert materials, and the lit picture with one technique, unless the sweep is whole: compiling takes most of
+    /// the time, and lists know nothing of lobes.
+    void expectToldOfEveryKindOfLight();
 };
+using PictureLightsToldSlow = PictureLightsTold;
 
 TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShows) {
     scenes::LoadOptions options;
@@ -33,17 +110,7 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
     scene.lights.push_back(test::pointLight({0.0, 0.0, 0.0}, 1.0f)); // one that reaches everywhere
     scene.lights.front().enabled = false;
     engine::Renderer renderer(context(), scene);
-    struct Case {
-        Technique technique;
-        std::optional<Method> method;
-        bool culls = true;
-    };
-    for (const auto& [technique, method, culls] : {Case{Technique::Forward, {}, false},
-                                                   {Technique::Deferred, {}, false},
-                                                   {Technique::TiledDeferred, Method::Tile25d},
-                                                   {Technique::ForwardPlus, Method::TileMinmax},
-                                                   {Technique::ClusteredDeferred, Method::Zbin},
-                                                   {Technique::ClusteredForward, Method::Cluster}}) {
+    for (const auto& [technique, method, culls] : kListCases) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::ViewRequest lit = request(technique, frame::DebugView::Final, method);
         ASSERT_TRUE(PictureLights::areTold(lit));
@@ -70,6 +137,32 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
         else
             EXPECT_EQ(counts.size(), 1u);
     }
+}
+
+void PictureLightsTold::expectToldOfEveryKindOfLight() {
+    const scenes::Scene scene =
+        test::withAreaLights(test::isWholeSweep() ? test::everythingScene() : test::lambertScene());
+    engine::Renderer renderer(context(), scene);
+    const NearestSurfaces surfaces = nearestSurfaces(renderer, scene);
+    for (const auto& [technique, method, culls] : kListCases) {
+        SCOPED_TRACE(infoOf(technique).name);
+        const engine::ViewRequest counted = request(technique, frame::DebugView::Lights, method);
+        ASSERT_TRUE(PictureLights::areTold(counted));
+        renderer.draw({&counted, 1});
+        const engine::RenderedFrame shown = renderer.download();
+        expectShown(PictureLights(renderer), shown, surfaces, culls);
+        if (!test::isWholeSweep() && technique != Technique::ClusteredForward) continue;
+        SCOPED_TRACE("the lit picture");
+        const engine::ViewRequest lit = request(technique, frame::DebugView::Final, method);
+        renderer.draw({&lit, 1});
+        expectShown(PictureLights(renderer), shown, surfaces, culls);
+    }
+}
+TEST_F(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
+    expectToldOfEveryKindOfLight();
+}
+TEST_F(PictureLightsToldSlow, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
+    expectToldOfEveryKindOfLight();
 }
 
 TEST_F(PictureLightsTold, nothingIsToldWhereNoListSaysIt) {

@@ -40,7 +40,7 @@ glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels) {
 }
 
 std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::optional<std::size_t> ofOpaque) {
-    if (surface.isTransparent || !ofOpaque) return std::nullopt; // another surface is before the opaque one
+    if (surface.isTransparent || surface.mayBeMoved || !ofOpaque) return std::nullopt;
     return surface.takesLight ? *ofOpaque : 0;
 }
 
@@ -106,6 +106,7 @@ std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scen
     surface.reachingLights = lightsReaching(scene.lights, picked->positionWS, timeSeconds);
     surface.isTransparent = scenes::isTransparent(material);
     surface.takesLight = scenes::infoOf(material.model).isLit;
+    surface.mayBeMoved = scene.hook && scene.hook->movesVertices;
     return surface;
 }
 

@@ -31,6 +31,7 @@ struct InspectedSurface {
     std::size_t reachingLights = 0;  ///< that are on and shine so far, and that way, whatever lies between
     bool isTransparent = false;
     bool takesLight = true;
+    bool mayBeMoved = false; ///< the scene's hook moves vertices: the picture may show another surface there
 };
 
 struct Inspection {
@@ -44,13 +45,15 @@ struct Inspection {
 /// The pixel at a place of a picture, a share of its size from the upper left.
 glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels);
 
-/// How many lights a pixel of this surface visits, of the lights that its opaque surface visits by light lists.
+/// How many lights a pixel of this surface visits, of the lights that its opaque surface visits by light lists. None
+/// where the picture may show another surface before, or in the place of, the opaque one.
 std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::optional<std::size_t> ofOpaque);
 
 /// The lines that tell it.
 std::vector<std::string> inspectionLines(const Inspection& inspection);
 
-/// The surface that a camera of the scene shows at a pixel, with the lights at a time; none where that is none.
+/// The surface that a camera of the scene shows at a pixel, with the lights at a time; none where that is none. Of
+/// vertices that a hook moves it takes the places where it found them.
 std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scenes::Camera& camera,
                                           glm::ivec2 sizePixels, glm::ivec2 pixel, double timeSeconds);
 

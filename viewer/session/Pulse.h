@@ -19,4 +19,21 @@ struct Pulse {
     void stirred(double nowSeconds) { restAt = nowSeconds + kRestSeconds; }
 };
 
+/// The latest picture, where the next may only show how it goes on.
+struct Gliding {
+    static constexpr double kNextInputSeconds = 0.01; ///< within which a pointer that moves is heard of again
+
+    bool isButtonHeld = false; ///< of the mouse
+    bool isMoving = false;     ///< the picture changes by itself
+    double ms = 0.0;           ///< that it took
+    double shownAt = 0.0;      ///< seconds of Window::nowSeconds()
+
+    /// From when on the next picture may follow, in the same seconds; 0: at once. In a drag the next movement of the
+    /// pointer is waited for: a picture that takes longer than that would delay the answer to it.
+    double from() const {
+        const bool waits = isButtonHeld && isMoving && ms > 1000.0 * kNextInputSeconds;
+        return waits ? shownAt + kNextInputSeconds : 0.0;
+    }
+};
+
 } // namespace tessera::viewer

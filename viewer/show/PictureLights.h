@@ -12,7 +12,8 @@ namespace tessera::viewer {
 class PictureLights {
 public:
     /// Whether pictures of a view tell: what they show is added up over lights, by a technique that visits them at each
-    /// pixel, which is a single sample.
+    /// pixel, which is a single sample. A frame has one exactly where one is asked for: techniques and drivers that
+    /// have no more refuse the others (engine/ChooseSamples.h).
     static bool areTold(const engine::ViewRequest& view);
 
     /// Of the renderer's latest frame, of such a view. Waits for the GPU.

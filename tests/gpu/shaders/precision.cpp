@@ -277,6 +277,8 @@ TEST_F(PrecisionTest, normalsOfTrianglesAreStoredWithinTheirBound) {
 
 /// pow() alone is off by more.
 TEST_F(PrecisionTest, srgbIsDecodedToAFewRoundings) {
+    // Ten roundings of 2^-24: of 1.055, the sum and the quotient, each times 2.4 by the power, and of three products.
+    constexpr double kTenRoundings = 6e-7;
     std::vector<glm::vec4> inputs;
     for (int i = 0; i <= 4096; ++i) inputs.emplace_back(float(i) / 4096.0f);
     const std::vector<glm::vec4> out =
@@ -284,7 +286,7 @@ TEST_F(PrecisionTest, srgbIsDecodedToAFewRoundings) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const double code = double(inputs[i].x);
         const double wanted = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-        ASSERT_NEAR(out[i].x, wanted, 6e-7 * wanted) << code;
+        ASSERT_NEAR(out[i].x, wanted, kTenRoundings * wanted) << code;
     }
 }
 

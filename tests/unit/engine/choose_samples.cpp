@@ -59,6 +59,23 @@ TEST(ChooseSamples, invalidSampleCountsAreRefused) {
     }
 }
 
+// Who looks at the number that was asked for to tell whether a pixel is one sample relies on it.
+TEST(ChooseSamples, aFrameHasASingleSampleExactlyWhereOneIsAskedFor) {
+    const std::vector<std::size_t> drivers[] = {{1}, {1, 2}, {1, 4}, {1, 2, 4, 8}};
+    for (const std::vector<std::size_t>& driver : drivers)
+        for (const int asked : frame::kSampleCounts) {
+            int given = 0;
+            const std::string fault =
+                faultOf([&] { given = chooseSamples(settingsOn(giving(driver), asking(asked))); });
+            EXPECT_EQ(fault.empty(), std::size_t(asked) <= driver.back()) << fault;
+            EXPECT_TRUE(!fault.empty() || (given == 1) == (asked == 1)) << given << " for " << asked;
+        }
+    const scenes::Scene room = scenes::loadScene("room");
+    for (const TechniqueInfo& info : techniqueTable())
+        EXPECT_EQ(faultOf([&] { planFrame(room, info.technique, asking(4)); }).empty(), info.multisamples())
+            << info.name << " draws what it cannot take";
+}
+
 TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
     const gpu::Capabilities fours = giving({1, 4});
     EXPECT_EQ(settingsOn(fours, asking(1)).samplePlaces.size(), 1u);

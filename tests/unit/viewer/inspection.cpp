@@ -73,6 +73,28 @@ TEST(Inspection, ofWhatTakesNoLightNoneAreVisitedAndOfWhatIsTransparentItIsNotKn
     EXPECT_EQ(visitsOf(surface, 38), std::nullopt);
 }
 
+TEST(Inspection, whereAHookMovesVerticesItIsNotKnownHowManyLightsAreVisited) {
+    scenes::Scene scene;
+    scene.materials.resize(1);
+    scenes::Mesh card;
+    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    card.normalsOS.assign(3, {0, 0, 1});
+    card.indices = {0, 1, 2};
+    scene.meshes = {card};
+    scene.nodes.emplace_back().instances = {{0, 0}};
+    const auto visited = [&] {
+        const scenes::Camera camera = perspective({0, 0, 5}, {0, 0, 0});
+        return visitsOf(surfaceAt(scene, camera, {100, 100}, {50, 50}, 0.0).value(), 38);
+    };
+    EXPECT_EQ(visited(), 38u);
+    scene.hook.emplace();
+    EXPECT_EQ(visited(), 38u) << "a hook that changes surfaces alone leaves them where they are";
+    scene.hook->movesVertices = true;
+    EXPECT_EQ(visited(), std::nullopt) << "the ray finds the surface where the hook found it";
+    scene.materials[0].model = scenes::MaterialModel::SingleColor;
+    EXPECT_EQ(visited(), std::nullopt) << "the picture may show another one, which takes light";
+}
+
 TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) {
     scenes::Scene scene;
     scene.materials.resize(1);
