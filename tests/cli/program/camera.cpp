@@ -68,8 +68,9 @@ TEST_F(CameraOptions, furtherCamerasAreNamedWhereNoneIsChosen) {
                                    cameras + "]}");
     EXPECT_EQ(said({}, "many.json"), "camera 'c2' of 9; --camera takes 'c0', 'c1', 'c3', 'c4', 'c5' and 3 more\n");
     runGood({"plan", "room", "--camera", "back", "--json", "p.json"});
+    const nlohmann::json plan = json("p.json");
     nlohmann::json chosen;
-    for (const nlohmann::json& choice : json("p.json")["choices"])
+    for (const nlohmann::json& choice : plan["choices"])
         if (choice["what"] == "camera") chosen = choice;
     EXPECT_EQ(chosen["chosen"], "back");
     EXPECT_EQ(chosen["why"], "the one that the setting camera names, else the first; it also takes 'corner'");
