@@ -59,7 +59,7 @@ struct Bands {
     int rows = 0;
     int columns = 0;            ///< of its pieces
     int usualRows = 0;          ///< where pixels are quick, at least
-    double growsWithinMs = 0.0; ///< until then, two of a piece must fit into that
+    double growsWithinMs = 0.0; ///< below that they grow where twice the slowest piece's time fits into this
 };
 
 /// BandProgress::share before and after a draw.
@@ -82,8 +82,8 @@ double drawPiece(const std::function<void()>& draw, int column, int row, int wid
     return clock.elapsedMs();
 }
 
-/// Draws all of the area band by band, and asks before each but that with which the share begins at 0. Returns what the
-/// slowest piece took in milliseconds.
+/// Draws all of the area band by band, and asks before each piece but the first of a draw. Returns what the slowest
+/// piece took in milliseconds.
 double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& shares) {
     const BandedArea area = state.area;
     const double longestMs = state.pace.longestMs;
@@ -105,7 +105,7 @@ double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& 
             column += width;
             // Narrower than the picture only where even the lowest bands are slow.
             if (ms > longestMs && bands.rows == kSlowStep)
-                bands.columns = std::max(bands.columns / 4, kSlowStep);
+                bands.columns = std::max(bands.columns / 4, std::min(kSlowStep, area.width));
             else if (2.0 * ms < longestMs && width == bands.columns) // not of one that the edge cut
                 bands.columns = std::min(bands.columns * 2, area.width);
         }
@@ -201,9 +201,11 @@ void drawInParts(std::size_t triangles, const std::function<void(std::size_t fir
         const auto share = [&](std::size_t number) { return double(number) / double(triangles); };
         const double slowestMs = drawBands([&] { draw(done, count); }, bands, {share(done), share(done + count)});
         done += count;
+        // Bands repeat a part's geometry, so while there are several a part is to be quick enough for them to grow.
+        const bool isOneBand = bands.rows >= whole && bands.columns == area.width;
+        const double aimMs = isOneBand ? kPieceMs : kPieceMs / 3.0;
         // The next part may cover more pixels than this one, so it grows by steps, and only where bands need not.
-        const double most = bands.rows >= whole && bands.columns == area.width ? 2.0 : 1.0;
-        const double factor = std::clamp(kPieceMs / std::max(slowestMs, 0.1), 0.5, most);
+        const double factor = std::clamp(aimMs / std::max(slowestMs, 0.1), 0.5, isOneBand ? 2.0 : 1.0);
         part = std::max(std::size_t(double(part) * factor), kFewestTriangles);
     }
 }

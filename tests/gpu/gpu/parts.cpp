@@ -1,7 +1,9 @@
 // Draws in parts (Bands.h): which triangles and which pixels each piece has.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "renderer/gpu/Bands.h"
@@ -29,26 +31,33 @@ struct DrawnPart {
     std::size_t first = 0;
     std::size_t count = 0;
     std::vector<int> timesDrawn; ///< by pixel
+    int pieces = 0;
 };
+
+bool isOnePiece(const DrawnPart& part) {
+    return part.pieces == 1;
+}
 
 class PartsTest : public test::GlTest {
 protected:
     static constexpr int kWidth = 90, kHeight = 300; // no multiples of a band's rows or of a piece's columns
     static constexpr std::size_t kPixels = std::size_t(kWidth) * kHeight;
 
-    void SetUp() override { bindFramebuffer(framebuffer_); }
-    /// Draws nothing, but takes `ms`.
-    void draw(std::size_t triangles, int ms = 0) {
+    void SetUp() override { bindFramebuffer(framebuffer); }
+    /// Draws nothing, but takes `ms`, and for each of its triangles so much besides.
+    void draw(std::size_t triangles, int ms = 0, double nsEachTriangle = 0.0) {
         drawInParts(triangles, [&](std::size_t first, std::size_t count) {
             if (parts.empty() || parts.back().first != first)
                 parts.push_back({first, count, std::vector<int>(kPixels)});
+            ++parts.back().pieces;
             EXPECT_EQ(parts.back().count, count);
             int box[4] = {0, 0, kWidth, kHeight};               // x, y, width, height
             if (isScissored()) glad_glGetIntegerv(0x0C10, box); // GL_SCISSOR_BOX
             for (int y = box[1]; y < box[1] + box[3]; ++y)
                 for (int x = box[0]; x < box[0] + box[2]; ++x)
                     ++parts.back().timesDrawn.at(std::size_t(y) * kWidth + std::size_t(x));
-            std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+            std::this_thread::sleep_for(std::chrono::milliseconds(ms) +
+                                        std::chrono::nanoseconds(std::int64_t(nsEachTriangle * double(count))));
         });
     }
     void expectAllDrawnOnce(std::size_t triangles) const {
@@ -62,10 +71,8 @@ protected:
     }
 
     std::vector<DrawnPart> parts; ///< in the order in which they were drawn
-
-private:
-    Texture texture_{"parts", {graph::Format::Rgba8Unorm, kWidth, kHeight, 1}};
-    Framebuffer framebuffer_{Attachments{{&texture_}}};
+    Texture target{"parts", {graph::Format::Rgba8Unorm, kWidth, kHeight, 1}};
+    Framebuffer framebuffer{Attachments{{&target}}};
 };
 
 TEST_F(PartsTest, withoutBandedDrawingAllTrianglesAreDrawnAtOnce) {
@@ -100,6 +107,30 @@ TEST_F(PartsTest, quickPartsGrow) {
     expectAllDrawnOnce(1'000'000);
     const auto larger = [](const DrawnPart& a, const DrawnPart& b) { return a.count < b.count; };
     EXPECT_GT(std::ranges::max_element(parts, larger)->count, 4 * parts.front().count);
+}
+
+TEST_F(PartsTest, whereTrianglesAreSlowThePartsShrinkUntilBandsNeedNotRepeatThem) {
+    const BandedDrawing banded([] { return false; });
+    draw(100'000, 0, 1000.0); // 8 ms for the first part: less than a piece should take, but not half of it
+    EXPECT_GT(parts.front().pieces, 1);
+    EXPECT_TRUE(std::ranges::any_of(parts, isOnePiece));
+}
+
+TEST_F(PartsTest, slowBandsOfANarrowAreaGrowAgain) {
+    setScissor({0, 0, 8, kHeight});
+    std::vector<int> pieces; // by part
+    std::size_t latest = 1;  // no part begins with it
+    {
+        const BandedDrawing banded([] { return false; }, {.longestMs = 20});
+        drawInParts(1'000'000, [&](std::size_t first, std::size_t) {
+            if (std::exchange(latest, first) != first) pieces.push_back(0);
+            ++pieces.back();
+            if (pieces.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(25));
+        });
+    }
+    bindFramebuffer(framebuffer); // without the scissor
+    EXPECT_GT(pieces.front(), 5) << "as low and narrow as can be";
+    EXPECT_TRUE(std::ranges::find(pieces, 1) != pieces.end());
 }
 
 TEST_F(PartsTest, partsThatTakeLongShrinkAndCanBeAbandoned) {
