@@ -21,7 +21,7 @@ PrintedNumber printed(const char* format, double value) {
 
 double shownNumber(const char* format, double value) {
     if (!std::isfinite(value) || !std::signbit(value)) return value;
-    return std::strpbrk(printed(format, value).data(), "123456789") == nullptr ? 0.0 : value;
+    return std::strpbrk(printed(format, value).data(), "123456789") == nullptr ? -value : value;
 }
 
 std::string numberText(const char* format, double value) {

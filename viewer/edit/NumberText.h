@@ -6,7 +6,8 @@
 /// Numbers as the viewer prints them: a number that rounds to zero has no minus, as in "-0.000".
 namespace tessera::viewer {
 
-/// The number, or 0 where a printf format of one double would print it without any digit but 0.
+/// The number, without its minus where a printf format of one double would print no digit but 0. It is not 0 instead: a
+/// typed 0 could not be told from it.
 double shownNumber(const char* format, double value);
 /// The same of each component.
 template <glm::length_t N, typename Number>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ TEST(NumberText, zerosOfSoManyDecimalsHaveNoMinus) {
 TEST(NumberText, whatIsNotEditedOfAVectorStaysToTheLastBit) {
     glm::dvec3 value(-1e-4, 0.25, -1e-4);
     const bool isEdited = editShown(value, -10.0, 10.0, "%.3f", [](glm::dvec3& edited) {
-        EXPECT_TRUE(edited.x == 0.0 && !std::signbit(edited.x)) << "so it is shown";
+        EXPECT_EQ(edited.x, 1e-4) << "so it is shown";
         edited.y = 0.5;
         edited.z = 2.0;
         return true;
@@ -35,6 +36,16 @@ TEST(NumberText, whatIsNotEditedOfAVectorStaysToTheLastBit) {
     EXPECT_EQ(value, glm::dvec3(-1e-4, 0.5, 2.0));
     EXPECT_FALSE(editShown(value, -10.0, 10.0, "%.3f", [](glm::dvec3&) { return false; }));
     EXPECT_EQ(value.x, -1e-4);
+}
+
+TEST(NumberText, aNumberThatIsShownAsZeroCanBeMadeZero) {
+    float value = -1e-4f;
+    const auto type = [](float& edited) { return std::exchange(edited, 0.0f) != 0.0f; }; // as Dear ImGui's fields
+    EXPECT_TRUE(editShown(value, -10.0f, 10.0f, "%.3f", type));
+    EXPECT_EQ(value, 0.0f);
+    value = -0.0f;
+    EXPECT_FALSE(editShown(value, -10.0f, 10.0f, "%.3f", type));
+    EXPECT_TRUE(std::signbit(value));
 }
 
 } // namespace
