@@ -123,6 +123,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
+    if (job.pictures() == 0) return;
     tellOfCameras(options.frame, job.request, global.quiet);
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
     for (const std::string& text : unheededByReference(options.frame, job.request)) spdlog::warn("{}", text);

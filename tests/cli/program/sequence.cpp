@@ -205,6 +205,15 @@ TEST_F(FrameSequences, onlyWhatIsMissingOrOfOtherSettingsIsDrawn) {
     EXPECT_TRUE(text("f_8.exr") == first.at("f_8.exr"));
 }
 
+TEST_F(FrameSequences, whereNoFrameIsLeftNothingIsSaidOfThePicture) {
+    for (const char* technique : {"reference", "forward"}) {
+        const Words two{"render", "room",     "--technique", technique, "--size",
+                        "16x9",   "--frames", "2",           "-o",      "room_%d.exr"};
+        EXPECT_THAT(runGood(two), MatchesRegex("camera 'corner' of 2; --camera takes 'back'\n" + summary(2, 0)));
+        EXPECT_THAT(runGood(two), MatchesRegex(summary(0, 2)));
+    }
+}
+
 TEST_F(FrameSequences, anotherPaceDrawsTheFramesWhoseTimesChange) {
     const auto at = [](const std::string& fps) { return command({"--frames", "4", "--fps", fps, "-o", "f_%03d.png"}); };
     EXPECT_THAT(runGood(at("8")), MatchesRegex(summary(4, 0)));
