@@ -19,7 +19,7 @@ struct Pulse {
     void stirred(double nowSeconds) { restAt = nowSeconds + kRestSeconds; }
 };
 
-/// The latest picture, where the next may only show how it goes on.
+/// The latest picture, and when another may follow it without new input.
 struct Gliding {
     static constexpr double kNextInputSeconds = 0.01; ///< within which a pointer that moves is heard of again
 
