@@ -37,8 +37,7 @@ bool picker(glm::vec3& color, float scale) {
 void colorSwatch(const glm::vec3& linear, float sidePixels) {
     const glm::vec3 code = swatchOfColor(linear);
     ImGui::ColorButton("##swatch", {code.r, code.g, code.b, 1.0f},
-                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop | ImGuiColorEditFlags_NoBorder,
-                       {sidePixels, sidePixels});
+                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {sidePixels, sidePixels});
 }
 
 bool colorRow(const char* label, glm::vec3& color, float most) {

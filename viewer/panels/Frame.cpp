@@ -69,8 +69,13 @@ void showSection(State& state, const Facts& facts, const Section& section) {
     const bool wasOpen = known != state.sections.end() ? known->second : section.isOpen;
     const bool isRevealed = section.selected && state.reveals == section.selected;
     ImGui::SetNextItemOpen(wasOpen || isRevealed);
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f); // borders are for what takes input
+    // Borders are for what takes input, and the colour of what is selected for rows of lists.
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
+    ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_Tab));
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_TabHovered));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
     const bool isOpen = ImGui::CollapsingHeader(section.title);
+    ImGui::PopStyleColor(3);
     ImGui::PopStyleVar();
     if (isRevealed) {
         state.reveals.reset();

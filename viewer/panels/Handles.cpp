@@ -12,7 +12,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 205, 60, 255);
 constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160);    ///< so that lines are seen on white too
 constexpr ImU32 kRangeInk = IM_COL32(140, 195, 255, 110); ///< of how far lights shine, and of others that are selected
 /// Of the arms along x, y and z.
@@ -134,7 +134,8 @@ void drawBesidePointer(const std::string& text, const PictureArea& area) {
     const float y = std::max(std::min(pointer.y + beside, end.y - size.y - 2.0f * pad), area.corner.y + pad);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
-    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200), pad);
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, IM_COL32(20, 21, 24, 200),
+                       ImGui::GetStyle().FrameRounding);
     list.AddText({x, y}, IM_COL32(220, 222, 228, 255), text.c_str());
     list.PopClipRect();
 }

@@ -45,8 +45,11 @@ void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     if (state.pinnedPlace) outline(list, point - 0.75f * texel, 1.5f * texel, area.scale);
     // The loupes are drawn below the interface: the box goes around them.
     const glm::vec2 first = corner + pad, words = first + glm::vec2(0.0f, loupe + pad);
-    list.AddRectFilled({corner.x, corner.y}, {corner.x + size.x, first.y}, kBoxBehind);
-    list.AddRectFilled({corner.x, first.y + loupe}, {corner.x + size.x, corner.y + size.y}, kBoxBehind);
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    list.AddRectFilled({corner.x, corner.y}, {corner.x + size.x, first.y}, kBoxBehind, rounding,
+                       ImDrawFlags_RoundCornersTop);
+    list.AddRectFilled({corner.x, first.y + loupe}, {corner.x + size.x, corner.y + size.y}, kBoxBehind, rounding,
+                       ImDrawFlags_RoundCornersBottom);
     float x = corner.x;
     for (int side = 0; side < sides; ++side) {
         const glm::vec2 at(first.x + float(side) * (loupe + pad), first.y);

@@ -40,7 +40,8 @@ void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float
     const ImVec2 end(area.corner.x + area.size.x - 2.0f * pad, area.corner.y + area.size.y - 2.0f * pad);
     const float barX = end.x - barWidth, top = end.y - height, titleY = top - pad - 1.5f * line;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({end.x - titleWidth - pad, titleY - 0.5f * pad}, {end.x + pad, end.y + pad}, kBehind, pad);
+    list.AddRectFilled({end.x - titleWidth - pad, titleY - 0.5f * pad}, {end.x + pad, end.y + pad}, kBehind,
+                       ImGui::GetStyle().FrameRounding);
     list.AddText({end.x - titleWidth, titleY}, kInk, title);
     const auto yAt = [&](float position) { return end.y - position * height; };
     for (int step = 0; step < kSteps; ++step) {
@@ -73,7 +74,7 @@ void drawSwatches(const PictureArea& area, std::span<const validation::Swatch> s
     const ImVec2 end(area.corner.x + area.size.x - pad, area.corner.y + area.size.y - pad);
     const ImVec2 corner(end.x - size.x, end.y - size.y);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled(corner, end, kBehind, pad);
+    list.AddRectFilled(corner, end, kBehind, ImGui::GetStyle().FrameRounding);
     float y = corner.y + pad;
     for (const validation::Swatch& swatch : swatches) {
         const float x = corner.x + pad;
@@ -91,7 +92,8 @@ void drawCaption(const PictureArea& area, const std::string& text, float scale) 
     const ImVec2 corner(area.corner.x + pad, area.corner.y + area.size.y - 2.0f * pad - words.y);
     if (text.empty() || area.size.x < words.x + 4.0f * pad) return; // no room to read it
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled(corner, {corner.x + words.x + 2.0f * pad, corner.y + words.y + pad}, kBehind, pad);
+    list.AddRectFilled(corner, {corner.x + words.x + 2.0f * pad, corner.y + words.y + pad}, kBehind,
+                       ImGui::GetStyle().FrameRounding);
     list.AddText({corner.x + pad, corner.y + 0.5f * pad}, kInk, text.c_str());
 }
 

@@ -30,7 +30,8 @@ void drawName(const std::string& name, const PictureArea& part, Corner corner, I
     const float x = corner == Corner::UpperLeft ? part.corner.x + 2.0f * pad : end.x - size.x - 2.0f * pad;
     const float y = part.corner.y + top + 2.0f * pad;
     list.PushClipRect({part.corner.x, part.corner.y}, {end.x, end.y});
-    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName,
+                       ImGui::GetStyle().FrameRounding);
     list.AddText({x, y}, color, name.c_str());
     list.PopClipRect();
     top += size.y + 2.5f * pad;
@@ -53,7 +54,8 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
         corner == Corner::UpperLeft ? part.corner.x + 2.0f * pad : part.corner.x + part.size.x - size.x - 2.0f * pad;
     const float y = part.corner.y + top + 2.0f * pad;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName, pad);
+    list.AddRectFilled({x - pad, y - pad}, {x + size.x + pad, y + size.y + pad}, kBehindName,
+                       ImGui::GetStyle().FrameRounding);
     list.AddText(titleFont, titlePixels(em), {x, y}, kPlain, name.c_str(), nullptr, width);
     list.AddText(font, em, {x, y + nameSize.y}, kPlain, meaning.c_str(), nullptr, width);
     top += size.y + 2.5f * pad;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
 
 #include <imgui.h>
 
@@ -79,7 +80,7 @@ void secondColumn() {
 }
 
 float labelWidth() {
-    return kLabelShare * ImGui::GetWindowContentRegionMax().x;
+    return std::floor(kLabelShare * ImGui::GetWindowContentRegionMax().x); // whole pixels keep borders sharp
 }
 
 std::optional<std::size_t> choose(const char* label, std::string_view shown, std::span<const Choice> choices,

@@ -29,19 +29,23 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_TitleBg] = grey(0.09f);
     colors[ImGuiCol_TitleBgActive] = grey(0.13f);
     colors[ImGuiCol_ScrollbarBg] = grey(0.1f, 0.6f);
-    colors[ImGuiCol_ScrollbarGrab] = grey(0.28f);
-    colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.36f);
-    colors[ImGuiCol_ScrollbarGrabActive] = grey(0.44f);
+    colors[ImGuiCol_ScrollbarGrab] = grey(0.41f);
+    colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.48f);
+    colors[ImGuiCol_ScrollbarGrabActive] = grey(0.56f);
     colors[ImGuiCol_CheckMark] = accent(1.2f);
     // Dim: the number is written across it.
     colors[ImGuiCol_SliderGrab] = accent(0.72f);
     colors[ImGuiCol_SliderGrabActive] = accent(0.76f);
-    colors[ImGuiCol_Button] = grey(0.22f);
-    colors[ImGuiCol_ButtonHovered] = grey(0.29f);
+    colors[ImGuiCol_Button] = grey(0.25f);
+    colors[ImGuiCol_ButtonHovered] = grey(0.32f);
     colors[ImGuiCol_ButtonActive] = accent(0.8f);
-    colors[ImGuiCol_Header] = grey(0.2f);
-    colors[ImGuiCol_HeaderHovered] = grey(0.26f);
-    colors[ImGuiCol_HeaderActive] = grey(0.3f);
+    colors[ImGuiCol_Header] = accent(0.68f);
+    colors[ImGuiCol_HeaderHovered] = accent(0.72f);
+    colors[ImGuiCol_HeaderActive] = accent(0.76f);
+    // Titles of sections, which Dear ImGui would draw like rows of lists.
+    colors[ImGuiCol_Tab] = grey(0.2f);
+    colors[ImGuiCol_TabHovered] = grey(0.26f);
+    colors[ImGuiCol_TabActive] = grey(0.3f);
     colors[ImGuiCol_Separator] = grey(0.24f);
     colors[ImGuiCol_PlotLines] = accent(1.1f);
     colors[ImGuiCol_PlotHistogram] = accent(0.95f);

@@ -45,5 +45,12 @@ TEST_F(Theme, numbersCanBeReadOnSliders) {
     EXPECT_GE(contrast(ImGuiCol_Text, ImGuiCol_SliderGrabActive), kLeastOfParts) << "while it is dragged";
 }
 
+TEST_F(Theme, selectedRowsCanBeReadAndScrollBarsAreSeen) {
+    for (const ImGuiCol row : {ImGuiCol_Header, ImGuiCol_HeaderHovered})
+        EXPECT_GE(contrast(ImGuiCol_Text, row), kLeastOfText) << ImGui::GetStyleColorName(row);
+    for (const ImGuiCol grab : {ImGuiCol_ScrollbarGrab, ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ScrollbarGrabActive})
+        EXPECT_GE(contrast(grab, ImGuiCol_WindowBg), kLeastOfParts) << ImGui::GetStyleColorName(grab);
+}
+
 } // namespace
 } // namespace tessera::viewer
