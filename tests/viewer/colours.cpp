@@ -88,8 +88,9 @@ protected:
                 << saved;
     }
 
-    // Swatches of lists are as high as a line of text, others as a field; their corners are round.
-    static constexpr int kListSwatchPixels = 13 * 13 - 30, kSwatchPixelsLeast = 19 * 19 - 60, kSwatchReach = 15;
+    // Swatches of lists are as high as a line of text, 13 pixels, others as a field, 19; a border of one pixel is
+    // around them, and their corners are round.
+    static constexpr int kListSwatchPixels = 11 * 11 - 20, kSwatchPixelsLeast = 17 * 17 - 30, kSwatchReach = 15;
     static constexpr glm::ivec3 kTyped{0xc8, 0x5a, 0x1e}; // by typeColour()
 };
 
