@@ -37,6 +37,8 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
     if (printsJson || printsDot) return kGood;
     if (const std::string supplied = scenes::suppliedText(request.scene); !supplied.empty() && !global.quiet)
         fmt::print("{}\n", supplied);
+    if (const std::string cameras = camerasText(options.frame, request); !cameras.empty() && !global.quiet)
+        fmt::print("{}\n", cameras);
     fmt::print("{}", graph::planText(plan));
     return kGood;
 }

@@ -24,7 +24,6 @@
 #include "engine/Renderer.h"
 #include "engine/Rendering.h"
 #include "renderer/shader/SourceTree.h"
-#include "scenes/CameraNames.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "validation/compare/ReferencePicture.h"
@@ -103,15 +102,9 @@ void warnOfPicture(const std::string& path, const std::string& fault, bool& hasW
     spdlog::warn("{}", oneLine(path + ": " + fault));
 }
 
-/// Prints which cameras the scene has besides, where the user chose none and placed none: once nothing stands in the
-/// way of a picture, since an error is all that is said of a mistake.
+/// Once nothing stands in the way of a picture, since an error is all that is said of a mistake.
 void tellOfCameras(const FrameOptions& options, const Request& request, bool isQuiet) {
-    const auto camera = std::size_t(request.settings.camera);
-    const std::string others = scenes::otherCamerasText(request.scene, camera);
-    if (isQuiet || others.empty() || options.said("camera") || options.pose.eyeWS) return;
-    fmt::print("{}\n",
-               oneLine(fmt::format("camera '{}' of {}; --camera takes {}", scenes::nameOfCamera(request.scene, camera),
-                                   request.scene.cameras.size(), others)));
+    if (const std::string text = camerasText(options, request); !text.empty() && !isQuiet) fmt::print("{}\n", text);
 }
 
 /// Without a context, unless the scene's hook needs one to run: the display picture has exposure and sRGB alone.
@@ -200,8 +193,8 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
             request, request.scene,
             makerText(fmt::format("{} {}", context->capabilities().renderer, context->capabilities().version)));
     if (job.pictures() == 0) return;
-    tellOfCameras(frame, request, global.quiet);
     engine::Renderer renderer(*context, request.scene);
+    tellOfCameras(frame, request, global.quiet);
     filterEnvironment(request, renderer, global.quiet);
     // One picture is soon made, but for light that spreads over surfaces.
     Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);

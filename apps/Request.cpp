@@ -12,6 +12,7 @@
 #include "base/Names.h"
 #include "base/OneLine.h"
 #include "renderer/frame/MaterialFeatures.h"
+#include "scenes/CameraNames.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
 #include "scenes/InUse.h"
@@ -97,6 +98,14 @@ gpu::ContextKind contextKind(const std::string& name) {
 
 scenes::LightUnits lightUnitsNamed(const std::string& name) {
     return rowNamed(scenes::kLightUnits, name, "unit of light").units;
+}
+
+std::string camerasText(const FrameOptions& options, const Request& request) {
+    const auto camera = std::size_t(request.settings.camera);
+    const std::string others = scenes::otherCamerasText(request.scene, camera);
+    if (others.empty() || options.said("camera") || options.pose.eyeWS) return "";
+    return oneLine(fmt::format("camera '{}' of {}; --camera takes {}", scenes::nameOfCamera(request.scene, camera),
+                               request.scene.cameras.size(), others));
 }
 
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options) {

@@ -69,6 +69,10 @@ Request resolve(const FrameOptions& options, std::stop_token stop = {});
 /// Warns of what the request's scene lacks, as resolve() does.
 void warnOfScene(const scenes::Scene& scene);
 
+/// A line of which cameras the scene has besides the one that is used; empty where there are none, or where the options
+/// choose one or place their own.
+std::string camerasText(const FrameOptions& options, const Request& request);
+
 /// How loadScene() is asked for the scene. Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 

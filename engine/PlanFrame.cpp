@@ -87,11 +87,8 @@ graph::Plan::Choice atlasChoice(const frame::ShadowMaps& maps, const frame::Fram
 
 void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::FrameSettings& settings = prepared.spec.settings;
-    const auto camera = std::size_t(settings.camera);
-    const std::string others = scenes::otherCamerasText(scene, camera);
-    plan.choices.push_back({"camera", scenes::nameOfCamera(scene, camera),
-                            "the one that the setting camera names, else the first" +
-                                (others.empty() ? "" : "; it also takes " + others)});
+    plan.choices.push_back({"camera", scenes::nameOfCamera(scene, std::size_t(settings.camera)),
+                            "the one that the setting camera names, else the first"});
     plan.choices.push_back(
         {"light store", "buffer texture, RGBA32F",
          "read fastest of uniform, storage and texture buffers on software rasterisers, and has no 64 KiB limit"});

@@ -22,8 +22,7 @@ std::string otherCamerasText(const Scene& scene, std::size_t camera) {
         text += fmt::format("{}'{}'", named == 0 ? "" : ", ", nameOfCamera(scene, i));
         ++named;
     }
-    if (const std::size_t others = scene.cameras.size() - 1; others > named)
-        text += fmt::format(" and {} more", others - named);
+    if (scene.cameras.size() > named + 1) text += fmt::format(" and {} more", scene.cameras.size() - named - 1);
     return text;
 }
 
