@@ -112,7 +112,7 @@ SettingValue valueIn(Get get, SettingKind kind, TextOf textOf, ValueOf valueOf, 
         const auto* const now = given(get(request));
         return now ? textOf(*now) : std::string(open);
     };
-    value.read = [get, valueOf, open](ViewRequest& request, const std::string& text, const TextSource& source) {
+    value.read = [=](ViewRequest& request, const std::string& text, const TextSource& source) {
         if constexpr (kIsOptional<Value>) {
             if (text == open) {
                 get(request).reset();

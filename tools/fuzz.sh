@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Feeds broken files to every importer (tests/fuzz). Usage: ./test --fuzz SECONDS [TARGET...]
+# Feeds broken files to every reader (tests/fuzz). Usage: ./test --fuzz SECONDS [TARGET...]
 # The seconds are spread over the targets. Ends with exit code 1 at the first finding, and says where its input lies.
 # Inputs that reach new code are kept in build/fuzz/corpus, and are where the next run begins.
 set -euo pipefail

@@ -38,10 +38,10 @@ struct DrawnView {
     ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
 
     /// An object that light spreads over, drawn into its texels.
-    struct SpreadingView;
-    std::vector<SpreadingView> spreadingViews = {}; ///< by cell of the view's SpreadLightAtlas
-    DiffusionMemory* diffusionMemory = nullptr;     ///< where the view has any
-    std::function<void()> spreadOne = {};           ///< called when the light of an object was spread; may be empty
+    struct SpreadingView;                       // holds a DrawnView, so no initializer may need it whole
+    std::vector<SpreadingView> spreadingViews;  ///< by cell of the view's SpreadLightAtlas
+    DiffusionMemory* diffusionMemory = nullptr; ///< where the view has any
+    std::function<void()> spreadOne = {};       ///< called when the light of an object was spread; may be empty
 };
 struct DrawnView::SpreadingView {
     DrawnView drawn;

@@ -139,7 +139,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
                                  settings.wholePixels.value_or(settings.sizePixels), cameraNear, light.sideTexels,
                                  border);
         for (scenes::Camera& camera : cameras) {
-            ShadowFace& face = maps.faces.emplace_back(std::move(camera), glm::ivec2(0), light.sideTexels);
+            ShadowFace& face = maps.faces.emplace_back(ShadowFace{std::move(camera), glm::ivec2(0), light.sideTexels});
             // Views of shadows show them beyond the light's reach too.
             const bool isCut = scenes::infoOf(shining.type).hasPosition() && !showsShadowsOfOne(settings.view) &&
                                !showsMaps(settings.view);

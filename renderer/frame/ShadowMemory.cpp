@@ -39,8 +39,8 @@ bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool hol
             const glm::dvec3 objectWS(scene.drawList().worldFromObject[std::size_t(draw.node)][3]);
             return scene.isCaster(draw) && !(culls && isBeyond(draw, objectWS, face, view));
         });
-        ShadowDraws::Face& added =
-            draws_.faces.emplace_back(face.cornerTexels, face.sideTexels, view.constants, drawn.opaque);
+        ShadowDraws::Face& added = draws_.faces.emplace_back(
+            ShadowDraws::Face{face.cornerTexels, face.sideTexels, view.constants, drawn.opaque});
         const int first = int(draws_.rows.size());
         for (Batch& batch : added.batches) batch.first += first;
         for (gpu::DrawIndexedCommand command : scene.commandsOf(drawn)) {
@@ -64,7 +64,7 @@ ShadowMemory& ShadowMemories::of(std::size_t view, const FrameSettings& settings
     };
     auto memory = std::make_unique<ShadowMemory>();
     while (isTaken(memory->number_)) ++memory->number_;
-    return *ways_.emplace_back(view, settings.shadowFilter, settings.shadowMaps, std::move(memory)).memory;
+    return *ways_.emplace_back(Way{view, settings.shadowFilter, settings.shadowMaps, std::move(memory)}).memory;
 }
 
 void ShadowMemories::beginFrame() {

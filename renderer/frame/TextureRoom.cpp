@@ -1,7 +1,6 @@
 #include "renderer/frame/TextureRoom.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -78,7 +77,8 @@ void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
             spec.hasNoRoomBehindGlass = spec.showsBehindGlass || spec.drawsFarSides;
             spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = spec.drawsFarSides = false;
         }
-        for (const scenes::TextureSlotInfo& info : std::views::reverse(scenes::kTextureSlots)) {
+        for (auto at = scenes::kTextureSlots.rbegin(); at != scenes::kTextureSlots.rend(); ++at) {
+            const scenes::TextureSlotInfo& info = *at;
             // Without a normal map other features would have to go too.
             const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;
             if (info.slot <= lastKept || sampledTextures(spec) <= std::size_t(spec.settings.texturesAStage)) break;
@@ -94,7 +94,8 @@ std::string missingTextures(const FrameSpec& spec) {
     if (spec.hasNoRoomBehindGlass) parts.emplace_back("left out: the surfaces behind bodies of glass and rough sheets");
     if (!spec.withoutTextures.empty()) {
         std::vector<std::string_view> names;
-        for (const TextureSlot slot : std::views::reverse(spec.withoutTextures)) names.push_back(infoOf(slot).what);
+        for (const TextureSlot slot : spec.withoutTextures) names.push_back(infoOf(slot).what);
+        std::ranges::reverse(names);
         parts.push_back(fmt::format("left out, so that factors hold everywhere: {}", fmt::join(names, ", ")));
     }
     if (parts.empty()) return "";

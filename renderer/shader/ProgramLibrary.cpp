@@ -114,7 +114,7 @@ void ProgramLibrary::warm(std::span<const ProgramDesc> descs) {
         keepGoing([&] { builds.try_emplace(key, desc, expandStages(tree_, desc)); });
     }
     for (auto& [key, build] : builds)
-        keepGoing([&] {
+        keepGoing([&, &key = key, &build = build] {
             gpu::Program program = build.finish(tree_);
             entries_[key] = std::make_unique<Entry>(Entry{build.desc, std::move(build.stages), std::move(program)});
         });

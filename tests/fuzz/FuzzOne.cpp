@@ -8,20 +8,15 @@
 #include <unistd.h>
 
 #include "base/Error.h"
-#include "tests/fuzz/Targets.h"
+#include "tests/fuzz/Readers.h"
 
-/// libFuzzer's entry: one program a target, TESSERA_FUZZ_TARGET. Readers take files, so each input is written to one,
-/// beside those of tests/fuzz/beside. Their folder belongs to the process, and lies in memory where /dev/shm exists.
+/// libFuzzer's entry: one program a target, which TESSERA_FUZZ_READER reads. Readers take files, so each input is
+/// written to one, beside those of tests/fuzz/beside. Their folder belongs to the process, and lies in memory where
+/// /dev/shm exists.
 namespace {
 
 namespace fs = std::filesystem;
 using namespace tessera;
-
-const fuzz::Target& target() {
-    for (const fuzz::Target& one : fuzz::targets())
-        if (one.name == TESSERA_FUZZ_TARGET) return one;
-    std::abort();
-}
 
 class Folder {
 public:
@@ -49,14 +44,13 @@ private:
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
     static const Folder folder;
-    static const fuzz::Target& one = target();
-    static const fs::path file = folder.path() / one.fileName;
+    static const fs::path file = folder.path() / TESSERA_FUZZ_FILE;
     std::FILE* stream = std::fopen(file.c_str(), "wb");
     if (stream == nullptr) std::abort();
     const bool isWritten = std::fwrite(bytes, 1, count, stream) == count;
     if (std::fclose(stream) != 0 || !isWritten) std::abort();
     try {
-        one.read(file);
+        fuzz::TESSERA_FUZZ_READER(file);
     } catch (const InputError& error) {
         if (*error.what() == '\0') std::abort();
     }

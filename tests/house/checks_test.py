@@ -8,6 +8,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
 import check_batches
+import check_clang
 import check_floors
 import check_packages
 import run_document
@@ -50,6 +51,19 @@ class Batches(unittest.TestCase):
         self.assertEqual(self.faults("int sum(int a);", "int sum(int a);"), [])
         self.assertEqual(self.faults('const char* kA = R"(\nvoid main() {\n)";', 'const char* kB = R"(\nvoid main() {\n)";'), [])
         self.assertEqual(self.faults("struct Row {", "struct Row {", ("apps/A.cpp", "viewer/B.cpp")), [])
+
+
+class Clang(unittest.TestCase):
+    def testEachWantedSourceIsCompiledOnceToNothing(self):
+        def entry(target, name):
+            return {"directory": "/b", "file": f"/s/{name}", "command": f"ccache /usr/bin/c++ -DA=1 -O1 -o x/CMakeFiles/{target}.dir/{name}.o -c /s/{name}"}
+
+        entries = [entry("tessera_base", "a.cpp"), entry("tessera_glad", "gl.c"), entry("fuzz_gltf", "One.cpp"), entry("fuzz_glb", "One.cpp"),
+                   entry("tessera_base_verify_interface_header_sets", "A.h.cxx")]
+        commands = check_clang.commandsOf(entries, [], "clang++", ["-Werror"])
+        self.assertEqual([command[-1 - len(check_clang.FOREIGN) - 2] for _, command in commands], ["/s/a.cpp", "/s/One.cpp"])
+        self.assertEqual(check_clang.commandsOf(entries, ["fuzz_gltf"], "clang++", ["-Werror"]),
+                         [("/b", ["clang++", "-DA=1", "-O1", "-c", "/s/One.cpp", *check_clang.FOREIGN, "-Werror", "-fsyntax-only"])])
 
 
 class Floors(unittest.TestCase):

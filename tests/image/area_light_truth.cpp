@@ -24,6 +24,14 @@ using scenes::LightType;
 using std::numbers::pi;
 using namespace test;
 
+/// What AreaLightTruth::seen() showed last: a renderer takes longer to make than such a picture.
+struct Shown {
+    scenes::Material material;
+    glm::dvec3 toViewer{0.0};
+    scenes::Scene scene;
+    std::optional<engine::Renderer> renderer;
+};
+
 /// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
 class AreaLightTruth : public EnvironmentTest {
 protected:
@@ -59,13 +67,6 @@ protected:
     }
 
 private:
-    /// What seen() showed last: a renderer takes longer to make than such a picture.
-    struct Shown {
-        scenes::Material material;
-        glm::dvec3 toViewer{0.0};
-        scenes::Scene scene;
-        std::optional<engine::Renderer> renderer;
-    };
     std::optional<Shown> shown_;
 };
 

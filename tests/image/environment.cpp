@@ -193,7 +193,6 @@ TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
     scene.environment = environmentOf(64, 32, [&](int x, int y) { return glm::dvec3(x == kX && y == kY ? 1e5 : 0.0); });
     // Interpolation spreads the texel over its neighbours: its light is that of a tent.
     glm::dvec3 towards(0.0);
-    double light = 0.0;
     constexpr int kParts = 32;
     for (int j = -kParts; j < kParts; ++j)
         for (int i = -kParts; i < kParts; ++i) {
@@ -202,7 +201,6 @@ TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
             const double solidAngle = std::sin(place.y * pi) * (2.0 * pi / 64.0) * (pi / 32.0) / (kParts * kParts);
             const double part = 1e5 * (1.0 - std::abs(right)) * (1.0 - std::abs(down)) * solidAngle;
             towards += part * scenes::directionInMap(place);
-            light += part;
         }
     for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
         constexpr int kSidePixels = 64;

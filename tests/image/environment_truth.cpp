@@ -123,7 +123,7 @@ void EnvironmentTruth::expectSamplesAgree() {
         const validation::ReferencePicture truth = validation::referencePicture(
             scene, settings, [] {}, validation::Leeway::None);
         const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
-        double sum = 0.0, squares = 0.0, light = 0.0;
+        double sum = 0.0, squares = 0.0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
             if (truth.surroundings[i].light == glm::dvec3(0.0)) continue;
@@ -136,7 +136,6 @@ void EnvironmentTruth::expectSamplesAgree() {
             const double error = (own - other) / (own + other + 1e-3);
             sum += error;
             squares += error * error;
-            light += other;
             ++count;
         }
         ASSERT_GT(count, 500u);

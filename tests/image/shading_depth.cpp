@@ -43,10 +43,10 @@ protected:
         const frame::PreparedView prepared = engine::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
         const frame::SceneGpu sceneGpu(scene, spec.features);
-        const frame::DrawnView view{prepared, &sceneGpu,
-                                    nullptr,  nullptr,
-                                    nullptr,  frame::makeViewDraws(sceneGpu.drawList(), prepared.camera, false),
-                                    nullptr};
+        frame::DrawnView view;
+        view.prepared = prepared;
+        view.scene = &sceneGpu;
+        view.draws = frame::makeViewDraws(sceneGpu.drawList(), prepared.camera, false);
         shader::ProgramLibrary programs;
         gpu::GraphBackend backend;
         graph::Graph graph;

@@ -116,7 +116,7 @@ class WaysToTime {
 public:
     WaysToTime(gpu::Context& context, const scenes::Scene& scene, const frame::FrameSettings& settings) {
         for (const Way& way : kWays) {
-            auto own = std::make_unique<Seen>(scene, settings);
+            auto own = std::unique_ptr<Seen>(new Seen{scene, settings, {}});
             for (scenes::Light& light : own->scene.lights)
                 if (way.sizeMetres > 0.0f) light.*scenes::sizeParameter(infoOf(light.type))->member = way.sizeMetres;
             if (!way.filter) own->settings.shadows = {scenes::ShadowRequest::Kind::None};

@@ -74,8 +74,7 @@ void VisitedLights::ofMasks(const VisitedCell& visited, std::vector<int>& sceneL
 CellFigures CellLights::figures() const {
     std::vector<Cell> once = cells_;
     std::ranges::sort(once);
-    const auto repeated = std::ranges::unique(once);
-    once.erase(repeated.begin(), repeated.end());
+    once.erase(std::unique(once.begin(), once.end()), once.end());
     if (once.empty()) return {};
     std::vector<double> lights;
     for (const Cell& cell : once) lights.push_back(double(cell.lights));

@@ -77,7 +77,9 @@ void measureRadiance(StressBench& bench, StressFigures& figures) {
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
         scenes::Scene scene = surrounded(mapOf(1, 1, [](int, int) { return glm::dvec3(1.0); }));
         engine::Renderer renderer(bench.context(), scene, bench.shaders());
-        for (const auto& [name, radiance] : maps) {
+        for (const auto& map : maps) {
+            const char* const name = map.first;
+            const auto& radiance = map.second;
             std::vector<float> plain;
             for (const int exponent : exponents) {
                 const double factor = std::ldexp(1.0, exponent);

@@ -235,7 +235,7 @@ void measureEnergyOf(StressBench& bench, StressFigures& figures, bool isWide) {
         wholeOf = lights;
         const scenes::Scene scene = litInPart(spreadFloor(spreading(texels, kFineTexels)), lights);
         const double sum = double(bench.measuredTimes()) * sumOf(bench, scene, settings, figures);
-        figures.error(std::abs(sum / whole - 1.0), [&] { return what; });
+        figures.error(std::abs(sum / whole - 1.0), [&, &what = what] { return what; });
         bench.progress(double(i + 1) / double(rows.size()));
     }
 }

@@ -136,7 +136,7 @@ TEST_F(GraphBackendTest, aGraphOfTwoPassesGivesItsResult) {
 }
 
 TEST_F(GraphBackendTest, aFaultOfThePassIsThrownWithItsName) {
-    const graph::Graph graph = twoPasses([this] { bindStorageBuffer(100000, Buffer("b", 16)); });
+    const graph::Graph graph = twoPasses([] { bindStorageBuffer(100000, Buffer("b", 16)); });
     try {
         run(graph);
         FAIL() << "expected an exception";

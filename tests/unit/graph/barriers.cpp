@@ -60,7 +60,8 @@ TEST(Barriers, bitIsThatOfTheLaterAccessToATexture) {
                                                  {Access::Upload, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
         Graph graph;
         const TextureHandle image = imageStore(graph, "store", "image");
-        declare(graph, "write", [&](PassBuilder& builder) { graph.output(builder.write(image, access)); });
+        declare(graph, "write",
+                [&, &access = access](PassBuilder& builder) { graph.output(builder.write(image, access)); });
         EXPECT_EQ(compile(graph).order[1].before, expected);
     }
 }

@@ -319,7 +319,8 @@ TEST(Memory, whatIsKeptOfAGltfFileNeverTakesMoreThanItIsChargedFor) {
     const TempFolder folder;
     for (const auto& [before, element, after] : kCases) {
         const std::string text = R"({"asset": {"version": "2.0"}, )" + std::string(before) +
-                                 listOf(20'000, [&](int) { return std::string(element); }) + after + "}";
+                                 listOf(20'000, [&, &element = element](int) { return std::string(element); }) + after +
+                                 "}";
         const std::filesystem::path file = folder.write("m.gltf", text);
         LoadLedger ledger;
         const std::size_t heapBefore = heapBytes();

@@ -116,7 +116,7 @@ TEST(CompareRecord, aNameThatIsNotUtf8NeverKeepsTheRecordFromBeingWritten) {
     CompareRecord record = sampleRecord();
     record.scene = "sc\xff"
                    "ne.gltf";
-    EXPECT_NO_THROW(Json::parse(compareJson(record)));
+    EXPECT_TRUE(Json::accept(compareJson(record)));
 }
 
 TEST(CompareRecord, aRecordIsOkExactlyWhenItHasPairsAndAllHold) {
