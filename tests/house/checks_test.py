@@ -11,6 +11,7 @@ import check_batches
 import check_clang
 import check_floors
 import check_packages
+import check_reference
 import run_document
 
 
@@ -153,6 +154,44 @@ class Packages(unittest.TestCase):
         self.assertEqual(
             check_packages.faultsOf("g++\n", {"dependencies": []}),
             ["tools/packages.txt:1: a line is: package, set (build, test, package, python, cluster, fit, zink, fuzz), vcpkg port or -, what for"])
+
+
+class Reference(unittest.TestCase):
+    TABLES = """x
+## What both sides share
+
+| headers | what | between |
+|---|---|---|
+| `scenes/Scene.h` `scenes/Light.h` | data | `Room.isClosed` |
+
+| step | between |
+|---|---|
+| decoding | nothing |
+
+## Next
+| `scenes/Other.h` | | |
+"""
+
+    def testAHeaderBeyondTheTableIsNamedHoweverItIsReached(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for path, text in {"validation/reference/A.cpp": '#include "validation/reference/B.h"\n#include "scenes/Scene.h"\n',
+                               "validation/reference/B.h": "#include <vector>\n", "scenes/Scene.h": '#include "scenes/Light.h"\n',
+                               "scenes/Light.h": '#include "../shaders/shared/light.h"\n', "shaders/shared/light.h": ""}.items():
+                (root / path).parent.mkdir(parents=True, exist_ok=True)
+                (root / path).write_text(text)
+            included = check_reference.includedBy(root)
+        self.assertEqual(check_reference.faultsOf(included, check_reference.rowsIn(self.TABLES)),
+                         ["scenes/Light.h: includes shaders/shared/light.h, which stands in no row of docs/reference.md"])
+
+    def testRowsOfWhatIsNotSharedOrHasNothingBetweenAreNamed(self):
+        included = {"scenes/Scene.h": "a", "scenes/Light.h": "a"}
+        faults = lambda old, new: check_reference.faultsOf(included, check_reference.rowsIn(self.TABLES.replace(old, new)))
+        self.assertEqual(faults("", ""), [])
+        self.assertEqual(faults("`scenes/Light.h`", "`scenes/Light.h` `scenes/Sky.h`"),
+                         ["docs/reference.md: lists scenes/Sky.h, which validation/reference does not include"])
+        self.assertEqual(len(faults("`Room.isClosed`", "the room")), 1)
+        self.assertEqual(len(faults("| decoding | nothing |", "| decoding | |")), 1)
 
 
 class Documents(unittest.TestCase):
