@@ -56,6 +56,7 @@ void requireRunFields(const Json& run) {
     static_cast<void>(wholeNumber(run.at("frames"), 1, std::numeric_limits<int>::max()));
     const int shards = wholeNumber(run.at("shard").at(1), 1, kMostShards);
     static_cast<void>(wholeNumber(run.at("shard").at(0), 1, shards));
+    if (run.contains(kIsShare)) static_cast<void>(run.at(kIsShare).get_ref<const bool&>());
     for (const Json& skipped : run.at("skipped"))
         for (const char* name : {"what", "why"}) static_cast<void>(skipped.at(name).get_ref<const std::string&>());
     for (const Json& group : run.at("groups")) {

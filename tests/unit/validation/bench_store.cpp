@@ -235,6 +235,7 @@ TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     };
     EXPECT_THAT(read("run.json", changed("\"abc\"", "3")), field);
     EXPECT_THAT(read("run.json", changed("\"hall\"", "null")), field);
+    EXPECT_THAT(read("run.json", changed("{", "{\"isShare\": \"yes\",")), field);
     EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1", "\"shard\": [\n  0")),
                 HasSubstr("0 is no whole number from 1 to 1"));
     EXPECT_THAT(read("run.json", changed("\"shard\": [\n  1,\n  1", "\"shard\": [\n  1,\n  2147483647")),
