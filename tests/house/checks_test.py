@@ -7,12 +7,38 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 
+import check_assets
 import check_batches
 import check_clang
 import check_floors
 import check_packages
 import check_reference
 import run_document
+
+
+class Assets(unittest.TestCase):
+    SOURCE = """class Scan : public GlTest {
+    void SetUp() override {
+        if (!assets) GTEST_SKIP() << "TESSERA_ASSETS is not set";
+    }
+};
+TEST_F(Scan, isThere) {
+}
+TEST(Models, areDrawn) {
+    if (!file) GTEST_SKIP() << "there is no folder of third-party models";
+}
+TEST(Driver, isNew) {
+    if (!driver) GTEST_SKIP() << "the driver is old";
+}
+"""
+
+    def testATestThatIsSkippedWithoutModelsNeedsARow(self):
+        skipped = check_assets.skippedIn(self.SOURCE)
+        self.assertEqual(skipped, {"Scan.isThere", "Models.areDrawn"})
+        rows = [["scan", "`Scan.isThere`", "`Plane.isThere`"], ["models", "`Models.areDrawn`", "nothing"]]
+        self.assertEqual(check_assets.faultsOf(skipped, rows), [])
+        self.assertEqual(len(check_assets.faultsOf(skipped, rows[:1])), 1)
+        self.assertEqual(len(check_assets.faultsOf(skipped, [["scan", "`Scan.isThere`", "`Models.areDrawn`"], rows[1]])), 1)
 
 
 class Batches(unittest.TestCase):

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "engine/Rendering.h"
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
+#include "tests/support/AnimatedModels.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/Sweep.h"
 #include "validation/figures/ErrorFigures.h"
@@ -156,15 +156,11 @@ TEST_F(ModelsSlow, everyPackagedModelIsDrawnAlikeByForwardAndDeferredOrRefused) 
     sweep(kPackagedModels, LitBy::Sun);
 }
 
-TEST_F(Models, everyFourthModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
-    const char* folder = std::getenv("TESSERA_ASSETS");
-    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder, LitBy::Studio);
+TEST_F(Models, everyFourthModelOfTheAssetsFolderOrTheRepositoryIsDrawnAlikeByForwardAndDeferredOrRefused) {
+    sweep(test::sweptFolder(), LitBy::Studio);
 }
-TEST_F(ModelsSlow, everyModelOfTheAssetsFolderIsDrawnAlikeByForwardAndDeferredOrRefused) {
-    const char* folder = std::getenv("TESSERA_ASSETS");
-    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder, LitBy::Studio);
+TEST_F(ModelsSlow, everyModelOfTheAssetsFolderOrTheRepositoryIsDrawnAlikeByForwardAndDeferredOrRefused) {
+    sweep(test::sweptFolder(), LitBy::Studio);
 }
 
 } // namespace

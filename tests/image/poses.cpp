@@ -312,11 +312,13 @@ TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
     EXPECT_NEAR(ratio(1), 1.0, 0.1);
 }
 
-/// One of Khronos' models, by its file below the folder of third-party models.
+/// A model of the repository, or one of Khronos', by its file below the folder of third-party models.
 class PosesOfModelsSlow : public test::ShadowTest, public testing::WithParamInterface<std::string_view> {};
 
 TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
-    const std::optional<std::filesystem::path> file = test::fileOfAssets(GetParam());
+    const std::filesystem::path own = test::ownModelsFolder() / GetParam();
+    const std::optional<std::filesystem::path> file =
+        std::filesystem::exists(own) ? own : test::fileOfAssets(GetParam());
     if (!file) GTEST_SKIP() << "there is no folder of third-party models that has " << GetParam();
     frame::FrameSettings settings;
     settings.sizePixels = {96, 54};
@@ -350,6 +352,7 @@ TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(Own, PosesOfModelsSlow, testing::ValuesIn(test::kOwnModels));
 INSTANTIATE_TEST_SUITE_P(Khronos, PosesOfModelsSlow, testing::ValuesIn(test::kAnimatedModels));
 
 } // namespace

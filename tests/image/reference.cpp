@@ -147,7 +147,7 @@ protected:
     /// A scene that moves, at each of these times or at one of them in turn.
     void expectAgreementAtTimes(const std::string& what, scenes::Scene scene, std::span<const double> timesSeconds);
     void expectAgreementOfTheSickHead();
-    void expectAgreementOfCesiumMan();
+    void expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds);
 };
 using ReferenceSlow = Reference;
 
@@ -221,18 +221,23 @@ TEST_F(ReferenceSlow, aHeadThatAHookMovesAgreesWithIt) {
     expectAgreementOfTheSickHead();
 }
 
+/// At times of its clip at which none of its parts stands still.
+void Reference::expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds) {
+    std::vector<double> timesSeconds;
+    for (const double share : {0.07, 0.27, 0.48, 0.7, 0.95}) timesSeconds.push_back(share * lengthSeconds);
+    expectAgreementAtTimes(file.stem().string(), test::modelUnderSun(file, 160.0 / 90.0), timesSeconds);
+}
+TEST_F(Reference, aBendingSkinAgreesWithIt) {
+    expectAgreementOfModel(test::ownModelsFolder() / "skinned_bar.gltf", 2.0);
+}
+TEST_F(ReferenceSlow, modelsOfTheRepositoryAgreeWithIt) {
+    for (const std::string_view model : test::kOwnModels) expectAgreementOfModel(test::ownModelsFolder() / model, 2.0);
+}
 /// A skin of 19 joints that walks for two seconds.
-void Reference::expectAgreementOfCesiumMan() {
+TEST_F(ReferenceSlow, aWalkingSkinAgreesWithIt) {
     const std::optional<std::filesystem::path> file = test::fileOfAssets("CesiumMan/CesiumMan.glb");
     if (!file) GTEST_SKIP() << "there is no folder of third-party models that has CesiumMan";
-    constexpr double kTimesSeconds[] = {0.13, 0.55, 0.97, 1.41, 1.9};
-    expectAgreementAtTimes("CesiumMan", test::modelUnderSun(*file, 160.0 / 90.0), kTimesSeconds);
-}
-TEST_F(Reference, aWalkingSkinAgreesWithIt) {
-    expectAgreementOfCesiumMan();
-}
-TEST_F(ReferenceSlow, aWalkingSkinAgreesWithIt) {
-    expectAgreementOfCesiumMan();
+    expectAgreementOfModel(*file, 2.0);
 }
 
 /// At the size at which the programs render by themselves: single pixels that miss by much are rare.

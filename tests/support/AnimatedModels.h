@@ -35,4 +35,18 @@ inline std::optional<std::filesystem::path> fileOfAssets(std::string_view name) 
     return file;
 }
 
+/// Models of the repository that move, which everybody has: a bar that a skin bends, a box with morph targets, a plate
+/// whose thin film a clip moves.
+inline constexpr std::string_view kOwnModels[] = {"skinned_bar.gltf", "morphing_box.gltf", "textured_film.gltf"};
+
+inline std::filesystem::path ownModelsFolder() {
+    return std::filesystem::path(TESSERA_SOURCE_DIR) / "tests" / "support" / "models";
+}
+
+/// The folder that TESSERA_ASSETS names, else that of the models of the repository.
+inline std::filesystem::path sweptFolder() {
+    const char* named = std::getenv("TESSERA_ASSETS");
+    return named != nullptr && *named != '\0' ? std::filesystem::path(named) : ownModelsFolder();
+}
+
 } // namespace tessera::test

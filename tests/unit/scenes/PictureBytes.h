@@ -22,6 +22,13 @@ inline std::string bytesOfSeed(const char* name) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// What the folder of TESSERA_ASSETS has of the scanned head, with a triangle in the place of the scan.
+inline void writeScan(const TempFolder& folder) {
+    folder.write("LeePerrySmith/head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    for (const char* name : {"albedo_2k.jpg", "specular_2k.jpg", "normal_object_2k.jpg"})
+        folder.write(std::string("LeePerrySmith/") + name, bytesOfSeed("picture/small.jpg"));
+}
+
 inline Image decoded(const std::string& bytes, const std::string& name, std::optional<std::uint64_t> limitBytes = {}) {
     LoadLedger ledger(limitBytes);
     return decodeImage(std::as_bytes(std::span(bytes)), name, ledger);

@@ -214,6 +214,11 @@ TEST(AnimationTruth, randomSkinsAndTargetsAreWhereASecondComputationPutsThem) {
     }
 }
 
+TEST(AnimationTruth, modelsOfTheRepositoryAreWhereASecondComputationPutsThem) {
+    for (const char* model : {"skinned_bar.gltf", "morphing_box.gltf"}) // those that are deformed
+        expectTrue(tessera::test::ownModelsFolder() / model);
+}
+
 TEST(AnimationTruth, modelsOfTheAssetsFolderAreWhereASecondComputationPutsThem) {
     std::vector<std::string> models(std::begin(tessera::test::kAnimatedModels),
                                     std::end(tessera::test::kAnimatedModels));

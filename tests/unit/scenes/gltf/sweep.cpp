@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "GltfBuilder.h"
+#include "tests/support/AnimatedModels.h"
 #include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
@@ -78,10 +78,8 @@ TEST(GltfSweep, everyPackagedModelIsImportedOrRefused) {
     sweep(folder);
 }
 
-TEST(GltfSweep, everyModelOfTheAssetsFolderIsImportedOrRefused) {
-    const char* folder = std::getenv("TESSERA_ASSETS");
-    if (folder == nullptr) GTEST_SKIP() << "TESSERA_ASSETS is not set";
-    sweep(folder);
+TEST(GltfSweep, everyModelOfTheAssetsFolderOrTheRepositoryIsImportedOrRefused) {
+    sweep(tessera::test::sweptFolder());
 }
 
 } // namespace
