@@ -49,7 +49,7 @@ constexpr std::array kLoadKeywords{
                        options.import.lightUnits = lightUnitsNamed(value.text);
                    }},
     LoadKeywordRow{{"strict", KeywordKind::Switch,
-                    "True refuses a model of which a picture cannot be read; else a checkerboard is drawn for it"},
+                    "True refuses a model with a flaw that can be repaired, such as a picture that cannot be read"},
                    [](const KeywordValue& value, FrameOptions& options) { options.import.isStrict = value.isOn; }},
     LoadKeywordRow{{"default_camera", KeywordKind::Switch,
                     "True shows all of the scene by the camera that one without cameras gets, in the place of its own"},

@@ -120,8 +120,9 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->type_name("NAME")
         ->group("Reading");
     command
-        .add_flag("--strict", options.import.isStrict,
-                  "Refuses a model of which a picture cannot be read; else a checkerboard is drawn for its colours")
+        .add_flag(
+            "--strict", options.import.isStrict,
+            "Refuses a model with a flaw that can be repaired, such as a picture that cannot be read; else warns of it")
         ->group("Reading");
     command
         .add_flag("--default-camera", options.defaultCamera,

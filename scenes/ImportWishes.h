@@ -24,7 +24,7 @@ inline constexpr double kLumensPerWatt = 683.0;
 /// How models are to be read, where a command says it. It holds for every model of a load, also for those that a scene
 /// file names.
 struct ImportWishes {
-    bool isStrict = false;                ///< a picture that cannot be read refuses its model; else a stand-in is drawn
+    bool isStrict = false;                ///< a flaw that can be repaired refuses its model; else a warning names it
     std::optional<std::string> variant;   ///< shown of the models that have one of this name (KHR_materials_variants)
     std::optional<LightUnits> lightUnits; ///< of glTF models; none: as their exporter is known to write them
     bool operator==(const ImportWishes&) const = default;

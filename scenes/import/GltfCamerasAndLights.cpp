@@ -46,17 +46,22 @@ void setOrthographic(const Document& document, const model::Camera::Orthographic
     camera.farMetres = lens.zfar;
 }
 
-void setCones(const Document& document, const model::Light& stored, const std::string& place, Light& light) {
-    const double inner = stored.innerConeAngle;
-    const double outer = stored.outerConeAngle;
+/// Equal angles, which the extension forbids and Blender writes for a spot without blend, are a cone with a hard edge.
+void setCones(Context& context, const model::Light& stored, const std::string& place, Light& light) {
+    constexpr double kWidestRadians = std::numbers::pi / 2.0;
     // Exporters round pi/2 up to float; a millionth of a radian is more than that and less than anything visible.
     constexpr double kRoundingRadians = 1e-6;
-    if (!(inner < outer) || outer > std::numbers::pi / 2.0 + kRoundingRadians)
-        document.fail(place + "/spot",
-                      fmt::format("has innerConeAngle {} and outerConeAngle {}; needed is 0 <= inner < "
-                                  "outer <= pi/2 radians",
-                                  inner, outer));
-    light.innerConeRadians = static_cast<float>(inner);
+    double outer = stored.outerConeAngle;
+    if (outer > kWidestRadians + kRoundingRadians) {
+        context.repair(place + "/spot/outerConeAngle",
+                       fmt::format("is {}; it must be at most pi/2 radians", stored.outerConeAngle), "; pi/2 is taken");
+        outer = kWidestRadians;
+    }
+    if (stored.innerConeAngle > outer)
+        context.repair(place + "/spot/innerConeAngle",
+                       fmt::format("is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer),
+                       "; the outer angle is taken");
+    light.innerConeRadians = static_cast<float>(std::min(stored.innerConeAngle, outer));
     light.outerConeRadians = static_cast<float>(outer);
 }
 
@@ -103,11 +108,13 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
         context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
                                  light.name));
     if (stored.range && infoOf(light.type).hasPosition()) {
-        light.rangeMetres = *stored.range;
-        if (!(light.rangeMetres > 0.0f))
-            document.fail(place + "/range", "must be greater than 0; leave it out for infinite");
+        // three.js writes 0 for a light without an end.
+        if (*stored.range > 0.0f)
+            light.rangeMetres = *stored.range;
+        else
+            context.repair(place + "/range", "is 0; it must be greater than 0", "; the light has no end");
     }
-    if (light.type == LightType::Spot) setCones(document, stored, place, light);
+    if (light.type == LightType::Spot) setCones(context, stored, place, light);
     context.scene.lights.push_back(std::move(light));
 }
 

@@ -74,6 +74,13 @@ struct Context {
         if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;
     }
 
+    /// Warns that the value at a JSON pointer was repaired; throws InputError instead where the load is strict. `what`
+    /// names the flaw, `repair` begins with its punctuation and names what is drawn.
+    void repair(const std::string& place, const std::string& what, std::string_view repair) {
+        if (document.ledger.wishes().isStrict) document.fail(place, what);
+        warn(fmt::format("{}: {}{}", place, what, repair));
+    }
+
     /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.
     void warn(const std::string& text) {
         std::string line = fmt::format("{}: {}", document.file, text);

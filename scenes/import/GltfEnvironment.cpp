@@ -159,11 +159,10 @@ Image readCube(Context& context, const model::ImageLight& light, const std::stri
         std::optional<Image> picture = readableImage(context, image, kInstead);
         // A line of texels would ask for a square of them, six times.
         if (picture && picture->width != picture->height) {
-            const std::string place = fmt::format("/images/{}", image);
-            const std::string what = fmt::format("has {}x{} texels, and is a face of an environment, which is square",
-                                                 picture->width, picture->height);
-            if (document.ledger.wishes().isStrict) document.fail(place, what);
-            context.warn(fmt::format("{}: {}{}", place, what, kInstead));
+            context.repair(fmt::format("/images/{}", image),
+                           fmt::format("has {}x{} texels, and is a face of an environment, which is square",
+                                       picture->width, picture->height),
+                           kInstead);
             picture.reset();
         }
         if (picture && (picture->width != light.sideTexels || picture->height != light.sideTexels))

@@ -32,7 +32,7 @@ void takeLightUnits(Document& document, std::vector<std::string>& notes) {
     const std::optional<LightUnits> wish = document.ledger.wishes().lightUnits;
     const std::optional<ExporterVersion> blender = blenderVersion(document.model.generator);
     if (!(wish ? wish == LightUnits::Lumen : blender.has_value())) return;
-    constexpr ExporterVersion kSunsToo{3, 6};
+    constexpr ExporterVersion kSunsToo{3, 4};
     for (model::Light& light : document.model.lights) {
         const bool isWatts = !wish && light.type == LightType::Directional && *blender < kSunsToo;
         if (isWatts) continue;

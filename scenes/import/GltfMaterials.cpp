@@ -181,12 +181,9 @@ TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, cons
         picture = image(texture.webp,
                         texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
     if (picture == kNone && texture.source != kNone) picture = image(texture.source, kStandInText);
-    if (texture.source == kNone && texture.webp == kNone) {
-        const std::string textureAt = fmt::format("/textures/{}", info.texture);
-        constexpr const char* kWhat = "has no source in a supported format; store it as PNG or JPEG";
-        if (context_.document.ledger.wishes().isStrict) context_.document.fail(textureAt, kWhat);
-        context_.warn(fmt::format("{}: {}{}", textureAt, kWhat, kStandInText));
-    }
+    if (texture.source == kNone && texture.webp == kNone)
+        context_.repair(fmt::format("/textures/{}", info.texture),
+                        "has no source in a supported format; store it as PNG or JPEG", kStandInText);
     if (picture == kNone && !takesStandIn(slot)) return {};
     TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
     if (texture.sampler != kNone) use.sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
