@@ -19,9 +19,10 @@ struct PictureHeader {
     enum class Samples { Bits8, Bits16, Other } samples = Samples::Other;
     bool isFloatingPoint = false;
     std::vector<std::string> channelNames;
-    int alphaChannel = -1;  ///< -1: none
-    bool isCropped = false; ///< the texels are not all that the picture shows, or more
-    int orientation = 1;    ///< of Exif
+    int alphaChannel = -1;     ///< -1: none
+    bool isAssociated = false; ///< colours are multiplied by alpha
+    bool isCropped = false;    ///< the texels are not all that the picture shows, or more
+    int orientation = 1;       ///< of Exif
     std::string software, colorSpace;
 };
 

@@ -22,7 +22,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tesseraConfig.cmake.in $
 # Before 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tesseraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tesseraConfig.cmake ${PROJECT_BINARY_DIR}/tesseraConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/TesseraImgui.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/TesseraImgui.cmake ${CMAKE_CURRENT_LIST_DIR}/TesseraWebp.cmake
         DESTINATION ${tessera_package_dir} COMPONENT dev)
 
 if(TARGET tessera_program)

@@ -88,7 +88,7 @@ Replaced replaceNoLight(Image& map) {
 RadianceMap readRadianceMap(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     RadianceMap map;
-    Image image = readImage(file, ledger);
+    Image image = readPicture(file, ledger).image; // its colours are radiance, whatever alpha is
     image.name = file.filename().string();
     map.hasFewBits = image.format != TexelFormat::Rgba32Float;
     map.image = asFloat(std::move(image), ledger);

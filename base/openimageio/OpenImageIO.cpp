@@ -54,6 +54,8 @@ PictureHeader headerOf(const OIIO::ImageSpec& spec) {
     header.isFloatingPoint = spec.format.is_floating_point();
     header.channelNames = spec.channelnames;
     header.alphaChannel = spec.alpha_channel;
+    // Readers that hand over colours without alpha, as open() asks for, state that they did.
+    header.isAssociated = spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     header.isCropped = spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
                        spec.height != spec.full_height;
     header.orientation = spec.get_int_attribute("Orientation", 1);
@@ -80,7 +82,7 @@ public:
     }
 
     bool open(PictureHeader& header) override {
-        // Alpha is coverage or opacity, and colours are meant without it.
+        // Alpha is coverage or opacity, and colours are meant without it. Some readers multiply nevertheless.
         OIIO::ImageSpec config, spec;
         config.attribute("oiio:UnassociatedAlpha", 1);
         if (!input_->open(fmt::format("picture.{}", format_), spec, config)) return false;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -70,6 +72,39 @@ DecodedPicture decodePicture(std::span<const std::byte> bytes, const std::string
     return decoded;
 }
 
+template <typename T>
+void divideByAlpha(Image& image) {
+    constexpr bool kIsInteger = std::is_integral_v<T>;
+    constexpr double kOne = kIsInteger ? double(std::numeric_limits<T>::max()) : 1.0;
+    const std::span texels(reinterpret_cast<T*>(image.texels.data()), image.texels.size() / sizeof(T));
+    for (std::size_t i = 0; i < texels.size(); i += 4) {
+        const double alpha = double(texels[i + 3]);
+        if (!(alpha > 0.0)) continue;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            const double value = double(texels[channel]) * kOne / alpha;
+            texels[channel] = static_cast<T>(kIsInteger ? std::min(std::round(value), kOne) : value);
+        }
+    }
+}
+
+Image textureOf(DecodedPicture picture) {
+    Image& image = picture.image;
+    if (picture.tags.isAssociated) {
+        switch (image.format) {
+        case TexelFormat::Rgba8Unorm:
+            divideByAlpha<std::uint8_t>(image);
+            break;
+        case TexelFormat::Rgba16Unorm:
+            divideByAlpha<std::uint16_t>(image);
+            break;
+        case TexelFormat::Rgba32Float:
+            divideByAlpha<float>(image);
+            break;
+        }
+    }
+    return std::move(image);
+}
+
 } // namespace
 
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger) {
@@ -80,11 +115,11 @@ DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger
 }
 
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger) {
-    return readPicture(file, ledger).image;
+    return textureOf(readPicture(file, ledger));
 }
 
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger) {
-    return decodePicture(bytes, name, ledger).image;
+    return textureOf(decodePicture(bytes, name, ledger));
 }
 
 } // namespace tessera::scenes

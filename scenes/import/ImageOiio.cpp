@@ -89,6 +89,7 @@ PictureTags tagsOf(const PictureHeader& header) {
     tags.isLinear = header.isFloatingPoint || isSameWord(header.colorSpace, "linear");
     tags.isCropped = header.isCropped;
     tags.orientation = header.orientation;
+    tags.isAssociated = header.isAssociated;
     return tags;
 }
 

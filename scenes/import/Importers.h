@@ -25,10 +25,11 @@ Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 /// A picture file's data besides its texels, for callers that show the picture itself; for a texture the scene says
 /// how it is meant.
 struct PictureTags {
-    std::string software;   ///< that wrote it; empty where the format's decoder does not tell
-    bool isLinear = false;  ///< its numbers are light itself: floating point, or declared linear
-    bool isCropped = false; ///< its data window is not its display window
-    int orientation = 1;    ///< TIFF's tag; 1 is upright
+    std::string software;      ///< that wrote it; empty where the format's decoder does not tell
+    bool isLinear = false;     ///< its numbers are light itself: floating point, or declared linear
+    bool isCropped = false;    ///< its data window is not its display window
+    int orientation = 1;       ///< TIFF's tag; 1 is upright
+    bool isAssociated = false; ///< colours are multiplied by alpha
 };
 struct DecodedPicture {
     Image image;
@@ -39,6 +40,8 @@ struct DecodedPicture {
 /// first bytes, regardless of the name; TGA, which has no signature, is recognised by the extension .tga. No format is
 /// read but those of pictureFormats() (PictureCodecs.h).
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
+/// The same as textures: colours that are multiplied by alpha, as in OpenEXR files, are divided by it where it is above
+/// 0. Source: glTF 2.0, section 3.9.4.
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger);
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 

@@ -55,20 +55,23 @@ PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes);
-PictureSize claimedSizeOfWebp(std::span<const std::byte> bytes);
 
 void takeOutMetadataOfJpeg(std::span<std::byte> bytes);
 void takeOutMetadataOfTiff(std::span<std::byte> bytes);
-void takeOutMetadataOfWebp(std::span<std::byte> bytes);
 
 /// Leaves of a TIFF's directories the first, and of that the first entry of each of these tags. False, and nothing is
 /// changed, where the file does not hold it.
 bool keepTiffTags(std::span<std::byte> tiff, std::span<const std::uint16_t> tags);
 
+/// The tag Orientation; 1, upright, where there is none that can be read.
+int orientationOfTiff(std::span<const std::byte> tiff);
+
 /// By OpenImageIO's reader of that format, and no other.
 DecodePicture decodeByOiio;
 /// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong.
 DecodePicture decodePng;
+/// WebP by libwebp itself: OpenImageIO multiplies colours by alpha.
+DecodePicture decodeWebp;
 /// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are shorter than what refers to them.
 DecodePicture decodeByStb;
 /// PFM, which is a header and floats.

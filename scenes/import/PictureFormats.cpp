@@ -33,7 +33,7 @@ std::span<const PictureFormat> pictureFormats() {
                       0,
                       claimedSizeOfTiff,
                       takeOutMetadataOfTiff},
-        PictureFormat{"webp", {{"WEBP"sv, 8}}, {"webp"}, decodeByOiio, 0, claimedSizeOfWebp, takeOutMetadataOfWebp},
+        PictureFormat{"webp", {{"WEBP"sv, 8}}, {"webp"}, decodeWebp},
         PictureFormat{"bmp", {{"BM"sv}}, {"bmp"}, decodeByStb, kMaxTexelsAByte},
         PictureFormat{"gif", {{"GIF8"sv}}, {"gif"}, decodeByOiio, kMaxTexelsAByte, claimedSizeOfGif},
         PictureFormat{"tga", {}, {"tga"}, decodeByStb, kMaxTexelsAByte},

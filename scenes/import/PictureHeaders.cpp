@@ -29,10 +29,6 @@ std::uint32_t littleEndian16(std::span<const std::byte> bytes, std::size_t at) {
     return byteAt(bytes, at) | byteAt(bytes, at + 1) << 8;
 }
 
-std::uint32_t littleEndian24(std::span<const std::byte> bytes, std::size_t at) {
-    return littleEndian16(bytes, at) | byteAt(bytes, at + 2) << 16;
-}
-
 constexpr std::uint32_t kFrame = 0xc0, kRestart = 0xd0, kEnd = 0xd9, kScan = 0xda;
 
 /// Calls `visit` with every marker of a JPEG that has a segment, and the place of that: its length stands first.
@@ -105,46 +101,6 @@ void takeOutMetadataOfJpeg(std::span<std::byte> bytes) {
         else
             bytes[at - 1] = kApp15;
     });
-}
-
-/// OpenImageIO reserves all texels, and libwebp as many again. Source: RFC 9649, sections 2.5 to 2.7 and 3.4, and RFC
-/// 6386, section 9.1.
-PictureSize claimedSizeOfWebp(std::span<const std::byte> bytes) {
-    constexpr std::uint64_t kBytesATexel = 8;
-    constexpr std::uint32_t kSide = 0x3fff;
-    switch (byteAt(bytes, 15)) { // "VP8X", "VP8L" or "VP8 "
-    case 'X':
-        return {littleEndian24(bytes, 24) + 1, littleEndian24(bytes, 27) + 1, kBytesATexel};
-    case 'L': {
-        const std::uint32_t height = littleEndian24(bytes, 22) >> 6;
-        return {(littleEndian16(bytes, 21) & kSide) + 1, (height & kSide) + 1, kBytesATexel};
-    }
-    default:
-        return {littleEndian16(bytes, 26) & kSide, littleEndian16(bytes, 28) & kSide, kBytesATexel};
-    }
-}
-
-/// Of the chunks XMP, ICCP and EXIF, libwebp finds those whose flags are set. Of EXIF, what is needed stays.
-void takeOutMetadataOfWebp(std::span<std::byte> bytes) {
-    constexpr std::size_t kFlags = 20;
-    constexpr std::byte kIccp{0x20}, kExif{0x08}, kXmp{0x04};
-    if (byteAt(bytes, 15) != 'X' || bytes.size() <= kFlags) return; // no "VP8X", and no flags
-    std::byte& flags = bytes[kFlags];
-    flags &= ~(kIccp | kXmp);
-    if ((flags & kExif) == std::byte{0}) return;
-    // OpenImageIO begins after "Exif\0\0", whether that is there or not. Which of several chunks libwebp takes depends
-    // on how others nest: then none is kept.
-    constexpr std::string_view kName = "EXIF";
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const std::size_t at = text.find(kName);
-    if (at != std::string_view::npos && text.find(kName, at + 1) == std::string_view::npos) {
-        const std::size_t length = littleEndian24(bytes, at + 4) | std::size_t{byteAt(bytes, at + 7)} << 24;
-        const std::string_view value = text.substr(std::min(at + 8, text.size()), length);
-        if (value.starts_with(kExifBegin) &&
-            keepTiffTags(bytes.subspan(at + 8 + kExifBegin.size(), value.size() - kExifBegin.size()), kExifTags))
-            return;
-    }
-    flags &= ~kExif;
 }
 
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,

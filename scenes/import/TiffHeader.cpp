@@ -110,6 +110,16 @@ bool keepTiffTags(std::span<std::byte> bytes, std::span<const std::uint16_t> tag
     return true;
 }
 
+int orientationOfTiff(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t kOrientation = 274, kUpright = 1, kMost = 8;
+    try {
+        const std::uint64_t value = Tiff(bytes).valueOf(kOrientation, kUpright);
+        return value >= kUpright && value <= kMost ? int(value) : int(kUpright);
+    } catch (const std::runtime_error&) {
+        return int(kUpright);
+    }
+}
+
 void takeOutMetadataOfTiff(std::span<std::byte> bytes) {
     if (!keepTiffTags(bytes, kDecodingTags)) throw std::runtime_error("its directory of tags is not in the file");
 }

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <webp/encode.h>
 
 #include "GltfBuilder.h"
+#include "base/PictureLibrary.h"
+#include "tests/support/TempFolder.h"
 #include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
@@ -77,6 +80,27 @@ TEST(Image, colorIsNotMultipliedByAlpha) {
     EXPECT_EQ(image.width, 2);
     EXPECT_EQ(image.height, 1);
     EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{255, 0, 0, 255, 10, 20, 200, 128}));
+}
+
+TEST(Image, colorsOfWebpAreNotMultipliedByAlpha) {
+    const Texels8 rgba{255, 188, 0, 128, 255, 188, 0, 1, 255, 188, 0, 255, 10, 20, 200, 77};
+    std::uint8_t* file = nullptr;
+    const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), 2, 2, 8, &file);
+    const Bytes bytes(file, file + size);
+    WebPFree(file);
+    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytes, "leaf.webp")), rgba);
+}
+
+/// OpenEXR multiplies colours by alpha (Technical Introduction to OpenEXR, "Alpha"), glTF does not.
+TEST(Image, colorsOfExrAreDividedByAlphaInTexturesAlone) {
+    const tessera::test::TempFolder folder;
+    const float rgba[] = {0.5f, 0.25f, 0.125f, 0.25f, 3.0f, 2.0f, 1.0f, 0.0f};
+    const std::vector<std::uint8_t> file = PictureLibrary::get().encodeExr(2, 1, rgba);
+    const std::filesystem::path path = folder.write("leaf.exr", std::string(file.begin(), file.end()));
+    LoadLedger ledger;
+    EXPECT_EQ(texelsOf<float>(readImage(path, ledger)), (std::vector<float>{2, 1, 0.5f, 0.25f, 3, 2, 1, 0}));
+    EXPECT_EQ(texelsOf<float>(readPicture(path, ledger).image),
+              (std::vector<float>{0.5f, 0.25f, 0.125f, 0.25f, 3, 2, 1, 0}));
 }
 
 TEST(Image, sixteenBitsAreKept) {
