@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #if __has_include(<unistd.h>)
+#include <fcntl.h>
 #include <unistd.h>
 #endif
 
@@ -89,11 +90,25 @@ fs::path temporaryName(const fs::path& folder) {
     return folder / fmt::format(".tessera-{:08x}{:08x}.tmp", random(), random());
 }
 
+/// Opens a new file for writing that nobody may read who may not read the finished one: with the permissions of the
+/// earlier file where there is one. Null where it cannot be made; errno says why.
+std::FILE* createFile(const fs::path& path, const fs::file_status& earlier) {
+#if __has_include(<unistd.h>)
+    const fs::perms permissions = fs::exists(earlier) ? earlier.permissions() : fs::perms(0666);
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, ::mode_t(permissions));
+    return descriptor < 0 ? nullptr : ::fdopen(descriptor, "wb");
+#else
+    static_cast<void>(earlier);
+    return std::fopen(path.c_str(), "wbx");
+#endif
+}
+
 /// A new file beside the target, gone again unless it has taken the target's name.
 class Temporary {
 public:
-    Temporary(const fs::path& folder, const std::string& shownPath)
-        : path_(temporaryName(folder)), listing_(path_.string()), file_(std::fopen(path_.c_str(), "wbx")) {
+    /// `earlier` is the file that it may replace.
+    Temporary(const fs::path& folder, const fs::file_status& earlier, const std::string& shownPath)
+        : path_(temporaryName(folder)), listing_(path_.string()), file_(createFile(path_, earlier)) {
         if (file_ == nullptr) failWithErrno(shownPath, errno);
     }
     Temporary(const Temporary&) = delete;
@@ -164,7 +179,7 @@ void writeFileAtomically(const std::string& path, std::string_view text) {
         writeAndClose(file, text, path, false);
         return;
     }
-    Temporary temporary(place.folder, path);
+    Temporary temporary(place.folder, place.status, path);
     writeAndClose(temporary.file(), text, path, true);
     std::error_code ignored;
     if (fs::exists(place.status)) fs::permissions(temporary.path(), place.status.permissions(), ignored);
@@ -179,7 +194,7 @@ void requireWritable(const std::string& path) {
     const Place place = placeOf(path);
     // Only creating and removing a file tests this reliably on every file system.
     if (!place.isStream) {
-        const Temporary probe(place.folder, path);
+        const Temporary probe(place.folder, place.status, path);
         std::fclose(probe.file());
     }
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/Keywords.h"
+#include "base/Error.h"
 
 namespace py = pybind11;
 
@@ -17,6 +18,22 @@ namespace {
     throw py::type_error(fmt::format("{} is {}; {} is needed", called, Py_TYPE(value.ptr())->tp_name, needed));
 }
 
+/// The text of a str in UTF-8.
+std::string textOf(const py::handle& value, std::string_view called) {
+    py::ssize_t size = 0;
+    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (text == nullptr) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{} holds half of a surrogate pair, which is no character; leave it out", called));
+    }
+    return {text, std::size_t(size)};
+}
+
+[[noreturn]] void refuseHugeNumber(std::string_view called) {
+    PyErr_Clear();
+    throw InputError(fmt::format("{} is a larger number than any that has a meaning here", called));
+}
+
 bool isNumber(const py::handle& value) {
     return !PyBool_Check(value.ptr()) &&
            (PyIndex_Check(value.ptr()) || PyFloat_Check(value.ptr()) || py::hasattr(value, "__float__"));
@@ -25,6 +42,7 @@ bool isNumber(const py::handle& value) {
 double numberOf(const py::handle& value, std::string_view called) {
     if (!isNumber(value)) refuseType(called, "a number", value);
     const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() && PyErr_ExceptionMatches(PyExc_OverflowError)) refuseHugeNumber(called);
     if (PyErr_Occurred()) throw py::error_already_set();
     return number;
 }
@@ -34,7 +52,10 @@ std::string numberTextOf(const py::handle& value, std::string_view called) {
     if (!PyIndex_Check(value.ptr())) return fmt::format("{}", numberOf(value, called));
     const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
     if (!whole) throw py::error_already_set();
-    return py::str(whole);
+    // Python refuses to write numbers of thousands of digits.
+    const auto text = py::reinterpret_steal<py::str>(PyObject_Str(whole.ptr()));
+    if (!text) refuseHugeNumber(called);
+    return text;
 }
 
 bool isList(const py::handle& value) {
@@ -50,7 +71,7 @@ std::vector<py::object> itemsOf(const py::handle& value) {
 
 /// The value of a setting, whatever its kind, as the command line would say it.
 std::string settingText(const engine::Setting& setting, std::string_view called, const py::handle& value) {
-    if (PyUnicode_Check(value.ptr())) return value.cast<std::string>();
+    if (PyUnicode_Check(value.ptr())) return textOf(value, called);
     if (PyBool_Check(value.ptr())) {
         if (!std::holds_alternative<engine::SwitchKind>(setting.value.kind))
             refuseType(called, "a str or a number", value);
@@ -92,7 +113,7 @@ app::KeywordValue loadValue(app::KeywordKind kind, std::string_view called, cons
         if (!py::isinstance<py::dict>(value)) refuseType(called, "a dict of names and numbers", value);
         for (const auto& [name, number] : py::reinterpret_borrow<py::dict>(value)) {
             if (!PyUnicode_Check(name.ptr())) refuseType(called, "a dict of names and numbers", name);
-            taken.hooks.push_back({name.cast<std::string>(), float(numberOf(number, called))});
+            taken.hooks.push_back({textOf(name, called), float(numberOf(number, called))});
         }
         break;
     }
@@ -122,8 +143,7 @@ void takeOne(const std::string& word, const py::handle& value, std::string_view 
 void takeKeywords(const py::kwargs& keywords, std::string_view function, app::FrameOptions& options,
                   const std::vector<std::string_view>& further) {
     for (const auto& [word, value] : keywords) {
-        const auto name = word.cast<std::string>();
-        takeOne(name, value, function, further, options);
+        takeOne(textOf(word, "a keyword"), value, function, further, options);
     }
 }
 
@@ -135,7 +155,10 @@ std::string pathOf(const py::handle& value, std::string_view called) {
     }
     // Names of files may be bytes that are no UTF-8.
     PyObject* encoded = nullptr;
-    if (PyUnicode_FSConverter(path.ptr(), &encoded) == 0) throw py::error_already_set();
+    if (PyUnicode_FSConverter(path.ptr(), &encoded) == 0) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{} holds a character that no name of a file can have", called));
+    }
     return py::reinterpret_steal<py::bytes>(encoded);
 }
 
@@ -148,6 +171,17 @@ std::vector<std::string> pathsOf(const py::handle& value, std::string_view calle
 
 std::string nameOrNumberOf(const py::handle& value, std::string_view called) {
     return isNumber(value) ? numberTextOf(value, called) : pathOf(value, called);
+}
+
+std::optional<int> wholeNumberOf(const py::handle& value, std::string_view called) {
+    if (value.is_none()) return std::nullopt;
+    if (PyBool_Check(value.ptr()) || !PyIndex_Check(value.ptr())) refuseType(called, "a whole number", value);
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!whole) throw py::error_already_set();
+    int overflow = 0;
+    const long number = PyLong_AsLongAndOverflow(whole.ptr(), &overflow);
+    if (overflow != 0 || number != long(int(number))) refuseHugeNumber(called);
+    return int(number);
 }
 
 py::str fileNameOf(const std::string& name) {

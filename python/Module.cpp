@@ -134,7 +134,7 @@ private:
 };
 
 py::object benchScenes(const py::handle& scenes, const py::object& matrix, const py::object& against,
-                       std::optional<int> frames, const py::object& output, bool resume, const py::object& progress,
+                       const py::object& frames, const py::object& output, bool resume, const py::object& progress,
                        const py::kwargs& keywords) {
     BenchWishes wishes;
     takeKeywords(keywords, "bench", wishes.options.frame,
@@ -143,7 +143,7 @@ py::object benchScenes(const py::handle& scenes, const py::object& matrix, const
     if (wishes.options.scenes.empty()) throw InputError("bench needs a scene to measure");
     if (!matrix.is_none()) wishes.matrix = py::module_::import("json").attr("dumps")(matrix).cast<std::string>();
     if (!against.is_none()) wishes.options.against = pathOf(against, "against");
-    wishes.options.frames = frames;
+    wishes.options.frames = wholeNumberOf(frames, "frames");
     if (resume && output.is_none()) throw InputError("resume needs output: the folder of the run to go on with");
     wishes.resumes = resume;
     wishes.command = "tessera.bench() of Python";

@@ -222,6 +222,20 @@ class Errors(Folder):
                 call()
             self.assertNotIn("--", str(raised.exception))
 
+    def testTextsAndNumbersThatNothingTakesAreNamedByTheirKeywords(self):
+        lone, huge = "\ud800", 10**400
+        for message, call in [("^technique holds", lambda: tessera.render("spheres", technique=lone)),
+                              ("^scene holds", lambda: tessera.render(lone)),
+                              ("^source holds", lambda: tessera.load("a\0b")),
+                              ("^camera holds", lambda: tessera.render("spheres", camera=lone)),
+                              ("^a keyword holds", lambda: tessera.render("spheres", **{lone: 1})),
+                              ("^exposure is a larger", lambda: tessera.render("spheres", exposure=10**5000)),
+                              ("^size is a larger", lambda: tessera.render("spheres", size=(10**5000, 9))),
+                              ("^eye is a larger", lambda: tessera.render("spheres", eye=(huge, 0, 0))),
+                              ("^frames is a larger", lambda: tessera.bench("spheres", frames=huge))]:
+            with self.subTest(message), self.assertRaisesRegex(tessera.InputError, message):
+                call()
+
     def testAnUnknownKeywordIsATypeErrorThatNamesTheNearest(self):
         for message, call in [(r"render\(\) has no keyword 'exposur'.*'exposure'", lambda: tessera.render("spheres", exposur=1)),
                               ("'against'", lambda: tessera.compare("spheres", agains="forward")),

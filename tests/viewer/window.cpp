@@ -93,6 +93,12 @@ TEST_F(ViewerWindow, panelsAreAsWideAndAsFoldedAsTheyWereLeft) {
     EXPECT_EQ(barOf(viewer, Section::Lights), lights);
 }
 
+TEST_F(ViewerWindow, aWindowThatSettingsHoldIsNoLargerThanTheScreen) {
+    folder_.write("config/tessera/viewer.json", R"({"window": [16384, 16384]})");
+    DrivenViewer viewer = open({"room"});
+    EXPECT_EQ(viewer.waitForWhole(0), screenPixels() - glm::ivec2(kPanelPixels, 0));
+}
+
 TEST_F(ViewerWindow, theReasonOfAFailedLoadIsShown) {
     folder_.write("broken.json", "{\"tessera\": 1, \"materials\": [{\"name\": 3}]}");
     DrivenViewer viewer = open({"broken.json"});

@@ -189,6 +189,7 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
     const ParsedJson root = scenes::parseJson(json, source, ledger);
     if (!root.is_object()) throw InputError(fmt::format("{}: must be an object of arrays", source));
     BenchMatrix matrix;
+    double points = 1.0;
     for (const auto& [name, values] : root.items()) {
         std::vector<std::string_view> names;
         const Key* found = nullptr;
@@ -203,8 +204,14 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
                    fmt::format("must be an array with at least one entry{}",
                                isEntry ? fmt::format(", as in {{\"{}\": [{}]}}", name, values.dump()) : ""));
         }
+        points *= double(values.size());
+        if (points > double(kMostMatrixPoints)) continue; // reads no more, and counts on
         for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
+    if (points > double(kMostMatrixPoints))
+        throw InputError(fmt::format("{}: asks for {:.3g} points, the product of its lists' lengths; at most {} can be "
+                                     "measured: shorten the lists, or divide them over several runs",
+                                     source, points, kMostMatrixPoints));
     return matrix;
 }
 

@@ -40,6 +40,17 @@ Json identityJson(const RunIdentity& identity, const BenchPlan& plan) {
             {"command", identity.command}, {"groups", planJson(plan)},    {"skipped", skipped}};
 }
 
+/// Shards are measured to be merged: none may take the place of another of its run.
+void requireNoOtherShard(const std::string& folder, const Json& run) {
+    if (!fs::exists(runFile(folder))) return;
+    const Json kept = runIn(folder);
+    const Json shard = run.at("shard"), other = kept.at("shard");
+    if (other.at(1) == shard.at(1) && other.at(0) != shard.at(0))
+        throw InputError(
+            fmt::format("{} holds shard {}, which shard {} would replace; name another folder, or remove {}", folder,
+                        shardText(kept), shardText(run), partsOf(folder).string()));
+}
+
 } // namespace
 
 BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan,
@@ -58,7 +69,10 @@ BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, c
                                          shardText(kept), shardText(run)));
         return;
     }
-    if (earlier != EarlierRun::Replace) requireNoUnfinishedRun(folder);
+    if (earlier != EarlierRun::Replace) {
+        requireNoUnfinishedRun(folder);
+        requireNoOtherShard(folder, run);
+    }
     clearParts(folder);
     writeFileAtomically(runFile(folder).string(), text);
 }

@@ -34,13 +34,26 @@ int letterOn(int key, int scancode) {
     return letter >= 'A' && letter <= 'Z' ? letter : 0;
 }
 
+/// Of the primary screen, in its coordinates; 0 x 0 where it is not known.
+struct WorkArea {
+    glm::ivec2 corner{0}, size{0};
+};
+WorkArea workArea() {
+    WorkArea area;
+    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+        glfwGetMonitorWorkarea(monitor, &area.corner.x, &area.corner.y, &area.size.x, &area.size.y);
+    return area;
+}
+
 std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
     requireDisplay();
+    // A window of any size is made first: settings may hold one that no screen has, and a driver's buffers for it.
+    const WorkArea area = glfwInit() == GLFW_TRUE ? workArea() : WorkArea{};
     gpu::ContextOptions options;
     options.kind = gpu::ContextKind::Window;
     options.visible = true;
-    options.width = size.x;
-    options.height = size.y;
+    options.width = area.size.x > 0 ? std::min(size.x, area.size.x) : size.x;
+    options.height = area.size.y > 0 ? std::min(size.y, area.size.y) : size.y;
     return gpu::Context::create(options);
 }
 
@@ -48,15 +61,9 @@ std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
 
 Window::Window(glm::ivec2 sizeScreen) : context_(makeContext(sizeScreen)) {
     window_ = static_cast<GLFWwindow*>(context_->windowHandle());
-    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
-        glm::ivec2 corner(0), room(0);
-        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
-        const glm::ivec2 size = this->sizeScreen();
-        if (room.x > 0 && room.y > 0 && (size.x > room.x || size.y > room.y)) {
-            glfwSetWindowSize(window_, std::min(size.x, room.x), std::min(size.y, room.y));
-            glfwSetWindowPos(window_, corner.x, corner.y);
-        }
-    }
+    const WorkArea area = workArea();
+    if (sizeScreen.x > area.size.x || sizeScreen.y > area.size.y)
+        glfwSetWindowPos(window_, area.corner.x, area.corner.y);
     glm::dvec2 pointer(0.0);
     glfwGetCursorPos(window_, &pointer.x, &pointer.y);
     pointer_ = pointer;

@@ -1,8 +1,10 @@
 #include "base/AtomicFile.h"
 
+#include <atomic>
 #include <fcntl.h>
 #include <stdexcept>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -45,6 +47,35 @@ TEST(AtomicFile, aFailedWriteKeepsTheOldFileAndNeverLeavesATemporary) {
     EXPECT_THAT(message, StartsWith("cannot write " + path + ": File too large"));
     EXPECT_EQ(readText(path), "old");
     EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(AtomicFile, aPrivateFileIsReplacedByWayOfAPrivateOne) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("secret.txt");
+    writeFileAtomically(path, "old");
+    fs::permissions(path, fs::perms(0600));
+    const ::mode_t mask = ::umask(0);
+    std::atomic<bool> isDone = false;
+    std::atomic<int> seen = 0, open = 0;
+    std::thread watcher([&] {
+        while (!isDone)
+            for (const auto& entry : fs::directory_iterator(folder.path())) {
+                std::error_code ignored;
+                if (entry.path().extension() != ".tmp") continue;
+                const fs::perms permissions = fs::status(entry.path(), ignored).permissions();
+                if (permissions == fs::perms::unknown || ignored) continue;
+                ++seen;
+                if ((permissions & fs::perms(077)) != fs::perms::none) ++open;
+            }
+    });
+    const std::string text(std::size_t{1} << 24, 'x');
+    for (int i = 0; i < 100 && seen == 0; ++i) writeFileAtomically(path, text);
+    isDone = true;
+    watcher.join();
+    ::umask(mask);
+    EXPECT_GT(seen, 0);
+    EXPECT_EQ(open, 0);
+    EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
 }
 
 TEST(AtomicFile, theMessageNamesThePathTheReasonAndTheRemedy) {

@@ -55,6 +55,19 @@ std::vector<std::string> reasonsOf(const BenchPlan& plan) {
     return reasons;
 }
 
+/// 16 KB may ask for 10^11 points.
+TEST(BenchMatrix, pointsAreCountedBeforeTheyArePlanned) {
+    std::string hundred = "0";
+    for (int i = 1; i < 100; ++i) hundred += "," + std::to_string(i);
+    const std::string three = R"({"range": [)" + hundred + R"(], "lights": [)" + hundred + R"(], "size": [)";
+    std::string sizes = "\"1x1\"";
+    for (int i = 2; i <= 100; ++i) sizes += fmt::format(", \"{}x1\"", i);
+    EXPECT_EQ(matrixOf(three + sizes + "]}").lights.size(), 100u);
+    EXPECT_EQ(refusal(three + sizes + R"(, "9x9"]})"),
+              "m.json: asks for 1.01e+06 points, the product of its lists' lengths; at most 1000000 can be measured: "
+              "shorten the lists, or divide them over several runs");
+}
+
 TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
     EXPECT_EQ(refusal(R"({"shadow": ["pfc"]})"), "m.json: \"shadow\": unknown 'pfc': did you mean 'pcf'?");
     EXPECT_EQ(refusal(R"({"shadow": [1024]})"),
