@@ -38,6 +38,10 @@ Json reasons(const Json& record, const ErrorFigures& figures) {
     return why;
 }
 
+bool isJudged(const Tolerance& tolerance) {
+    return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
+}
+
 Json shadowJson(const ShadowFigures& figures) {
     return {{"undecided", figures.undecided}, {"noisyPixels", figures.noisyPixels}, {"noise", figures.noise},
             {"mostNoise", figures.mostNoise}, {"ofReference", figures.ofReference}, {"bias", figures.bias},
@@ -70,7 +74,10 @@ Json pairJson(const ComparePair& pair) {
     Json why = reasons(json, figures);
     if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
     json["tolerance"] = toleranceJson(pair.tolerance);
-    json["ok"] = pair.verdict.ok;
+    // What nothing is asked of is neither good nor bad.
+    const bool hasVerdict = isJudged(pair.tolerance) || !pair.verdict.ok;
+    json["ok"] = hasVerdict ? Json(pair.verdict.ok) : Json(nullptr);
+    if (!hasVerdict) why["ok"] = pair.tolerance.reason.empty() ? "nothing is asked of it" : pair.tolerance.reason;
     json["missed"] = pair.verdict.missed;
     json["culling"] = pair.culling.empty() ? Json(nullptr) : Json(pair.culling);
     if (pair.shadows) json["shadows"] = shadowJson(*pair.shadows);
@@ -111,10 +118,6 @@ using Row = std::vector<std::string>;
 /// Equal bytes have no noise; what could not be compared has no figure.
 std::string psnrText(const ErrorFigures& figures) {
     return figures.flip == 0.0 && !figures.psnr ? "equal" : decibelText(figures.psnr);
-}
-
-bool isJudged(const Tolerance& tolerance) {
-    return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
 }
 
 Row rowOf(const ComparePair& pair) {

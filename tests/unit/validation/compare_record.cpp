@@ -109,7 +109,20 @@ TEST(CompareRecord, everyNullFigureHasAReason) {
     EXPECT_EQ(json["pairs"][0]["nan"], 2);
     EXPECT_EQ(json["pairs"][0]["why"]["maxRel"], "no covered pixel is finite");
     EXPECT_EQ(json["pairs"][1]["why"]["bitEqual"], "no pixel is covered");
-    EXPECT_THAT(keys(json["pairs"][3]["why"]), ElementsAre("psnr", "culling"));
+    EXPECT_THAT(keys(json["pairs"][3]["why"]), ElementsAre("psnr", "culling", "ok"));
+}
+
+TEST(CompareRecord, whatIsNotJudgedIsNeitherOkNorMissed) {
+    Tolerance nothing;
+    nothing.reason = "it is an approximation: its error is reported, and held to nothing";
+    const Picture grey = greyPicture(2, 1, 1.f);
+    CompareRecord record{"x", 2, 1, "r", {comparePair("a", grey, "b", greyPicture(2, 1, 2.f), nothing)}};
+    const auto pair = [&] { return Json::parse(compareJson(record))["pairs"][0]; };
+    EXPECT_TRUE(pair()["ok"].is_null());
+    EXPECT_EQ(pair()["why"]["ok"], nothing.reason);
+    EXPECT_TRUE(record.ok()) << "nothing is missed";
+    record.pairs = {comparePair("a", greyPicture(2, 1, 0.f), "b", grey, nothing)};
+    EXPECT_EQ(pair()["ok"], false) << "a black picture is judged";
 }
 
 TEST(CompareRecord, aNameThatIsNotUtf8NeverKeepsTheRecordFromBeingWritten) {
