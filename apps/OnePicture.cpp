@@ -68,7 +68,8 @@ std::string whyUnheededByReference(const engine::Setting& setting, const Request
     if (setting.heeds != nullptr && !setting.isDefault(request))
         return "The reference follows a ray a pixel, without passes";
     if (std::string why = whyUnheeded(setting, request); !why.empty()) return why;
-    return setting.key == "environmentSamples" ? "The reference integrates in its own way" : "";
+    const bool isOfItsLight = setting.key == "environmentSamples" || setting.ofAreaLights;
+    return isOfItsLight ? "The reference integrates in its own way" : "";
 }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace tessera::engine {
 
 namespace {
 
-using frame::FrameSettings;
+using frame::AreaSettings, frame::FrameSettings;
 
 int mostViewKey() {
     return std::ranges::max(frame::debugViewTable(), {}, &frame::DebugViewInfo::key).key;
@@ -232,6 +232,22 @@ std::vector<Setting> frameSettings() {
          .help = "Irradiance at which lights of A B C falloff and area lights end; compare tells what that drops",
          .panel = SettingPanel::None,
          .value = number(in(&FrameSettings::rangeTolerance), {.least = 0.0})},
+        {.name = "area lights",
+         .flag = "--area-lights",
+         .key = "areaLights",
+         .type = "HOW",
+         .help = "How the light of area lights on a surface is found: " + listed(frame::areaLightsTable()),
+         .ofAreaLights = true,
+         .value = choice(in(&AreaSettings::lights), frame::areaLightsTable(), &frame::AreaLightsInfo::lights)},
+        {.name = "area samples",
+         .flag = "--area-samples",
+         .key = "areaSamples",
+         .type = "N",
+         .help = "With sampled: how many samples a pixel takes of each area light, by the light's surface, by the "
+                 "diffuse part and by each highlight",
+         .ofAreaLights = true,
+         .ofAreaMethod = &frame::AreaLightsInfo::takesSamples,
+         .value = choice(in(&AreaSettings::samples), frame::kAreaSamples)},
         {.name = "view",
          .flag = "--view",
          .key = "view",

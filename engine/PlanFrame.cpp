@@ -49,6 +49,16 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
     }
 }
 
+/// How the light of areas is found.
+graph::Plan::Choice areaChoice(const frame::FrameSpec& spec) {
+    const std::string name(infoOf(spec.settings.area.lights).name);
+    const std::string why = fmt::format("light of {} with a surface", frame::lightsText(spec.areaLights));
+    if (!spec.usesAreaSamples()) return {"area lights", name, why + ", in closed form"};
+    return {"area lights", name,
+            fmt::format("{}, {} sample{} a pixel of each kind", why, spec.settings.area.samples,
+                        spec.settings.area.samples == 1 ? "" : "s")};
+}
+
 /// What spreading light costs: atlases, and of each object how many levels.
 graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
     constexpr std::size_t kMostNamed = 4;
@@ -112,10 +122,11 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
                          hasMaps ? fmt::format("in maps ({})", infoOf(settings.shadowFilter).name) : "traced"),
              std::move(why)});
         if (hasMaps) plan.choices.push_back(atlasChoice(prepared.shadowMaps, settings));
-        if (CutShadows cut = cutShadows(prepared); !cut.why.empty())
-            plan.choices.push_back(
-                {"loops of shadows", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     }
+    if (prepared.spec.areaLights > 0) plan.choices.push_back(areaChoice(prepared.spec));
+    if (CutShadows cut = cutShadows(prepared); !cut.why.empty())
+        plan.choices.push_back(
+            {"loops of lights", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
     if (!prepared.spreadingViews.empty()) plan.choices.push_back(spreadChoice(prepared));
     if (std::string unseen = unseenSpread(scene, prepared); !unseen.empty())
         plan.choices.push_back({"width of spread light", "less than a texel", std::move(unseen)});

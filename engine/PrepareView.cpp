@@ -122,11 +122,20 @@ std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& 
 
 CutShadows cutShadows(const frame::PreparedView& prepared) {
     const frame::FrameSpec& spec = prepared.spec;
-    if (!spec.mayCutShadows()) {
+    if (!spec.mayCutLoops()) {
         for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i)
             if (const CutShadows cut = cutShadows(prepared.spreadingViews[i]); !cut.why.empty())
                 return {ofObject(prepared.spreadingObjects[i], cut.why), cut.iterations};
         return {};
+    }
+    if (spec.usesAreaSamples()) {
+        const std::size_t samples = spec.areaLights * std::size_t(spec.settings.area.samples);
+        if (2 * samples > spec.iterations)
+            return {fmt::format("samples of {} take up to {} iterations of a shader's loops where all reach a pixel, "
+                                "and Mesa ends those after {}, which gives NaN; give fewer {}",
+                                frame::lightsText(spec.areaLights), spec.iterations, frame::kMostLoopIterations,
+                                settingOf("areaSamples").flag),
+                    spec.iterations};
     }
     const bool mayNarrow =
         infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];

@@ -40,6 +40,12 @@ auto in(Value frame::EnvironmentSettings::*member) {
         return request.settings.environment.*member;
     };
 }
+template <typename Value>
+auto in(Value frame::AreaSettings::*member) {
+    return [member](auto& request) -> auto& {
+        return request.settings.area.*member;
+    };
+}
 inline auto in(Technique ViewRequest::*member) {
     return [member](auto& request) -> auto& {
         return request.*member;

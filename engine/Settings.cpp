@@ -97,6 +97,13 @@ std::string Setting::whyIdle(const ViewRequest& request, const scenes::Scene* sc
     if (ofLight != nullptr && !(light.*ofLight))
         return fmt::format("{}; the environment light is {}",
                            onlyHeededBy(frame::environmentLightTable(), std::mem_fn(ofLight)), light.name);
+    const auto isArea = [](const scenes::Light& one) { return scenes::infoOf(one.type).isArea; };
+    if (ofAreaLights && scene != nullptr && std::ranges::none_of(scene->lights, isArea))
+        return "There is no area light";
+    const frame::AreaLightsInfo& area = infoOf(request.settings.area.lights);
+    if (ofAreaMethod != nullptr && !(area.*ofAreaMethod))
+        return fmt::format("{}; the area lights are {}",
+                           onlyHeededBy(frame::areaLightsTable(), std::mem_fn(ofAreaMethod)), area.name);
     const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
     if (ofFilters != nullptr && !(filter.*ofFilters))
         return fmt::format("{}; the shadow filter is {}",

@@ -88,6 +88,9 @@ struct Setting {
     bool ofReference = false;   ///< no technique heeds it, the reference alone does
     /// What of the way to find the environment's light heeds it; null: it is heeded with any.
     bool frame::EnvironmentLightInfo::*ofLight = nullptr;
+    bool ofAreaLights = false; ///< it changes nothing of a scene without area lights
+    /// What of the way to find the light of area lights heeds it; null: it is heeded with any.
+    bool frame::AreaLightsInfo::*ofAreaMethod = nullptr;
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 
     bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value

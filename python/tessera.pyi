@@ -53,6 +53,8 @@ class Keywords(TypedDict, total=False):
     camera: str | int | None
     time: float | str | None
     range_tolerance: float | str | None
+    area_lights: str | None
+    area_samples: int | str | None
     view: str | int | None
     solo: int | str | None
     environment_light: str | None

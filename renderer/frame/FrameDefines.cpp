@@ -67,6 +67,8 @@ Defines frameDefines(const FrameSpec& spec) {
     }
     if (spec.usesEnvironmentSamples())
         defines.emplace_back("ENVIRONMENT_SAMPLES", std::to_string(spec.settings.environment.samples));
+    if (spec.features.areaLights())
+        defines.emplace_back("AREA_SAMPLES", std::to_string(spec.usesAreaSamples() ? spec.settings.area.samples : 0));
     if (spec.tracesShadows()) defines.emplace_back("CASTER_STEPS", std::to_string(casterSteps(spec.shadowSamples)));
     if (spec.features[Feature::SoftShadows])
         defines.emplace_back("SHADOW_SAMPLES", std::to_string(spec.settings.shadowSamples));

@@ -48,6 +48,12 @@ static_assert(int(EnvironmentLight::Off) == ENVIRONMENT_OFF &&
               int(EnvironmentLight::SplitSum) == ENVIRONMENT_SPLIT_SUM &&
               int(EnvironmentLight::Sampled) == ENVIRONMENT_SAMPLED);
 
+constexpr AreaLightsInfo kAreaLights[] = {
+    {AreaLights::Ltc, "ltc", "in closed form, by linearly transformed cosines in place of lobes", false},
+    {AreaLights::Sampled, "sampled", "by samples of each pixel, which converge to the truth", true},
+};
+static_assert(isInOrder(kAreaLights, &AreaLightsInfo::lights, std::size(kAreaLights)));
+
 using FarSide = RefractionInfo::FarSide;
 constexpr RefractionInfo kRefractions[] = {
     {Refraction::Environment, "environment", "the environment alone", false, FarSide::None},
@@ -73,6 +79,14 @@ std::span<const EnvironmentLightInfo> environmentLightTable() {
 
 const EnvironmentLightInfo& infoOf(EnvironmentLight light) {
     return kEnvironmentLights[std::size_t(light)];
+}
+
+std::span<const AreaLightsInfo> areaLightsTable() {
+    return kAreaLights;
+}
+
+const AreaLightsInfo& infoOf(AreaLights lights) {
+    return kAreaLights[std::size_t(lights)];
 }
 
 std::span<const RefractionInfo> refractionTable() {

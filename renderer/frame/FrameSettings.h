@@ -96,6 +96,24 @@ struct EnvironmentLightInfo {
 std::span<const EnvironmentLightInfo> environmentLightTable();
 const EnvironmentLightInfo& infoOf(EnvironmentLight light);
 
+/// How the light of area lights on a surface is found (docs/area-lights.md).
+enum class AreaLights : std::uint8_t { Ltc, Sampled };
+struct AreaLightsInfo {
+    AreaLights lights;
+    std::string_view name;
+    std::string_view summary;
+    bool takesSamples; ///< AreaSettings::samples of them
+};
+std::span<const AreaLightsInfo> areaLightsTable();
+const AreaLightsInfo& infoOf(AreaLights lights);
+
+struct AreaSettings {
+    AreaLights lights = AreaLights::Ltc;
+    int samples = 16; ///< of a pixel for each light, of each kind, one of kAreaSamples
+    bool operator==(const AreaSettings&) const = default;
+};
+inline constexpr int kAreaSamples[] = {1, 4, 16, 64, 256, 1024};
+
 /// What bodies of glass show (docs/glass.md).
 enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides, BackFaces };
 struct RefractionInfo {
@@ -170,6 +188,7 @@ struct FrameSettings {
     scenes::SubsurfaceRequest subsurface;
     DiffusionSettings diffusion;
     EnvironmentSettings environment;
+    AreaSettings area;
     Refraction refraction = Refraction::OneSide;
     int glassDepth = 0; ///< of the reference alone (its Settings.h): glass behind glass; one of kGlassDepths
     culling::Settings culling;

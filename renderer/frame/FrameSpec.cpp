@@ -219,6 +219,9 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.shadowSamples += shadowSamples(shadowed(i), spec.settings) + passingRays(spec);
     for (std::size_t i = 0; i < lights.shadowed; ++i) spec.iterations += 1 + shadowIterations(spec, shadowed(i));
     if (spec.usesEnvironmentSamples()) spec.iterations += std::size_t(settings.environment.samples);
+    spec.areaLights = std::size_t(std::ranges::count_if(
+        lights.sceneIndex, [&](int light) { return scenes::infoOf(scene.lights[std::size_t(light)].type).isArea; }));
+    if (spec.usesAreaSamples()) spec.iterations += spec.areaLights * std::size_t(1 + settings.area.samples);
     // Each colour's ray inside and behind a body, which goes behind something in every other step at most.
     if (spec.showsBehindGlass || spec.drawsFarSides)
         spec.iterations += 6 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
@@ -296,12 +299,15 @@ bool FrameSpec::usesLobeTable() const {
 }
 
 bool FrameSpec::lightsByLobeTable() const {
-    return features.areaLights() ||
-           (features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes()));
+    return usesLobeShapes() || (features[Feature::Environment] && (!usesEnvironmentSamples() || compensatesLobes()));
 }
 
 bool FrameSpec::usesLobeShapes() const {
-    return features.areaLights();
+    return features.areaLights() && !usesAreaSamples();
+}
+
+bool FrameSpec::usesAreaSamples() const {
+    return features.areaLights() && infoOf(settings.area.lights).takesSamples;
 }
 
 bool FrameSpec::compensatesLobes() const {
@@ -314,8 +320,8 @@ bool FrameSpec::usesFilteredEnvironment() const {
            (showsEnvironment && settings.environment.backdrop == Backdrop::Blurred);
 }
 
-bool FrameSpec::mayCutShadows() const {
-    return settings.softwareBackend && shadowedLights > 0 && showsLitPicture(settings.view) &&
+bool FrameSpec::mayCutLoops() const {
+    return settings.softwareBackend && (shadowedLights > 0 || usesAreaSamples()) && showsLitPicture(settings.view) &&
            iterations > kMostLoopIterations - kOtherLoopIterations;
 }
 

@@ -26,6 +26,7 @@ struct FrameSpec {
     LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
     std::size_t lights = 0;                          ///< that the frame's pixels may visit
     std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
+    std::size_t areaLights = 0;                      ///< those among them that have a surface
     std::size_t shadowSamples = 0;                   ///< rays, or places of their disks, for all of those
     std::size_t iterations = 0;                      ///< of loops, to light a pixel that all lights reach
     glm::ivec2 shadowAtlasTexels{0};                 ///< where there are shadow maps
@@ -72,13 +73,15 @@ struct FrameSpec {
     bool usesLobeTable() const;
     bool lightsByLobeTable() const; ///< surfaces, by area lights or an environment
     bool usesLobeShapes() const;
+    bool usesAreaSamples() const;
     bool compensatesLobes() const;
     bool usesLightPictures() const { return features[Feature::LightPictures] || showsLightPictures; }
 
     /// Whether shadows follow rays through the casters.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
-    /// Whether shadows may take more iterations than Mesa lets loops make, so that pixels are NaN (LightRounds.h).
-    bool mayCutShadows() const;
+    /// Whether shadows and samples of area lights may take more iterations than Mesa lets loops make, so that pixels
+    /// are NaN (LightRounds.h).
+    bool mayCutLoops() const;
 
     /// Of the G-buffer, by attachment: its channels, and behind them the marks (markTable()) where there is room.
     std::vector<GBufferTexture> gbufferTextures() const;

@@ -61,6 +61,10 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     hash.add(settings.shadowSamples);
     hash.add(settings.shadowMaps.widthTexels);
     hash.add(settings.shadowMaps.cascades);
+    if (prepared.spec.features.areaLights()) {
+        hash.add(std::uint8_t(settings.area.lights));
+        if (prepared.spec.usesAreaSamples()) hash.add(settings.area.samples);
+    }
     hash.add(std::uint8_t(settings.filter));
     hash.add(settings.prune);
     if (scene.hook) {

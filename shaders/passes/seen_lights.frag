@@ -11,36 +11,13 @@ layout(binding = TEXTURE_UNIT_SEEN_LIGHTS) uniform samplerBuffer seenLightTexels
 layout(location = 0) flat in int light;
 layout(location = 0) out vec4 radiance;
 
-// A ray from the middle of the light: its point so many metres ahead of the origin of lighting space is
-// start + ahead * direction.
-struct Ray {
-    vec3 start;
-    vec3 direction;
-};
-
 vec2 cornerOf(int texel, int corner)
 {
     vec4 two = texelFetch(seenLightTexels, texel + 5 + corner / 2);
     return (corner & 1) == 0 ? two.xy : two.zw;
 }
-
-// Whether edges to one side of a place cross its height an odd number of times.
-bool isWithinPolygon(vec2 place, int texel, int corners)
-{
-    bool isWithin = false;
-    vec2 from = cornerOf(texel, corners - 1);
-    for (int i = 0; i < corners; ++i) {
-        vec2 to = cornerOf(texel, i);
-        if ((from.y > place.y) != (to.y > place.y)) {
-            // From the lower corner whichever way the edge runs, so that surfaces that share it leave no gap.
-            vec2 low = from.y < to.y ? from : to, high = from.y < to.y ? to : from;
-            precise float side = (high.x - low.x) * (place.y - low.y) - (place.x - low.x) * (high.y - low.y);
-            if (side > 0.0) isWithin = !isWithin;
-        }
-        from = to;
-    }
-    return isWithin;
-}
+#define HAS_CORNERS 1
+#include "lib/light/area_hits.glsl"
 
 // A rectangle, a disk or a polygon, from a side that shines.
 bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwoSided, out float ahead, out vec2 within)
@@ -59,42 +36,6 @@ bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwo
                               : abs(within.x) <= along.w && abs(within.y) <= across.w;
 }
 
-// Where the ray enters a ball, or of components across an axis an endless cylinder. Measured from the point that is
-// nearest to the middle, no digits cancel for a small light far away.
-// Source: Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection".
-bool meetsRound(Ray ray, float radius, out float ahead)
-{
-    precise float square = dot(ray.direction, ray.direction);
-    precise float halfway = -dot(ray.start, ray.direction) / square;
-    precise vec3 nearest = ray.start + halfway * ray.direction;
-    precise float room = radius * radius - dot(nearest, nearest);
-    precise float met = halfway - sqrt(max(room, 0.0) / square);
-    ahead = met;
-    return room > 0.0; // false where the ray runs along the axis
-}
-
-// A closed cylinder: the end that faces the ray, or else the mantle between the ends.
-bool meetsTube(Ray ray, vec4 axis, float radius, out float ahead)
-{
-    precise float direction = dot(ray.direction, axis.xyz), start = dot(ray.start, axis.xyz);
-    Ray across;
-    precise vec3 directionAcross = ray.direction - direction * axis.xyz;
-    precise vec3 startAcross = ray.start - start * axis.xyz;
-    across.direction = directionAcross;
-    across.start = startAcross;
-    if (direction != 0.0) {
-        precise float met = (-sign(direction) * axis.w - start) / direction;
-        precise vec3 place = startAcross + met * directionAcross;
-        ahead = met;
-        if (dot(place, place) <= radius * radius) return true;
-    }
-    // Rounding leaves no gap between an end and the mantle.
-    const float kLonger = 1.00001;
-    bool meets = meetsRound(across, radius, ahead);
-    precise float height = start + ahead * direction;
-    return meets && abs(height) <= kLonger * axis.w;
-}
-
 void main()
 {
 #if SAMPLES > 1
@@ -108,6 +49,7 @@ void main()
 
     vec2 spread = raySpread();
     precise vec3 acrossView = acrossOfPixel(pixel);
+    // Its points lie so many metres ahead of the origin of lighting space.
     precise vec3 start = spread.x * acrossView - middle.xyz;
     precise vec3 direction = spread.y * acrossView + view.forwardLS.xyz;
     Ray ray = Ray(start, direction);
@@ -115,11 +57,11 @@ void main()
     int type = int(middle.w);
     float ahead;
     vec2 within = vec2(0.0);
-    bool meets;
+    bool meets, isEnd;
     if (type == LIGHT_SPHERE)
         meets = meetsRound(ray, across.w, ahead);
     else if (type == LIGHT_TUBE)
-        meets = meetsTube(ray, along, across.w, ahead);
+        meets = meetsTube(ray, along, across.w, ahead, isEnd);
     else
         meets = meetsFlat(ray, type, texel, along, across, shinesFromBothSides(shown.w), ahead, within);
     if (!meets) discard;

@@ -34,6 +34,7 @@ void AreaLights::expectAllTechniquesAlike() {
         int samples;
         scenes::ShadowRequest shadows;
         std::vector<Technique> techniques; ///< besides forward; none: all
+        frame::AreaLights how = frame::AreaLights::Ltc;
     };
     // Compiling takes nearly all of the time, and programs of one matte material least of it.
     scenes::Material matte;
@@ -43,7 +44,9 @@ void AreaLights::expectAllTechniquesAlike() {
     few.nodes.push_back(few.nodes[0]); // before the first: half a metre, a third as large, and turned
     few.nodes.back().parentFromNode = {glm::dvec4(0.3, 0.0, 0.1, 0.0), glm::dvec4(0.0, 0.3, 0.0, 0.0),
                                        glm::dvec4(-0.1, 0.0, 0.3, 0.0), glm::dvec4(0.2, 0.1, 0.5, 1.0)};
+    constexpr frame::AreaLights kSampled = frame::AreaLights::Sampled;
     std::vector<Case> cases{{few, 1, {}, techniquesInTurn(0)},
+                            {few, 1, {}, {Technique::ClusteredDeferred, Technique::DeferredVolumes}, kSampled},
                             {few, 1, kAllLightsCast, techniquesInTurn(1)},
                             {few, 4, {}, {Technique::ForwardPlus}},
                             {withAreaLights(evenScene()), 1, {}, {Technique::TiledDeferred}}};
@@ -51,7 +54,11 @@ void AreaLights::expectAllTechniquesAlike() {
         cases = {{withAreaLights(evenScene()), 1, {}, {}},
                  {withAreaLights(everythingScene()), 1, {}, {Technique::TiledDeferred, Technique::ClusteredForward}},
                  {withAreaLights(evenScene()), 1, kAllLightsCast, {Technique::DeferredVolumes, Technique::ForwardPlus}},
-                 {withAreaLights(quadScene({})), 4, {}, {}}};
+                 {withAreaLights(quadScene({})), 4, {}, {}},
+                 {withAreaLights(evenScene()), 1, {}, {}, kSampled},
+                 {withAreaLights(everythingScene()), 1, {}, {Technique::TiledDeferred}, kSampled},
+                 {withAreaLights(quadScene({})), 1, kAllLightsCast, {}, kSampled},
+                 {withAreaLights(quadScene({})), 4, {}, {}, kSampled}};
     }
     for (const Case& one : cases) {
         SCOPED_TRACE(fmt::format("{}, {} samples", one.scene.name, one.samples));
@@ -61,6 +68,7 @@ void AreaLights::expectAllTechniquesAlike() {
         settings.diffusion = coarseDiffusion();
         settings.samples = one.samples;
         settings.shadows = one.shadows;
+        settings.area = {one.how, 4};
         expectParity(renderer, settings, one.techniques);
     }
 }
@@ -79,6 +87,9 @@ void AreaLights::expectPruningChangesNoBit() {
         scene.lights = {areaLight(type, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
         frame::FrameSettings settings;
         settings.sizePixels = {96, 54};
+        // Programs with everything and samples take long to compile.
+        settings.area = {
+            isWholeSweep() && type != LightType::Disk ? frame::AreaLights::Sampled : frame::AreaLights::Ltc, 4};
         const auto radiance = [&](bool prune) {
             settings.prune = prune;
             return engine::Renderer(context(), scene).render(technique, settings).radiance;

@@ -36,12 +36,12 @@ constexpr EnvironmentFault kEnvironmentFaults[] = {
      "* 0.5 * levelsADoubling;"},
     {"a lobe without its table", EnvironmentLight::SplitSum, 1.0f, "lib/reflectance/even_light.glsl",
      "seen.f0 * lobe.x + seen.fresnelRise * lobe.y", "seen.f0 + seen.fresnelRise * lobe.y"},
-    {"a density without its cosine", EnvironmentLight::Sampled, kMatteBall, "lib/environment/environment_samples.glsl",
+    {"a density without its cosine", EnvironmentLight::Sampled, kMatteBall, "lib/reflectance/lobe_samples.glsl",
      "density = max(dot(seen.surface.normalLS, toLight), 0.0) * kInversePi", "density = kInversePi"},
     {"the density of the map left out", EnvironmentLight::Sampled, kMatteBall,
      "lib/environment/environment_samples.glsl", "mapDensity + surfaceDensity(seen, toLight)",
      "surfaceDensity(seen, toLight)"},
-    {"the density of the lobe left out", EnvironmentLight::Sampled, 0.5f, "lib/environment/environment_samples.glsl",
+    {"the density of the lobe left out", EnvironmentLight::Sampled, 0.5f, "lib/reflectance/lobe_samples.glsl",
      "density += visibleDensity(lobeDistribution(seen, h), seen.nv, seen.viewerLength)", "density += 0.0"},
 };
 

@@ -74,6 +74,8 @@ protected:
             settings.rangeTolerance = 0.05; // by which lists end lights
             engine::Renderer tolerant(context(), scene);
             expectParity(tolerant, settings, {Technique::ClusteredDeferred});
+            settings.area = {frame::AreaLights::Sampled, 4};
+            expectParity(tolerant, settings, {Technique::ClusteredDeferred});
         }
     }
     std::vector<float> radianceOf(const scenes::Scene& scene, bool prune = true) {
@@ -234,6 +236,42 @@ private:
     std::optional<engine::Renderer> renderer_;
 };
 using LightPictureTruthSlow = LightPictureTruth;
+
+/// Samples of a light with a picture, against the integral over both, at one point that 256 pixels see.
+TEST_F(LightPictureTruth, samplesAgreeWithTheIntegralWithinThreeStandardErrors) {
+    scenes::Material metal;
+    metal.metallic = 1.0f;
+    metal.perceptualRoughness = 0.4f;
+    metal.doubleSided = true;
+    for (const LightType type : inTurn(kFlatTypes, 2)) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        scenes::Scene scene = quadScene(metal);
+        scene.cameras[0].projection = scenes::Projection::Orthographic;
+        scene.cameras[0].halfHeightMetres = 1e-5;
+        scene.lights = {picturedArea(type, {0.3, 0.2, 0.8}, {-0.2, -0.1, -1.0}, fieldsTexture())};
+        scene.lights[0].isSeen = false;
+        frame::FrameSettings settings;
+        settings.sizePixels = {1, 1};
+        const std::vector<float> truth = validation::referencePicture(
+                                             scene, settings, [] {}, validation::Leeway::None)
+                                             .picture.rgba;
+        settings.sizePixels = {16, 16};
+        settings.area = {frame::AreaLights::Sampled, 64};
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> shown = renderer.render(Technique::Deferred, settings).radiance;
+        const double count = double(shown.size()) / 4.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            double sum = 0.0, squares = 0.0;
+            for (std::size_t i = c; i < shown.size(); i += 4) {
+                sum += double(shown[i]);
+                squares += double(shown[i]) * double(shown[i]);
+            }
+            const double mean = sum / count, standardError = std::sqrt((squares / count - mean * mean) / count);
+            EXPECT_NEAR(mean, double(truth[c]), 3.0 * standardError + 1e-4 * mean);
+            EXPECT_LE(standardError, 0.01 * mean);
+        }
+    }
+}
 
 /// Of which the closed form of a rectangle of half the width is the truth.
 TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {

@@ -112,6 +112,15 @@ void addEnvironments(const GroupTruth& truth, const std::string& truthName, std:
         });
 }
 
+/// Light of area lights.
+void addAreas(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
+              std::vector<AttributionLine>& lines) {
+    addFoundLight(
+        "area", truth, truthName, points, lines,
+        [](const PointKey& key) { return key.area ? areaText(*key.area) : std::string(); },
+        [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.area = own.area; });
+}
+
 void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
     std::set<double> tolerances;
     for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
@@ -160,6 +169,7 @@ std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const 
     addShadows(truth, exact, points, lines);
     addSubsurfaces(truth, truthName, points, lines);
     addEnvironments(truth, truthName, points, lines);
+    addAreas(truth, truthName, points, lines);
     addRanges(truth, points, lines);
     addLayouts(gl, truth, points, lines);
     return lines;

@@ -74,6 +74,13 @@ Column environmentColumn(const EnvironmentSetting& row) {
             }};
 }
 
+Column areaColumn(const AreaSetting& row) {
+    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::string* const text = result.key.area ? result.key.area->text(row.key) : nullptr;
+                return text ? *text : "";
+            }};
+}
+
 std::vector<Column> makeColumns() {
     using G = BenchGroup;
     using R = BenchResult;
@@ -91,6 +98,7 @@ std::vector<Column> makeColumns() {
         {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},
         {kSubsurfaceKey, [](const G&, const R& r, P) { return r.key.subsurface ? r.key.subsurface->method : ""; }},
         {kEnvironmentKey, [](const G&, const R& r, P) { return r.key.environment ? r.key.environment->light : ""; }},
+        {kAreaKey, [](const G&, const R& r, P) { return r.key.area ? r.key.area->method : ""; }},
         {"lights", [](const G& g, const R&, P) { return fmt::format("{}", g.lights); }},
         {"width", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.x); }},
         {"height", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.y); }},
@@ -126,7 +134,9 @@ std::vector<Column> makeColumns() {
     for (const SubsurfaceSetting& row : subsurfaceSettingTable())
         table.insert(std::ranges::find(table, kEnvironmentKey, &Column::name), subsurfaceColumn(row));
     for (const EnvironmentSetting& row : environmentSettingTable())
-        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), environmentColumn(row));
+        table.insert(std::ranges::find(table, kAreaKey, &Column::name), environmentColumn(row));
+    for (const AreaSetting& row : areaSettingTable())
+        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), areaColumn(row));
     return table;
 }
 

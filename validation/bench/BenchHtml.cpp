@@ -19,8 +19,8 @@ namespace tessera::validation {
 
 namespace {
 
-/// What shapes of marks tell in plots: the method of subsurface scattering, how the environment's light is found, or
-/// the filter of shadows where several were measured, else the G-buffer layout.
+/// What shapes of marks tell in plots: the method of subsurface scattering, how the light of the environment or of
+/// area lights is found, or the filter of shadows where several were measured, else the G-buffer layout.
 struct MarkKind {
     const char* name;
     const char* words; ///< what shapes tell
@@ -34,6 +34,8 @@ constexpr MarkKind kBySubsurface{"subsurface", "Shapes tell what happens below s
 constexpr MarkKind kByEnvironment{
     "environment light", "Shapes tell how the environment's light is found.",
     [](const PointKey& key) { return key.environment ? key.environment->light : std::string("none"); }};
+constexpr MarkKind kByArea{"area lights", "Shapes tell how the light of area lights is found.",
+                           [](const PointKey& key) { return key.area ? key.area->method : std::string("none"); }};
 constexpr MarkKind kByShadow{"shadow filter", "Shapes tell how shadows are found.", [](const PointKey& key) {
                                  return key.shadow ? key.shadow->filter : std::string(kNoShadows);
                              }};
@@ -46,7 +48,7 @@ std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
 }
 
 const MarkKind& markKindOf(const BenchRecord& record) {
-    for (const MarkKind* const kind : {&kBySubsurface, &kByEnvironment, &kByShadow})
+    for (const MarkKind* const kind : {&kBySubsurface, &kByEnvironment, &kByArea, &kByShadow})
         if (marksOf(record, *kind).size() > 1) return *kind;
     return kByLayout;
 }
@@ -127,6 +129,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
     if (best.key.subsurface) how += ", " + subsurfaceText(*best.key.subsurface);
     if (best.key.environment) how += ", " + environmentText(*best.key.environment);
+    if (best.key.area) how += ", " + areaText(*best.key.area);
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
     std::string html =
         unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));

@@ -161,6 +161,21 @@ void explainEnvironment(const PointKey& key, std::map<std::string, std::string>&
             why[std::string(row.key)] = key.environment ? std::string(row.absent) : kNone;
 }
 
+std::optional<AreaKey> areaFrom(const Json& json) {
+    const Json& method = json.at(std::string(kAreaKey));
+    if (method.is_null()) return {};
+    return AreaKey{method.get<std::string>(), valuesFrom(json, areaSettingTable())};
+}
+
+/// Why fields of area lights are null.
+void explainArea(const PointKey& key, std::map<std::string, std::string>& why) {
+    constexpr const char* kNone = "no area light shines";
+    if (!key.area) why[std::string(kAreaKey)] = kNone;
+    for (const AreaSetting& row : areaSettingTable())
+        if (!key.area || !key.area->text(row.key))
+            why[std::string(row.key)] = key.area ? "the light of area lights is not sampled" : kNone;
+}
+
 BenchResult resultFrom(const Json& json) {
     BenchResult result;
     read(json, "technique", result.key.technique);
@@ -172,6 +187,7 @@ BenchResult resultFrom(const Json& json) {
     result.key.shadow = shadowFrom(json);
     result.key.subsurface = subsurfaceFrom(json);
     result.key.environment = environmentFrom(json);
+    result.key.area = areaFrom(json);
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -231,6 +247,8 @@ Json choicesJson(const PointKey& key) {
     addValues(json, key.subsurface, subsurfaceSettingTable());
     json[std::string(kEnvironmentKey)] = key.environment ? Json(key.environment->light) : Json(nullptr);
     addValues(json, key.environment, environmentSettingTable());
+    json[std::string(kAreaKey)] = key.area ? Json(key.area->method) : Json(nullptr);
+    addValues(json, key.area, areaSettingTable());
     return json;
 }
 
@@ -244,6 +262,7 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
     explainShadows(result.key, why);
     explainSubsurface(result.key, why);
     explainEnvironment(result.key, why);
+    explainArea(result.key, why);
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     Json json = {{"scene", group.scene},

@@ -16,6 +16,7 @@
 #include "engine/SettingValues.h"
 #include "scenes/Limits.h"
 #include "scenes/import/JsonText.h"
+#include "validation/bench/AreaKey.h"
 #include "validation/bench/EnvironmentKey.h"
 #include "validation/bench/ShadowKey.h"
 #include "validation/bench/SubsurfaceKey.h"
@@ -169,6 +170,11 @@ std::vector<Key> makeKeys() {
                          addSettingValue(m, kEnvironmentKey, std::string(row.name));
                      }});
     for (const EnvironmentSetting& row : environmentSettingTable()) table.push_back(settingKey(row.key));
+    table.push_back({kAreaKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                         const auto& row = rowNamed(frame::areaLightsTable(), v, s, std::string(kAreaKey));
+                         addSettingValue(m, kAreaKey, std::string(row.name));
+                     }});
+    for (const AreaSetting& row : areaSettingTable()) table.push_back(settingKey(row.key));
     return table;
 }
 

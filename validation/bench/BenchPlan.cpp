@@ -48,7 +48,7 @@ void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
 }
 
 /// What the points of a group have in common with every technique: a range tolerance, how shadows are found, what
-/// happens below surfaces and how the environment's light is found.
+/// happens below surfaces and how the light of the environment and of area lights is found.
 struct Variant {
     std::optional<double> range; ///< as the matrix has it
     frame::FrameSettings settings;
@@ -56,11 +56,12 @@ struct Variant {
     std::vector<frame::ShadowFace> faces; ///< of its maps
     std::optional<SubsurfaceKey> subsurface;
     std::optional<EnvironmentKey> environment;
+    std::optional<AreaKey> area;
 };
 
 /// Other settings of maps are no other frame where the faces are the same.
 bool isSameFrame(const Variant& a, const Variant& b) {
-    if (a.subsurface != b.subsurface || a.environment != b.environment) return false;
+    if (a.subsurface != b.subsurface || a.environment != b.environment || a.area != b.area) return false;
     if (!a.shadow || !b.shadow) return a.shadow == b.shadow;
     const auto isSame = [&](const ShadowSetting& row) {
         const std::string *const textA = a.shadow->text(row.key), *const textB = b.shadow->text(row.key);
@@ -104,7 +105,9 @@ std::string whySame(const Variant& same) {
     if (same.shadow) add(shadowText(*same.shadow));
     if (same.subsurface) add(subsurfaceText(*same.subsurface));
     if (same.environment) add(environmentText(*same.environment));
-    return text.empty() ? "there are no shadows, no material has a subsurface, and no environment shines"
+    if (same.area) add(areaText(*same.area));
+    return text.empty() ? "there are no shadows, no material has a subsurface, no environment shines and no light in "
+                          "view has a surface"
                         : "it is the same frame as " + text;
 }
 
@@ -134,8 +137,9 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
             if (!hasEnvironment) choice.settings.environment = settings.environment;
             const frame::PreparedView prepared = preparedFor(scene, choice.settings);
             Variant variant{
-                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings), {}};
+                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings), {}, {}};
             if (hasEnvironment) variant.environment = environmentKeyOf(choice.settings);
+            if (prepared.spec.areaLights > 0) variant.area = areaKeyOf(choice.settings);
             if (hasShadows) variant.shadow = shadowKeyOf(prepared.lights, variant.settings);
             const auto same =
                 std::ranges::find_if(ofRange, [&](const Variant& other) { return isSameFrame(other, variant); });
@@ -233,6 +237,7 @@ private:
                      variant.shadow,
                      variant.subsurface,
                      variant.environment,
+                     variant.area,
                      {}};
         if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;

@@ -82,7 +82,8 @@ std::string groupTable(const BenchGroup& group) {
     const bool hasShadows = any([](const PointKey& key) { return key.shadow.has_value(); });
     const bool hasSubsurface = any([](const PointKey& key) { return key.subsurface.has_value(); });
     const bool hasEnvironment = any([](const PointKey& key) { return key.environment.has_value(); });
-    const bool hasLongColumn = hasShadows || hasSubsurface || hasEnvironment;
+    const bool hasArea = any([](const PointKey& key) { return key.area.has_value(); });
+    const bool hasLongColumn = hasShadows || hasSubsurface || hasEnvironment || hasArea;
     // Their columns need room: names of techniques stay whole, and a long title breaks.
     table.addColumn("technique", Table::Align::Left, hasLongColumn ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
@@ -92,6 +93,7 @@ std::string groupTable(const BenchGroup& group) {
     if (hasShadows) table.addColumn("shadows");
     if (hasSubsurface) table.addColumn("subsurface");
     if (hasEnvironment) table.addColumn("environment");
+    if (hasArea) table.addColumn("area lights");
     for (const char* title : {"ms", "p95"}) table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("to lower bound", Table::Align::Right, hasLongColumn ? Table::Cells::Break : Table::Cells::Whole);
     for (const char* title : {"to lit", "visited", "relMSE", "bias"})
@@ -109,6 +111,7 @@ std::string groupTable(const BenchGroup& group) {
         if (hasShadows) row.push_back(key.shadow ? shadowText(*key.shadow) : "-");
         if (hasSubsurface) row.push_back(key.subsurface ? subsurfaceText(*key.subsurface) : "-");
         if (hasEnvironment) row.push_back(key.environment ? environmentText(*key.environment) : "-");
+        if (hasArea) row.push_back(key.area ? areaText(*key.area) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
               figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),

@@ -23,8 +23,9 @@ struct BenchRecord {
 
 /// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the lower
 /// bound of lit pairs, its 95th percentiles and its rounds; since 4 `cullNormals`; since 5 `shadow` and its settings;
-/// since 6 `subsurface` and its settings; since 7 `environmentLight` and its settings; since 8 `driver`.
-inline constexpr int kBenchSchema = 8;
+/// since 6 `subsurface` and its settings; since 7 `environmentLight` and its settings; since 8 `driver`;
+/// since 9 `areaLights` and its settings.
+inline constexpr int kBenchSchema = 9;
 
 std::string benchJson(const BenchRecord& record);  ///< the `bench` record of the command line's documentation
 std::string benchCsv(const BenchRecord& record);   ///< its points, one per line; RFC 4180

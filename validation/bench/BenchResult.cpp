@@ -15,6 +15,7 @@ std::string pointName(const PointKey& key) {
     if (key.shadow) name += ", " + shadowText(*key.shadow);
     if (key.subsurface) name += ", " + subsurfaceText(*key.subsurface);
     if (key.environment) name += ", " + environmentText(*key.environment);
+    if (key.area) name += ", " + areaText(*key.area);
     return name;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/bench/AreaKey.h"
 #include "validation/bench/EnvironmentKey.h"
 #include "validation/bench/ShadowKey.h"
 #include "validation/bench/SubsurfaceKey.h"
@@ -25,6 +26,7 @@ struct PointKey {
     std::optional<SubsurfaceKey> subsurface{}; ///< none where no material has a subsurface
     /// None where the settings of the command line leave the scene no light of an environment.
     std::optional<EnvironmentKey> environment{};
+    std::optional<AreaKey> area{}; ///< none where no area light shines
     /// What lights the G-buffer, a name of frame::lightingStageTable(); none of techniques without the choice.
     std::optional<std::string> lightOn{};
 
@@ -35,7 +37,7 @@ struct PointKey {
 
 /// "tiled_deferred, tile_2.5d 16, packed", with ", compute" behind it where that lights the G-buffer, ", range 0.01"
 /// behind it where lights are ended, shadowText() where there are shadows, subsurfaceText() where there are
-/// subsurfaces, and environmentText() where an environment shines.
+/// subsurfaces, environmentText() where an environment shines, and areaText() where an area light does.
 std::string pointName(const PointKey& key);
 
 /// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.
@@ -78,7 +80,7 @@ inline constexpr const char* kFilterCause = "filter";
 /// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
 /// whose textures are filtered with their smaller levels is from one of the finest level alone.
 struct AttributionLine {
-    std::string cause; ///< "arithmetic", "filter", "range", "layout", "shadow", "subsurface" or "environment"
+    std::string cause; ///< "arithmetic", "filter", "range", "layout", "shadow", "subsurface", "environment" or "area"
     std::string what;  ///< "range tolerance 0.01", "packed: albedo", "shadow filter pcf"
     std::string against;
     std::optional<double> relMse, p99Rel, bias;

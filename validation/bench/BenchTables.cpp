@@ -111,11 +111,14 @@ std::string pointsHtml(const BenchGroup& group) {
     const bool hasEnvironment = std::any_of(group.results.begin(), group.results.end(), [](const BenchResult& result) {
         return result.key.environment.has_value();
     });
+    const bool hasArea = std::any_of(group.results.begin(), group.results.end(),
+                                     [](const BenchResult& result) { return result.key.area.has_value(); });
     if (hasCompute) html += "<th scope=\"col\">Lit on</th>";
     if (hasRange) html += "<th scope=\"col\">Range</th>";
     if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
     if (hasSubsurface) html += "<th scope=\"col\">Subsurface</th>";
     if (hasEnvironment) html += "<th scope=\"col\">Environment</th>";
+    if (hasArea) html += "<th scope=\"col\">Area lights</th>";
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -149,6 +152,9 @@ std::string pointsHtml(const BenchGroup& group) {
         if (hasEnvironment)
             html += fmt::format("<td data-label=\"Environment\">{}</td>\n",
                                 key.environment ? escapedHtml(environmentText(*key.environment)) : "&ndash;");
+        if (hasArea)
+            html += fmt::format("<td data-label=\"Area lights\">{}</td>\n",
+                                key.area ? escapedHtml(areaText(*key.area)) : "&ndash;");
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +

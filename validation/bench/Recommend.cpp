@@ -118,8 +118,8 @@ bool isDisturbed(const BenchResult& result) {
     return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
-/// Says also how forward found its shadows, scattered light below surfaces and found the environment's light, where the
-/// result did otherwise.
+/// Says also how forward found its shadows, scattered light below surfaces and found the light of the environment
+/// and of area lights, where the result did otherwise.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
     std::string how;
     const auto add = [&how](const std::string& text) { how += (how.empty() ? " (" : ", ") + text; };
@@ -128,6 +128,7 @@ std::string againstForward(const BenchResult& result, const BenchResult& baselin
         add(subsurfaceText(*baseline.key.subsurface));
     if (baseline.key.environment && baseline.key.environment != result.key.environment)
         add(environmentText(*baseline.key.environment));
+    if (baseline.key.area && baseline.key.area != result.key.area) add(areaText(*baseline.key.area));
     if (!how.empty()) how += ")";
     if (isAsFast(result.times.cpuMs, baseline.times.cpuMs))
         return fmt::format("as fast as forward{} within the spread of the times", how);

@@ -206,8 +206,10 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
     }
     const auto isArea = [](const scenes::Light& light) { return scenes::infoOf(light.type).isArea; };
     if (std::ranges::any_of(scene.lights, isArea)) {
-        tolerance.reason = "transformed cosines approximate lobes under area lights: their error is reported, and held "
-                           "to nothing";
+        tolerance.reason = infoOf(settings.area.lights).takesSamples
+                               ? "samples of area lights have noise: the error is reported, and held to nothing"
+                               : "transformed cosines approximate lobes under area lights: their error is reported, "
+                                 "and held to nothing";
         return tolerance;
     }
     const auto isAny = [used = scenes::materialsInUse(scene)](bool (*isOne)(const scenes::Material&)) {

@@ -203,11 +203,11 @@ private:
 };
 
 /// The integral over the directions in which the light is seen, times its radiance and window.
-Estimate integralOver(const ShiningLight& shining, const glm::dvec3& positionRWS, const std::vector<Stretch>& stretches,
-                      const Integrand& integrand, const Settings& settings) {
+Estimate integralOver(const ShiningLight& shining, const glm::dvec3& positionRWS, const glm::dvec3& normal,
+                      const std::vector<Stretch>& stretches, const Integrand& integrand, const Settings& settings) {
     const double window = rangeWindow(glm::distance(shining.positionRWS, positionRWS), shining.rangeMetres);
     if (window == 0.0) return {};
-    const SeenArea area(shining, positionRWS);
+    const SeenArea area(shining, positionRWS, normal);
     const LightSurface surface(shining, shining.positionRWS - positionRWS);
     const Estimate share = Cubature(area, surface, stretches, integrand, settings).integral();
     const glm::dvec3 radiance = window * shining.color;
@@ -219,7 +219,7 @@ Estimate integralOver(const ShiningLight& shining, const glm::dvec3& positionRWS
 Estimate reflectedOf(const ShiningLight& light, const SurfacePoint& point, const glm::dvec3& positionRWS,
                      const glm::dvec3& toViewer, bool specular, bool onlyLobes, const Settings& settings) {
     return integralOver(
-        light, positionRWS, stretchesOf(point, toViewer, specular),
+        light, positionRWS, point.normal, stretchesOf(point, toViewer, specular),
         [&](const glm::dvec3& direction) {
             glm::dvec3 share = reflected(point, direction, toViewer, specular);
             if (onlyLobes) share -= reflected(point, direction, toViewer, false);
@@ -231,7 +231,7 @@ Estimate reflectedOf(const ShiningLight& light, const SurfacePoint& point, const
 glm::dvec3 irradianceOf(const ShiningLight& light, const glm::dvec3& positionRWS, const glm::dvec3& normal,
                         const Settings& settings) {
     return integralOver(
-               light, positionRWS, {},
+               light, positionRWS, normal, {},
                [&](const glm::dvec3& direction) { return glm::dvec3(std::max(glm::dot(normal, direction), 0.0)); },
                settings)
         .light;

@@ -62,7 +62,7 @@ std::vector<FlatCorners> trianglesWithin(const scenes::LightCorners& corners) {
 
 static_assert(scenes::kAreaTypeCount == 5, "a new shape needs its patches, or it is dark");
 
-SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
+SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS, const glm::dvec3& normal) {
     const scenes::Light& light = shining.light;
     const glm::dvec3 middle = shining.positionRWS - positionRWS;
     glm::dvec3 front = light.directionWS;
@@ -72,7 +72,7 @@ SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS) {
         const double before = -glm::dot(middle, front);
         if (!(before > 0.0) && !light.isTwoSided) return;
         isInPlane = before == 0.0;
-        if (before < 0.0) front = -front;
+        if (before < 0.0 || (isInPlane && glm::dot(front, normal) < 0.0)) front = -front;
     }
     if (light.type == LightType::Rectangle) {
         const Frame frame{light.alongWS, glm::cross(light.directionWS, light.alongWS), front};

@@ -16,7 +16,8 @@ std::vector<std::array<glm::dvec2, 3>> trianglesWithin(const scenes::LightCorner
 /// sphere; with it sampled() integrates what is too ragged for cubature, as a light behind casters.
 class SeenArea : public Strategy {
 public:
-    SeenArea(const ShiningLight& light, const glm::dvec3& positionRWS);
+    /// `normal` is that of the surface that sees it: a point in the plane of a flat light lies on that side of it.
+    SeenArea(const ShiningLight& light, const glm::dvec3& positionRWS, const glm::dvec3& normal = glm::dvec3(0.0));
 
     std::size_t patchCount() const { return patches_.size(); }
     /// Whether a patch's first coordinate is the distance from its middle, and the second the angle around it.

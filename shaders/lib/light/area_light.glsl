@@ -212,10 +212,10 @@ void prepareAreaLobes(SeenSurface seen)
 }
 
 // Radiance towards the viewer that the surface of prepareAreaLobes() reflects of area light `index`.
-vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, vec3 positionLS, vec3 toLightLS, vec3 smallIrradiance)
+vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoint, vec3 toLightLS, vec3 smallIrradiance)
 {
     vec4 place = lightTexel(index, 0);
-    precise vec3 middle = place.xyz - positionLS;
+    precise vec3 middle = place.xyz - viewpoint.positionLS;
     precise float reach = dot(middle, middle) * place.w;
     precise float window = 1.0 - reach * reach;
     Outline outline = areaOutline(index, kind, middle);

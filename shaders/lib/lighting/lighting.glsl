@@ -5,9 +5,18 @@
 #include "lib/light/light.glsl"
 #include "lib/light/light_cursor.glsl"
 #include "lib/maths/cut_loop.glsl"
+#ifndef AREA_SAMPLES
+#define AREA_SAMPLES 0 // area lights are found in closed form, or there are none
+#endif
 #if HAS_AREA_LIGHTS
+#if AREA_SAMPLES > 0
+#include "lib/light/area_samples.glsl"
+#else
 #include "lib/light/area_light.glsl"
 #endif
+#endif
+// Whether loops may take more iterations than Mesa lets them make, together with those that are nested in them.
+#define MAY_CUT_LOOPS (HAS_SHADOWS || AREA_SAMPLES > 0)
 #if HAS_SHADOWS
 #include "lib/shadow/shadow.glsl"
 #endif
@@ -40,11 +49,12 @@ void prepareForLights(SeenSurface seen)
 }
 
 // Radiance towards the viewer that the surface reflects of a light that reaches it, without shadows.
-vec3 reflectedLight(int light, SeenSurface seen, vec3 positionLS, Incident incident)
+vec3 reflectedLight(int light, SeenSurface seen, Viewpoint viewpoint, Incident incident)
 {
 #if HAS_AREA_LIGHTS
     int kind = int(lightTexel(light, 1).w);
-    if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) return areaLightOnSurface(light, kind, seen, positionLS, incident.toLightLS, incident.irradiance);
+    if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK))
+        return areaLightOnSurface(light, kind, seen, viewpoint, incident.toLightLS, incident.irradiance);
 #endif
     precise vec3 reflected = layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;
     return reflected;
@@ -64,7 +74,7 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 #else
     Incident incident;
     if (incidentLight(light, viewpoint.positionLS, incident)) {
-        precise vec3 unshadowed = reflectedLight(light, seen, viewpoint.positionLS, incident);
+        precise vec3 unshadowed = reflectedLight(light, seen, viewpoint, incident);
 #if HAS_SHADOWS
         // A shadow costs far more than what it would hide.
         if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
@@ -136,13 +146,13 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
 #endif
             more = nextLight(cursor, light);
         } while (more);
-#if HAS_SHADOWS
+#if MAY_CUT_LOOPS
         if (more) break; // the inner loop was ended
 #endif
         more = nextBatch(cursor, light);
     } while (more);
-#if HAS_SHADOWS
-    // Walks through casters count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
+#if MAY_CUT_LOOPS
+    // Walks through casters and samples count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
     if (more) radiance = vec3(CUT_LOOP);
 #endif
 #endif

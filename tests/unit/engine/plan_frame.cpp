@@ -187,11 +187,24 @@ TEST(PlanFrame, lightThatIsNarrowerThanATexelIsToldWithTheUnitOfTheModel) {
     EXPECT_EQ(told(), "");
 }
 
+TEST(PlanFrame, samplesOfAreaLightsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
+    const scenes::Scene scene = scenes::loadScene("lamps");
+    const auto told = [&](int samples) {
+        frame::FrameSettings settings;
+        settings.area = {frame::AreaLights::Sampled, samples};
+        const graph::Plan plan = planFrame(scene, Technique::Forward, settings);
+        const auto found = std::ranges::find(plan.choices, "loops of lights", &graph::Plan::Choice::what);
+        return found == plan.choices.end() ? std::string() : found->why;
+    };
+    EXPECT_EQ(told(16), "");
+    EXPECT_THAT(told(256), testing::HasSubstr("which gives NaN; give fewer --area-samples"));
+}
+
 TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     frame::FrameSettings settings;
     const auto told = [&](const scenes::Scene& scene) {
         const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
-        const auto found = std::ranges::find(plan.choices, "loops of shadows", &graph::Plan::Choice::what);
+        const auto found = std::ranges::find(plan.choices, "loops of lights", &graph::Plan::Choice::what);
         return found == plan.choices.end() ? std::pair<std::string, std::string>()
                                            : std::pair(found->chosen, found->why);
     };

@@ -38,18 +38,20 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
                      idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
-                     shadowSamples, shadowMaps, subsurface, diffusion, environment, refraction, glassDepth, culling,
-                     lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] = settings;
+                     shadowSamples, shadowMaps, subsurface, diffusion, environment, area, refraction, glassDepth,
+                     culling, lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] =
+            settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
+        const auto& [areaLights, areaSamples] = area;
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
                                     widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
                                     gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
-                                    backdrop, refraction, glassDepth, method, tilePixels, builder, normals, lightOn,
-                                    exposureEV, toneMap),
+                                    backdrop, areaLights, areaSamples, refraction, glassDepth, method, tilePixels,
+                                    builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
                                     softwareBackend, display, lanes));
     };
@@ -244,6 +246,22 @@ TEST(Settings, ofAnEnvironmentsLightSayWithWhichOfItsWaysTheyChangeSomething) {
             << setting->name;
     for (const char* key : {"environmentIntensity", "environmentRotation", "backdrop"})
         EXPECT_EQ(settingOf(key).whyIdle(request), "") << key << ": it is still seen";
+}
+
+TEST(Settings, ofAreaLightsSayWhereASceneHasNone) {
+    const Setting &lights = settingOf("areaLights"), &samples = settingOf("areaSamples");
+    ViewRequest request;
+    EXPECT_EQ(lights.whyIdle(request), "") << "of no scene";
+    EXPECT_EQ(samples.whyIdle(request), "Only sampled heeds it; the area lights are ltc");
+    request.settings.area.lights = frame::AreaLights::Sampled;
+    scenes::Scene scene;
+    scene.lights.emplace_back();
+    for (const Setting* setting : {&lights, &samples}) {
+        EXPECT_EQ(setting->whyIdle(request, &scene), "There is no area light");
+        EXPECT_EQ(setting->whyIdle(request), "");
+    }
+    scene.lights[0].type = scenes::LightType::Tube;
+    for (const Setting* setting : {&lights, &samples}) EXPECT_EQ(setting->whyIdle(request, &scene), "");
 }
 
 TEST(Settings, areIgnoredWhereEveryTechniqueIgnoresThem) {

@@ -176,11 +176,12 @@ TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
     BenchRecord record;
     record.groups = {shadowedGroup()};
     const std::string csv = benchCsv(record);
-    EXPECT_THAT(csv, HasSubstr(",range,shadow,shadowSamples,shadowWidth,shadowResolution,shadowBudget,shadowCascades,"
-                               "subsurface,diffusionTexels,diffusionGaussians,diffusionHalf,"
-                               "environmentLight,environmentSamples,environmentCompensation,lights,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,,,,,,,,4,64,32,"));
-    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,,,,,,,,4,64,32,"));
+    EXPECT_THAT(
+        csv, HasSubstr(",range,shadow,shadowSamples,shadowWidth,shadowResolution,shadowBudget,shadowCascades,"
+                       "subsurface,diffusionTexels,diffusionGaussians,diffusionHalf,"
+                       "environmentLight,environmentSamples,environmentCompensation,areaLights,areaSamples,lights,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,pcf,,5,1024,0.5,,,,,,,,,,,4,64,32,"));
+    EXPECT_THAT(csv, HasSubstr(",exact,0,none,,,,,,,,,,,,,,,4,64,32,"));
 }
 
 TEST(ShadowPoints, tablesAndThePageNameThem) {
@@ -247,7 +248,7 @@ TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
     for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
     BenchRecord record;
     record.groups = {group};
-    EXPECT_THAT(benchCsv(record), HasSubstr(",texture_space_diffusion,256,8,on,,,,4,64,32,"));
+    EXPECT_THAT(benchCsv(record), HasSubstr(",texture_space_diffusion,256,8,on,,,,,,4,64,32,"));
     const std::string page = benchHtml(record, record.groups[0], {}).sections;
     EXPECT_THAT(page,
                 HasSubstr("<td data-label=\"Subsurface\">texture_space_diffusion, 256 texels, half resolution on"));
@@ -300,6 +301,19 @@ TEST(EnvironmentMatrix, whereTheTruthHasNoneOfItsLightNoPointHas) {
     const PlannedGroup lit = planOf("room", R"({"environmentLight": ["off"]})", {}, inTheStudio()).groups.front();
     EXPECT_EQ(lit.points.front().settings.environment.light, frame::EnvironmentLight::Off);
     EXPECT_EQ(lit.settings.environment.light, frame::EnvironmentLight::SplitSum) << "which is what the truth shows";
+}
+
+TEST(AreaMatrix, settingsAreVariedWhereAreaLightsShine) {
+    EXPECT_EQ(refusal(R"({"areaLights": ["sample"]})"),
+              "m.json: \"areaLights\": unknown 'sample': did you mean 'sampled'?");
+    EXPECT_EQ(refusal(R"({"areaSamples": [100]})"),
+              "m.json: \"areaSamples\": area samples 100: give one of 1, 4, 16, 64, 256, 1024");
+    const std::string matrix = R"({"areaLights": ["ltc", "sampled"], "areaSamples": [16, 64]})";
+    const BenchPlan plan = planOf("lamps", matrix);
+    EXPECT_THAT(namesOf(plan), ElementsAre("forward, exact, area lights ltc", "forward, exact, area lights sampled",
+                                           "forward, exact, area lights sampled, samples 64"));
+    EXPECT_THAT(reasonsOf(plan), ElementsAre(HasSubstr("it is the same frame as area lights ltc")));
+    EXPECT_THAT(namesOf(planOf("room", matrix)), ElementsAre("forward, exact")) << "no light has a surface";
 }
 
 TEST(LightOnMatrix, isVariedForTheTechniquesThatHaveTheChoice) {
@@ -364,7 +378,7 @@ TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
     for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
     BenchRecord record;
     record.groups = {group};
-    EXPECT_THAT(benchCsv(record), HasSubstr(",sampled,16,on,4,64,32,"));
+    EXPECT_THAT(benchCsv(record), HasSubstr(",sampled,16,on,,,4,64,32,"));
     EXPECT_THAT(benchTable(record), HasSubstr("environ")); // its title may break
     const std::string page = benchHtml(record, record.groups[0], {}).sections;
     EXPECT_THAT(page,
@@ -372,6 +386,28 @@ TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
     EXPECT_THAT(page, HasSubstr(R"("markKind":"environment light")"));
     EXPECT_THAT(page, HasSubstr(R"("mark":"split_sum")"));
     EXPECT_THAT(recommendationText(group), HasSubstr("forward (traced, environment sampled, samples 16"));
+}
+
+TEST(AreaPoints, theRecordHasThemAndReadsThemAgain) {
+    BenchGroup group = shadowedGroup();
+    group.results[0].key.area = {"sampled", {{"areaSamples", "64"}}};
+    group.results[1].key.area = {"ltc", {}};
+    const nlohmann::ordered_json points = groupJson(group)["points"];
+    EXPECT_EQ(points[0]["areaLights"], "sampled");
+    EXPECT_EQ(points[0]["areaSamples"], 64);
+    EXPECT_EQ(points[1]["areaLights"], "ltc");
+    EXPECT_EQ(points[1]["why"]["areaSamples"], "the light of area lights is not sampled");
+    EXPECT_EQ(points[2]["why"]["areaLights"], "no area light shines");
+    const BenchGroup again = groupFromJson(groupJson(group));
+    for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
+    BenchRecord record;
+    record.groups = {group};
+    EXPECT_THAT(benchCsv(record), HasSubstr(",sampled,64,4,64,32,"));
+    EXPECT_THAT(benchTable(record), HasSubstr("area"));
+    const std::string page = benchHtml(record, record.groups[0], {}).sections;
+    EXPECT_THAT(page, HasSubstr("<td data-label=\"Area lights\">area lights sampled, samples 64</td>"));
+    EXPECT_THAT(page, HasSubstr(R"("markKind":"area lights")"));
+    EXPECT_THAT(recommendationText(group), HasSubstr("forward (traced, area lights sampled, samples 64"));
 }
 
 } // namespace

@@ -226,7 +226,7 @@ TEST(BenchCsv, everyPointIsOneLineOfAsManyFields) {
     record.groups[0].scene = "my \"own\", scene.json";
     const std::string csv = benchCsv(record);
     EXPECT_THAT(csv,
-                HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,,,exact,0,,,,,,,,,,,,,,10,64,32,10,"));
+                HasSubstr("\r\n\"my \"\"own\"\", scene.json\",forward,none,,,,,exact,0,,,,,,,,,,,,,,,,10,64,32,10,"));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     EXPECT_EQ(commas(csv.substr(0, csv.find('\r'))) + 1, // one within the quoted name
