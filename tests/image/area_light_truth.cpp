@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
 
 #include "scenes/LookAt.h"
 #include "tests/image/AreaLightTest.h"
@@ -69,6 +70,34 @@ protected:
 private:
     std::optional<Shown> shown_;
 };
+
+/// Irradiance does not hang on the viewer. Nearly along a normal that is no axis his projection has hardly any digits,
+/// and what rounding leaves of the normal in it would shear the frame in which the light is summed up.
+TEST_F(AreaLightTruth, aMatteSurfaceIsLitAlikeFromStraightAboveAndAside) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
+    const auto turned = [&](const glm::dvec3& direction) { return glm::dmat3(turn) * direction; };
+    scenes::Scene scene = quadScene(matte());
+    scene.nodes[0].parentFromNode = turn;
+    scene.lights = {areaLight(LightType::Rectangle, turned({0.4, 0.3, 0.5}), turned({0.0, 0.0, -1.0}), 1.0f)};
+    scene.lights[0].isSeen = false;
+    scenes::Camera& camera = scene.cameras[0];
+    camera.projection = scenes::Projection::Orthographic;
+    camera.halfHeightMetres = 1e-4;
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {3, 3};
+    const auto shown = [&](double angle, double azimuth) {
+        const glm::dvec3 toViewer(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
+                                  std::cos(angle));
+        camera.worldFromCamera = scenes::worldFromLookAt(turned(3.0 * toViewer), glm::dvec3(0.0));
+        return double(renderer.render(Technique::Forward, settings).radiance[4 * 4]);
+    };
+    const double aside = shown(0.5, 0.0);
+    EXPECT_GT(aside, 0.1);
+    for (const double angle : {1e-2, 1e-3, 1e-4, 3e-5, 1e-5, 3e-6})
+        for (const double azimuth : {0.0, 1.0, 2.5})
+            EXPECT_NEAR(shown(angle, azimuth) / aside, 1.0, 2e-4) << angle << ", " << azimuth;
+}
 
 // Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".
 TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
@@ -235,6 +264,18 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesLightsCoatsAndSheensAsAnEvenEnvironmentDo
             // Six shares of a lobe in single precision, and edges that cancel where walls meet.
             EXPECT_NEAR(seen(material, walls, toViewer), even, 1e-3) << material.name << ", cosine " << cosView;
         }
+}
+
+/// So do lobes of two alphas, whose shape is stretched: it fills the hemisphere above the surface all the same.
+TEST_F(AreaLightTruth, aBoxOfRectanglesLightsBrushedMetalAsAnEvenEnvironmentDoes) {
+    scenes::Material brushed = twoSidedMetal(1.0, 0.5);
+    brushed.anisotropyStrength = 0.8f;
+    brushed.anisotropyRotationRadians = 0.6f;
+    for (const double cosView : {0.15, 0.5, 1.0}) {
+        const glm::dvec3 toViewer(std::sqrt(1.0 - cosView * cosView), 0.0, cosView);
+        const double even = seen(brushed, {}, toViewer, evenEnvironment(1.0));
+        EXPECT_NEAR(seen(brushed, wallsOfBox(), toViewer), even, 1e-3) << cosView;
+    }
 }
 
 /// Spheres of radius 0.3 m against the closed form of the roughest lobe. Its shape is a transformed cosine, which may

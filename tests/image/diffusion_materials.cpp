@@ -108,6 +108,33 @@ TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
     }
 }
 
+/// Light that has spread leaves by the Fresnel factor of the angle at which the viewer looks, whichever way it came:
+/// nearly along the surface a third of what leaves straight up. Of metallic_roughness with F0 and F90 of a metal's
+/// share, as above, and a sun straight above whose light enters by F0.
+TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAngle) {
+    constexpr double kColor = 0.5, kMetallic = 0.4, kCosine = 0.15;
+    scenes::Scene scene = litSquare();
+    const double scale = double(scene.materials[0].subsurface.scaleMetres);
+    for (scenes::Material& material : scene.materials) {
+        material.model = scenes::MaterialModel::MetallicRoughness;
+        material.baseColor = glm::vec4(glm::vec3(float(kColor)), 1.0f);
+        material.metallic = float(kMetallic);
+        material.specularFactor = 0.0f;
+        material.subsurface.profile = {{float(std::pow(1e3 * scale * 8.0 / 224.0, 2.0)), glm::vec3(1.0f)}};
+    }
+    const glm::dvec3 middle(builtin::kTruthEdgeX, 0.0, 0.0), toViewer(std::sqrt(1.0 - kCosine * kCosine), kCosine, 0.0);
+    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt(middle + toViewer, middle);
+    frame::FrameSettings settings = squareSettings(128);
+    settings.sizePixels = {8, 8};
+    settings.specular = false;
+    const Picture picture = pictureOf(scene, settings);
+    const double straight = kMetallic * kColor;
+    const double factor = straight + (kMetallic - straight) * std::pow(1.0 - kCosine, 5.0);
+    const double wanted = (1.0 - factor) * (1.0 - kMetallic) * kColor / std::numbers::pi;
+    for (std::size_t i = 0; i < picture.pixelCount(); ++i)
+        ASSERT_NEAR(double(picture.pixel(i)[0]), wanted, 1e-3 * wanted) << i;
+}
+
 /// Where light is the same everywhere and the viewer looks along the normal, it leaves as if it had not spread: below a
 /// coat, of an area light as wide as it is far, of an environment.
 TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {

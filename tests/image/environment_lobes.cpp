@@ -26,6 +26,7 @@ public:
     double errorOfBounces(const shader::SourceTree& shaders);
     double errorOfBrushing(const shader::SourceTree& shaders);
     double errorOfStreak(const shader::SourceTree& shaders);
+    double errorOfLean(const shader::SourceTree& shaders);
 
 protected:
     static scenes::Material whiteMetal() {
@@ -180,6 +181,42 @@ double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
     return deepest / kAllowed;
 }
 
+/// The mean cosine to its axis of what a lobe sees that is seen straight on, weighted by that cosine (Karis 2013): over
+/// the lean of facets up to 45 degrees.
+double meanCosineOfLobe(double alpha) {
+    constexpr int kSteps = 4000;
+    double weights = 0.0, sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double lean = (i + 0.5) * 0.25 * std::numbers::pi / kSteps, c2 = std::cos(lean) * std::cos(lean);
+        const double spread = c2 * (alpha * alpha - 1.0) + 1.0;
+        const double weight = std::sin(2.0 * lean) * std::cos(2.0 * lean) / (spread * spread);
+        weights += weight;
+        sum += weight * std::cos(2.0 * lean);
+    }
+    return sum / weights;
+}
+
+/// In light of 1 + x / 2 a lobe shows half its axis's x besides 1, times its mean cosine. The axis lies s (sqrt(s) +
+/// alpha) of the way from the normal to the mirror image of the viewer, s = 1 - alpha (Lagarde and de Rousiers 2014).
+double EnvironmentLobes::errorOfLean(const shader::SourceTree& shaders) {
+    constexpr double kCosine = 0.6, kSine = 0.8, kAllowed = 0.01;
+    scenes::Scene scene = flatQuad(whiteMetal(), kCosine);
+    double worst = 0.0;
+    for (const double alpha : {0.2, 0.45, 0.6, 0.8}) {
+        scene.materials[0].perceptualRoughness = float(std::sqrt(alpha));
+        scene.environment = evenEnvironment(1.0);
+        const double even = shown(scene, shaders);
+        scene.environment = environmentOf(kSkyWidth, kSkyHeight, [](int x, int y) {
+            return glm::dvec3(1.0 + 0.5 * scenes::directionInMap({(x + 0.5) / kSkyWidth, (y + 0.5) / kSkyHeight}).x);
+        });
+        const double smooth = 1.0 - alpha, share = smooth * (std::sqrt(smooth) + alpha);
+        const double axisX = -share * kSine, axisZ = 1.0 - share + share * kCosine;
+        const double wanted = meanCosineOfLobe(alpha) * axisX / std::hypot(axisX, axisZ);
+        worst = std::max(worst, std::abs(2.0 * (shown(scene, shaders) / even - 1.0) - wanted));
+    }
+    return worst / kAllowed;
+}
+
 TEST_F(EnvironmentLobes, belowTheFirstLevelAreMirrorsByTheShareThatTheDocumentSays) {
     EXPECT_LE(errorOfMirrorBlend({}), 1.0);
 }
@@ -191,6 +228,9 @@ TEST_F(EnvironmentLobes, ofBrushedMetalsAreLongAlongTheLargerAlpha) {
 }
 TEST_F(EnvironmentLobes, ofBrushedMetalsShowALampAsAStreakWithoutDots) {
     EXPECT_LE(errorOfStreak({}), 1.0);
+}
+TEST_F(EnvironmentLobes, ofMetalsLeanFromTheNormalAsLagardeAndDeRousiersSay) {
+    EXPECT_LE(errorOfLean({}), 1.0);
 }
 struct LobeFault {
     const char* fault;
@@ -212,6 +252,8 @@ constexpr LobeFault kLobeFaults[] = {
      &EnvironmentLobes::errorOfBrushing},
     {"taps as narrow as the shorter axis", "lib/environment/environment_filtered.glsl", "max(narrow, gap / 1.28)",
      "narrow", &EnvironmentLobes::errorOfStreak},
+    {"rough lobes around the normal", "lib/environment/environment_filtered.glsl", "share = smoothness *",
+     "share = alpha > 0.5 ? 0.0 : smoothness *", &EnvironmentLobes::errorOfLean},
 };
 
 TEST_F(EnvironmentLobes, everyFaultIsSeenByItsKnownAnswer) {

@@ -99,6 +99,35 @@ TEST_F(FlatFilms, nearTheHorizonAreThoseAtACosineOfATenth) {
     EXPECT_NEAR(nearer.b, risen(0.0, 0.05), 1e-3);
 }
 
+/// A thousandth of a wave thick it is not there: glass of index 1.5 reflects 0.04 below whatever film, also where the
+/// film's index comes close to its own from above, so that light keeps its phase at their border.
+TEST_F(FlatFilms, muchThinnerThanAWaveAreNotSeen) {
+    for (const float ior : {1.2f, 1.45f, 1.4997f, 1.5003f, 1.505f, 1.55f, 1.62f, 1.9f})
+        EXPECT_NEAR(shown(filmOnGlass(0.1f, ior)).g, 0.04f, 2e-5f) << ior;
+}
+
+/// What a film too thick to interfere reflects at a cosine of 0.1, by Schlick's factor at either side: there the film
+/// itself is shown, as everywhere farther from the horizon.
+TEST_F(FlatFilms, areShownThemselvesUpToACosineOfATenth) {
+    const auto schlick = [](double straight, double cosine) {
+        return straight + (1.0 - straight) * std::pow(1.0 - cosine, 5.0);
+    };
+    for (const float ior : {1.3f, 1.8f})
+        for (const double cosine : {0.1, 0.11, 0.3}) {
+            const Material metal = filmOnMetal(2e4f, ior);
+            const glm::vec4 found = shown(metal, cosine);
+            const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (double(ior) * double(ior)));
+            for (int c = 0; c < 3; ++c) {
+                const double root = std::sqrt(double(metal.baseColor[c])), below = (1.0 + root) / (1.0 - root);
+                const auto side = [](double a, double b) { return (a - b) * (a - b) / ((a + b) * (a + b)); };
+                const double outer = schlick(side(1.0, double(ior)), cosine);
+                const double inner = schlick(side(double(ior), below), inside);
+                EXPECT_NEAR(found[c], (outer + inner - 2.0 * outer * inner) / (1.0 - outer * inner), 1e-4)
+                    << ior << ", cosine " << cosine << ", " << c;
+            }
+        }
+}
+
 /// A film of no thickness, or with the index of air, is none.
 TEST_F(FlatFilms, thatAreNoneChangeNothing) {
     Material bare = filmOnMetal(400.0f);

@@ -54,9 +54,8 @@ AreaLobe stretchedLobe(SeenSurface seen)
     precise float both = (alpha.x * alpha.x - alpha.y * alpha.y) * tangent.x * tangent.y / max(dot(tangent, tangent), 1e-18);
     AreaLobe lobe = areaLobe(seen.surface.normalLS, seen.toViewer, seen.nv, sqrt(along2));
     precise float narrower = along2 / (alpha.x * alpha.y);
+    // What is stretched is the share across the viewer's plane alone: as much of the lobe stays above the surface.
     lobe.cosineFromSurface = stretchedAcross(lobe.cosineFromSurface, narrower, both / along2);
-    precise float perAbove = 1.0 / shareAbove(lobe.cosineFromSurface);
-    lobe.perAbove = perAbove;
     return lobe;
 }
 #endif
