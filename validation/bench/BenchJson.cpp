@@ -13,8 +13,16 @@ namespace tessera::validation {
 namespace {
 
 template <typename T>
+T valueFrom(const Json& json) {
+    if constexpr (std::integral<T> && !std::same_as<T, bool>)
+        return wholeNumber<T>(json);
+    else
+        return json.get<T>();
+}
+
+template <typename T>
 void read(const Json& json, const char* name, T& value) {
-    value = json.at(name).get<T>();
+    value = valueFrom<T>(json.at(name));
 }
 
 template <typename T>
@@ -23,7 +31,7 @@ void read(const Json& json, const char* name, std::optional<T>& value) {
     if (found.is_null())
         value.reset();
     else
-        value = found.get<T>();
+        value = valueFrom<T>(found);
 }
 
 Json spreadJson(const std::optional<TimeSpread>& spread) {
@@ -340,7 +348,7 @@ BenchGroup groupFromJson(const Json& json) {
     BenchGroup group;
     read(json, "scene", group.scene);
     read(json, "lights", group.lights);
-    group.sizePixels = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+    group.sizePixels = {wholeNumber<int>(json.at("size").at(0)), wholeNumber<int>(json.at("size").at(1))};
     read(json, "triangles", group.triangles);
     read(json, "truth", group.truth);
     read(json, "whyTruth", group.whyTruth);

@@ -1,7 +1,14 @@
 #pragma once
+#include <concepts>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "base/Error.h"
 
 /// What the sources that write a benchmark's JSON share. Only for sources: it brings the whole JSON library.
 namespace tessera::validation {
@@ -11,6 +18,19 @@ using Json = nlohmann::ordered_json; ///< fields stay in the order in which they
 template <typename T>
 Json orNull(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
+}
+
+/// A whole number of a range. Throws InputError for others: a plain conversion would wrap those beyond T, and is
+/// undefined for large fractions.
+template <std::integral T>
+T wholeNumber(const Json& json, T least = std::numeric_limits<T>::min(), T most = std::numeric_limits<T>::max()) {
+    const auto fits = [&](auto number) {
+        return std::cmp_greater_equal(number, least) && std::cmp_less_equal(number, most);
+    };
+    if (json.is_number_unsigned() ? !fits(json.get<std::uint64_t>())
+                                  : !json.is_number_integer() || !fits(json.get<std::int64_t>()))
+        throw InputError(fmt::format("{} is no whole number from {} to {}", json.dump(), least, most));
+    return json.get<T>();
 }
 
 } // namespace tessera::validation

@@ -1,7 +1,6 @@
 #include "validation/bench/BenchParts.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -42,18 +41,11 @@ auto readJson(const fs::path& file, const std::string& remedy, Read&& read) {
     throw InputError(fmt::format("{}: is damaged: {}; {}", file.string(), what, remedy));
 }
 
-/// A whole number of a range. A plain conversion would wrap numbers that leave int.
-int wholeNumber(const Json& json, int least, int most) {
-    if (!json.is_number_integer() || json.get<double>() < least || json.get<double>() > most)
-        throw InputError(fmt::format("{} is no whole number from {} to {}", json.dump(), least, most));
-    return json.get<int>();
-}
-
 /// Throws the JSON reader's exception if a field that is read later is missing, or InputError.
 void requireRunFields(const Json& run) {
     for (const char* name : {"machine", "renderer", "driver", "commit", "settings", "against", "command"})
         static_cast<void>(run.at(name).get_ref<const std::string&>());
-    static_cast<void>(wholeNumber(run.at("frames"), 1, std::numeric_limits<int>::max()));
+    static_cast<void>(wholeNumber(run.at("frames"), 1));
     const int shards = wholeNumber(run.at("shard").at(1), 1, kMostShards);
     static_cast<void>(wholeNumber(run.at("shard").at(0), 1, shards));
     if (run.contains(kIsShare)) static_cast<void>(run.at(kIsShare).get_ref<const bool&>());
@@ -129,7 +121,7 @@ Json runIn(const std::string& folder) {
         throw InputError(fmt::format("{}: holds no bench; there is no {}", folder, runFile(folder).string()));
     const std::string remedy = fmt::format("remove {} to measure all of it again", partsOf(folder).string());
     const Json run = readJson(runFile(folder), remedy, [](const Json& json) {
-        if (json.at("schema").get<int>() == kStoreSchema) requireRunFields(json);
+        if (json.at("schema") == kStoreSchema) requireRunFields(json);
         return json;
     });
     if (run.at("schema") != kStoreSchema)

@@ -74,9 +74,9 @@ void readInto(const json& entry, std::optional<T>& value) {
 
 void readInto(const json& entry, std::optional<glm::ivec2>& size) {
     // Smaller windows were made by mistake, larger ones by a screen that is gone.
-    const auto fits = [](int side) { return side >= 200 && side <= 16384; };
-    const auto sides = entry.get<std::array<int, 2>>();
-    if (fits(sides[0]) && fits(sides[1])) size = glm::ivec2(sides[0], sides[1]);
+    const auto fits = [](double side) { return side >= 200.0 && side <= 16384.0; };
+    const auto sides = entry.get<std::array<double, 2>>(); // as whole numbers those beyond int would be undefined
+    if (fits(sides[0]) && fits(sides[1])) size = glm::ivec2(int(sides[0]), int(sides[1]));
 }
 
 /// The text of a remembered setting; none for a value that it does not take, as of another version.

@@ -235,6 +235,13 @@ TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     for (const char* text : {"{\"done\": true, \"roundsMs\": []}", "[]", "{\"done\": 1}"})
         EXPECT_THAT(read("group-000.json", text), field) << text;
     EXPECT_THAT(read("group-000.json", "{}"), HasSubstr("resume the bench"));
+    GroupState large = finished(0);
+    large.group.triangles = 12345;
+    BenchStore(out, madeUpIdentity(1, 1), madeUpPlan(1), EarlierRun::Resume).keep(0, large);
+    std::ifstream written(out + "/parts/group-000.json");
+    std::string group{std::istreambuf_iterator<char>(written), std::istreambuf_iterator<char>()};
+    EXPECT_THAT(read("group-000.json", group.replace(group.find("12345"), 5, "1e58")),
+                HasSubstr("1e+58 is no whole number from 0 to"));
     std::ifstream kept(out + "/parts/run.json");
     const std::string run{std::istreambuf_iterator<char>(kept), std::istreambuf_iterator<char>()};
     const auto changed = [&](const std::string& from, const std::string& to) {

@@ -51,6 +51,15 @@ TEST(Preferences, anEntryOfTheWrongKindIsLeftOutAlone) {
     EXPECT_EQ(readPreferences(file), expected);
 }
 
+TEST(Preferences, aWindowOfNoSizeThatWindowsHaveIsLeftOut) {
+    const tessera::test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "viewer.json";
+    for (const char* side : {"0", "-300", "16385", "1e58", "-1e300", "18446744073709551615"}) {
+        std::ofstream(file) << R"({"window": [)" << side << ", 720]}";
+        EXPECT_EQ(readPreferences(file), Preferences()) << side;
+    }
+}
+
 TEST(Preferences, aScaleThatCannotBeSetIsNotTakenFromAFile) {
     const tessera::test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "viewer.json";
