@@ -28,7 +28,7 @@ VIEWS = {
     "hall": "hall technique=clustered_deferred",
     "hall_maps": "hall shadowFilter=pcf",
     "head": "head",
-    "head_skin": "head_skin subsurface=texture_space_diffusion",
+    "spread_light": "diffusion_truth",
     "lamps": "lamps",
     "glass": "glass",
     "studio_sampled": "studio environmentLight=sampled",
