@@ -10,6 +10,7 @@
 #endif
 #if !DEPTH_ONLY
 #include "lib/raster/facing.glsl"
+#include "lib/raster/shading_place.glsl"
 #if HAS_SHADOWS
 #include "lib/raster/facet_normal.glsl"
 #endif
@@ -67,8 +68,22 @@ Fragment rasterisedFragment()
     dvec3 weights = triangleWeights(gl_FragCoord.xy);
 #endif
 #if !DEPTH_ONLY
+#if !IN_ATLAS
+    ShadingPlace place = shadingPlace();
+#endif
+    // Where a fragment covers a part of its pixel, its centre may lie beside the triangle: normals there go on past those of
+    // the corners, to lights behind them.
 #if BY_TRIANGLE
-    fragment.normalLS = triangleNormal(weights);
+#if SAMPLES > 1
+    dvec3 placeWeights = triangleWeights(place.pixel);
+#else
+    dvec3 placeWeights = weights;
+#endif
+    fragment.normalLS = triangleNormal(placeWeights);
+#elif SAMPLES > 1 && !IN_ATLAS
+    vec2 aside = place.pixel - gl_FragCoord.xy;
+    precise vec3 normalAside = normalLS + (aside.x * dFdx(normalLS) + aside.y * dFdy(normalLS));
+    fragment.normalLS = aside == vec2(0.0) ? normalLS : normalAside;
 #else
     fragment.normalLS = normalLS;
 #endif
