@@ -166,6 +166,17 @@ std::vector<Setting> shadowSettings() {
          .panel = SettingPanel::Shadows,
          .value =
              choice(in(&FrameSettings::shadowFilter), frame::shadowFilterTable(), &frame::ShadowFilterInfo::filter)},
+        {.name = "shadow terminator",
+         .flag = "--shadow-terminator",
+         .key = "shadowTerminator",
+         .type = "WHERE",
+         .help =
+             "Where the shadows of smooth-shaded triangles are asked for: " + listed(frame::shadowTerminatorTable()),
+         .group = "Shadows",
+         .panel = SettingPanel::Shadows,
+         .label = "Terminator",
+         .value = choice(in(&FrameSettings::shadowTerminator), frame::shadowTerminatorTable(),
+                         &frame::ShadowTerminatorInfo::terminator)},
         {.name = "shadow samples",
          .flag = "--shadow-samples",
          .key = "shadowSamples",

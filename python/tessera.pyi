@@ -67,6 +67,7 @@ class Keywords(TypedDict, total=False):
     glass_depth: int | str | None
     shadows: str | int | None
     shadow_filter: str | None
+    shadow_terminator: str | None
     shadow_samples: int | str | None
     shadow_width: int | str | None
     shadow_resolution: int | str | None

@@ -62,6 +62,8 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Shadows, "SHADOWS", "shadows", "no light in view casts any"},
             {Feature::SoftShadows, "SOFT_SHADOWS", "soft shadows", "no shadow in view is soft"},
             {Feature::ShadowMaps, "SHADOW_MAPS", "shadow maps", "no shadow is looked up in a map"},
+            {Feature::ShadowLift, "SHADOW_LIFT", "softened terminators",
+             "no light in view casts shadows, or their terminators are exact"},
             {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material uses wrap"},
             {Feature::SubsurfacePassage, "SUBSURFACE_PASSAGE", "light through thin parts",
              "no material uses depth_map"},

@@ -38,6 +38,11 @@ static_assert(isInOrder(kShadowFilters, &ShadowFilterInfo::filter, std::size(kSh
 static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter::Pcf) == SHADOW_FILTER_PCF &&
               int(ShadowFilter::Pcss) == SHADOW_FILTER_PCSS);
 
+constexpr ShadowTerminatorInfo kShadowTerminators[] = {
+    {ShadowTerminator::Exact, "exact", "on the triangles themselves"},
+    {ShadowTerminator::Softened, "softened", "on the curved surface that the normals of their corners tell"},
+};
+
 constexpr EnvironmentLightInfo kEnvironmentLights[] = {
     {EnvironmentLight::Off, "off", "it lights nothing", false, false},
     {EnvironmentLight::SplitSum, "split_sum", "from maps filtered beforehand, one look-up for each lobe", true, false},
@@ -103,6 +108,10 @@ std::span<const BackdropInfo> backdropTable() {
 
 std::span<const ShadowFilterInfo> shadowFilterTable() {
     return kShadowFilters;
+}
+
+std::span<const ShadowTerminatorInfo> shadowTerminatorTable() {
+    return kShadowTerminators;
 }
 
 const ShadowFilterInfo& infoOf(ShadowFilter filter) {

@@ -54,6 +54,15 @@ struct ShadowFilterInfo {
 std::span<const ShadowFilterInfo> shadowFilterTable();
 const ShadowFilterInfo& infoOf(ShadowFilter filter);
 
+/// Where smooth-shaded triangles begin their ways to lights.
+enum class ShadowTerminator : std::uint8_t { Exact, Softened };
+struct ShadowTerminatorInfo {
+    ShadowTerminator terminator;
+    std::string_view name;
+    std::string_view summary;
+};
+std::span<const ShadowTerminatorInfo> shadowTerminatorTable();
+
 /// Of the depth maps that filters other than traced look up.
 struct ShadowMapSettings {
     int widthTexels = 3;                 ///< side of the square that pcf averages, one of kShadowWidths
@@ -185,6 +194,7 @@ struct FrameSettings {
     ShadowFilter shadowFilter = ShadowFilter::Traced;
     int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples
     ShadowMapSettings shadowMaps;
+    ShadowTerminator shadowTerminator = ShadowTerminator::Softened;
     scenes::SubsurfaceRequest subsurface;
     DiffusionSettings diffusion;
     EnvironmentSettings environment;

@@ -183,6 +183,10 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         spec.features.add(Feature::OrthographicCamera, camera.projection == scenes::Projection::Orthographic);
     }
+    if (settings.shadowTerminator == ShadowTerminator::Softened)
+        spec.features.add(Feature::ShadowLift, spec.features[Feature::Shadows]);
+    else
+        spec.features.has.reset(std::size_t(Feature::ShadowLift));
     if (settings.prune && !spec.features[Feature::Shadows])
         spec.features.has.reset(std::size_t(Feature::SubsurfacePassage));
     // Neither maps nor samples are there where nothing is lit by them.

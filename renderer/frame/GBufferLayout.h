@@ -108,7 +108,7 @@ std::vector<GBufferTexture> gbufferTextures(const GBufferLayout& layout, std::sp
 int bytesPerPixel(const GBufferLayout& layout, std::span<const Channel> channels); ///< without depth
 
 /// What pixels hold beside the channels, in whole numbers of few bits that no layout rounds.
-enum class Mark : std::uint8_t { Facets, Subsurface, Occlusion, Count };
+enum class Mark : std::uint8_t { Facets, Lift, Subsurface, Occlusion, Count };
 inline constexpr std::size_t kMarkCount = static_cast<std::size_t>(Mark::Count);
 
 struct MarkInfo {

@@ -30,8 +30,9 @@ struct VertexStreams {
     std::vector<glm::vec4> tangentsOS;
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
-    /// With shadows: of the triangles that end with a vertex, unit, out of the front of its mesh; of those without an
-    /// area any. Where triangles of one end have different ones, each that differs from the first has a copy of it.
+    /// With shadows: of the triangles that end with a vertex, out of the front of its mesh; LIFTED_FACET long where
+    /// their corners have different normals, else unit; of those without an area any. Where triangles of one end have
+    /// different ones, each that differs from the first has a copy of it.
     std::vector<glm::vec3> facetNormalsOS;
 };
 /// What the streams are called that such features need, in their order.

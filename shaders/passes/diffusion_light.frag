@@ -31,6 +31,9 @@ void takeEnteredValues(inout Surface surface)
 void main()
 {
     Fragment fragment = rasterisedFragment();
+#if HAS_SHADOW_LIFT
+    fragment.liftCode = encodeLift(rasterisedLift(positionLS, fragment.normalLS, vec2(0.0), true), positionLS);
+#endif
     Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
     takeEnteredValues(surface);
     Viewpoint viewpoint;

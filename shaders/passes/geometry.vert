@@ -1,6 +1,7 @@
 // The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
 #include "shared/diffusion.h"
+#include "shared/facet.h"
 #include "shared/hook.h"
 #include "shared/views.h"
 #include "lib/surface/camera.glsl"
@@ -48,6 +49,12 @@ layout(location = 7) flat out vec3 normalFromObject2;
 #if HAS_SHADOWS && !DEPTH_ONLY
 layout(location = 9) flat out vec3 facetNormalLS;
 #endif
+// With --filter exact, fragments have the whole triangle.
+#define LIFTS (HAS_SHADOW_LIFT && !DEPTH_ONLY && (!FILTER_EXACT || IN_ATLAS))
+#if LIFTS
+layout(location = 18) out float tangentPlane;   // dot(normalLS, the vertex's position)
+layout(location = 19) flat out float facetIsLifted; // 1 where the corners of the triangle have different normals, else 0
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
 layout(location = 11) flat out vec3 objectRow0;
 layout(location = 12) flat out vec3 objectRow1;
@@ -70,7 +77,7 @@ layout(location = 17) flat out float hookedInstance;
 layout(location = 9) flat out float drawnObject;
 #endif
 
-#if FILTER_EXACT || HAS_TANGENTS || IN_ATLAS
+#if FILTER_EXACT || HAS_TANGENTS || IN_ATLAS || LIFTS
 // Turned by the transpose; exact where both are one space.
 vec3 lsFromRWS(vec3 directionRWS)
 {
@@ -108,6 +115,11 @@ void main()
 #if HAS_SHADOWS
     precise vec3 turnedFacet = vec3(dot(drawNormal0.xyz, facetNormalOS), dot(drawNormal1.xyz, facetNormalOS), dot(drawNormal2.xyz, facetNormalOS));
     facetNormalLS = turnedFacet;
+#endif
+#if LIFTS
+    precise float onNormal = dot(normalLS, lsFromRWS(positionRWS));
+    tangentPlane = onNormal;
+    facetIsLifted = dot(facetNormalOS, facetNormalOS) > 0.5 * (1.0 + LIFTED_FACET * LIFTED_FACET) ? 1.0 : 0.0;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
     normalFromObject0 = drawNormal0.xyz;

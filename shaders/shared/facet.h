@@ -4,6 +4,16 @@
 
 #define FACET_BITS 12 // a coordinate
 
+// How long the normal of a triangle is, in object space, whose corners have different normals; else 1. A power of two,
+// which moves no digit.
+#define LIFTED_FACET 2.0f
+
+// How far above such a triangle its shadows are asked for (lib/shadow/shadow_lift.glsl), in parts of a pixel's width: 1
+// + LIFT_STEPS for each power of two from LIFT_LEAST_PIXELS on. 0 is none.
+#define LIFT_BITS 8
+#define LIFT_STEPS 12
+#define LIFT_LEAST_PIXELS (1.0f / 4096.0f)
+
 // The largest angle between a normal and its code. A coordinate is off by up to 1/4094. The vector (x, y, 1 - |x| -
 // |y|), at least 1/sqrt(3) long, moves by sqrt(6) of that at most: 1.04e-3. Rounding adds far less.
 #define FACET_ERROR_RADIANS 1.1e-3

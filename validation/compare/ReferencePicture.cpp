@@ -21,6 +21,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.timeSeconds = settings.timeSeconds;
     result.soloLight = settings.soloLight;
     result.shadows = settings.shadows;
+    result.softensTerminators = settings.shadowTerminator == frame::ShadowTerminator::Softened;
     result.subsurface = settings.subsurface;
     // The noise of rays; maps are allowed none.
     result.shadowSamples = infoOf(settings.shadowFilter).usesMaps ? 0 : settings.shadowSamples;

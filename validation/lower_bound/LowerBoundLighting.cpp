@@ -40,7 +40,7 @@ namespace {
 /// The bound's pairs of light and pixel are lit ones. A frame that is not pruned has shadows all the same.
 frame::FrameSpec withoutShadows(frame::FrameSpec spec) {
     for (const frame::Feature feature :
-         {frame::Feature::Shadows, frame::Feature::SoftShadows, frame::Feature::ShadowMaps})
+         {frame::Feature::Shadows, frame::Feature::SoftShadows, frame::Feature::ShadowMaps, frame::Feature::ShadowLift})
         spec.features.has.reset(std::size_t(feature));
     return spec;
 }

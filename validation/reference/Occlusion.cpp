@@ -23,21 +23,62 @@ constexpr double kLiftCosine = 0.1;
 /// How far a program's normals are off, beside their texture.
 constexpr double kNormalRounding = 4e-6;
 
+/// Twice what two octahedral coordinates of 12 bits move a direction by.
+constexpr double kStoredFacetRadians = 2.2e-3;
+
 double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
     if (surface.wrap == glm::dvec3(0.0)) return 0.0;
     const double cosine = glm::dot(surface.normal, toLight) / glm::length(toLight);
     return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
 }
 
-/// The triangle that a point of a surface lies on. It hides what lies on the other side of it than the viewer.
-struct OwnTriangle {
+/// Where terminators are softened: how far above a smooth-shaded triangle the light is asked for. Hanika 2021 ("Hacking
+/// the Shadow Terminator", Ray Tracing Gems II, chapter 4) projects the point onto the plane through each corner across
+/// its normal, and blends the three by the corners' weights. Here that is a height along the triangle's normal, and
+/// heights below the triangle count against those above.
+double terminatorLift(const Hit& hit) {
+    const scenes::Mesh& mesh = *hit.object->mesh;
+    glm::dvec3 normals[3], point(0.0), blended(0.0);
+    for (int corner = 0; corner < 3; ++corner) {
+        const std::uint32_t vertex = mesh.indices[3 * std::size_t(hit.triangle) + std::size_t(corner)];
+        normals[corner] = hit.object->normalFromObject * glm::dvec3(mesh.normalsOS[vertex]);
+        point += hit.weights[corner] * hit.object->cornerRWS(hit.triangle, corner);
+        blended += hit.weights[corner] * normals[corner];
+    }
+    if (normals[0] == normals[1] && normals[1] == normals[2]) return 0.0;
+    double height = 0.0;
+    for (int corner = 0; corner < 3; ++corner)
+        height += hit.weights[corner] * glm::dot(normals[corner], hit.object->cornerRWS(hit.triangle, corner) - point);
+    const double length = glm::length(blended);
+    return length > 0.0 ? std::max((hit.frontFacing ? height : -height) / length, 0.0) : 0.0;
+}
+
+/// A program holds that height in steps, and its direction as it holds the triangle's normal: half a twelfth of it, and
+/// little more.
+constexpr double kLiftSteps = 0.045;
+/// Of a pixel's width: below, it may hold none.
+constexpr double kLiftLeastPixels = 1.0 / 4096.0;
+
+/// How far apart the points are that two pixels show beside each other, the wider way.
+double pixelMetres(const Hit& hit) {
+    glm::dvec3 across(0.0), up(0.0);
+    for (int corner = 0; corner < 3; ++corner) {
+        const glm::dvec3 place = hit.object->cornerRWS(hit.triangle, corner);
+        across += hit.weightsDx[corner] * place;
+        up += hit.weightsDy[corner] * place;
+    }
+    return std::max(glm::length(across), glm::length(up));
+}
+
+/// A plane of a point of a surface that hides what lies on the other side of it than the viewer: of its triangle, or of
+/// the normal that it is lit with.
+struct OwnPlane {
     glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 of a triangle without area
     /// A program stores the normal in 24 bits, and finds it from rounded corners or from rounded points of pixels.
     double leewayRadians = 0.0;
 
-    OwnTriangle(const Hit& surface, const glm::dvec3& toViewer) {
-        // Twice what two octahedral coordinates of 12 bits move a direction by.
-        constexpr double kStored = 2.2e-3;
+    OwnPlane(const glm::dvec3& litNormal, double leeway) : normal(litNormal), leewayRadians(leeway) {}
+    OwnPlane(const Hit& surface, const glm::dvec3& toViewer) {
         glm::dvec3 corners[3];
         for (int i = 0; i < 3; ++i) corners[i] = surface.object->cornerRWS(surface.triangle, i);
         const glm::dvec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -46,7 +87,7 @@ struct OwnTriangle {
         normal = across / (glm::dot(across, toViewer) < 0.0 ? -area : area);
         double longest = 0.0;
         for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
-        leewayRadians = kStored + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
+        leewayRadians = kStoredFacetRadians + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
     }
     bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
     /// Whether a program may say otherwise of a place, if it also moves the way there by so many metres.
@@ -86,7 +127,7 @@ Occlusion::Answer decided(double share) {
 /// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not count,
 /// and `pointMetres` what rounding leaves open of the point.
 Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool isPlaced, const ShiningLight& light,
-                         const Hit* surface, const OwnTriangle* own, double pointMetres, bool leeway) {
+                         const Hit* surface, const OwnPlane* own, double pointMetres, bool leeway) {
     const bool isBehind = own && own->hides(segment.along);
     if (isBehind && !leeway) return decided(0.0);
     const Casters::Met exact = casters.meet(segment, surface);
@@ -121,18 +162,46 @@ Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects) : caste
 
 Occlusion::~Occlusion() = default;
 
+/// Where ways to a light begin.
+struct Occlusion::Start {
+    const Hit& hit;
+    const SurfacePoint& surface;
+    glm::dvec3 pointRWS;
+    glm::dvec3 toViewer;
+    double terminatorLift = 0.0;
+};
+
 Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
                                 const glm::dvec3& pointRWS, const glm::dvec3& toViewer,
                                 const Settings& settings) const {
+    if (!light.castsShadow || casters_->empty()) return {};
+    const bool mayLift = settings.softensTerminators && surface.wrap == glm::dvec3(0.0);
+    const double lift = mayLift ? terminatorLift(hit) : 0.0;
+    const Start onTriangle{hit, surface, pointRWS, toViewer};
+    if (lift == 0.0) return from(onTriangle, light, settings);
+    Start above = onTriangle;
+    above.terminatorLift = lift;
+    Answer answer = from(above, light, settings);
+    if (!settings.leeway || lift > kLiftLeastPixels * pixelMetres(hit) + 4.0 * casters_->leewayMetres(pointRWS))
+        return answer;
+    const Answer exact = from(onTriangle, light, settings);
+    answer.isUndecided = answer.isUndecided || std::abs(answer.share - exact.share) > kDecisiveShare;
+    answer.least = std::min(answer.least, exact.least);
+    answer.most = std::max(answer.most, exact.most);
+    return answer;
+}
+
+Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light, const Settings& settings) const {
     const Casters& casters = *casters_;
-    if (!light.castsShadow || casters.empty()) return {};
+    const auto& [hit, surface, pointRWS, toViewer, terminatorLift] = begin;
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
     const auto wayFrom = [&](const glm::dvec3& placeRWS) {
         return isPlaced ? light.positionRWS - placeRWS : -light.light.directionWS;
     };
     if (wayFrom(pointRWS) == glm::dvec3(0.0)) return {};
     const double lift = liftMetres(surface, wayFrom(pointRWS));
-    const glm::dvec3 fromRWS = pointRWS + lift * surface.normal;
+    const OwnPlane ownTriangle(hit, toViewer);
+    const glm::dvec3 fromRWS = pointRWS + lift * surface.normal + terminatorLift * ownTriangle.normal;
     const glm::dvec3 from = fromRWS - casters.centreRWS();
     const glm::dvec3 toLight = wayFrom(fromRWS);
     const double distance = glm::length(toLight);
@@ -141,12 +210,14 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
         isPlaced ? scenes::shadowRadiusMetres(light.light) : std::tan(double(light.light.angularRadiusRadians));
     // Past all casters, where the light has no place.
     const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0;
-    const OwnTriangle ownTriangle(hit, toViewer);
     const bool wraps = surface.wrap != glm::dvec3(0.0);
-    const OwnTriangle* const own = wraps ? nullptr : &ownTriangle;
-    const Hit* const start = lift > 0.0 ? nullptr : &hit;
-    const double pointMetres =
-        casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0);
+    const OwnPlane ownPlane =
+        terminatorLift > 0.0 ? OwnPlane(surface.normal, kStoredFacetRadians + kNormalRounding) : ownTriangle;
+    const OwnPlane* const own = wraps ? nullptr : &ownPlane;
+    const Hit* const start = lift > 0.0 || terminatorLift > 0.0 ? nullptr : &hit;
+    const double pointMetres = casters.leewayMetres(fromRWS) +
+                               (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) +
+                               (terminatorLift > 0.0 ? kLiftSteps * terminatorLift + 2.0 * hit.roundingMetres : 0.0);
     const Segment toCentre{from, toLight * reach};
     if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
@@ -202,7 +273,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     }
     // The own triangle's plane may cut the face elsewhere: by the length of the chord there, at most its diameter.
     const double metres = pointMetres + casters.leewayMetres(isPlaced, light, pointMetres, distance * reach);
-    const double cut = ownTriangle.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
+    const double cut = ownPlane.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
     if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
         const double share = face.shareOfCut(cut, own->normal) / std::max(counted, 1e-9);
         stray += share;

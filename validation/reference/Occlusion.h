@@ -29,6 +29,7 @@ public:
     };
     /// From a point of a surface. Its own triangle hides what lies on the other side of it than the viewer, unless the
     /// surface wraps light: then the light is asked for from a point above the surface.
+    /// A smooth-shaded one is asked from above itself too, where terminators are softened.
     Answer of(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface, const glm::dvec3& pointRWS,
               const glm::dvec3& toViewer, const Settings& settings) const;
 
@@ -42,6 +43,8 @@ public:
                       const glm::dvec3& pointRWS, bool leeway) const;
 
 private:
+    struct Start;
+    Answer from(const Start& start, const ShiningLight& light, const Settings& settings) const;
     std::unique_ptr<const Casters> casters_;
 };
 

@@ -67,7 +67,11 @@ void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
     if (encoding.isPacked)
         putOctahedral(encodeOctahedral(surface.normalLS), encoding.widths, DITHER_NORMAL);
     else
+#ifdef GBUFFER_LIFT_IN_NORMAL
+        texel = vec4(surface.normalLS, float(surface.liftCode));
+#else
         texel = vec4(surface.normalLS, surface.alpha);
+#endif
 }
 
 void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
@@ -79,6 +83,9 @@ void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
     surface.normalLS = texel.xyz;
 #ifdef GBUFFER_SPARE_COMPONENTS
     surface.alpha = texel.w;
+#endif
+#ifdef GBUFFER_LIFT_IN_NORMAL
+    surface.liftCode = uint(texel.w);
 #endif
 }
 #endif

@@ -16,6 +16,18 @@ void takeFacets(uint code, inout Surface surface)
 }
 #endif
 
+#ifdef GBUFFER_LIFT
+uint codeOfLift(Surface surface)
+{
+    return surface.liftCode;
+}
+
+void takeLift(uint code, inout Surface surface)
+{
+    surface.liftCode = code;
+}
+#endif
+
 #ifdef GBUFFER_SUBSURFACE
 uint codeOfSubsurface(Surface surface)
 {

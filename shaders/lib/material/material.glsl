@@ -149,6 +149,9 @@ Surface surfaceFromMaterial(Fragment fragment, vec4 baseColor)
     surface.facetCode = encodeFacet(fragment.facetNormalLS);
     surface.facetNormalLS = decodeFacet(surface.facetCode);
 #endif
+#if HAS_SHADOW_LIFT
+    surface.liftCode = fragment.liftCode;
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT
     surface.normalTexel = objectNormal(fragment, surface.normalLS) * 0.5 + 0.5;
 #endif

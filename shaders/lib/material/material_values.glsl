@@ -56,6 +56,9 @@ struct Fragment {
 #if HAS_SHADOWS
     vec3 facetNormalLS; // of the triangle; unit, away from the viewer
 #endif
+#if HAS_SHADOW_LIFT
+    uint liftCode;      // how far above it shadows are asked for (lib/shadow/shadow_lift.glsl)
+#endif
 #if VIEW == VIEW_NORMAL_OBJECT
     mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
 #endif
@@ -68,6 +71,9 @@ Fragment plainFragment()
     fragment.normalLS = vec3(0.0, 0.0, 1.0);
 #if HAS_SHADOWS
     fragment.facetNormalLS = vec3(0.0, 0.0, 1.0);
+#endif
+#if HAS_SHADOW_LIFT
+    fragment.liftCode = 0u;
 #endif
     fragment.tangentLS = vec4(0.0);
     fragment.texCoord[0] = TexCoord(0.0);

@@ -50,6 +50,11 @@ layout(location = 4) in vec4 vertexColor;
 layout(location = 8) flat in float largestColor; // 0 without vertex colours
 #endif
 
+#if HAS_SHADOW_LIFT && !DEPTH_ONLY
+#include "lib/raster/rasterised_lift.glsl"
+#include "lib/shadow/shadow_lift.glsl"
+#endif
+
 #if HOOKED
 #if BY_TRIANGLE
 #define HOOK_ROWS 23
@@ -105,6 +110,15 @@ Fragment rasterisedFragment()
 #endif
 #if HAS_SHADOWS
     fragment.facetNormalLS = rasterisedFacetNormal(fragment.frontFacing);
+#endif
+#if HAS_SHADOW_LIFT && !IN_ATLAS
+    vec3 positionLS = viewpointFromDepth(place.pixel, place.depth).positionLS;
+#if BY_TRIANGLE
+    float metres = rasterisedLift(placeWeights, fragment.frontFacing);
+#else
+    float metres = rasterisedLift(positionLS, fragment.normalLS, place.pixel - gl_FragCoord.xy, fragment.frontFacing);
+#endif
+    fragment.liftCode = encodeLift(metres, positionLS);
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
     fragment.objectFromNormal = mat3(objectRow0, objectRow1, objectRow2) * mat3(view.worldFromLS);

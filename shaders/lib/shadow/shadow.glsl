@@ -3,6 +3,9 @@
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "lib/reflectance/subsurface.glsl"
+#if HAS_SHADOW_LIFT
+#include "lib/shadow/shadow_lift.glsl"
+#endif
 #if HAS_SHADOW_MAPS
 #include "lib/shadow/shadow_map.glsl"
 #else
@@ -11,7 +14,8 @@
 
 // The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they
 // hide nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever normal it is lit with,
-// unless it wraps light.
+// unless it wraps light. A smooth-shaded one is asked from above its triangle, which is met there as any other, and hides
+// lights behind the plane of the normal that it is lit with.
 float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);
@@ -28,6 +32,22 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 #endif
     vec3 placeLS = lightTexel(index, 0).xyz;
     bool triangleHides = true;
+    vec3 hidingNormalLS = surface.facetNormalLS;
+#if HAS_SHADOW_LIFT
+    float lift = decodeLift(surface.liftCode, viewpoint.positionLS);
+#if HAS_SUBSURFACE_WRAP
+    if (wrapsLight(surface)) lift = 0.0;
+#endif
+#if !HAS_SHADOW_MAPS
+    // A triangle that is nearer is the point's own, and hides nothing (lib/shadow/caster_walk.glsl).
+    if (lift * casterTree.rwsOriginCS.w < 2.0 * roundingAt(viewpoint.positionLS)) lift = 0.0;
+#endif
+    if (lift > 0.0) {
+        precise vec3 liftedLS = viewpoint.positionLS - lift * surface.facetNormalLS;
+        viewpoint.positionLS = liftedLS;
+        hidingNormalLS = -surface.normalLS;
+    }
+#endif
 #if HAS_SUBSURFACE_WRAP
     if (wrapsLight(surface)) {
         precise vec3 toLight = isFar ? placeLS : placeLS - viewpoint.positionLS;
@@ -38,9 +58,9 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
     }
 #endif
 #if HAS_SHADOW_MAPS
-    return mappedShadow(index, kind, placeLS, isFar, surface.facetNormalLS, triangleHides, viewpoint);
+    return mappedShadow(index, kind, placeLS, isFar, surface.facetNormalLS, hidingNormalLS, triangleHides, viewpoint);
 #else
-    return tracedShadow(index, placeLS, isFar, isCut, surface.facetNormalLS, triangleHides, viewpoint);
+    return tracedShadow(index, placeLS, isFar, isCut, hidingNormalLS, triangleHides, viewpoint);
 #endif
 }
 

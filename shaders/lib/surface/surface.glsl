@@ -33,6 +33,9 @@ struct Surface {
     uint facetCode;    // of surfaces that are rasterised
     vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
 #endif
+#if HAS_SHADOW_LIFT
+    uint liftCode;     // how far above it shadows are asked for (lib/shadow/shadow_lift.glsl)
+#endif
 #if HAS_OCCLUSION_TEXTURE
     uint openCode;     // the share of the environment's light that arrives, of OPEN_BITS
 #endif
@@ -162,6 +165,9 @@ void setNeutralValues(inout Surface surface)
 #if HAS_SHADOWS
     surface.facetCode = 0u;
     surface.facetNormalLS = vec3(0.0, 0.0, 1.0);
+#endif
+#if HAS_SHADOW_LIFT
+    surface.liftCode = 0u;
 #endif
     setNeutralLobes(surface);
 }

@@ -38,9 +38,9 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [technique, settings] = request;
         const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
                      idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
-                     shadowSamples, shadowMaps, subsurface, diffusion, environment, area, refraction, glassDepth,
-                     culling, lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV, toneMap] =
-            settings;
+                     shadowSamples, shadowMaps, shadowTerminator, subsurface, diffusion, environment, area, refraction,
+                     glassDepth, culling, lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV,
+                     toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
@@ -48,10 +48,10 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [widthTexels, resolutionTexels, budgetMiB, cascades] = shadowMaps;
         return std::pair(std::tuple(technique, sizePixels, samples, camera, timeSeconds, layout, view, filter, space,
                                     prune, specular, rangeTolerance, soloLight, shadows, shadowFilter, shadowSamples,
-                                    widthTexels, resolutionTexels, budgetMiB, cascades, subsurface, sideTexels,
-                                    gaussians, half, light, lightSamples, compensates, rotationDegrees, intensity,
-                                    backdrop, areaLights, areaSamples, refraction, glassDepth, method, tilePixels,
-                                    builder, normals, lightOn, exposureEV, toneMap),
+                                    widthTexels, resolutionTexels, budgetMiB, cascades, shadowTerminator, subsurface,
+                                    sideTexels, gaussians, half, light, lightSamples, compensates, rotationDegrees,
+                                    intensity, backdrop, areaLights, areaSamples, refraction, glassDepth, method,
+                                    tilePixels, builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
                                     softwareBackend, display, lanes));
     };

@@ -189,6 +189,7 @@ TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
                              Feature::Shadows,
                              Feature::SoftShadows,
                              Feature::ShadowMaps,
+                             Feature::ShadowLift,
                              Feature::Environment};
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) tested.insert(featureOf(type.type));
     for (const Change& change : changes()) tested.insert(change.feature);

@@ -253,10 +253,11 @@ TEST(GBufferLayout, marksFollowTheirEnumerationAndLieBesideChannelsThatTheExactL
     const std::vector<Channel> channels = neededChannels(allFeatures(), exact, false);
     ASSERT_EQ(gbufferTextures(exact, channels).size(), 8u) << "no room for another texture";
     const std::vector<Mark> marks = neededMarks(allFeatures(), exact, channels);
-    EXPECT_THAT(marks, ElementsAre(Mark::Facets, Mark::Subsurface, Mark::Occlusion));
+    EXPECT_THAT(marks, ElementsAre(Mark::Facets, Mark::Lift, Mark::Subsurface, Mark::Occlusion));
     EXPECT_FALSE(markTexture(exact, channels, marks));
     for (const MarkInfo& info : markTable()) EXPECT_THAT(channels, Contains(info.beside)) << info.name;
     EXPECT_EQ(markDefines(exact, channels, marks), (Defines{{"GBUFFER_FACETS_IN_SPECULAR", "1"},
+                                                            {"GBUFFER_LIFT_IN_NORMAL", "1"},
                                                             {"GBUFFER_SUBSURFACE_IN_EMISSION", "1"},
                                                             {"GBUFFER_OCCLUSION_IN_ALBEDO", "1"}}));
 }

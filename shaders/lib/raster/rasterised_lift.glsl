@@ -1,0 +1,38 @@
+// How far above a smooth-shaded triangle its shadows are asked for: from the surface that the tangent planes of its corners
+// span (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4). Each plane lies dot(normal, corner -
+// point) above the point, and the corners' weights blend these heights:
+//   sum of weight_i dot(normal_i, corner_i - point) = sum over the edges of weight_i weight_j dot(corner_j - corner_i,
+//   normal_j - normal_i)
+// So triangles with a common edge agree along it, and one whose corners have one normal is lifted by exactly 0. What bends
+// towards the viewer (below 0) is not lifted.
+#pragma once
+#if BY_TRIANGLE
+float rasterisedLift(dvec3 weights, bool frontFacing)
+{
+    dvec3 normal = weights.x * dvec3(triangleNormalLS[0]) + weights.y * dvec3(triangleNormalLS[1])
+                   + weights.z * dvec3(triangleNormalLS[2]);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        int j = i == 2 ? 0 : i + 1;
+        dvec3 edge = dvec3(triangleLS[j]) - dvec3(triangleLS[i]);
+        sum += weights[i] * weights[j] * dot(edge, dvec3(triangleNormalLS[j]) - dvec3(triangleNormalLS[i]));
+    }
+    float metres = float(sum / sqrt(max(dot(normal, normal), 1e-300LF)));
+    return max(frontFacing ? metres : -metres, 0.0);
+}
+#else
+layout(location = 18) in float tangentPlane;
+layout(location = 19) flat in float facetIsLifted;
+
+// At a point of the triangle with that normal, not unit; `aside` pixels from where vertices are interpolated.
+float rasterisedLift(vec3 positionLS, vec3 normal, vec2 aside, bool frontFacing)
+{
+    precise float plane = tangentPlane;
+#if SAMPLES > 1
+    precise float planeAside = plane + (aside.x * dFdx(tangentPlane) + aside.y * dFdy(tangentPlane));
+    plane = planeAside;
+#endif
+    precise float metres = (plane - dot(normal, positionLS)) / sqrt(max(dot(normal, normal), 1e-37));
+    return facetIsLifted > 0.0 ? max(frontFacing ? metres : -metres, 0.0) : 0.0;
+}
+#endif

@@ -1,0 +1,212 @@
+// Shadows of smooth-shaded triangles are asked for from above them (docs/shadows.md, "Smooth-shaded meshes").
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scenes/Load.h"
+#include "scenes/builtin/Shapes.h"
+#include "tests/image/ShadowTest.h"
+#include "tests/support/Sweep.h"
+#include "tests/support/TestScenes.h"
+#include "validation/reference/CameraRays.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using frame::ShadowFilter, frame::ShadowTerminator;
+using test::kAllLightsCast;
+
+class ShadowTerminators : public test::ShadowTest {
+protected:
+    /// A ball of 16 slices on a floor.
+    static scenes::Scene coarseBall() {
+        scenes::Scene scene = test::ballUnderSun();
+        scene.meshes[0] = {};
+        scenes::builtin::appendSphere(scene.meshes[0], glm::dvec3(0.0, 0.6, 0.0), 0.6, 16, 8);
+        scene.lights[0].directionWS = glm::normalize(glm::dvec3(-1.0, -0.5, -0.7));
+        return scene;
+    }
+    static frame::FrameSettings settingsOf(ShadowFilter filter, ShadowTerminator terminator) {
+        frame::FrameSettings settings;
+        settings.sizePixels = {96, 54};
+        settings.shadows = kAllLightsCast;
+        settings.shadowFilter = filter;
+        settings.shadowTerminator = terminator;
+        return settings;
+    }
+    std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
+        return renderer.render(Technique::Deferred, settings).radiance;
+    }
+};
+
+// A ball hides none of its points whose normal faces the light.
+TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundOneThatItsNormalsTell) {
+    scenes::Scene scene = coarseBall();
+    scene.nodes[0].instances = {{0, 0}};
+    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard, ShadowFilter::Pcf}) {
+        std::size_t torn[2] = {0, 0}, lit = 0;
+        for (const double turn : {0.3, 2.0, 4.0}) {
+            scene.lights[0].directionWS = glm::normalize(glm::dvec3(std::cos(turn), -0.4, std::sin(turn)));
+            engine::Renderer renderer(context(), scene);
+            frame::FrameSettings settings = settingsOf(filter, ShadowTerminator::Exact);
+            settings.shadowMaps.resolutionTexels = 1024;
+            settings.shadows = {scenes::ShadowRequest::Kind::None};
+            const std::vector<float> open = picture(renderer, settings);
+            const float brightest = *std::ranges::max_element(open);
+            settings.shadows = kAllLightsCast;
+            for (const ShadowTerminator terminator : {ShadowTerminator::Exact, ShadowTerminator::Softened}) {
+                settings.shadowTerminator = terminator;
+                const std::vector<float> seen = picture(renderer, settings);
+                for (std::size_t i = 0; i < seen.size(); i += 4)
+                    torn[int(terminator)] += std::abs(seen[i] - open[i]) > 0.01f * brightest;
+            }
+            for (std::size_t i = 0; i < open.size(); i += 4) lit += open[i] > 0.01f * brightest;
+        }
+        fmt::print("{}: of {} lit pixels {} torn, softened {}\n", infoOf(filter).name, lit, torn[0], torn[1]);
+        EXPECT_GT(torn[0], lit / 50) << infoOf(filter).name;
+        EXPECT_LE(torn[1], lit / 1000) << infoOf(filter).name;
+    }
+}
+
+TEST_F(ShadowTerminators, ofRealFacetsAreExactToTheLastBit) {
+    scenes::Scene scene = coarseBall();
+    scenes::Mesh facets;
+    const scenes::Mesh& ball = scene.meshes[0];
+    for (std::size_t first = 0; first < ball.indices.size(); first += 3) {
+        const auto corner = [&](std::size_t i) { return ball.positionsOS[ball.indices[first + i]]; };
+        const glm::vec3 normal = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+        for (std::size_t i = 0; i < 3; ++i) {
+            facets.indices.push_back(std::uint32_t(facets.positionsOS.size()));
+            facets.positionsOS.push_back(corner(i));
+            facets.normalsOS.push_back(normal);
+            facets.texCoords[0].emplace_back(0.0f);
+        }
+    }
+    scene.meshes[0] = facets;
+    engine::Renderer renderer(context(), scene);
+    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf}) {
+        for (const auto textures : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+            frame::FrameSettings exact = settingsOf(filter, ShadowTerminator::Exact),
+                                 softened = settingsOf(filter, ShadowTerminator::Softened), none = exact;
+            exact.filter = softened.filter = none.filter = textures;
+            none.shadows = {scenes::ShadowRequest::Kind::None};
+            const std::vector<float> seen = picture(renderer, exact);
+            EXPECT_EQ(picture(renderer, softened), seen) << infoOf(filter).name;
+            EXPECT_NE(picture(renderer, none), seen) << "no shadow";
+        }
+    }
+}
+
+// A square of 2 m whose normals lean by a to both sides of the middle, as on a roll of paper: the planes through its
+// left and right corners lie (1 + x) sin a and (1 - x) sin a above it at x. Their corners weigh (1 - x) / 2 and (1 + x)
+// / 2, so the blend is (1 - x^2) sin a, over the length of the normals' blend. From there the edge of a plate 1 m above
+// throws its shadow that much less far.
+TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) {
+    constexpr double kLean = 0.15, kPlateMetres = 1.0, kPlateEdge = -1.6, kSlope = 0.6; // of the sun
+    scenes::Scene scene = coarseBall();
+    scenes::Mesh& square = scene.meshes[0] = {};
+    for (const glm::vec2 place : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
+        square.positionsOS.emplace_back(place.x, 0.0f, place.y);
+        square.normalsOS.emplace_back(place.x * std::sin(kLean), std::cos(kLean), 0.0);
+        square.texCoords[0].push_back(place);
+    }
+    square.indices = {0, 2, 1, 1, 2, 3};
+    scene.meshes[1] = {};
+    scenes::builtin::appendFloor(scene.meshes[1], {0.0, kPlateMetres, kPlateEdge - 2.0}, {8.0, 4.0}, {1, 1});
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.0, -kSlope, 1.0));
+    scenes::Camera& camera = scene.cameras[0];
+    camera.projection = scenes::Projection::Orthographic;
+    camera.halfHeightMetres = 1.0;
+    camera.nearMetres = 0.1;
+    camera.worldFromCamera = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 5, 0, 1}};
+    engine::Renderer renderer(context(), scene);
+    for (const ShadowTerminator terminator : {ShadowTerminator::Exact, ShadowTerminator::Softened}) {
+        frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, terminator);
+        settings.sizePixels = {128, 128};
+        settings.view = frame::DebugView::Shadow;
+        const std::vector<float> seen = picture(renderer, settings);
+        const reference::CameraRays rays(camera, settings.sizePixels);
+        int dark = 0, wrong = 0, straightIsWrong = 0;
+        for (int y = 0; y < 128; ++y) {
+            for (int x = 0; x < 128; ++x) {
+                const glm::dvec3 placeWS = rays.eyeWS() + rays.through(x, y).originRWS;
+                const double across = placeWS.x, blend = std::hypot(std::cos(kLean), across * std::sin(kLean));
+                const bool isLifted = terminator == ShadowTerminator::Softened;
+                const double lift = isLifted ? (1.0 - across * across) * std::sin(kLean) / blend : 0.0;
+                const double behindEdge = kPlateEdge + (kPlateMetres - lift) / kSlope - placeWS.z;
+                const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
+                // A height is held in steps of a twelfth at most, of which half may be left out.
+                const double leeway = 1e-3 + 0.045 * lift / kSlope;
+                const bool isDark = seen[4 * std::size_t(128 * y + x)] == 0.0f;
+                dark += isDark;
+                wrong += std::abs(behindEdge) > leeway && isDark != (behindEdge > 0.0);
+                straightIsWrong += isDark != (behindStraight > 0.0);
+            }
+        }
+        fmt::print("{}: {} pixels dark, {} wrong, {} by the triangles themselves\n", int(terminator), dark, wrong,
+                   straightIsWrong);
+        EXPECT_EQ(wrong, 0);
+        EXPECT_GT(dark, 1000);
+        if (terminator == ShadowTerminator::Softened) {
+            EXPECT_GT(straightIsWrong, 500);
+        }
+    }
+}
+
+// Of triangles smaller than a pixel, whose normals at its centre would be those of places far beside them.
+TEST_F(ShadowTerminators, ofAFineBallHaveNoDotsWhereAPixelHasSeveralSamples) {
+    scenes::Scene scene = coarseBall();
+    scene.nodes[0].instances = {{0, 0}};
+    scene.meshes[0] = {};
+    scenes::builtin::appendSphere(scene.meshes[0], glm::dvec3(0.0, 0.6, 0.0), 0.6, 300, 150);
+    engine::Renderer renderer(context(), scene);
+    for (const ShadowTerminator terminator : {ShadowTerminator::Exact, ShadowTerminator::Softened}) {
+        frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, terminator);
+        settings.samples = 4;
+        const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
+        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        const std::vector<float> open = renderer.render(Technique::Forward, settings).radiance;
+        const float brightest = *std::ranges::max_element(open);
+        std::size_t dots = 0, lit = 0;
+        for (std::size_t i = 0; i < seen.size(); i += 4) {
+            dots += open[i] - seen[i] > 0.002f * brightest;
+            lit += open[i] > 0.0f;
+        }
+        fmt::print("{}: {} dots among {} pixels\n", int(terminator), dots, lit);
+        EXPECT_GT(lit, 200u);
+        EXPECT_LE(dots, terminator == ShadowTerminator::Exact ? 3u : 0u);
+    }
+}
+
+TEST_F(ShadowTerminators, areThoseOfTheReferenceAndOfEveryTechnique) {
+    scenes::Scene scene = coarseBall();
+    std::size_t turn = 0;
+    for (const bool hasSize : {false, true}) {
+        if (hasSize) {
+            scenes::Light lamp = test::pointLight({1.2, 1.4, 1.0}, 3.0f);
+            lamp.radiusMetres = 0.2f;
+            scene.lights = {lamp};
+        }
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, ShadowTerminator::Softened);
+        const test::WrongPixels count = test::wrongPixels(renderer, settings);
+        fmt::print("{} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, count.undecided,
+                   count.hidden, count.covered);
+        EXPECT_EQ(count.wrong, 0u);
+        EXPECT_LE(count.undecided, count.covered / 50);
+        EXPECT_GT(count.hidden, count.covered / 20);
+        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        settings.samples = 4;
+        expectParity(renderer, settings, test::techniquesInTurn(turn++, 4));
+        settings.samples = 1;
+        settings.shadowFilter = ShadowFilter::Pcf;
+        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        expectPruningIsUnseen(renderer, settings);
+    }
+}
+
+} // namespace
+} // namespace tessera
