@@ -285,5 +285,132 @@ TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
     }
 }
 
+/// A plate that is drawn from below alone, so that the ground is seen through it.
+scenes::Scene plateSeenThrough(scenes::Scene scene, double heightMetres) {
+    glm::dmat4& plate = scene.nodes[1].parentFromNode;
+    plate[3].z = heightMetres;
+    plate *= glm::rotate(glm::dmat4(1.0), glm::radians(180.0), glm::dvec3(1.0, 0.0, 0.0));
+    return scene;
+}
+
+// A square of texels on the triangle, as the light looks at it: seven texels wide also where the light's own square of
+// texels would reach 3.2 times as far along the ground. The light is 3 m aside for one of height.
+TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
+    scenes::Light light = sun();
+    light.directionWS = glm::normalize(glm::dvec3(3.0, 0.0, -1.0));
+    constexpr double kAboveMetres = 0.1;
+    const scenes::Scene scene = plateSeenThrough(plateUnder(light), kAboveMetres);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {256, 256};
+    settings.view = frame::DebugView::Shadow;
+    settings.shadowFilter = frame::ShadowFilter::Pcf;
+    settings.shadowMaps.widthTexels = 7;
+    settings.shadowMaps.resolutionTexels = 256;
+    settings.shadowMaps.cascades = 1;
+    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    // The ball around the scene has a radius of 1.42 m, which is 1.68 m in the steps of cascades.
+    const double texelMetres = 2.0 * 1.68179 / (256.0 - 2.0 * 5.0);
+    const std::size_t row = std::size_t((1.0 - kCasterWS.y) * 128.0);
+    int partly = 0, dark = 0;
+    for (std::size_t x = 0; x < 256; ++x) {
+        const float share = seen[4 * (256 * row + x)];
+        partly += share > 0.0f && share < 1.0f;
+        dark += share == 0.0f;
+    }
+    const double widthMetres = partly / 2.0 / 128.0; // of one edge
+    fmt::print("{:.1f} texels wide, {} pixels dark\n", widthMetres / texelMetres, dark);
+    EXPECT_NEAR(widthMetres / texelMetres, 7.0, 1.0);
+    // Each of its edges lies on one between texels.
+    EXPECT_NEAR((dark + 0.5 * partly) / 128.0, 2.0 * kHalfSide, std::sqrt(10.0) * texelMetres);
+}
+
+// A light that grazes the ground, 7 m aside for one of height, and a wall across its way. Half a texel on the ground is
+// 3.5 texels deep for the light, so that the ground could be as far nearer than it is; but behind a wall that fills the
+// texel beside, on the ground's upper side, it is dark from a texel on. A texel is 0.19 m of ground long, in which the
+// wall's foot has eight places.
+TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
+    scenes::Light light = sun();
+    light.directionWS = glm::normalize(glm::dvec3(7.0, 0.0, -1.0));
+    frame::FrameSettings settings;
+    settings.sizePixels = {256, 256};
+    settings.view = frame::DebugView::Shadow;
+    settings.shadowFilter = frame::ShadowFilter::Hard;
+    settings.shadowMaps.resolutionTexels = 128;
+    settings.shadowMaps.cascades = 1;
+    // The ball around the scene has a radius of 1.43 m, which is 1.68 m in the steps of cascades.
+    const double texelMetres = 2.0 * 1.68179 / (128.0 - 2.0 * 2.0);
+    int behind = 0, lit = 0, before = 0, dark = 0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 footWS(-0.5 + 0.024 * i, kCasterWS.y, 0.0);
+        scenes::Scene scene = plateUnder(light);
+        scene.nodes[1].parentFromNode = glm::translate(glm::dmat4(1.0), footWS) *
+                                        glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 1.0, 0.0)) *
+                                        glm::scale(glm::dmat4(1.0), glm::dvec3(kHalfSide));
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        for (std::size_t y = 0; y < 256; ++y) {
+            for (std::size_t x = 0; x < 256; ++x) {
+                const glm::dvec2 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0);
+                if (std::abs(placeWS.y - footWS.y) > kHalfSide - 1.5 * texelMetres) continue;
+                const double texels = (placeWS.x - footWS.x) / texelMetres;
+                const bool isLit = seen[4 * (256 * y + x)] > 0.0f;
+                behind += texels > 1.1 && texels < 3.5;
+                lit += texels > 1.1 && texels < 3.5 && isLit;
+                before += texels < -1.5;
+                dark += texels < -1.5 && !isLit;
+            }
+        }
+    }
+    fmt::print("{} of {} behind the wall lit, {} of {} before it dark\n", lit, behind, dark, before);
+    EXPECT_GT(behind, 1000);
+    EXPECT_EQ(lit, 0);
+    EXPECT_EQ(dark, 0);
+}
+
+// The edge of a plate before the sun's disk, and of another that hides none of it, 0.36 m aside where casters are
+// looked for within 0.26 m at most. What the share of a disk is that a straight edge leaves is known.
+TEST_F(ShadowOutline, ofPcssHeedsNoCasterBesideTheLight) {
+    constexpr double kTangent = 0.14, kLowMetres = 0.2, kHighMetres = 0.6, kHighEdge = 0.36;
+    scenes::Light light = sun();
+    light.directionWS = glm::normalize(glm::dvec3(1.0, 0.0, -1.0));
+    light.angularRadiusRadians = float(std::atan(kTangent));
+    scenes::Scene scene = plateUnder(light);
+    const auto placed = [](const glm::dvec3& middleWS, double halfDepth) {
+        return glm::translate(glm::dmat4(1.0), middleWS) * glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, halfDepth, 1.0));
+    };
+    scene.nodes[1].parentFromNode = placed({0.0, -0.5, kLowMetres}, 0.5);
+    scene.nodes.push_back(scene.nodes[1]);
+    scene.nodes[2].parentFromNode = placed({0.0, kHighEdge + 0.3, kHighMetres}, 0.3);
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {256, 256};
+    settings.view = frame::DebugView::Shadow;
+    settings.shadowFilter = frame::ShadowFilter::Pcss;
+    settings.shadowSamples = 64;
+    settings.shadowMaps.resolutionTexels = 2048;
+    settings.shadowMaps.cascades = 1;
+    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    const double halfWidth = kTangent * kLowMetres * std::sqrt(2.0);
+    double squares = 0.0;
+    int count = 0;
+    for (std::size_t y = 0; y < 256; ++y) {
+        for (std::size_t x = 0; x < 256; ++x) {
+            const glm::dvec2 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0);
+            const double beside = placeWS.y / halfWidth;
+            if (std::abs(placeWS.x) > 0.3 || beside < 0.1 || beside > 1.0) continue;
+            const double share =
+                1.0 - (std::acos(beside) - beside * std::sqrt(1.0 - beside * beside)) / std::numbers::pi;
+            const double error = double(seen[4 * (256 * y + x)]) - share;
+            squares += error * error;
+            ++count;
+        }
+    }
+    const double error = std::sqrt(squares / count);
+    fmt::print("RMS {:.4f} of {} pixels\n", error, count);
+    EXPECT_GT(count, 200);
+    EXPECT_LT(error, 0.03);
+}
+
 } // namespace
 } // namespace tessera

@@ -151,6 +151,41 @@ TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
     }
 }
 
+// Noise of independent lights averages out in their sum. A coefficient of N pairs that have nothing to do with each
+// other strays by 1/sqrt(N).
+TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
+    scenes::Scene scene = truthScene();
+    aimAt(scene, TruthLight::Lamp);
+    scene.lights.push_back(scene.lights[std::size_t(TruthLight::Lamp)]);
+    engine::Renderer renderer(context(), scene);
+    for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Pcss}) {
+        std::vector<double> errors[2];
+        for (const bool isSecond : {false, true}) {
+            frame::FrameSettings settings;
+            settings.shadowFilter = filter;
+            settings.sizePixels = {160, 90};
+            settings.view = frame::DebugView::Shadow;
+            settings.soloLight = isSecond ? 2 : int(TruthLight::Lamp);
+            settings.shadowSamples = 4;
+            const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+            const auto seenAt = [&](int x, int y) {
+                return double(frame.radiance[4 * (std::size_t(y) * 160 + std::size_t(x))]);
+            };
+            for (const auto& [seen, truth] : sharesOf(scene, TruthLight::Lamp, settings.sizePixels, seenAt))
+                if (truth > 0.1 && truth < 0.9) errors[isSecond].push_back(seen - truth);
+        }
+        double products = 0.0, squares[2] = {0.0, 0.0};
+        for (std::size_t i = 0; i < errors[0].size(); ++i) {
+            products += errors[0][i] * errors[1][i];
+            for (const int light : {0, 1}) squares[light] += errors[light][i] * errors[light][i];
+        }
+        const double coefficient = products / std::sqrt(squares[0] * squares[1]);
+        fmt::print("{}: coefficient {:.4f} of {} pixels\n", infoOf(filter).name, coefficient, errors[0].size());
+        EXPECT_GT(errors[0].size(), 500u);
+        EXPECT_LT(std::abs(coefficient), 5.0 / std::sqrt(double(errors[0].size()))) << infoOf(filter).name;
+    }
+}
+
 TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
     scenes::Scene scene = truthScene();
     aimAt(scene, TruthLight::Lamp);

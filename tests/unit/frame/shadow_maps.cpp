@@ -1,8 +1,12 @@
 #include "renderer/frame/ShadowMaps.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "renderer/frame/LightBuffer.h"
+#include "renderer/frame/ShadowCameras.h"
 #include "scenes/Load.h"
 #include "scenes/LookAt.h"
 #include "tests/support/TestScenes.h"
@@ -261,6 +265,31 @@ TEST_F(MapsTest, cascadesHoldAllThatIsSeen) {
         const glm::dvec4 clip = last.clipFromLS * glm::dvec4(last.positionLS(middle), 1.0);
         EXPECT_LT(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w);
     }
+}
+
+// A cascade's middle lies on a grid of whole texels, up to one beside the ball's. Taps at any point of the ball still
+// find their texels inside. A radius of 1 m is one of the steps of cascades, so that nothing else leaves room.
+TEST_F(MapsTest, aCascadeHoldsItsBallAndTheTapsAroundItWhereverTheBallLies) {
+    const scenes::Scene scene = latticeOf(1);
+    const CameraView far =
+        makeCameraView(scene.cameras[0], settings.sizePixels, settings.space, glm::vec3(0.0f), surfaceBounds(scene));
+    const glm::dvec3 aheadWS = far.eyeWS + 20.0 * (glm::transpose(far.lsFromWorld) * far.forwardLS);
+    constexpr int kFaceTexels = 128, kBorderTexels = 3;
+    double least = kFaceTexels;
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 directionWS = glm::normalize(glm::dvec3(std::sin(1.7 * i), -1.0, std::cos(2.3 * i)));
+        const Ball ball{aheadWS + glm::dvec3(0.37 * std::sin(5.1 * i), 0.31 * std::cos(3.7 * i), 0.0), 1.0};
+        const scenes::Camera camera =
+            cascadeCameras(directionWS, 1, ball, far, settings.sizePixels, 0.1, kFaceTexels, kBorderTexels)[0];
+        const double texelMetres = 2.0 * camera.halfHeightMetres / kFaceTexels;
+        const glm::dvec3 asideWS = ball.centreWS - glm::dvec3(camera.worldFromCamera[3]);
+        for (const int axis : {0, 1}) {
+            const double farthest = std::abs(glm::dot(asideWS, glm::dvec3(camera.worldFromCamera[axis]))) + 1.0;
+            least = std::min(least, (camera.halfHeightMetres - farthest) / texelMetres);
+        }
+    }
+    EXPECT_GE(least, kBorderTexels - 1e-6);
+    EXPECT_LT(least, kBorderTexels + 0.1) << "no ball lay a texel aside";
 }
 
 } // namespace
