@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -65,6 +66,26 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
                        settingOf("shadowBudget").flag);
 }
 
+/// A penumbra in a map reaches as far as an eighth of its side, a third of the radius of the ball that the map is made
+/// for. At this angular radius that is the penumbra of a caster 0.58 of the radius away.
+constexpr double kWidestPcssRadians = std::numbers::pi / 6.0;
+
+/// Of lights that are too wide for their penumbrae to be found in maps; empty: none is.
+std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedView& prepared) {
+    const frame::ShadowFilterInfo& filter = infoOf(prepared.spec.settings.shadowFilter);
+    if (!filter.usesMaps || !filter.heedsSizes) return "";
+    for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) {
+        const scenes::Light& light = scene.lights[std::size_t(prepared.lights.sceneIndex[i])];
+        if (light.type != scenes::LightType::Directional || double(light.angularRadiusRadians) <= kWidestPcssRadians)
+            continue;
+        return fmt::format("{} finds no penumbra as wide as that of a sun of {:.3g} degrees, which looks too bright; "
+                           "give {} traced, or no more than {:.3g} degrees",
+                           filter.name, glm::degrees(double(light.angularRadiusRadians)),
+                           settingOf("shadowFilter").flag, glm::degrees(kWidestPcssRadians));
+    }
+    return "";
+}
+
 /// What is said of an object that light spreads over, which has lights and maps of its own.
 std::string ofObject(const frame::SpreadingObject& object, const std::string& said) {
     return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
@@ -91,7 +112,7 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                 ofObject(prepared.spreadingObjects[i], shadowsLostByRounding(bounds, prepared.spreadingViews[i]));
             !lost.empty())
             return lost;
-    return "";
+    return penumbraeTooWide(scene, prepared);
 }
 
 std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared) {

@@ -186,6 +186,26 @@ TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
     }
 }
 
+// A penumbra reaches an eighth of a map's side at most. At 30 degrees that is the one of a caster 0.58 of the radius
+// away of the ball that the map is made for.
+TEST_F(SoftShadows, ofSunsThatPcssIsTooNarrowForAreTold) {
+    scenes::Scene scene = truthScene();
+    frame::FrameSettings settings;
+    settings.sizePixels = {32, 18};
+    settings.shadowSamples = 1;
+    for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard, frame::ShadowFilter::Pcss}) {
+        for (const double degrees : {29.0, 31.0, 80.0}) {
+            scene.lights[std::size_t(TruthLight::Sun)].angularRadiusRadians = float(glm::radians(degrees));
+            engine::Renderer renderer(context(), scene);
+            settings.shadowFilter = filter;
+            renderer.render(Technique::Deferred, settings);
+            const std::string& said = renderer.shadows().missing;
+            const bool isTold = filter == frame::ShadowFilter::Pcss && degrees > 30.0;
+            EXPECT_EQ(said.find("give --shadow-filter traced") != std::string::npos, isTold) << degrees << said;
+        }
+    }
+}
+
 TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
     scenes::Scene scene = truthScene();
     aimAt(scene, TruthLight::Lamp);
