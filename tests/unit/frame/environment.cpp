@@ -19,8 +19,8 @@ namespace {
 using std::numbers::pi;
 using test::greyMap;
 
-/// Mean radiance over all directions.
-double meanOf(const DividedOctahedron& level) {
+/// Mean radiance of a channel over all directions.
+double meanOf(const DividedOctahedron& level, int channel = 0) {
     double sum = 0.0, weights = 0.0;
     const auto cells = [&](int at) {
         return at == 0 || at == level.side ? 0.5 : 1.0;
@@ -31,7 +31,7 @@ double meanOf(const DividedOctahedron& level) {
             const glm::dvec3 direction = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
             const double inverse = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
             const double weight = cells(x) * cells(y) * 4.0 / (level.side * level.side) * std::pow(inverse, 3.0);
-            sum += weight * double(level.at(x, y).x);
+            sum += weight * double(level.at(x, y)[channel]);
             weights += weight;
         }
     EXPECT_NEAR(weights, 4.0 * pi, 0.01 * 4.0 * pi);
@@ -130,6 +130,33 @@ TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
     }
 }
 
+/// Interpolation takes a bright texel's light to its neighbours, which are sampled as densely as that says: by the mean
+/// of the interpolated radiance over each texel, which a sum over 16 x 16 places finds too.
+TEST(EnvironmentMap, texelsAreSampledByTheLightThatIsInterpolatedInThem) {
+    const scenes::Image picture = greyMap(16, 8, [](int x, int y) { return x == 5 && y == 3 ? 10.0 : 0.0; });
+    std::vector<double> summed;
+    const LatitudeMap map = environmentTexels(picture, summed);
+    const LatitudeMap plain = latitudeMapOf(picture);
+    double all = 0.0;
+    std::vector<double> means;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x) {
+            double mean = 0.0;
+            for (int i = 0; i < 256; ++i) {
+                const glm::dvec2 share = (glm::dvec2(i % 16, i / 16) + 0.5) / 16.0;
+                mean += plain.radiance(scenes::directionInMap((glm::dvec2(x, y) + share) / glm::dvec2(16.0, 8.0))).g /
+                        256.0;
+            }
+            means.push_back(mean);
+            all += mean * plain.solidAngle(y);
+        }
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const double wanted = means[std::size_t(16 * y + x)] / all;
+            EXPECT_NEAR(double(map.at(x, y).a), wanted, 2e-3 * wanted) << x << ", " << y;
+        }
+}
+
 TEST(EnvironmentFilter, evenLightStaysEvenAndIrradianceIsPiOfIt) {
     const FilteredEnvironment filtered = filterEnvironment(greyMap(64, 32, [](int, int) { return 2.0; }));
     for (const DividedOctahedron& level : filtered.levels)
@@ -169,6 +196,24 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
         const double alpha = alphaOfLevel(i);
         const double most = 1.6 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& corner : level.corners) ASSERT_LE(double(corner.x), most) << i;
+    }
+}
+
+/// Wherever it stands among the octahedron's texels: one look a texel would find up to a fifth more or less. A texel a
+/// channel.
+TEST(EnvironmentFilter, theLightOfABrightTexelDoesNotHangOnItsPlace) {
+    const glm::ivec2 places[] = {{57, 31}, {130, 80}, {171, 52}};
+    const scenes::Image map = scenes::builtin::drawRadiance("three", 256, 128, [&](int x, int y) {
+        glm::dvec3 radiance(0.0);
+        for (int c = 0; c < 3; ++c) radiance[c] = glm::ivec2(x, y) == places[c] ? 1e4 : 0.0;
+        return radiance;
+    });
+    const FilteredEnvironment filtered = filterEnvironment(map);
+    for (int c = 0; c < 3; ++c) {
+        const double top = pi * places[c].y / 128.0, bottom = pi * (places[c].y + 1) / 128.0;
+        const double light = 1e4 * 2.0 * pi / 256.0 * (std::cos(top) - std::cos(bottom)) / (4.0 * pi);
+        for (const std::size_t level : {5u, 7u}) // wide enough to be summed up by corners
+            EXPECT_NEAR(meanOf(filtered.levels[level], c), light, 0.02 * light) << "texel " << c << ", level " << level;
     }
 }
 

@@ -66,6 +66,29 @@ TEST(EnvironmentLevels, flattenALinearSlopeOfLightByTheMeanCosineOfTheirLobe) {
     expectSlope(filtered.irradiance, std::numbers::pi, 2.0 / 3.0, 1e-3);
 }
 
+/// Maps of few texels are filtered to smaller pictures, by as many samples as the places of those need.
+TEST(EnvironmentLevels, ofSmallMapsFlattenASlopeAsWell) {
+    constexpr double kSlope = 0.2, kError = 2.5e-3; // as above, and 5e-4 of interpolation between the map's texels
+    constexpr int kMapWidth = 64, kMapHeight = 32;
+    const scenes::Image map = scenes::builtin::drawRadiance("slopes", kMapWidth, kMapHeight, [&](int x, int y) {
+        return 1.0 + kSlope * scenes::directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
+    });
+    const FilteredEnvironment filtered = filterEnvironment(map);
+    ASSERT_EQ(filtered.levels.size(), std::size_t(ENVIRONMENT_LEVELS));
+    for (std::size_t i = 0; i < filtered.levels.size(); ++i) {
+        const double alpha = std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(i) / (ENVIRONMENT_LEVELS - 1.0));
+        const double steepness = kSlope * meanCosineOfLevel(alpha);
+        const DividedOctahedron& level = filtered.levels[i];
+        for (int y = 0; y <= level.side; ++y)
+            for (int x = 0; x <= level.side; ++x) {
+                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
+                for (int axis = 0; axis < 3; ++axis)
+                    ASSERT_NEAR(double(level.at(x, y)[axis]), 1.0 + steepness * n[axis], kError)
+                        << "level " << i << ", axis " << axis << ", cosine to it " << n[axis];
+            }
+    }
+}
+
 /// Legendre's polynomial of order 8.
 double eighthHarmonic(double c) {
     const double s = c * c;

@@ -7,7 +7,9 @@
 
 #include "renderer/frame/LobeTable.h"
 #include "shaders/shared/lobe_table.h"
+#include "tests/image/Textbook.h"
 #include "tests/support/Sweep.h"
+#include "validation/reference/Lobes.h"
 
 namespace tessera::frame {
 namespace {
@@ -188,6 +190,51 @@ TEST(LobeTable, holdsThePublishedSplitSum) {
             EXPECT_NEAR(lobe.x - lobe.y, kA[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
             EXPECT_NEAR(lobe.y, kB[r][m], 1e-3) << kRoughness[r] << ", " << kCosines[m];
         }
+}
+
+/// Under even light a sheen reflects its directional albedo E, and what lies below loses the larger of E at the light
+/// and E at the viewer (KHR_materials_sheen, "Albedo-scaling technique"): on the mean over the light 2 max(E, E') c dc.
+TEST(LobeTable, holdsWhatASheenReflectsAndOnTheMeanTakesFromBelow) {
+    constexpr int kSteps = 2000;
+    const std::vector<glm::vec4>& table = lobeTable();
+    for (const double alpha : {0.16, 0.5, 1.0})
+        for (const double cosine : {0.04, 0.2, 0.5, 1.0}) {
+            const glm::vec4 found = interpolatedAt(table, glm::sqrt(glm::dvec2(cosine, alpha)), LOBE_LAYER_SHEEN);
+            const double reflected = test::textbook::sheenEnergy(alpha, cosine);
+            EXPECT_NEAR(found.x, reflected, 0.02 * reflected) << alpha << ", " << cosine;
+            double taken = 0.0;
+            for (int i = 0; i < kSteps; ++i) {
+                const double cosLight = (i + 0.5) / kSteps;
+                taken += std::max(reference::sheenAlbedo(alpha, cosLight), reference::sheenAlbedo(alpha, cosine)) *
+                         2.0 * cosLight / kSteps;
+            }
+            EXPECT_NEAR(found.y, taken, 2e-3) << alpha << ", " << cosine;
+        }
+}
+
+/// (1 - v.h)^5 on the mean over lights by their cosine: straight from above v.h is the cosine of half the light's angle
+/// x, and the mean of sin 2x (1 - cos x/2)^5 from 0 to pi/2 is 2 (1 - u)^5 (2 u^2 - 1) 4 u du from sqrt(1/2) to 1 of
+/// u = cos x/2. Elsewhere by polar angles.
+TEST(LobeTable, holdsTheMeanOfSchlicksFactorOverLightFromEverywhere) {
+    constexpr int kSteps = 400;
+    double straight = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double u = std::lerp(std::sqrt(0.5), 1.0, (i + 0.5) / kSteps);
+        straight += 8.0 * std::pow(1.0 - u, 5.0) * (2.0 * u * u - 1.0) * u * (1.0 - std::sqrt(0.5)) / kSteps;
+    }
+    EXPECT_NEAR(lookedUp(lobeTable(), 1.0, 0.5).w, straight, 2e-6); // of 8e-5
+    for (const double cosine : {0.04, 0.3, 0.7}) {
+        const double sine = std::sqrt(1.0 - cosine * cosine);
+        double mean = 0.0;
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j) {
+                const double away = 0.5 * pi * (i + 0.5) / kSteps, turn = pi * (j + 0.5) / kSteps;
+                const double ofBoth = std::cos(away) * cosine + std::sin(away) * std::cos(turn) * sine;
+                mean += std::pow(1.0 - std::sqrt(0.5 * (1.0 + ofBoth)), 5.0) * std::sin(2.0 * away) * 0.5 * pi /
+                        (kSteps * kSteps);
+            }
+        EXPECT_NEAR(lookedUp(lobeTable(), cosine, 0.5).w, mean, 0.01 * mean) << cosine;
+    }
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "renderer/frame/UvAtlas.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -142,6 +143,37 @@ TEST(UvAtlas, aMeshThatLightCannotSpreadOverIsRefusedWithAReason) {
             {glm::vec2(0.25f, 0.25f), {0.75f, 0.25f}, {0.75f, 0.75f}, {0.25f, 0.75f}});
     EXPECT_EQ(unwrapProblem(mirrored),
               "several of its triangles lie in 100 % of its texture; unwrap it so that none overlap");
+}
+
+/// Charts that two hundredths of the texels share are refused, those that share half a hundredth are not.
+TEST(UvAtlas, aHundredthOfItsTexelsMayOverlap) {
+    const auto halves = [](float overlap) {
+        Mesh mesh = square();
+        mesh.texCoords[0] = {{0, 0}, {0.5f + overlap, 0}, {0.5f + overlap, 1}, {0, 1}};
+        addQuad(mesh, {glm::vec3(5, 0, 0), {7, 0, 0}, {7, 1, 0}, {5, 1, 0}},
+                {glm::vec2(0.5f, 0), {1, 0}, {1, 1}, {0.5f, 1}});
+        return mesh;
+    };
+    EXPECT_EQ(unwrapProblem(halves(0.005f)), "");
+    EXPECT_EQ(unwrapProblem(halves(0.02f)),
+              "several of its triangles lie in 2 % of its texture; unwrap it so that none overlap");
+}
+
+/// Exporters round the coordinates of both sides of an edge on their own: strips that reach into each other by their
+/// last digit alone, along the middles of a quarter of all texels, do not overlap. By a texel they do.
+TEST(UvAtlas, stripsThatMeetToTheLastDigitDoNotOverlap) {
+    const auto strips = [](float further) {
+        Mesh mesh;
+        for (int i = 0; i < 40; ++i) {
+            const float left = (4.0f * float(i) + 0.5f) / 1024.0f, right = left + 4.0f / 1024.0f;
+            const float u0 = std::nextafter(left, 0.0f) - further, u1 = std::nextafter(right, 1.0f) + further;
+            addQuad(mesh, {glm::vec3(left, 0, 0), {right, 0, 0}, {right, 1, 0}, {left, 1, 0}},
+                    {glm::vec2(std::max(u0, 0.0f), 0), {u1, 0}, {u1, 1}, {std::max(u0, 0.0f), 1}});
+        }
+        return mesh;
+    };
+    EXPECT_EQ(unwrapProblem(strips(0.0f)), "");
+    EXPECT_NE(unwrapProblem(strips(0.5f / 1024.0f)), "");
 }
 
 TEST(UvAtlas, trianglesWithoutAreaAndAnAtlasOfOneTexelHarmNothing) {

@@ -84,6 +84,23 @@ TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
                 HasSubstr("has 2 elements, but 2 keys of scale need 6"));
 }
 
+/// A key of CUBICSPLINE is a tangent, a value and a tangent; tangents of zero are those of a curve that rests there.
+TEST(GltfAnimation, ofACubicKeyTheValueAloneMustBeARotation) {
+    const auto with = [](const std::vector<float>& values) {
+        Builder builder = movingTriangle();
+        builder.json["animations"] = Json::array();
+        const int output = builder.add(values, kFloatType, "VEC4", 6);
+        addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "rotation"}}, "CUBICSPLINE");
+        return builder;
+    };
+    std::vector<float> values(24, 0.0f);
+    values[4 + 3] = values[16 + 3] = 1.0f;
+    EXPECT_NO_THROW(with(values).import());
+    values[16 + 3] = 0.0f;
+    values[12] = 1.0f; // the tangent into it
+    EXPECT_THAT(with(values).error(), HasSubstr("has the zero quaternion at key 1"));
+}
+
 TEST(GltfAnimation, aHundredThousandKeysOfAFileAreFollowed) {
     constexpr std::size_t kKeys = 100'000;
     Builder builder;

@@ -114,6 +114,32 @@ TEST_F(ReferenceNormalOfHit, isBentWhereSomebodyLooks) {
     EXPECT_LT(glm::distance(found.unseen, glm::dvec3(0.8, 0.0, -0.6)), kStoredNormal);
 }
 
+/// u runs along x and v against y, so that the texel's own axes are those of the world.
+TEST_F(ReferenceNormalOfHit, ofEachMapLeansByItsOwnScale) {
+    const glm::vec3 texel(0.3f, -0.2f, 0.8f);
+    scene_.meshes[0].texCoords[0] = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, -1.0f}};
+    scenes::Image& image = scene_.images.emplace_back();
+    image.name = "texel";
+    image.width = image.height = 1;
+    image.format = scenes::TexelFormat::Rgba32Float;
+    const glm::vec4 stored(0.5f * texel + 0.5f, 1.0f);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&stored);
+    image.texels.assign(bytes, bytes + sizeof(stored));
+    scenes::Material& material = scene_.materials[0];
+    material.model = scenes::MaterialModel::MetallicRoughness;
+    material.clearcoat = 1.0f;
+    material.normalScale = 0.5f;
+    material.clearcoatNormalScale = 2.0f;
+    for (const auto slot : {scenes::TextureSlot::Normal, scenes::TextureSlot::ClearcoatNormal})
+        material.texture(slot).image = 0;
+    seenFrom(1.0);
+    const auto leaning = [&](double scale) {
+        return glm::normalize(glm::dvec3(texel) * glm::dvec3(scale, scale, 1.0));
+    };
+    EXPECT_LT(glm::distance(normals().seen, leaning(0.5)), kStoredNormal);
+    EXPECT_LT(glm::distance(normals().coat, leaning(2.0)), kStoredNormal);
+}
+
 TEST_F(ReferenceNormalOfHit, isTurnedToTheSideThatIsSeenBefore) {
     scene_.materials[0].doubleSided = true;
     seenFrom(-1.0);

@@ -130,6 +130,33 @@ TEST(ReferenceReflectance, aSheenEqualsTheTextbooksAndDarkensTheBaseNearlyAsMuch
     }
 }
 
+/// Whatever comes out below a coat, it lets 1 - coat (0.04 + 0.96 (1 - n.v)^5) of it pass: light of a body from behind,
+/// light that has spread, and what the surface emits.
+TEST(ReferenceReflectance, aCoatDimsAllThatLeavesBelowIt) {
+    constexpr double kCoat = 0.7, kCosine = 0.3;
+    const glm::dvec3 n(0.0, 0.0, 1.0), v(std::sqrt(1.0 - kCosine * kCosine), 0.0, kCosine), behind(0.6, 0.0, -0.8);
+    Material material;
+    material.model = MaterialModel::MetallicRoughness;
+    material.baseColor = {0.8f, 0.5f, 0.3f, 1.0f};
+    material.metallic = 0.2f;
+    SurfacePoint bare = pointOf(material, n);
+    bare.passes = true;
+    bare.emission = {0.3, 0.2, 0.1};
+    SurfacePoint coated = bare;
+    coated.coat = kCoat;
+    coated.coatNormal = n;
+    const double left = 1.0 - kCoat * (0.04 + 0.96 * std::pow(1.0 - kCosine, 5.0));
+    const auto expectDimmed = [&](const char* what, const auto& of) {
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GT(of(bare)[c], 0.01) << what;
+            EXPECT_NEAR(of(coated)[c], left * of(bare)[c], 1e-12) << what;
+        }
+    };
+    expectDimmed("from behind", [&](const SurfacePoint& point) { return passedOn(point, behind, v); });
+    expectDimmed("spread", [&](const SurfacePoint& point) { return leaving(point, v, 0.5); });
+    expectDimmed("emitted", [&](const SurfacePoint& point) { return emitted(point, v); });
+}
+
 TEST(ReferenceReflectance, wrappedLightIsTheTextbooks) {
     test::Random random(23);
     for (const MaterialModel model : kLit) {

@@ -260,5 +260,25 @@ TEST_F(ReferencePictureOfALight, whereRoundingDecidesBothAreAllowed) {
     EXPECT_TRUE(render(scene_, settings_).alternatives[0].empty());
 }
 
+/// A tenth of a pixel beside the outline, and a millimetre before a surface 5 m away, nothing is left open.
+TEST_F(ReferencePictureOfALight, whereRoundingDoesNotDecideOneAloneIsAllowed) {
+    scenes::Light& light = scene_.lights[0];
+    light.type = LightType::Rectangle;
+    const double pixelMetres = 2.0 * 5.0 * std::tan(0.5 * settings_.camera.fovYRadians) * 3.0 / 5.0; // at z = 2
+    const double edgeX = 0.5 - 0.5 * double(light.widthMetres);
+    for (const double side : {1.0, -1.0}) {
+        light.positionWS = {edgeX + side * 0.1 * pixelMetres, 1.0, 2.0};
+        const Rendered rendered = render(scene_, settings_);
+        EXPECT_EQ(rendered.radiance[0], glm::dvec3(side > 0.0 ? 4.0 : 1.0));
+        EXPECT_TRUE(rendered.alternatives[0].empty());
+    }
+    for (const double metres : {1e-3, -1e-3}) {
+        light.positionWS = {0.5, 1.0, metres};
+        const Rendered rendered = render(scene_, settings_);
+        EXPECT_EQ(rendered.radiance[0], glm::dvec3(metres > 0.0 ? 4.0 : 1.0));
+        EXPECT_TRUE(rendered.alternatives[0].empty());
+    }
+}
+
 } // namespace
 } // namespace tessera::reference

@@ -58,6 +58,23 @@ TEST(ReferenceSurroundings, theMeanAroundADirectionIsThatOfItsLobe) {
     EXPECT_EQ(surroundings.around(direction, kSmallestAlpha, 0), surroundings.radianceOf(direction)) << "a clear body";
 }
 
+/// Of even light a white matte surface reflects pi times its radiance (its model has no 1/pi), of which occlusion leaves
+/// the share that its texture says.
+TEST(ReferenceSurroundings, occlusionLeavesItsShareOfTheirLight) {
+    const scenes::Scene scene = underASlope(0.0);
+    Settings settings;
+    settings.environmentPaths = 1024;
+    const Surroundings surroundings(scene, settings);
+    SurfacePoint point;
+    point.color = glm::dvec3(1.0);
+    point.normal = {0.0, 1.0, 0.0};
+    for (const double share : {1.0, 0.25, 0.0}) {
+        point.openness = share;
+        const Estimate found = surroundings.on(point, {0.0, 1.0, 0.0}, true, false, 0, settings.environmentPaths);
+        EXPECT_NEAR(found.light.g, share * std::numbers::pi, 0.02);
+    }
+}
+
 TEST(ReferenceSurroundings, bodiesShowThemWhereTheyLightSurfaces) {
     const scenes::Scene scene = underASlope(0.0);
     Settings settings;
