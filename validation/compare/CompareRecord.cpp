@@ -38,14 +38,23 @@ Json reasons(const Json& record, const ErrorFigures& figures) {
     return why;
 }
 
-bool isJudged(const Tolerance& tolerance) {
-    return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
-}
-
 Json shadowJson(const ShadowFigures& figures) {
     return {{"undecided", figures.undecided}, {"noisyPixels", figures.noisyPixels}, {"noise", figures.noise},
             {"mostNoise", figures.mostNoise}, {"ofReference", figures.ofReference}, {"bias", figures.bias},
             {"biasNoise", figures.biasNoise}};
+}
+
+bool isJudged(const Tolerance& tolerance) {
+    return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
+}
+
+/// Whether the pair is held to something: to figures, or to what no picture may miss and this one does.
+bool isHeld(const ComparePair& pair) {
+    return isJudged(pair.tolerance) || !pair.verdict.ok;
+}
+
+std::string notJudgedText(const ComparePair& pair) {
+    return "not judged: " + (pair.tolerance.reason.empty() ? "no tolerance is set" : pair.tolerance.reason);
 }
 
 Json pairJson(const ComparePair& pair) {
@@ -72,12 +81,10 @@ Json pairJson(const ComparePair& pair) {
                  {"litCovered", figureJson(figures.litCoveredShare())},
                  {"meanLuminance", figureJson(figures.meanLuminance)}};
     Json why = reasons(json, figures);
+    if (!isHeld(pair)) why["ok"] = notJudgedText(pair);
     if (pair.culling.empty()) why["culling"] = "every light is visited, or the picture came from elsewhere";
     json["tolerance"] = toleranceJson(pair.tolerance);
-    // What nothing is asked of is neither good nor bad.
-    const bool hasVerdict = isJudged(pair.tolerance) || !pair.verdict.ok;
-    json["ok"] = hasVerdict ? Json(pair.verdict.ok) : Json(nullptr);
-    if (!hasVerdict) why["ok"] = pair.tolerance.reason.empty() ? "nothing is asked of it" : pair.tolerance.reason;
+    json["ok"] = isHeld(pair) ? Json(pair.verdict.ok) : Json(nullptr);
     json["missed"] = pair.verdict.missed;
     json["culling"] = pair.culling.empty() ? Json(nullptr) : Json(pair.culling);
     if (pair.shadows) json["shadows"] = shadowJson(*pair.shadows);
@@ -131,9 +138,9 @@ Row rowOf(const ComparePair& pair) {
             figureText(figures.flip.value_or(std::nan(""))),
             psnrText(figures),
             shareText(figures.litCoveredShare()),
-            !pair.verdict.ok           ? "MISSED"
-            : isJudged(pair.tolerance) ? "ok"
-                                       : "not judged"};
+            !pair.verdict.ok ? "MISSED"
+            : isHeld(pair)   ? "ok"
+                             : "not judged"};
 }
 
 } // namespace
@@ -206,7 +213,7 @@ std::string compareTable(const CompareRecord& record) {
             record.spreadLight->pixels, record.spreadLight->integral, shareText(record.spreadLight->facingAway));
     for (const LostGeometry& lost : record.lost) text += "geometry: " + lostText(lost) + "\n";
     for (const ComparePair& pair : record.pairs)
-        if (!isJudged(pair.tolerance) && pair.verdict.ok && !pair.tolerance.reason.empty())
+        if (!isHeld(pair) && !pair.tolerance.reason.empty())
             text += fmt::format("not judged: {} vs {}: {}\n", pair.a, pair.b, pair.tolerance.reason);
     for (const ComparePair& pair : record.pairs)
         for (const std::string& missed : pair.verdict.missed)

@@ -63,7 +63,7 @@ struct CompareRecord {
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
     std::optional<SpreadLight> spreadLight = {};         ///< against the reference, where light spreads
 
-    /// There is a pair, and each holds.
+    /// There is a pair, and none misses anything. One that is not judged does not.
     bool ok() const;
 };
 
@@ -75,7 +75,8 @@ ComparePair comparePair(std::string nameA, const Picture& a, std::string nameB, 
 void missLostGeometry(Verdict& verdict, std::span<const LostGeometry> lost);
 
 /// The record as JSON, schema 1, indented and ending in a newline. Figures that could not be measured or are infinite
-/// are null, with the reason under `why`; `missed` names in words the tolerances that a pair missed.
+/// are null, with the reason under `why`, and so is `ok` of a pair that is not judged; `missed` names in words the
+/// tolerances that a pair missed.
 std::string compareJson(const CompareRecord& record);
 
 /// The record for a terminal: a table of ASCII characters, then what was missed and what was dropped, each line ending

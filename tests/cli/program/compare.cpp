@@ -195,6 +195,12 @@ TEST_F(Compare, shadowsOfMapsAreNotJudgedByTheReferenceAndThatIsSaid) {
     const ProcessResult result = run(words);
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_THAT(result.out, testing::HasSubstr("not judged: forward"));
+    Words recorded = words;
+    recorded.insert(recorded.end(), {"--json", "c.json"});
+    EXPECT_EQ(run(recorded).exitCode, 0) << "nothing is missed";
+    const Json pair = json("c.json")["pairs"][0];
+    EXPECT_TRUE(pair["ok"].is_null()) << "what is not judged is not ok";
+    EXPECT_THAT(pair["why"]["ok"].get<std::string>(), testing::HasSubstr("not judged: shadow maps"));
     // Lost ones are warned of.
     Words few = words;
     few.insert(few.end(), {"--shadow-budget", "0.001"});
