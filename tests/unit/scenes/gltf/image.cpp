@@ -86,7 +86,8 @@ TEST(Image, colorsOfWebpAreNotMultipliedByAlpha) {
     const Texels8 rgba{255, 188, 0, 128, 255, 188, 0, 1, 255, 188, 0, 255, 10, 20, 200, 77};
     std::uint8_t* file = nullptr;
     const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), 2, 2, 8, &file);
-    const Bytes bytes(file, file + size);
+    const std::span stored = std::as_bytes(std::span(file, size));
+    const Bytes bytes(stored.begin(), stored.end());
     WebPFree(file);
     EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytes, "leaf.webp")), rgba);
 }
