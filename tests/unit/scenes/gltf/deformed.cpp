@@ -53,6 +53,19 @@ TEST(GltfSkins, inverseBindMatricesComeFirst) {
     EXPECT_THAT(builder.error(), HasSubstr("accessor 3 must be of MAT4"));
 }
 
+/// The fourth row is 0 0 0 1 by the specification, and whatever a file has in its place moves nothing.
+TEST(GltfSkins, theLastRowOfAnInverseBindMatrixIsNotRead) {
+    Builder builder = skinnedTriangle();
+    std::vector<float> matrices(32, 0.0f);
+    for (std::size_t i : {0u, 5u, 10u, 16u, 21u, 26u}) matrices[i] = 1.0f;
+    for (std::size_t i : {3u, 7u, 11u, 15u, 19u, 23u, 27u, 31u}) matrices[i] = 0.25f;
+    matrices[16 + 12] = -1.0f;
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloatType, "MAT4", 2);
+    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
+    for (const glm::dmat4& matrix : builder.import().rig.skins[0].jointFromBind)
+        EXPECT_EQ(glm::transpose(matrix)[3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
+}
+
 TEST(GltfSkins, aVertexMayFollowEightJoints) {
     Builder builder = skinnedTriangle();
     Json& attributes = builder.primitive()["attributes"];
