@@ -58,8 +58,8 @@ TEST(ReferenceSurroundings, theMeanAroundADirectionIsThatOfItsLobe) {
     EXPECT_EQ(surroundings.around(direction, kSmallestAlpha, 0), surroundings.radianceOf(direction)) << "a clear body";
 }
 
-/// Of even light a white matte surface reflects pi times its radiance (its model has no 1/pi), of which occlusion leaves
-/// the share that its texture says.
+/// Of even light a white matte surface reflects pi times its radiance (its model has no 1/pi), of which occlusion
+/// leaves the share that its texture says.
 TEST(ReferenceSurroundings, occlusionLeavesItsShareOfTheirLight) {
     const scenes::Scene scene = underASlope(0.0);
     Settings settings;
