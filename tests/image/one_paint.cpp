@@ -72,5 +72,58 @@ TEST_F(OnePaint, aBallIsAsBrightInACoarseLayoutAsInFp32) {
     }
 }
 
+/// Radiance goes at most with 1/alpha^2, in the peak, or with alpha^2, far from it; so half a step of alpha changes it
+/// by a step, relative to alpha. A normal of 15 bits adds what it turns a highlight by, up to 1.5/alpha a radian.
+TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanHalfAStepOff) {
+    for (const float alpha : {0.0300f, 0.0551f, 0.0800f}) {
+        scenes::Material polished;
+        polished.model = scenes::MaterialModel::Microfacet;
+        polished.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+        polished.alpha = alpha;
+        polished.ior = 1.5f; // which fields hold exactly
+        const scenes::Scene scene = ballOf(polished);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = {120, 120};
+        const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
+        settings.layout = frame::layoutTable()[1].layout;
+        const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
+        const validation::RadianceFigures figures = validation::radianceFigures(coarse, exact);
+        const double step = 4.0 * (1.0 - std::pow(1e-3, 0.25)) / 511.0 / std::pow(double(alpha), 0.25);
+        const double turned = 1.5 / double(alpha) * 2.0 / 32767.0;
+        fmt::print("alpha {}: max {:.2e}, p99 {:.2e}, a step is {:.2e}, turned {:.2e}\n", alpha, figures.maxRel,
+                   figures.p99Rel, step, turned);
+        EXPECT_LE(figures.p99Rel, step + turned); // a few pixels at the terminator are off by their normals
+        EXPECT_GT(figures.p99Rel, 0.0);
+    }
+}
+
+/// A streak covers much of the ball, so its steps are not few pixels' as a round highlight's are.
+TEST_F(OnePaint, aStreakOnABallKeepsThePromiseOfEveryCoarseLayout) {
+    for (const auto& [along, across] : {std::pair(0.5f, 0.02f), std::pair(0.5f, 0.08f), std::pair(0.16f, 0.5f)}) {
+        scenes::Material brushed;
+        brushed.model = scenes::MaterialModel::MicrofacetAnisotropic;
+        brushed.baseColor = {0.0f, 0.0f, 0.0f, 1.0f}; // all of the picture is highlight
+        brushed.alpha = along;
+        brushed.alphaY = across;
+        brushed.ior = 2.5f;
+        const scenes::Scene scene = ballOf(brushed);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = {120, 120};
+        const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
+        for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
+            settings.layout = layout.layout;
+            const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
+            const validation::ErrorFigures figures = validation::errorFigures(coarse, exact);
+            SCOPED_TRACE(fmt::format("alphas {} and {}, {}", along, across, layout.name));
+            fmt::print("alphas {} and {}, {}: bias {:.2e}, relMse {:.2e}\n", along, across, layout.name, figures.bias,
+                       figures.relMse);
+            EXPECT_LE(figures.relMse, layout.promise.relMse);
+            EXPECT_LE(std::abs(figures.bias), layout.promise.bias);
+        }
+    }
+}
+
 } // namespace
 } // namespace tessera

@@ -66,7 +66,11 @@ float decodeAlpha(uint code, int width)
     return max(alpha, ALPHA_MIN);
 }
 
-// The mean over pixels is that of alpha, not of its root.
+// Below it alpha is rounded to the nearest code. A narrow highlight reflects the same whatever its alpha, so the mean over a
+// surface does not need the mean of alphas; but its peak goes with 1 / alpha^2, and a whole step off shows in every pixel.
+const float kLeastDithered = 0.1;
+
+// From kLeastDithered on the mean over pixels is that of alpha, not of its root.
 uint encodeAlpha(float alpha, int width, int field)
 {
     uint steps = largestCode(width);
@@ -74,7 +78,7 @@ uint encodeAlpha(float alpha, int width, int field)
     uint below = min(uint(position), steps - 1u);
     precise float first = decodeAlpha(below, width);
     precise float share = (alpha - first) / (decodeAlpha(below + 1u, width) - first);
-    return below + ditheredUp(share, field, steps);
+    return below + ditheredUp(share, alpha < kLeastDithered ? DITHER_NOT : field, steps);
 }
 
 // Model and masking-shadowing option: the models, then each microfacet model with every option but the first. An

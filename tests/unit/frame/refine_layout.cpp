@@ -76,6 +76,31 @@ TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheH
     EXPECT_EQ(refined(slim, scene), slim);
 }
 
+TEST(RefineLayout, theAlphasOfSlimAreThoseOfPackedWhereAHighlightIsAStreakAndSoIsTheNormalOfAThinOne) {
+    Material material;
+    material.model = MaterialModel::MicrofacetAnisotropic;
+    material.alpha = 0.5f;
+    material.alphaY = 0.2f;
+    Scene scene = test::quadScene(material);
+    const GBufferLayout& slim = layoutTable()[2].layout;
+    GBufferLayout wanted = slim;
+    for (const Channel channel : {Channel::Microsurface, Channel::Tangent})
+        wanted.encoding[std::size_t(channel)] = Encoding::Packed;
+    EXPECT_EQ(refined(slim, scene), wanted);
+    EXPECT_EQ(refined(layoutTable()[1].layout, scene), layoutTable()[1].layout);
+    wanted.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
+    scene.materials[0].alphaY = 0.05f;
+    EXPECT_EQ(refined(slim, scene), wanted);
+    scene.materials[0].alphaY = 0.2f;
+    scene.materials[0].texture(scenes::TextureSlot::Anisotropy).image = 0;
+    EXPECT_EQ(refined(slim, scene), wanted) << "its texture may make it thinner";
+    scene.materials[0].texture(scenes::TextureSlot::Anisotropy).image = scenes::kNone;
+    scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
+    EXPECT_EQ(refined(slim, scene), slim) << "drawn on top";
+    scene.materials[0] = {};
+    EXPECT_EQ(refined(slim, scene), slim);
+}
+
 /// Of each built-in scene, or of every other one, whose families are all.
 void expectRefinementsOfBuiltinScenes() {
     scenes::LoadOptions options;
@@ -89,8 +114,9 @@ void expectRefinementsOfBuiltinScenes() {
         for (const Refinement& refinement : refinements(layoutTable()[1].layout, scene))
             EXPECT_EQ(refinement.channel, Channel::Emission);
         EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofSpreadLight);
-        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(),
-                  ofSpreadLight + (builtin.name == "models" ? 1u : 0u));
+        // Streaks: both channels of alphas; of models the normal too.
+        const std::size_t ofHighlights = builtin.name == "models" ? 3 : builtin.name == "studio" ? 2 : 0;
+        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), ofSpreadLight + ofHighlights);
         // Nothing spreads where another method is asked for.
         EXPECT_TRUE(refinements(layoutTable()[1].layout, scene, scenes::SubsurfaceMethod::Wrap).empty());
     }
