@@ -10,6 +10,7 @@
 #include "engine/Rendering.h"
 #include "engine/Settings.h"
 #include "renderer/frame/MaterialFeatures.h"
+#include "validation/compare/LongestSpan.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
@@ -365,7 +366,7 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
             !isPacked(packingOf(asked.technique, asked.settings.layout))) {
             pair.shadows = truth.reference->shadowFigures(picture.picture, own.excluded);
             if (!request.tolerance)
-                for (std::string& missed : missedByShadows(*pair.shadows))
+                for (std::string& missed : missedByShadows(*pair.shadows, longestSpan(renderer.scene())))
                     pair.verdict.missed.push_back(std::move(missed));
             pair.verdict.ok = pair.verdict.missed.empty();
         }

@@ -15,12 +15,13 @@ constexpr double kReferenceBias = 1e-3;
 
 } // namespace
 
-std::vector<std::string> missedByShadows(const ShadowFigures& figures) {
+std::vector<std::string> missedByShadows(const ShadowFigures& figures, const std::string& longest) {
     std::vector<std::string> missed;
     if (figures.undecided > kMostUndecidedShare)
-        missed.push_back(fmt::format("rounding decides the shadows of {:.3g} % of the pixels, at most 5 % may be so; a "
-                                     "triangle far longer or farther away than others takes their digits",
-                                     100.0 * figures.undecided));
+        missed.push_back(
+            fmt::format("rounding decides the shadows of {:.3g} % of the pixels, at most 5 % may be so; a triangle or "
+                        "light far longer or farther away than others takes their digits{}",
+                        100.0 * figures.undecided, longest.empty() ? "" : ", farthest " + longest));
     if (!(figures.noise <= figures.mostNoise))
         missed.push_back(fmt::format("soft shadows have {:.3g} times the noise of independent rays, at most {:.3g} was "
                                      "asked for",

@@ -234,6 +234,9 @@ TEST(CompareRecord, tellsOfNoiseAndOfUndecidedPixelsOfShadows) {
     EXPECT_THAT(compareTable(record), HasSubstr("shadows: forward: 4.9"));
     EXPECT_EQ(Json::parse(compareJson(record))["pairs"][0]["shadows"]["noisyPixels"], 100);
     EXPECT_THAT(missedByShadows(right), IsEmpty());
+    ShadowFigures far = right;
+    far.undecided = 0.2;
+    EXPECT_THAT(missedByShadows(far, "light 3 'sun'"), ElementsAre(HasSubstr("digits, farthest light 3 'sun'")));
     const auto missedWith = [&](double ShadowFigures::*figure, double value) {
         ShadowFigures wrong = right;
         wrong.*figure = value;

@@ -1,6 +1,10 @@
 #include "validation/compare/TechniqueCompare.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/TestScenes.h"
+#include "validation/compare/LongestSpan.h"
 
 namespace tessera::validation {
 namespace {
@@ -40,6 +44,23 @@ TEST(TechniqueCompare, settingsOfHowAPictureIsMadeGoToTheTechniquesThatTakeThem)
                            setting.key == "cullNormals" || setting.key == "lightOn";
         EXPECT_EQ(setting.samePicture, isHow) << setting.name;
     }
+}
+
+TEST(LongestSpan, theFarthestTriangleOrLightIsNamed) {
+    scenes::Scene scene = test::quadScene({});
+    EXPECT_EQ(longestSpan(scene), "triangle 0 of mesh '" + scene.meshes[0].name + "' at node '" + scene.nodes[0].name +
+                                      "', which reaches 1.41 m from the origin");
+    scenes::Light lamp = test::pointLight({0.0, 3.0, 4.0}, 1.0f);
+    lamp.name = "bulb";
+    lamp.radiusMetres = 1e6f;
+    scene.lights = {lamp};
+    EXPECT_EQ(longestSpan(scene), "light 0 'bulb', which reaches 1e+06 m from the origin");
+    scene.meshes[0].positionsOS[3] *= 1e7f;
+    EXPECT_THAT(longestSpan(scene), testing::HasSubstr("triangle "));
+    scene.nodes[0].instances[0].castsShadow = false;
+    EXPECT_THAT(longestSpan(scene), testing::StartsWith("light 0"));
+    scene.lights[0].enabled = false;
+    EXPECT_EQ(longestSpan(scene), "");
 }
 
 } // namespace
