@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "engine/PrepareView.h"
+#include "engine/Rendering.h"
+#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/MaterialFeatures.h"
-#include "validation/compare/RangeTruncation.h"
+#include "scenes/InUse.h"
+#include "scenes/Shadows.h"
+#include "validation/bench/AreaKey.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/figures/ErrorFigures.h"
 
@@ -22,157 +27,361 @@ std::optional<double> finite(double value) {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-AttributionLine lineOf(const char* cause, const std::string& what, const std::string& against,
+constexpr const char* kArithmetic = "fp32 arithmetic of forward";
+
+AttributionLine lineOf(const std::string& cause, const std::string& what, const std::string& against,
                        const RadianceFigures& figures) {
     return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
 }
 
-void addFilter(const GroupTruth& truth, const std::string& truthName, const Picture& exact, const BenchPoint& any,
-               std::vector<AttributionLine>& lines) {
-    const bool isSoft =
-        any.key.shadow && engine::prepareView(truth.renderer().scene(), Technique::Forward, truth.settings())
-                              .lights.features[frame::Feature::SoftShadows];
-    const std::string noise =
-        isSoft ? fmt::format(" and the noise of {} rays", truth.settings().shadowSamples) : std::string();
-    lines.push_back(lineOf("arithmetic", "fp32 arithmetic of forward" + noise, truthName,
-                           radianceFigures(exact, truth.pictureFor(exact), truth.excluded())));
-    // Nothing was chosen where the timed frames filter exactly too.
-    if (any.settings.filter == frame::TextureFilter::Exact || truth.filter() != frame::TextureFilter::Exact ||
-        !frame::materialFeatures(truth.renderer().scene()).textures())
-        return;
-    frame::FrameSettings hardware = truth.settings();
-    hardware.filter = frame::TextureFilter::Hardware;
-    const engine::RenderedFrame frame = truth.renderer().render(Technique::Forward, hardware);
-    Picture filtered = exact; // the same pixels are covered
-    filtered.rgba = frame.radiance;
-    lines.push_back(lineOf(kFilterCause, "smaller texture levels, hardware filter", "level 0 alone, exact filter",
-                           radianceFigures(filtered, exact)));
+/// What is rendered where only some causes act: both sides of the difference from the truth see this scene.
+struct Ground {
+    scenes::Scene scene;
+    frame::FrameSettings settings;
+};
+
+/// A part of a picture that is found by approximation, and only by the reference exactly. Where it is off, there is
+/// nothing to approximate, in the program's pictures and in those of the truth.
+struct Part {
+    const char* cause;
+    bool addsLight; ///< pictures with it are sums: it is measured alone. Else it changes what all lights show
+    bool (*isIn)(const Ground& whole);
+    void (*turnOff)(Ground& ground);
+    /// How a point finds it, of the settings of the truth but for what `take` takes from a point's.
+    std::string (*text)(const scenes::Scene& scene, const frame::FrameSettings& settings);
+    void (*take)(frame::FrameSettings& settings, const frame::FrameSettings& own);
+};
+
+bool isArea(const scenes::Light& light) {
+    return scenes::infoOf(light.type).isArea;
 }
 
-/// What goes away where shadows are traced, with rays enough.
-void addShadows(const GroupTruth& truth, const Picture& exact, std::span<const BenchPoint> points,
-                std::vector<AttributionLine>& lines) {
-    std::set<std::string> done;
-    for (const BenchPoint& point : points) {
-        if (!point.key.shadow || !done.insert(shadowText(*point.key.shadow)).second) continue;
-        frame::FrameSettings settings = truth.settings();
-        settings.shadows = point.settings.shadows;
-        settings.shadowFilter = point.settings.shadowFilter;
-        settings.shadowSamples = point.settings.shadowSamples;
-        settings.shadowMaps = point.settings.shadowMaps;
-        const bool isExact =
-            point.key.shadow->filter != kNoShadows && !point.key.shadow->usesMaps() && point.key.shadow->values.empty();
-        if (isExact) continue;
-        const std::string text = shadowText(*point.key.shadow);
-        const Picture shown = truth.pictureOf(Technique::Forward, settings);
-        lines.push_back(lineOf("shadow", point.key.shadow->filter == kNoShadows ? text : "shadow filter " + text,
-                               "traced", radianceFigures(shown, exact, truth.excluded())));
+/// Black in place of glass: it covers the same pixels and hides no light, as glass does not.
+void blackenGlass(scenes::Scene& scene) {
+    for (scenes::Node& node : scene.nodes)
+        for (scenes::MeshInstance& instance : node.instances)
+            if (instance.material != scenes::kNone &&
+                scenes::isTransmissive(scene.materials[std::size_t(instance.material)]))
+                instance.castsShadow = false;
+    for (scenes::Material& material : scene.materials) {
+        if (!scenes::isTransmissive(material)) continue;
+        scenes::Material black;
+        black.name = material.name;
+        black.model = scenes::MaterialModel::SingleColor;
+        black.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+        black.doubleSided = material.doubleSided;
+        material = black;
     }
 }
 
-/// What goes away where a part of the light is found as the reference finds it: the difference from the truth beside
-/// that of rounding, so it is known against the reference alone. `textOf` names how a point finds it, empty where it
-/// has none; `take` takes that from its settings.
-template <typename TextOf, typename Take>
-void addFoundLight(const char* cause, const GroupTruth& truth, const std::string& truthName,
-                   std::span<const BenchPoint> points, std::vector<AttributionLine>& lines, const TextOf& textOf,
-                   const Take& take) {
-    std::set<std::string> done;
-    for (const BenchPoint& point : points) {
-        const std::string text = textOf(point.key);
-        if (text.empty() || !done.insert(text).second) continue;
-        frame::FrameSettings settings = truth.settings();
-        take(settings, point.settings);
-        const Picture shown = truth.pictureOf(Technique::Forward, settings);
-        lines.push_back(
-            lineOf(cause, text, truthName, radianceFigures(shown, truth.pictureFor(shown), truth.excluded())));
+/// What adds light goes first. Those behind it act in turn, each on top of all before it.
+constexpr Part kParts[] = {
+    {"noise", true,
+     [](const Ground& whole) {
+         return std::ranges::any_of(whole.scene.lights, [&](const scenes::Light& light) {
+             const auto place = std::size_t(&light - whole.scene.lights.data());
+             return light.enabled && !isArea(light) && scenes::hasSize(light) && scenes::hasCasters(whole.scene) &&
+                    scenes::castsShadow(whole.scene, place, whole.settings.shadows);
+         });
+     },
+     [](Ground& ground) {
+         for (scenes::Light& light : ground.scene.lights)
+             if (!isArea(light)) light.radiusMetres = light.angularRadiusRadians = 0.0f;
+     },
+     [](const scenes::Scene&, const frame::FrameSettings& settings) {
+         return fmt::format("noise of {} rays to lights with a size", settings.shadowSamples);
+     },
+     [](frame::FrameSettings&, const frame::FrameSettings&) {}},
+    {"area", true,
+     [](const Ground& whole) {
+         return std::ranges::any_of(whole.scene.lights,
+                                    [](const scenes::Light& light) { return light.enabled && isArea(light); });
+     },
+     [](Ground& ground) {
+         for (scenes::Light& light : ground.scene.lights)
+             if (isArea(light)) light.enabled = false;
+     },
+     [](const scenes::Scene&, const frame::FrameSettings& settings) { return areaText(areaKeyOf(settings)); },
+     [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.area = own.area; }},
+    {"environment", true, [](const Ground& whole) { return frame::isLitByEnvironment(whole.scene, whole.settings); },
+     [](Ground& ground) { ground.settings.environment.light = frame::EnvironmentLight::Off; },
+     [](const scenes::Scene&, const frame::FrameSettings& settings) {
+         return environmentText(environmentKeyOf(settings));
+     },
+     [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.environment = own.environment; }},
+    {"subsurface", false, [](const Ground& whole) { return scenes::anyScatters(whole.scene); },
+     [](Ground& ground) { ground.settings.subsurface = scenes::SubsurfaceMethod::None; },
+     [](const scenes::Scene& scene, const frame::FrameSettings& settings) {
+         const std::optional<SubsurfaceKey> key = subsurfaceKeyOf(scene, settings);
+         return key ? subsurfaceText(*key) : std::string();
+     },
+     [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
+         settings.subsurface = own.subsurface;
+         settings.diffusion = own.diffusion;
+     }},
+    {"glass", false,
+     [](const Ground& whole) {
+         return std::ranges::any_of(scenes::materialsInUse(whole.scene),
+                                    [](const scenes::Material* material) { return scenes::isTransmissive(*material); });
+     },
+     [](Ground& ground) { blackenGlass(ground.scene); },
+     [](const scenes::Scene&, const frame::FrameSettings& settings) {
+         return fmt::format("glass, refraction {}", infoOf(settings.refraction).name);
+     },
+     [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.refraction = own.refraction; }},
+};
+
+/// The difference of a picture from the truth of what it shows, by pixel and channel.
+using Difference = std::vector<double>;
+
+Difference operator-(Difference a, const Difference& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+    return a;
+}
+
+Difference differenceOf(const Picture& shown, const Picture& right) {
+    Difference result;
+    for (std::size_t i = 0; i < shown.rgba.size(); ++i)
+        result.push_back(i % 4 == 3 ? 0.0 : double(shown.rgba[i]) - double(right.rgba[i])); // not the coverage
+    return result;
+}
+
+/// The causes of a group's error, found one by one.
+class Causes {
+public:
+    Causes(gpu::Context& context, const GroupTruth& truth, const std::string& truthName,
+           std::span<const BenchPoint> points)
+        : context_(context), truth_(truth), truthName_(truthName),
+          points_(points), whole_{truth.renderer().scene(), truth.settings()},
+          exact_(truth.pictureOf(Technique::Forward, truth.settings())) {}
+
+    std::vector<AttributionLine> find() {
+        addParts();
+        addFilter();
+        addShadows();
+        addRanges();
+        addLayouts();
+        addWholes();
+        return std::move(lines_);
     }
-}
 
-/// Light that spreads over surfaces.
-void addSubsurfaces(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
-                    std::vector<AttributionLine>& lines) {
-    addFoundLight(
-        "subsurface", truth, truthName, points, lines,
-        [](const PointKey& key) { return key.subsurface ? subsurfaceText(*key.subsurface) : std::string(); },
-        [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
-            settings.subsurface = own.subsurface;
-            settings.diffusion = own.diffusion;
-        });
-}
-
-/// Light of the environment.
-void addEnvironments(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
-                     std::vector<AttributionLine>& lines) {
-    addFoundLight(
-        "environment", truth, truthName, points, lines,
-        [](const PointKey& key) { return key.environment ? environmentText(*key.environment) : std::string(); },
-        [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
-            settings.environment = own.environment;
-        });
-}
-
-/// Light of area lights.
-void addAreas(const GroupTruth& truth, const std::string& truthName, std::span<const BenchPoint> points,
-              std::vector<AttributionLine>& lines) {
-    addFoundLight(
-        "area", truth, truthName, points, lines,
-        [](const PointKey& key) { return key.area ? areaText(*key.area) : std::string(); },
-        [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.area = own.area; });
-}
-
-void addRanges(const GroupTruth& truth, std::span<const BenchPoint> points, std::vector<AttributionLine>& lines) {
-    std::set<double> tolerances;
-    for (const BenchPoint& point : points) tolerances.insert(point.settings.rangeTolerance);
-    for (const double tolerance : tolerances) {
-        if (tolerance == 0.0) continue;
-        frame::FrameSettings settings = truth.settings();
-        settings.rangeTolerance = tolerance;
-        const RangeTruncation dropped = rangeTruncation(truth.renderer(), Technique::Forward, settings);
-        lines.push_back(
-            lineOf("range", fmt::format("range tolerance {:g}", tolerance), "no tolerance", dropped.figures));
+private:
+    void add(const AttributionLine& line) { lines_.push_back(line); }
+    /// Of the truth with a difference.
+    RadianceFigures figuresOf(const Difference& difference) const {
+        Picture off = truth_.picture();
+        for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] = float(double(off.rgba[i]) + difference[i]);
+        return radianceFigures(off, truth_.picture(), truth_.excluded());
     }
-}
-
-/// The error of each channel of a layout is that of `tessera compare`.
-void addLayouts(const gpu::Capabilities& gl, const GroupTruth& truth, std::span<const BenchPoint> points,
-                std::vector<AttributionLine>& lines) {
-    std::set<std::string> done;
-    for (const BenchPoint& point : points) {
-        const bool isPacked = !(point.settings.layout == frame::exactLayout().layout);
-        if (!isPacked || !done.insert(point.key.layout).second) continue;
-        CompareRequest request;
-        request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest of one G-buffer
-        request.settings = truth.settings();
-        request.settings.shadowSamples = point.settings.shadowSamples; // both sides have the same noise
-        request.settings.layout = point.settings.layout;
-        request.settings.display = true; // the comparison shows its pictures too
-        const ComparePair pair = compareTechniques(truth.renderer(), gl, request).record.pairs.front();
-        lines.push_back(lineOf("layout", fmt::format("layout {}", point.key.layout), "forward", pair.figures));
-        for (const ChannelShare& channel : pair.channels)
-            lines.push_back({"layout",
-                             fmt::format("{}: {}", point.key.layout, channel.channel),
-                             "that channel in fp32",
-                             channel.share,
-                             {},
-                             {}});
+    void addPart(const char* cause, const std::string& what, const Difference& difference) {
+        differences_[what] = difference;
+        add(lineOf(cause, what, truthName_, figuresOf(difference)));
     }
-}
+    /// What a choice changes in the picture of forward.
+    void addChoice(const char* cause, const std::string& what, const char* against, const Picture& shown) {
+        differences_[what] = differenceOf(shown, exact_);
+        add(lineOf(cause, what, against, radianceFigures(shown, exact_, truth_.excluded())));
+    }
+
+    /// That of a picture of the ground, found with `settings`, from its own truth.
+    Difference differenceOn(engine::Renderer& renderer, const Ground& ground,
+                            const frame::FrameSettings& settings) const {
+        const Picture shown = toPicture(renderer.render(Technique::Forward, settings));
+        // The group's own truth is known.
+        return differenceOf(shown, &renderer == &truth_.renderer()
+                                       ? truth_.pictureFor(shown)
+                                       : truth_.pictureOn(renderer, ground.settings, shown));
+    }
+
+    /// A ground and who renders it: the group's renderer where all is on.
+    struct Stage {
+        Ground ground;
+        std::unique_ptr<engine::Renderer> own = {};
+    };
+    template <typename IsOn>
+    std::unique_ptr<Stage> stageOf(std::span<const Part* const> in, const IsOn& isOn) const {
+        auto stage = std::make_unique<Stage>(Stage{whole_}); // its scene stays where it is
+        bool isWhole = true;
+        for (const Part* part : in) {
+            if (isOn(*part)) continue;
+            part->turnOff(stage->ground);
+            isWhole = false;
+        }
+        if (!isWhole) stage->own = std::make_unique<engine::Renderer>(context_, stage->ground.scene);
+        return stage;
+    }
+    Difference differenceOn(const Stage& stage, const frame::FrameSettings& settings) const {
+        return differenceOn(stage.own ? *stage.own : truth_.renderer(), stage.ground, settings);
+    }
+
+    void addParts() {
+        std::vector<const Part*> in;
+        for (const Part& part : kParts)
+            if (part.isIn(whole_)) in.push_back(&part);
+        const std::unique_ptr<Stage> base = stageOf(in, [](const Part&) { return false; });
+        const Difference arithmetic = differenceOn(*base, base->ground.settings);
+        // Against itself forward has no error.
+        if (truthName_ == "reference") addPart("arithmetic", kArithmetic, arithmetic);
+        for (const Part* own : in) {
+            const auto isBefore = [&](const Part& other) { return !own->addsLight && &other < own; };
+            const auto isOn = [&](const Part& other) { return &other == own || isBefore(other); };
+            const std::unique_ptr<Stage> with = stageOf(in, isOn);
+            const frame::FrameSettings& usual = with->ground.settings;
+            std::optional<Difference> before;
+            if (own->addsLight) before = arithmetic;
+            std::set<std::string> done;
+            for (const BenchPoint& point : points_) {
+                frame::FrameSettings settings = usual;
+                own->take(settings, point.settings);
+                const std::string text = own->text(with->ground.scene, settings);
+                if (text.empty() || !done.insert(text).second) continue;
+                if (truthName_ != "reference" && text == own->text(with->ground.scene, usual)) continue;
+                if (!before) {
+                    const std::unique_ptr<Stage> without = stageOf(in, isBefore);
+                    before = differenceOn(*without, without->ground.settings);
+                }
+                addPart(own->cause, text, differenceOn(*with, settings) - *before);
+            }
+        }
+    }
+
+    void addFilter() {
+        // Nothing was chosen where the timed frames filter exactly too.
+        if (points_.front().settings.filter == frame::TextureFilter::Exact ||
+            truth_.filter() != frame::TextureFilter::Exact ||
+            !frame::materialFeatures(truth_.renderer().scene()).textures())
+            return;
+        frame::FrameSettings hardware = truth_.settings();
+        hardware.filter = frame::TextureFilter::Hardware;
+        const engine::RenderedFrame frame = truth_.renderer().render(Technique::Forward, hardware);
+        Picture filtered = exact_; // the same pixels are covered
+        filtered.rgba = frame.radiance;
+        add(lineOf(kFilterCause, "smaller texture levels, hardware filter", "level 0 alone, exact filter",
+                   radianceFigures(filtered, exact_)));
+    }
+
+    /// How a point's shadows differ from traced ones with rays enough; empty: not at all.
+    static std::string shadowCause(const BenchPoint& point) {
+        if (!point.key.shadow) return {};
+        const bool isNone = point.key.shadow->filter == kNoShadows;
+        if (!isNone && !point.key.shadow->usesMaps() && point.key.shadow->values.empty()) return {};
+        return isNone ? shadowText(*point.key.shadow) : "shadow filter " + shadowText(*point.key.shadow);
+    }
+
+    void addShadows() {
+        std::set<std::string> done;
+        for (const BenchPoint& point : points_) {
+            const std::string text = shadowCause(point);
+            if (text.empty() || !done.insert(text).second) continue;
+            frame::FrameSettings settings = truth_.settings();
+            settings.shadows = point.settings.shadows;
+            settings.shadowFilter = point.settings.shadowFilter;
+            settings.shadowSamples = point.settings.shadowSamples;
+            settings.shadowMaps = point.settings.shadowMaps;
+            addChoice("shadow", text, "traced", truth_.pictureOf(Technique::Forward, settings));
+        }
+    }
+
+    static std::string rangeCause(const BenchPoint& point) {
+        if (point.settings.rangeTolerance == 0.0) return {};
+        return fmt::format("range tolerance {:g}", point.settings.rangeTolerance);
+    }
+
+    void addRanges() {
+        std::set<double> tolerances;
+        for (const BenchPoint& point : points_) {
+            if (rangeCause(point).empty() || !tolerances.insert(point.settings.rangeTolerance).second) continue;
+            frame::FrameSettings settings = truth_.settings();
+            settings.rangeTolerance = point.settings.rangeTolerance;
+            addChoice("range", rangeCause(point), "no tolerance", truth_.pictureOf(Technique::Forward, settings));
+        }
+    }
+
+    static std::string layoutCause(const BenchPoint& point) {
+        return point.settings.layout == frame::exactLayout().layout ? std::string()
+                                                                    : fmt::format("layout {}", point.key.layout);
+    }
+
+    /// The error of each channel of a layout is that of `tessera compare`.
+    void addLayouts() {
+        std::set<std::string> done;
+        for (const BenchPoint& point : points_) {
+            if (layoutCause(point).empty() || !done.insert(point.key.layout).second) continue;
+            CompareRequest request;
+            request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest of one G-buffer
+            request.settings = truth_.settings();
+            request.settings.shadowSamples = point.settings.shadowSamples; // both sides have the same noise
+            request.settings.layout = point.settings.layout;
+            request.settings.display = true; // the comparison shows its pictures too
+            const CompareResult compared = compareTechniques(truth_.renderer(), context_.capabilities(), request);
+            const ComparePair& pair = compared.record.pairs.front();
+            differences_[layoutCause(point)] = differenceOf(compared.pictures.front().picture, compared.truth.picture);
+            add(lineOf("layout", layoutCause(point), "forward", pair.figures));
+            for (const ChannelShare& channel : pair.channels)
+                add({"layout",
+                     fmt::format("{}: {}", point.key.layout, channel.channel),
+                     "that channel in fp32",
+                     channel.share,
+                     {},
+                     {}});
+        }
+    }
+
+    /// The names of the lines that make up a point's error.
+    std::set<std::string> causesOf(const BenchPoint& point) const {
+        std::set<std::string> names{kArithmetic, shadowCause(point), rangeCause(point), layoutCause(point)};
+        for (const Part& part : kParts) {
+            if (!part.isIn(whole_)) continue;
+            frame::FrameSettings settings = whole_.settings;
+            part.take(settings, point.settings);
+            names.insert(part.text(whole_.scene, settings));
+        }
+        return names;
+    }
+
+    /// The error of a point of each set of causes, all together; and how far the relMse of the causes' sum is from
+    /// the sum of theirs, since errors of one place may add up or cancel: with it they make up the point's.
+    void addWholes() {
+        std::set<std::set<std::string>> done;
+        for (const BenchPoint& point : points_) {
+            const std::set<std::string> causes = causesOf(point);
+            if (!done.insert(causes).second) continue;
+            const Picture shown = truth_.pictureOf(point.technique, point.settings);
+            add(lineOf(kWholeCause, pointName(point.key), truthName_,
+                       radianceFigures(shown, truth_.pictureFor(shown), truth_.excluded())));
+            Difference sum(shown.rgba.size(), 0.0);
+            double relMse = 0.0;
+            for (const AttributionLine& line : lines_) {
+                const auto known = differences_.find(line.what);
+                if (!causes.contains(line.what) || known == differences_.end()) continue;
+                const Difference& own = known->second;
+                for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
+                relMse += line.relMse.value_or(0.0);
+            }
+            add({kCrossCause,
+                 "products of the causes of " + pointName(point.key),
+                 truthName_,
+                 finite(figuresOf(sum).relMse - relMse),
+                 {},
+                 {}});
+        }
+    }
+
+    gpu::Context& context_;
+    const GroupTruth& truth_;
+    const std::string& truthName_;
+    std::span<const BenchPoint> points_;
+    const Ground whole_;
+    const Picture exact_; ///< of forward, by the settings of the truth
+    std::vector<AttributionLine> lines_;
+    std::map<std::string, Difference> differences_; ///< by AttributionLine::what
+};
 
 } // namespace
 
-std::vector<AttributionLine> attributeErrors(const gpu::Capabilities& gl, const GroupTruth& truth,
+std::vector<AttributionLine> attributeErrors(gpu::Context& context, const GroupTruth& truth,
                                              const std::string& truthName, std::span<const BenchPoint> points) {
-    std::vector<AttributionLine> lines;
-    const Picture exact = truth.pictureOf(Technique::Forward, truth.settings());
-    addFilter(truth, truthName, exact, points.front(), lines);
-    addShadows(truth, exact, points, lines);
-    addSubsurfaces(truth, truthName, points, lines);
-    addEnvironments(truth, truthName, points, lines);
-    addAreas(truth, truthName, points, lines);
-    addRanges(truth, points, lines);
-    addLayouts(gl, truth, points, lines);
-    return lines;
+    return Causes(context, truth, truthName, points).find();
 }
 
 } // namespace tessera::validation

@@ -238,8 +238,8 @@ std::string causesHtml(const BenchRecord& record) {
     }
     if (html.empty()) return "";
     return "<section id=\"causes\">\n<h2>Where the error comes from</h2>\n<p class=\"lede\">Each cause alone, all "
-           "others "
-           "absent. Bars are logarithmic, from 10<sup>&minus;12</sup> to 1.</p>\n" +
+           "others absent; then the error of a point by all its causes, and its cross term: errors of one place add up "
+           "or cancel. Bars are logarithmic, from 10<sup>&minus;12</sup> to 1.</p>\n" +
            html + "</section>\n";
 }
 

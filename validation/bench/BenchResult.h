@@ -76,12 +76,16 @@ struct BenchResult {
 
 /// AttributionLine::cause of a difference that is no error.
 inline constexpr const char* kFilterCause = "filter";
+/// Of a point's error by all its causes, and of what products of their errors add to the sum of theirs.
+inline constexpr const char *kWholeCause = "whole", *kCrossCause = "cross";
 
 /// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
 /// whose textures are filtered with their smaller levels is from one of the finest level alone.
 struct AttributionLine {
-    std::string cause; ///< "arithmetic", "filter", "range", "layout", "shadow", "subsurface", "environment" or "area"
-    std::string what;  ///< "range tolerance 0.01", "packed: albedo", "shadow filter pcf"
+    /// "arithmetic", "noise", "area", "environment", "subsurface", "glass", "filter", "shadow", "range", "layout",
+    /// "whole" or "cross"
+    std::string cause;
+    std::string what; ///< "range tolerance 0.01", "packed: albedo", "shadow filter pcf"
     std::string against;
     std::optional<double> relMse, p99Rel, bias;
 };

@@ -57,6 +57,14 @@ Picture GroupTruth::pictureFor(const Picture& shown) const {
     return reference_ ? reference_->nearestTo(shown) : picture_;
 }
 
+Picture GroupTruth::pictureOn(engine::Renderer& renderer, const frame::FrameSettings& settings,
+                              const Picture& shown) const {
+    return reference_ ? referencePicture(
+                            renderer, settings, [] {}, Leeway::Definition)
+                            .nearestTo(shown)
+                      : toPicture(renderer.render(engine::Technique::Forward, settings));
+}
+
 Picture GroupTruth::pictureOf(engine::Technique technique, const frame::FrameSettings& settings) const {
     frame::FrameSettings compared = settings;
     compared.filter = filter_;

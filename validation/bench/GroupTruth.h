@@ -50,6 +50,9 @@ public:
     const Picture& picture() const { return picture_; }
     /// Of the pictures that the truth allows the one nearest to `shown`.
     Picture pictureFor(const Picture& shown) const;
+    /// The truth of another scene or other settings that show the same triangles: of the pictures that it allows the
+    /// one nearest to `shown`.
+    Picture pictureOn(engine::Renderer& renderer, const frame::FrameSettings& settings, const Picture& shown) const;
     const std::vector<std::uint8_t>& excluded() const { return excluded_; }
     frame::TextureFilter filter() const { return filter_; }
     engine::Renderer& renderer() const { return renderer_; }

@@ -81,7 +81,7 @@ public:
             options_.progress(kStepsOfAPoint);
             options_.keep(state_);
         }
-        group_.attribution = attributeErrors(context_.capabilities(), truth, group_.truth, planned_.points);
+        group_.attribution = attributeErrors(context_, truth, group_.truth, planned_.points);
         options_.progress(kStepsOfTheCauses);
         state_.isDone = true;
         options_.keep(state_);

@@ -1,0 +1,184 @@
+// Where a picture's error comes from: each cause alone, in scenes that switch causes on one by one.
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/PrepareView.h"
+#include "scenes/Load.h"
+#include "tests/image/EnvironmentTest.h"
+#include "tests/support/AnimatedModels.h"
+#include "tests/support/GlContext.h"
+#include "tests/support/TestScenes.h"
+#include "validation/bench/Attribution.h"
+
+namespace tessera {
+namespace {
+
+using engine::Technique;
+using validation::AttributionLine;
+
+/// What each of these causes needs in sceneOf().
+struct Switches {
+    bool size = false, area = false, environment = false, glass = false, skin = false;
+};
+struct Switch {
+    const char* cause;
+    bool Switches::*flag;
+};
+
+class Attribution : public test::GlTest {
+protected:
+    /// Holds a scene to that with each of the causes and those before it.
+    void expectSwitched(std::span<const Switch> switches);
+
+    static constexpr double kMostArithmetic = 1e-8;
+
+    /// The lines of one point of `technique`, which the reference is the truth of.
+    std::vector<AttributionLine> linesOf(const scenes::Scene& scene, frame::FrameSettings settings,
+                                         Technique technique = Technique::Forward) {
+        settings.filter = frame::TextureFilter::Exact;
+        engine::Renderer renderer(context(), scene);
+        const validation::GroupTruth truth(renderer, validation::BenchTruth::Reference, settings,
+                                           frame::TextureFilter::Exact, [] {});
+        validation::BenchPoint point;
+        point.technique = technique;
+        point.settings = settings;
+        point.key.technique = infoOf(technique).name;
+        point.key.layout = settings.layout == frame::exactLayout().layout ? "exact" : "packed";
+        point.key.rangeTolerance = settings.rangeTolerance;
+        const frame::PackedLights lights = engine::prepareView(scene, technique, settings).lights;
+        point.key.shadow = validation::shadowKeyOf(lights, settings);
+        point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
+        if (scene.environment) point.key.environment = validation::environmentKeyOf(settings);
+        return validation::attributeErrors(context(), truth, "reference", {&point, 1});
+    }
+
+    /// Holds the lines to what they promise: the causes sum to the whole, fp32 is fine, and no two are one.
+    static std::set<std::string> expectSound(const std::vector<AttributionLine>& lines) {
+        std::set<std::string> causes;
+        std::set<double> figures;
+        double whole = 0.0, sum = 0.0;
+        for (const AttributionLine& line : lines) {
+            fmt::print("  {:12} {:60} relMse {:.3e} bias {:+.2e}\n", line.cause, line.what, line.relMse.value_or(NAN),
+                       line.bias.value_or(NAN));
+            if (line.cause == validation::kWholeCause) {
+                whole = line.relMse.value();
+            } else if (line.cause == validation::kCrossCause) {
+                sum += line.relMse.value();
+            } else if (line.what.find(": ") == std::string::npos) { // else a channel's share
+                causes.insert(line.cause);
+                sum += line.cause == validation::kFilterCause ? 0.0 : line.relMse.value();
+                if (line.cause == "arithmetic") {
+                    EXPECT_LE(line.relMse.value(), kMostArithmetic);
+                }
+                EXPECT_TRUE(figures.insert(line.relMse.value()).second)
+                    << line.what << " has the figure of another cause";
+            }
+        }
+        EXPECT_NEAR(sum, whole, 0.1 * whole + kMostArithmetic);
+        return causes;
+    }
+};
+
+class AttributionSlow : public Attribution {};
+
+/// A ball over a floor below a lamp; each flag brings what one cause needs.
+scenes::Scene sceneOf(const Switches& on) {
+    scenes::Material floor;
+    floor.metallic = 0.5f;
+    floor.perceptualRoughness = 0.4f;
+    scenes::Scene scene = test::quadScene(floor);
+    scene.background = {0.0f, 0.0f, 0.0f};
+    scenes::Material ball = floor;
+    if (on.glass) {
+        ball.metallic = 0.0f;
+        ball.transmission = 1.0f;
+        ball.thicknessMetres = 0.4f;
+        ball.perceptualRoughness = 0.2f;
+    }
+    if (on.skin) {
+        ball.metallic = 0.0f;
+        ball.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
+        ball.subsurface.scaleMetres = 0.1f;
+    }
+    scene.materials.push_back(ball);
+    scene.meshes.push_back(test::everythingScene().meshes[1]);
+    scene.meshes.back().colors.clear();
+    scenes::Node& node = scene.nodes.emplace_back();
+    node.parentFromNode = glm::scale(glm::translate(glm::dmat4(1.0), {0.1, 0.2, 0.5}), glm::dvec3(0.4));
+    node.instances.push_back({1, 1});
+    scenes::Light lamp = test::pointLight({0.8, 0.9, 2.0}, 6.0f);
+    lamp.castsShadow = true;
+    if (on.size) lamp.radiusMetres = 0.3f;
+    scene.lights = {lamp};
+    if (on.area) {
+        scenes::Light panel;
+        panel.castsShadow = false;
+        panel.type = scenes::LightType::Rectangle;
+        panel.positionWS = {-1.0, 0.0, 1.5};
+        panel.directionWS = glm::normalize(glm::dvec3(0.6, 0.0, -1.0));
+        scene.lights.push_back(panel);
+    }
+    if (on.environment)
+        scene.environment = test::environmentOf(16, 8, [](int x, int y) { return 0.1 * glm::dvec3(x, y, 8); });
+    return scene;
+}
+
+void Attribution::expectSwitched(std::span<const Switch> switches) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {24, 18};
+    settings.environment.backdrop = frame::Backdrop::Off;
+    Switches on;
+    std::set<std::string> expected{"arithmetic"};
+    for (const Switch& one : switches) {
+        fmt::print("with {}\n", one.cause);
+        SCOPED_TRACE(one.cause);
+        on.*one.flag = true;
+        expected.insert(one.cause);
+        if (on.size) expected.insert("shadow"); // fewer rays than the truth's
+        EXPECT_EQ(expectSound(linesOf(sceneOf(on), settings)), expected);
+    }
+}
+
+TEST_F(Attribution, fp32ArithmeticIsNotTheErrorOfTheEnvironment) {
+    expectSwitched(std::array{Switch{"environment", &Switches::environment}});
+}
+TEST_F(AttributionSlow, causesThatAreSwitchedOnOneByOneSumToTheWhole) {
+    expectSwitched(std::array{Switch{"environment", &Switches::environment}, Switch{"area", &Switches::area},
+                              Switch{"noise", &Switches::size}, Switch{"subsurface", &Switches::skin}});
+    expectSwitched(std::array{Switch{"glass", &Switches::glass}, Switch{"environment", &Switches::environment},
+                              Switch{"area", &Switches::area}, Switch{"noise", &Switches::size}});
+}
+
+TEST_F(AttributionSlow, theCausesOfScenesAndModelsSumToTheWhole) {
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    settings.diffusion.sideTexels = 256;
+    for (const char* name : {"hall", "studio", "glass", "head_skin"}) {
+        SCOPED_TRACE(name);
+        fmt::print("{}\n", name);
+        expectSound(linesOf(scenes::loadScene(name, {}), settings));
+    }
+    // Of our own, and two that a stranger lacks.
+    fmt::print("spheres before the studio\n");
+    scenes::LoadOptions inStudio;
+    inStudio.environment = "studio";
+    expectSound(linesOf(scenes::loadScene("spheres", inStudio), settings));
+    for (const char* file :
+         {"WaterBottle/WaterBottle.gltf", "MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb"}) {
+        SCOPED_TRACE(file);
+        fmt::print("{}\n", file);
+        if (const std::optional<std::filesystem::path> model = test::fileOfAssets(file))
+            expectSound(linesOf(scenes::loadScene(model->string(), inStudio), settings));
+        else
+            fmt::print("  is not here\n");
+    }
+}
+
+} // namespace
+} // namespace tessera
