@@ -13,6 +13,7 @@
 #include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
+#include "scenes/ClosedBodies.h"
 #include "scenes/Hook.h"
 
 namespace tessera::engine {
@@ -106,6 +107,7 @@ const scenes::Scene& Renderer::sceneAt(double timeSeconds, Excess excess) {
 void Renderer::forgetGeometry() {
     drawn_.reset(); // it points at atlases
     bounds_ = frame::surfaceBounds(shown_);
+    closedMeshes_.clear();
     uvAtlases_.forget();
     for (auto& [view, memory] : diffusionMemories_) memory.forget();
     for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;
@@ -203,7 +205,8 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
                                        std::uint64_t revision) { return backend_.holds(name, desc, revision); });
     for (const ViewRequest& view : views) {
         frame::DrawnView& added = drawn->views.emplace_back();
-        const frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
+        frame::FrameSettings settings = settingsOn(context_.capabilities(), view.settings);
+        settings.hasClosedBodies = scenes::hasClosedBodies(shown_, closedMeshes_);
         added.prepared = prepareView(shown_, view.technique, settings, bounds_);
     }
     std::vector<ViewSource> sources;

@@ -196,6 +196,7 @@ private:
     std::unique_ptr<HookedScene> hooked_; ///< null where no hook moves vertices
     const scenes::Scene& shown_;
     std::vector<frame::SurfaceBounds> bounds_;
+    std::vector<std::optional<bool>> closedMeshes_; ///< by mesh, those that were asked (scenes/ClosedBodies.h)
     shader::ProgramLibrary programs_;
     std::size_t reloaded_ = 0; ///< ProgramLibrary::reloaded() as forgetReloaded() knows it
     gpu::GraphBackend backend_;

@@ -20,7 +20,8 @@ FarSidesPass::Outputs FarSidesPass::add(graph::Graph& graph, const frame::FrameS
             out.depth =
                 pass.create("far_depth", spec.texture(graph::Format::Depth32Float), graph::Access::DepthAttachment);
         },
-        [](const Outputs& out, const graph::PassContext& context) {
+        [areClosed = infoOf(spec.settings.refraction).farSide == frame::RefractionInfo::FarSide::BackFacesOfClosed](
+            const Outputs& out, const graph::PassContext& context) {
             context.bindTargets();
             gpu::clearColor(0, glm::vec4(0.0f));
             gpu::clearDepth(0.0f);
@@ -29,6 +30,7 @@ FarSidesPass::Outputs FarSidesPass::add(graph::Graph& graph, const frame::FrameS
             state.depthTest = gpu::DepthTest::GreaterEqual;
             state.depthWrite = true;
             state.farSides = true;
+            state.farSidesOfClosed = areClosed;
             gpu::drawInBands([&] { out.surfaces.draw(context, frame::SurfaceHandles::Kind::Transparent, state); });
         });
 }

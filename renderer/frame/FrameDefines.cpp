@@ -48,6 +48,8 @@ Defines frameDefines(const FrameSpec& spec) {
     const bool areParallel = infoOf(spec.settings.refraction).farSide == RefractionInfo::FarSide::Parallel;
     defines.emplace_back("HAS_PARALLEL_SIDES", areParallel ? "1" : "0");
     defines.emplace_back("HAS_BACK_FACES", spec.drawsFarSides ? "1" : "0");
+    const bool areClosed = infoOf(spec.settings.refraction).farSide == RefractionInfo::FarSide::BackFacesOfClosed;
+    if (spec.drawsFarSides) defines.emplace_back("BACK_FACES_OF_CLOSED", areClosed ? "1" : "0");
     defines.emplace_back("IN_ATLAS", spec.isInAtlas() ? "1" : "0");
     if (spec.isInAtlas()) {
         const int side = spec.settings.sizePixels.x;

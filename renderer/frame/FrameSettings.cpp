@@ -67,6 +67,8 @@ constexpr RefractionInfo kRefractions[] = {
      FarSide::Parallel},
     {Refraction::BackFaces, "back_faces", "the same along rays that bend again at the back faces of meshes", true,
      FarSide::BackFaces},
+    {Refraction::ClosedMeshes, "closed_meshes", "back_faces of bodies whose meshes are closed, one_side of others",
+     true, FarSide::BackFacesOfClosed},
 };
 static_assert(isInOrder(kRefractions, &RefractionInfo::refraction, std::size(kRefractions)));
 

@@ -124,13 +124,15 @@ struct AreaSettings {
 inline constexpr int kAreaSamples[] = {1, 4, 16, 64, 256, 1024};
 
 /// What bodies of glass show (docs/glass.md).
-enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides, BackFaces };
+enum class Refraction : std::uint8_t { Environment, OneSide, TwoSides, BackFaces, ClosedMeshes };
 struct RefractionInfo {
     Refraction refraction;
     std::string_view name;
     std::string_view summary;
     bool showsScene; ///< opaque surfaces along the rays that bodies bend; else the environment alone
-    enum class FarSide : std::uint8_t { None, Parallel, BackFaces } farSide; ///< where rays leave a body
+    /// Where rays leave a body; of closed ones those whose meshes are (scenes/ClosedBodies.h), and others nowhere.
+    enum class FarSide : std::uint8_t { None, Parallel, BackFaces, BackFacesOfClosed } farSide;
+    bool seesBackFaces() const { return farSide == FarSide::BackFaces || farSide == FarSide::BackFacesOfClosed; }
 };
 std::span<const RefractionInfo> refractionTable();
 inline constexpr int kGlassDepths[] = {0, 1, 2, 4, 8};
@@ -199,13 +201,15 @@ struct FrameSettings {
     DiffusionSettings diffusion;
     EnvironmentSettings environment;
     AreaSettings area;
-    Refraction refraction = Refraction::OneSide;
+    Refraction refraction = Refraction::ClosedMeshes;
     int glassDepth = 0; ///< of the reference alone (its Settings.h): glass behind glass; one of kGlassDepths
     culling::Settings culling;
     std::optional<LightingStage> lightOn; ///< of the techniques that light in a pass of its own; open: fragment shaders
     float snapPixels = 0.0f; ///< gpu::Capabilities::snapPixels of the renderer's own backend, which it sets
     /// gpu::Capabilities::texturesAStage of the renderer's own backend, which it sets.
     int texturesAStage = TEXTURE_UNITS_A_STAGE;
+    /// Whether the scene has any body whose meshes are closed; open: to be found. The renderer sets it, which knows.
+    std::optional<bool> hasClosedBodies;
     bool softwareBackend = true; ///< decides the choices left open; the renderer sets it to its own backend
     bool display = true;         ///< false: display code values are not needed, and the display pass is left out
     float exposureEV = 0.0f;

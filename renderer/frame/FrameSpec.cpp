@@ -13,6 +13,7 @@
 #include "renderer/frame/SeenLights.h"
 #include "renderer/frame/ShadowMaps.h"
 #include "renderer/frame/TextureRoom.h"
+#include "scenes/ClosedBodies.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
 #include "shaders/shared/refraction.h"
@@ -94,6 +95,14 @@ bool showsAnyOpaque(const scenes::Scene& scene, const FrameSpec& spec) {
     return spec.seenLights > 0 || anyOpaque(scene);
 }
 
+/// Whether any body may have back faces by which rays leave it.
+bool mayLeaveByBackFaces(const scenes::Scene& scene, const FrameSettings& settings) {
+    if (!settings.prune || infoOf(settings.refraction).farSide == RefractionInfo::FarSide::BackFaces) return true;
+    if (settings.hasClosedBodies) return *settings.hasClosedBodies;
+    std::vector<std::optional<bool>> known;
+    return scenes::hasClosedBodies(scene, known);
+}
+
 /// Decides what glass shows of what is behind it, once the features of surfaces and the lights that are seen are known.
 void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const FrameSettings& settings = spec.settings;
@@ -107,7 +116,7 @@ void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
         isLit && mayBe([](const scenes::Material& one) { return !scenes::hasBody(one) && mayScatter(one); });
     const RefractionInfo& refraction = infoOf(settings.refraction);
     spec.showsBehindGlass = (mayBend || maySheetScatter) && refraction.showsScene && showsAnyOpaque(scene, spec);
-    spec.drawsFarSides = mayBend && refraction.farSide == RefractionInfo::FarSide::BackFaces;
+    spec.drawsFarSides = mayBend && refraction.seesBackFaces() && mayLeaveByBackFaces(scene, settings);
     spec.blursBehindGlass = spec.showsBehindGlass && mayBe(mayScatter);
     spec.scattersBySheets =
         maySheetScatter && refraction.showsScene && (spec.showsBehindGlass || spec.features[Feature::Environment]);
@@ -129,6 +138,14 @@ std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& s
     if (!showsAnyOpaque(scene, spec)) return "every surface is transparent, and no light is seen";
     if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
     return "a shader of this driver samples too few textures";
+}
+
+/// Why rays leave no body by its back faces.
+std::string whyNoBackFaces(const FrameSpec& spec) {
+    if (!infoOf(spec.settings.refraction).seesBackFaces()) return "rays are not to leave bodies there";
+    if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
+    if (spec.hasNoRoomBehindGlass) return "a shader of this driver samples too few textures";
+    return "no body that is drawn has closed meshes alone";
 }
 
 /// Why a feature is left out.
@@ -417,6 +434,8 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
     }
     if (spec.seenLights == 0) out.push_back({"surfaces of area lights", whyNoSeenLights(scene, spec.settings), 0, {}});
     if (!spec.showsBehindGlass) out.push_back({"surfaces behind glass", whyNothingBehindGlass(scene, spec), 0, {}});
+    if (spec.features[Feature::Volume] && !spec.drawsFarSides)
+        out.push_back({"back faces of glass", whyNoBackFaces(spec), 0, {}});
     addLights(out, lights.features, lights.off, "off, or not the solo light");
     addLights(out, lights.features, lights.dark, "no intensity, range, cone or surface");
     addLights(out, lights.features, lights.unseen, "their range ends outside the view");

@@ -57,7 +57,8 @@ bool mayMirror(const scenes::Material& material) {
         return true;
     const float roughness = material.*model.roughness;
     if (scenes::isTransmissive(material) &&
-        (isTextured(TextureSlot::Ior) || squared(roughness) * double(shared::passingScale(material.ior)) < kSharpAlpha))
+        (isTextured(TextureSlot::Ior) ||
+         squared(roughness) * double(shared::leastPassingScale(material.ior)) < kSharpAlpha))
         return true;
     switch (model.microsurface) {
     case Microsurface::None:
@@ -132,7 +133,7 @@ bool mayScatter(const scenes::Material& material) {
     const auto isTextured = [&](scenes::TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
     if (isTextured(scenes::TextureSlot::MetallicRoughness) || isTextured(scenes::TextureSlot::Ior)) return true;
     const auto roughness = double(material.perceptualRoughness);
-    return roughness * roughness * double(shared::passingScale(material.ior)) > kSurelyMirrorAlpha;
+    return material.ior != 1.0f && roughness * roughness > kSurelyMirrorAlpha;
 }
 
 bool mayLookBehindGlass(const scenes::Scene& scene) {

@@ -13,6 +13,7 @@
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/TexelBuffer.h"
+#include "scenes/ClosedBodies.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
 #include "shaders/shared/slots.h"
@@ -143,25 +144,27 @@ SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     return draws;
 }
 
-SceneGpu::Materials SceneGpu::makeMaterials() const {
+SceneGpu::Materials SceneGpu::makeMaterials() {
     constexpr std::size_t kTabledBytes = MATERIAL_TEXELS * sizeof(glm::vec4);
     static_assert(kTabledBytes == offsetof(shared::MaterialConstants, uvRow0));
     std::vector<std::byte> bytes(kMaterialStride * scene_.materials.size());
     std::vector<std::byte> tabled;
     PackedSubsurfaces subsurfaces = packSubsurfaces(scene_, subsurface_);
+    Materials materials;
+    materials.closedBodies = scenes::closedBodies(scene_, closedMeshes_);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
         shared::MaterialConstants constants = packMaterial(scene_.materials[i], subsurfaces.rowOf[i]);
         for (std::size_t slot = 0; slot < scenes::kTextureSlotCount; ++slot) {
             if (shadersDecode(scene_.materials[i], slot)) constants.uvRow1[slot].w += float(TEXTURE_MODE_SRGB);
         }
         if (scene_.hook && scene_.hook->changes(i)) constants.kind.y |= MATERIAL_FLAG_HOOKED;
+        if (materials.closedBodies[i]) constants.kind.y |= MATERIAL_FLAG_CLOSED;
         constants.kind.w = glm::uint(tabled.size() / kTabledBytes);
         std::memcpy(bytes.data() + i * kMaterialStride, &constants, sizeof constants);
         if (!materialsInUse_[i]) continue;
         const auto* const first = reinterpret_cast<const std::byte*>(&constants);
         tabled.insert(tabled.end(), first, first + kTabledBytes);
     }
-    Materials materials;
     materials.constants = std::make_unique<gpu::Buffer>(gpu::Buffer::of("materials", bytes));
     if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
@@ -194,6 +197,7 @@ void SceneGpu::updateMaterials() {
 void SceneGpu::updateGeometry() {
     Geometry geometry = makeGeometry(scene_, features_);
     Draws draws = makeDraws(geometry.ranges);
+    closedMeshes_.clear();
     Materials materials = makeMaterials();
     std::vector<CasterMaterial> revised = casterMaterials();
     // Nothing throws from here on.
@@ -333,6 +337,7 @@ void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, con
     for (const Batch& batch : batches) {
         const scenes::Material& material = scene_.materials[std::size_t(batch.material)];
         if (state.farSides && !scenes::hasBody(material)) continue;
+        if (state.farSidesOfClosed && !materials_.closedBodies[std::size_t(batch.material)]) continue;
         gpu::PipelineState own = stateOf(state, material.doubleSided, batch.mirrored);
         if (transmitting && scenes::isTransmissive(material)) own.blend = *transmitting;
         gpu::setState(own);

@@ -130,6 +130,7 @@ private:
         std::unique_ptr<gpu::Buffer> constants; ///< of each, 256 bytes or a multiple apart
         std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
         std::unique_ptr<gpu::Buffer> subsurfaces;
+        std::vector<bool> closedBodies; ///< scenes::closedBodies()
     };
     /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity,
     /// and the row of SubsurfaceConstants that lets it through.
@@ -137,7 +138,7 @@ private:
     std::vector<CasterMaterial> casterMaterials() const;
     static Geometry makeGeometry(const scenes::Scene& scene, const FeatureSet& features);
     Draws makeDraws(const VertexStreams::Ranges& ranges) const;
-    Materials makeMaterials() const;
+    Materials makeMaterials();
     void uploadTextures();
     void bindVertices(const ViewBuffers& view) const;
     void bindMaterial(int material) const;
@@ -151,7 +152,8 @@ private:
     FeatureSet features_;
     TextureFilter filter_;
     scenes::SubsurfaceRequest subsurface_;
-    std::vector<bool> materialsInUse_; ///< by material; the table holds those in use, in their order
+    std::vector<std::optional<bool>> closedMeshes_; ///< by mesh, those that were asked
+    std::vector<bool> materialsInUse_;              ///< by material; the table holds those in use, in their order
     Geometry geometry_;
     Draws draws_;
     Materials materials_;

@@ -27,8 +27,9 @@ struct PipelineState {
     bool alphaToCoverage = false;
     /// Nothing is clipped at the near and far plane, such as casters of shadows before a light's near plane.
     bool depthClamp = false;
-    bool bothSides = false;     ///< SceneGpu draws single-sided surfaces too without culling
-    bool farSides = false;      ///< SceneGpu draws back faces alone, of what transmits and has a body
+    bool bothSides = false;        ///< SceneGpu draws single-sided surfaces too without culling
+    bool farSides = false;         ///< SceneGpu draws back faces alone, of what transmits and has a body
+    bool farSidesOfClosed = false; ///< those of closed meshes alone
     float slopeBias = 0.0f;     ///< times the larger change of depth to the next pixel is added to a triangle's depth
     float mostSlopeBias = 0.0f; ///< what is added at most, of its sign, where the driver can; 0: any
     bool operator==(const PipelineState&) const = default;

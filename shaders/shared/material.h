@@ -11,6 +11,7 @@
 #define MATERIAL_FLAG_ANISOTROPY_TEXTURE 32u
 #define MATERIAL_FLAG_CLEARCOAT_NORMAL_MAP 64u
 #define MATERIAL_FLAG_HOOKED 128u
+#define MATERIAL_FLAG_CLOSED 256u // a body whose meshes are all closed
 
 // RGBA32UI texels of a material in the table of all of them, which lighting reads where pixels hold only their
 // material's number: what lies before uvRow0. As many materials as a pixel's 11 bits can name, a third of the 65536

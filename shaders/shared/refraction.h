@@ -1,5 +1,5 @@
 #pragma once
-// What bodies of glass show of the surfaces behind them: how much a rough one blurs them, how a ray is followed over
+// What bodies of glass show of the surfaces behind them: how far a rough one spreads light, how a ray is followed over
 // the screen, and where coarser pictures of those surfaces lie.
 #include "interop.h"
 
@@ -11,12 +11,39 @@
 
 SHARED_BEGIN
 
-// By how much less a rough surface spreads light that passes than light that it reflects, a factor of alpha: the less
-// its index of refraction bends it. An index of 0 is one without bound. Source: the Khronos sample viewer,
-// applyIorToRoughness().
-SHARED_FUNCTION float passingScale(float ior) {
-    SHARED_PRECISE float root = ior > 0.0f ? clamp(2.0f * ior - 2.0f, 0.0f, 1.0f) : 1.0f;
-    SHARED_PRECISE float scale = root * root;
+// By how much a facet of a rough surface turns a ray that passes, for each radian that it leans, to first order: by
+// sin(x) = ior sin(y), where the facet leans towards the plane of incidence, and within it. Cosines are those of the
+// ray to the surface's normal, outside and inside. An index of 0 is one without bound, of a ray that enters.
+SHARED_FUNCTION vec2 turnsOfEntering(float ior, float cosOutside, float cosInside) {
+    if (!(ior > 0.0f)) return vec2(1.0f, 1.0f);
+    SHARED_PRECISE float across = abs(cosInside - cosOutside / ior);
+    SHARED_PRECISE float along = across / max(cosInside, 1e-3f);
+    return vec2(across, along);
+}
+SHARED_FUNCTION vec2 turnsOfLeaving(float ior, float cosOutside, float cosInside) {
+    SHARED_PRECISE float across = abs(ior * cosInside - cosOutside);
+    SHARED_PRECISE float along = across / max(cosOutside, 1e-3f);
+    return vec2(across, along);
+}
+
+// Two lobes of GGX one behind the other, by their turns: neither their sum nor the root of that of their squares, as
+// such lobes have no variance. An exponent of 1.5 is as near as any to the lobes of slabs and balls (docs/glass.md).
+SHARED_FUNCTION float turnsTogether(float first, float second) {
+    SHARED_PRECISE float together = pow(first * sqrt(first) + second * sqrt(second), 2.0f / 3.0f);
+    return together;
+}
+
+// The alpha of the lobe around a ray that a mirror with GGX would have, seen straight on, by the turns of facets of
+// `alpha`: a mirror turns light by twice the angle of its facets. Facets that turn it by far more reflect it all.
+SHARED_FUNCTION float passingAlpha(float alpha, vec2 turns, float leastAlpha) {
+    SHARED_PRECISE float turn = min(sqrt(turns.x * turns.y), 4.0f);
+    SHARED_PRECISE float spread = clamp(0.5f * alpha * turn, leastAlpha, 1.0f);
+    return spread;
+}
+
+// The least that passingAlpha() makes of an alpha, from any side and through any body.
+SHARED_FUNCTION float leastPassingScale(float ior) {
+    SHARED_PRECISE float scale = ior > 0.0f ? 0.5f * abs(ior - 1.0f) / max(ior, 1.0f) : 0.5f;
     return scale;
 }
 

@@ -11,6 +11,7 @@
 namespace tessera {
 namespace {
 
+using engine::Technique;
 using frame::Refraction;
 using scenes::Material;
 using scenes::Scene;
@@ -173,6 +174,56 @@ TEST_F(GlassBackFaces, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
             EXPECT_EQ(at(shown, x, y), glm::dvec3(0.125, 0.375, 0.625)) << "at " << x << ", " << y;
         }
     EXPECT_GT(reflected, kBehindPixels);
+}
+
+/// By default rays leave what is closed by its back faces, and what is open goes on without a far side, also where a
+/// closed body stands behind it.
+TEST_F(GlassBackFaces, countByDefaultOfClosedMeshes) {
+    scenes::Mesh box;
+    scenes::builtin::appendBox(box, {-0.3, -0.3, -0.9}, {0.3, 0.3, -0.4});
+    Scene scene = coveredByBody(rampWall(), bareGlass(1.5), box, 0.4);
+    const auto shownWith = [&](Refraction refraction) { return drawn(scene, seeing(refraction)); };
+    EXPECT_EQ(frame::FrameSettings().refraction, Refraction::ClosedMeshes);
+    EXPECT_EQ(shownWith(Refraction::ClosedMeshes), shownWith(Refraction::BackFaces));
+    EXPECT_NE(shownWith(Refraction::ClosedMeshes), shownWith(Refraction::OneSide));
+    const Scene pane = coveredByGlass(rampWall(), bareGlass(1.3), -0.3);
+    const std::vector<float> alone = drawn(pane, seeing(Refraction::OneSide));
+    EXPECT_EQ(drawn(pane, seeing(Refraction::ClosedMeshes)), alone);
+    scene = coveredByGlass(scene, bareGlass(1.3), -0.3);
+    placeQuad(scene.nodes.back(), 1.0, 4.0, -0.3);
+    Scene paneAlone = pane;
+    placeQuad(paneAlone.nodes.back(), 1.0, 4.0, -0.3);
+    EXPECT_EQ(shownWith(Refraction::ClosedMeshes), drawn(paneAlone, seeing(Refraction::OneSide)));
+}
+
+/// Where a body ends behind the wall it stands in, its rays meet the wall. One that bends nothing shows the very bits.
+TEST_F(GlassBackFaces, thatReachesIntoTheWallShowsTheWall) {
+    scenes::Mesh box;
+    scenes::builtin::appendBox(box, {-0.6, -0.6, -1.5 * kBehindWallMetres}, {0.6, 0.6, 0.0});
+    const Scene covered = coveredByBody(checkedWall(), bareGlass(1.0), box);
+    const frame::FrameSettings settings = seeing(Refraction::BackFaces);
+    const std::vector<float> plain = drawn(checkedWall(), settings);
+    EXPECT_EQ(drawn(covered, settings), plain);
+    const std::vector<float> truth = validation::referencePicture(
+                                         covered, settings, [] {}, validation::Leeway::None)
+                                         .picture.rgba;
+    for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(truth[i], plain[i], 1e-5) << i;
+}
+
+/// The table, seen flat, changes its depth within a pixel by more than the rays that the base of the prism reflects
+/// rise above it there: they do not meet it. The base shows the light box alone, which is even.
+TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
+    const scenes::Scene scene = scenes::loadScene("glass");
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings;
+    settings.sizePixels = {480, 270};
+    settings.refraction = frame::Refraction::BackFaces;
+    settings.shadows.kind = scenes::ShadowRequest::Kind::None;
+    const std::vector<float> shown = renderer.render(Technique::Forward, settings).radiance;
+    const auto redAt = [&](int x, int y) { return shown[4 * (std::size_t(y) * 480 + std::size_t(x))]; };
+    for (int y = 170; y < 175; ++y) // within the picture of that base
+        for (int x = 112; x < 120; ++x)
+            EXPECT_NEAR(redAt(x, y), redAt(117, 172), 0.1f * redAt(117, 172)) << x << ", " << y;
 }
 
 /// The base of the prism on the table of the scene glass reflects all light, and the rays that leave it begin at the

@@ -145,6 +145,12 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     EXPECT_THAT(planOf(covered), Not(HasSubstr("far_sides")));
     EXPECT_THAT(planOf(covered, Refraction::BackFaces), HasSubstr("far_sides"));
     EXPECT_THAT(planOf(checkedWall(), Refraction::BackFaces), Not(HasSubstr("far_sides")));
+    EXPECT_THAT(planOf(covered, Refraction::ClosedMeshes), Not(HasSubstr("far_sides")));
+    EXPECT_THAT(planOf(covered, Refraction::ClosedMeshes), HasSubstr("back faces of glass")) << "told as left out";
+    Scene closed = covered;
+    scenes::builtin::appendBox(closed.meshes.emplace_back(), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    closed.nodes.back().instances[0].mesh = int(closed.meshes.size()) - 1;
+    EXPECT_THAT(planOf(closed, Refraction::ClosedMeshes), HasSubstr("far_sides"));
 
     Scene onlyGlass = quadScene(bareGlass(1.5));
     for (const Scene& scene : {checkedWall(), coveredByGlass(checkedWall(), clearGlass()), onlyGlass}) {

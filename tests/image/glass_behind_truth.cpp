@@ -224,6 +224,51 @@ TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
     EXPECT_GT(crossing, kBehindPixels);
 }
 
+/// A bar between glass and wall whose left edge comes nearer, so steeply that its depth changes by 0.07 m from pixel to
+/// pixel: a ray that comes from the right and is farther behind its right edge than that allows for goes on to the
+/// wall.
+TEST_F(GlassBehindTruth, raysPassBehindTheEdgeOfWhatLeans) {
+    constexpr double kIor = 2.4, kLeanRadians = 1.05, kBarMetres = 0.2, kBarZ = -0.3; // half its length
+    // Four pixels and twice a step of the bar's depth, and a pixel more.
+    const double allowedMetres = (5.0 + 2.0 * std::tan(kLeanRadians)) * kBehindPixelMetres;
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    const Scene wall = rampWall();
+    Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
+    covered.materials.push_back(unlit());
+    scenes::Node& bar = covered.nodes.emplace_back(covered.nodes[0]);
+    bar.instances[0].material = 2;
+    placeQuad(bar, kBarZ, kBarMetres, kLeanRadians);
+    bar.parentFromNode[1] *= 4.0 / kBarMetres;
+    const double edge = kBarMetres * std::cos(kLeanRadians), farZ = kBarZ - kBarMetres * std::sin(kLeanRadians);
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+    int passing = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const double begin = metresOf(x), beginZ = -begin * std::tan(kBehindTiltRadians);
+            const double place = begin - (kBehindWallMetres + beginZ) * bend;
+            const double atEdgeZ = beginZ - (begin - edge) / bend; // of the ray
+            if (begin < edge || place > -edge - 1.5 * kBehindPixelMetres || atEdgeZ > farZ - allowedMetres) continue;
+            ++passing;
+            const glm::dvec3 wanted = evenlyAt(plain, place, y);
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 2e-3) << "at " << x << ", " << y;
+        }
+    EXPECT_GE(passing, kBehindPixels);
+}
+
+/// Wide levels end where the picture does, within their texels: an even wall shows as it is up to the rim.
+TEST_F(GlassBehindTruth, thatIsRoughLosesNoLightAtTheRimOfThePicture) {
+    const Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
+    frame::FrameSettings settings = seeing(Refraction::OneSide);
+    settings.sizePixels = {53, 47}; // no multiple of any level's texels
+    const std::vector<float> plain = drawn(even, settings);
+    for (const double roughness : {0.4, 0.7, 1.0}) {
+        const std::vector<float> shown = drawn(coveredByGlass(even, bareGlass(1.5, roughness)), settings);
+        for (std::size_t i = 0; i < plain.size(); ++i)
+            ASSERT_NEAR(shown[i], plain[i], 2e-5f * plain[i]) << roughness << ", " << i;
+    }
+}
+
 /// A rough body before an even wall shows just that, before an edge a wider one, as the reference does.
 TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
     Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
@@ -238,7 +283,8 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
                                      return std::array<int, 4>{value, value, value, 255};
                                  }),
                                  4.0);
-    const Scene rough = coveredByGlass(edge, bareGlass(1.5, 0.3));
+    constexpr double kRoughness = 0.7, kIor = 1.5;
+    const Scene rough = coveredByGlass(edge, bareGlass(kIor, kRoughness));
     const validation::ReferencePicture truth = validation::referencePicture(
         rough, settings, [] {}, validation::Leeway::None);
     const auto errorOf = [&](const Scene& scene) {
@@ -247,14 +293,14 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
         for (std::size_t i = 0; i < own.size(); i += 4) sum += std::abs(double(own[i]) - double(truth.picture.rgba[i]));
         return sum / double(truth.picture.pixelCount());
     };
-    const double blurred = errorOf(rough), sharp = errorOf(coveredByGlass(edge, bareGlass(1.5)));
+    const double blurred = errorOf(rough), sharp = errorOf(coveredByGlass(edge, bareGlass(kIor)));
     fmt::print("behind rough glass: mean error {:.3f}, {:.3f} if it were smooth\n", blurred, sharp);
     EXPECT_LT(blurred, 0.5 * sharp);
 
     // Of a GGX lobe (1 + s / sqrt(s^2 + alpha^2)) / 2 lies below a slope s of its half vectors along one direction, and
-    // they turn light by twice their angle: from a quarter to three quarters of the light it is so far.
-    constexpr double kAlpha = 0.3 * 0.3;
-    const double wanted = 2.0 * kBehindWallMetres * std::tan(2.0 * std::atan(kAlpha / std::sqrt(3.0)));
+    // they turn light by their angle less that inside: from a quarter to three quarters of the light it is so far.
+    const double lean = std::atan(kRoughness * kRoughness / std::sqrt(3.0));
+    const double wanted = 2.0 * kBehindWallMetres * std::tan(lean - std::asin(std::sin(lean) / kIor));
     const auto widthOf = [&](const std::vector<float>& picture) {
         std::vector<double> columns(kBehindPixels);
         for (int y = 0; y < kBehindPixels; ++y)
@@ -274,18 +320,21 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
     EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
 }
 
-/// Seen straight on, a body bends nothing: to the last bits, in the reference too. At a slant it does, and a sheet does
-/// not: before colours that change evenly its blur shows those straight behind.
-TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsABodyDoesAndBendsNone) {
+/// A sheet has two sides, as a body of two sides that lie a micrometre apart: seen straight on they show the same to
+/// the last bits, in the reference too. At a slant a body bends light once, and a sheet does not: before colours that
+/// change evenly its blur shows those straight behind.
+TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsTwoSidesDoAndBendsNone) {
     Material body = bareGlass(1.5, 0.3), sheet = body;
+    body.thicknessMetres = 1e-6f;
     sheet.thicknessMetres = 0.0f;
     const frame::FrameSettings settings = seeing(Refraction::OneSide);
     const Scene wall = checkedWall(), covered = coveredByGlass(wall, sheet);
     const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
-    const std::vector<float> throughBody = drawn(coveredByGlass(wall, body), settings);
+    const frame::FrameSettings twoSides = seeing(Refraction::TwoSides);
+    const std::vector<float> throughBody = drawn(coveredByGlass(wall, body), twoSides);
     const auto truthOf = [&](const Scene& scene) {
         return validation::referencePicture(
-                   scene, settings, [] {}, validation::Leeway::None)
+                   scene, twoSides, [] {}, validation::Leeway::None)
             .picture.rgba;
     };
     const std::vector<float> truth = truthOf(covered), bodyTruth = truthOf(coveredByGlass(wall, body));

@@ -11,6 +11,7 @@
 #include "tests/image/FlatTest.h"
 #include "tests/image/GlassTest.h"
 #include "tests/image/Textbook.h"
+#include "validation/reference/Lobes.h"
 
 namespace tessera {
 namespace {
@@ -20,6 +21,9 @@ using frame::EnvironmentLight;
 using scenes::Material;
 using scenes::Scene;
 using namespace test;
+
+/// Of the fit of the albedo, 0 to 1 (tests/gpu/shaders/layers.cpp).
+constexpr double kSheenFit = 0.035;
 
 class GlassSheets : public FlatTest {
 protected:
@@ -128,6 +132,45 @@ TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
     matte.transmission = 0.0f;
     const glm::vec4 whole = center(lit(matte));
     expectShown(lit(sheet), glm::mix(glm::dvec3(highlight), glm::dvec3(whole), 0.75));
+}
+
+/// Of even light a black sheet reflects what its sheen does, and what the sheen reflects does not pass: by the integral
+/// of the sheen's lobe, of which the product has a fit.
+TEST_F(GlassSheets, underASheenPassWhatItsLobeDoesNotReflect) {
+    double most = 0.0;
+    for (const double roughness : {0.3, 0.5, 1.0})
+        for (const double tiltRadians : {0.0, 0.8, 1.2}) {
+            Material sheet = bareGlass(1.5);
+            sheet.thicknessMetres = 0.0f;
+            sheet.sheenColor = {0.3f, 0.8f, 0.5f};
+            sheet.sheenPerceptualRoughness = float(roughness);
+            Scene scene = flatScene(sheet);
+            glm::dmat4& placed = scene.nodes[0].parentFromNode;
+            const double cosView = std::cos(tiltRadians), sine = std::sin(tiltRadians);
+            placed[0] = 4.0 * glm::dvec4(cosView, 0.0, -sine, 0.0);
+            placed[2] = {sine, 0.0, cosView, 0.0};
+            scene.background = {0.25f, 0.5f, 0.75f};
+            const double alpha = roughness * roughness;
+            constexpr int kSteps = 200;
+            double albedo = 0.0; // of a white sheen
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {
+                    const double cosLight = (i + 0.5) / kSteps, turn = 2.0 * std::numbers::pi * (j + 0.5) / kSteps;
+                    const double level = std::sqrt(1.0 - cosLight * cosLight);
+                    const glm::dvec3 toLight(level * std::cos(turn), level * std::sin(turn), cosLight);
+                    const glm::dvec3 half = glm::normalize(toLight + glm::dvec3(sine, 0.0, cosView));
+                    albedo += reference::distributionCharlie(alpha, half.z) *
+                              reference::visibilityCharlie(alpha, cosLight, cosView) * cosLight;
+                }
+            albedo *= 2.0 * std::numbers::pi / (kSteps * kSteps);
+            const glm::vec4 shown = center(scene);
+            // KHR_materials_sheen: below the sheen all colours lose what its strongest reflects.
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(shown[c] / scene.background[c], 1.0 - double(0.8f) * albedo, kSheenFit)
+                    << roughness << ", " << tiltRadians << ", " << c;
+            most = std::max(most, albedo);
+        }
+    EXPECT_GT(most, 10.0 * kSheenFit);
 }
 
 class GlassTruth : public GlassTest {
@@ -376,7 +419,9 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
         }
 }
 
-/// Roughness spreads light by the index of refraction: none at 1, all from 1.5 on and at 0, which has no bound.
+/// Roughness spreads light by the index of refraction: none at 1. At grazing angles the closed form lacks that lobes
+/// lean aside, of sheets twice (docs/glass.md): by an integral of its own, sums are 1 and 4.4 % off and pixels 0.1 and
+/// 0.4.
 void GlassTruth::expectRoughAsTheReference() {
     struct Case {
         double ior;
@@ -386,7 +431,7 @@ void GlassTruth::expectRoughAsTheReference() {
          {Case{1.0, false}, {1.25, false}, {1.5, false}, {2.0, false}, {0.0, false}, {1.5, true}, {1.25, true}}) {
         if (!isWholeSweep() && (ior == 1.25 || (ior == 1.5 && !isSheet))) continue;
         SCOPED_TRACE(fmt::format("{} of index {}", isSheet ? "sheet" : "body", ior));
-        Material rough = bareGlass(ior, 0.6);
+        Material rough = bareGlass(ior, 0.3);
         if (isSheet) rough.thicknessMetres = 0.0f;
         if (ior == 2.0) rough.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
         rough.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
@@ -411,8 +456,8 @@ void GlassTruth::expectRoughAsTheReference() {
             EXPECT_GT(other, 100.0);
             // At 0 all pixels look one way, so that what the filtered map's texels round there, 3.3 %, does not average
             // out.
-            EXPECT_NEAR(own, other, (ior > 0.0 ? 0.01 : 0.05) * other) << infoOf(light).name;
-            EXPECT_LE(worst, 0.1) << infoOf(light).name; // noise of both; levels between alphas
+            EXPECT_NEAR(own, other, (isSheet || ior == 0.0 ? 0.05 : 0.02) * other) << infoOf(light).name;
+            EXPECT_LE(worst, isSheet ? 0.45 : 0.15) << infoOf(light).name; // noise of both; levels between alphas
         }
     }
 }

@@ -11,6 +11,7 @@
 
 #include "scenes/Load.h"
 #include "scenes/Pose.h"
+#include "scenes/builtin/Shapes.h"
 #include "tests/image/FlatTest.h"
 #include "tests/support/AnimatedModels.h"
 #include "tests/support/ShaderMutant.h"
@@ -287,6 +288,22 @@ TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAgreeWithIt) {
         scene.materials.back().baseColor.a = float(0.1 + 0.2 * z);
     }
     expectAgreement("panes of glass", scene, ofSize(160, 90));
+}
+
+/// An index of refraction of 1000 reflects 99.6 % of light: of the rest the table of lobes has less exact a share.
+TEST_F(Reference, roughGlassOfAHighIndexAgreesToWhatTheTableOfLobesHolds) {
+    for (const float roughness : {0.2f, 0.5f}) {
+        scenes::Material glass;
+        glass.metallic = 0.0f;
+        glass.perceptualRoughness = roughness;
+        glass.transmission = 1.0f;
+        glass.ior = 1000.0f;
+        scenes::Scene scene = test::quadScene(glass);
+        scene.meshes[0] = {};
+        scenes::builtin::appendSphere(scene.meshes[0], {}, 1.0, 48, 24);
+        scene.background = glm::vec3(1.0f);
+        expectAgreement("glass of index 1000", scene, ofSize(48, 48));
+    }
 }
 
 /// One wrong number in a scene is found: here one light in a hundred of its strength.

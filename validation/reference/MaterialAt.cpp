@@ -87,9 +87,7 @@ void setTransmission(const Hit& hit, const Textures& textures, SurfacePoint& poi
     if (point.hasBody) point.dispersion = double(material.dispersion);
     if (point.hasBody && distance > 0.0)
         for (int c = 0; c < 3; ++c) point.bodyPerMetre[c] = -std::log(double(material.attenuationColor[c])) / distance;
-    // A roughness is scaled before it is squared, as the Khronos sample viewer does. An index of 0 stands for infinity.
-    const double bending = point.ior == 0.0 ? 1.0 : std::clamp(2.0 * (point.ior - 1.0), 0.0, 1.0);
-    point.passingAlpha = squaredRoughness(point.roughness * bending);
+    point.passingAlpha = point.ior == 1.0 ? kSmallestAlpha : squaredRoughness(point.roughness);
 }
 
 } // namespace

@@ -42,7 +42,7 @@ struct SurfacePoint {
     bool hasBody = false;             ///< that bends and absorbs what passes, KHR_materials_volume
     glm::dvec3 bodyPerMetre{0.0};     ///< absorption of what passes, by channel, in the scene's metres
     double dispersion = 0.0;          ///< 20 over the Abbe number, KHR_materials_dispersion
-    double passingAlpha = 1.0;        ///< of GGX, by which a body spreads it
+    double passingAlpha = 1.0;        ///< of GGX, of the facets that spread it; the least: it is not spread
     double bodyMetres = 0.0;          ///< how thick it is
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that it goes round

@@ -38,8 +38,9 @@ struct Noise {
 using RunHook = std::function<std::vector<scenes::HookedSurface>(std::span<const scenes::HookPoint> points)>;
 
 /// Where rays leave bodies of what transmits: nowhere, so that they bend once; at a plane along the near side, as thick
-/// as the body below it; or at the back faces of its mesh.
-enum class FarSide { None, Parallel, BackFaces };
+/// as the body below it; or at the back faces of its mesh,
+/// of any or of closed ones.
+enum class FarSide { None, Parallel, BackFaces, BackFacesOfClosed };
 
 /// What is rendered of a scene.
 struct Settings {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
 
+#include "scenes/ClosedBodies.h"
 #include "validation/reference/AreaLights.h"
 #include "validation/reference/NormalAt.h"
 #include "validation/reference/Reflectance.h"
@@ -51,7 +55,15 @@ bool Shown::hasUndecidedShadows() const {
 Shading::Shading(const scenes::Scene& scene, const Settings& settings, const Sight& sight)
     : scene_(scene), settings_(settings), sight_(sight), lights_(sight.lights()), surroundings_(scene, settings),
       occlusion_(scene, sight.objects()),
-      diffusion_(sight.objects(), sight.textures(), lights_, surroundings_, occlusion_, settings) {}
+      diffusion_(sight.objects(), sight.textures(), lights_, surroundings_, occlusion_, settings) {
+    if (settings.farSide == FarSide::BackFacesOfClosed) closedBodies_ = scenes::closedBodies(scene);
+}
+
+/// Whether rays leave what a ray has entered by the back faces of its mesh.
+bool Shading::hasBackFaces(const Hit& entry) const {
+    if (settings_.farSide != FarSide::BackFacesOfClosed) return settings_.farSide == FarSide::BackFaces;
+    return closedBodies_[std::size_t(entry.object->material - scene_.materials.data())];
+}
 
 Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) const {
     const Seen& seen = shown.seen;
@@ -147,35 +159,86 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
         const Seen seen = sight_.ahead(inside);
         return (seen.opaque && seen.opaque->depthMetres <= metres) || (seen.light && seen.light->depthMetres <= metres);
     };
-    const auto around = [&](const glm::dvec3& originRWS, const glm::dvec3& direction) {
-        if (!showsScene) return surroundings_.around(direction, point.passingAlpha, shown.seed);
-        return sceneAround(shown, entry, originRWS, direction, point.passingAlpha);
+    const auto around = [&](std::span<const Scatter> ways) {
+        if (showsScene) return sceneAround(shown, entry, ways);
+        return surroundings_.through(ways, shown.seed, [](const glm::dvec3&, const glm::dvec3&) { return false; });
     };
-    if (!point.hasBody) return {around(ray.at(depthMetres), -toViewer), {}};
-    const auto along = [&](double ior, std::optional<double>& wayMetres) {
-        const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
-        if (!bent) return glm::dvec3(0.0);
-        glm::dvec3 originRWS = ray.at(depthMetres), direction = *bent;
-        if (settings_.farSide == FarSide::Parallel) {
+    const bool isRough = point.passingAlpha > kSmallestAlpha;
+    const glm::dvec3 normal = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
+    const glm::dvec3 entryRWS = ray.at(depthMetres);
+    /// What a ray that goes on inside meets: where it leaves, which way, and the far side.
+    struct Leaving {
+        glm::dvec3 originRWS, direction;
+        std::optional<glm::dvec3> normal; ///< on the side of the ray
+        std::optional<double> wayMetres;  ///< up to a back face
+    };
+    const auto leavingOf = [&](const glm::dvec3& bent, double ior) {
+        Leaving found{entryRWS, bent, {}, {}};
+        if (!point.hasBody) {
+            found.normal = normal;
+            found.direction = -toViewer;
+        } else if (settings_.farSide == FarSide::Parallel) {
             // By the angle inside. The product holds its cosine to 1e-3.
-            const double toFarSideMetres = point.bodyMetres / std::max(std::abs(glm::dot(*bent, point.normal)), 1e-3);
+            const double toFarSideMetres = point.bodyMetres / std::max(std::abs(glm::dot(bent, point.normal)), 1e-3);
             // What stands inside, or under the far side itself, is met there.
             const double upTo = toFarSideMetres * (1.0 + 1e-6);
-            if (!showsScene || !meetsAny(bentRay(ray, depthMetres, originRWS, *bent), upTo)) {
-                originRWS += toFarSideMetres * *bent;
-                direction = -toViewer;
+            if (!showsScene || !meetsAny(bentRay(ray, depthMetres, entryRWS, bent), upTo)) {
+                found.originRWS += toFarSideMetres * bent;
+                found.direction = -toViewer;
+                found.normal = normal;
             }
-        }
-        if (settings_.farSide == FarSide::BackFaces) {
-            const Ray inside = bentRay(ray, depthMetres, originRWS, *bent);
+        } else if (hasBackFaces(entry)) {
+            const Ray inside = bentRay(ray, depthMetres, entryRWS, bent);
             if (std::optional<Hit> leaving = sight_.farSideAhead(inside, *entry.object)) {
                 leaving->toViewer = glm::dvec3(0.0); // who sees its back
-                wayMetres = leaving->depthMetres;
-                originRWS = inside.at(leaving->depthMetres);
-                direction = leavingDirection(*bent, normalAt(*leaving, sight_.textures()), ior);
+                const glm::dvec3 farNormal = normalAt(*leaving, sight_.textures());
+                // What stands inside is met there, but not what the far side lies on.
+                if (showsScene && meetsAny(inside, leaving->depthMetres * (1.0 - 1e-6))) return found;
+                found.wayMetres = leaving->depthMetres;
+                found.originRWS = inside.at(leaving->depthMetres);
+                found.direction = leavingDirection(bent, farNormal, ior);
+                found.normal = glm::dot(farNormal, bent) < 0.0 ? farNormal : -farNormal;
             }
         }
-        return around(originRWS, direction);
+        return found;
+    };
+    const auto along = [&](double ior, std::optional<double>& wayMetres) {
+        const std::optional<glm::dvec3> bent = refracted(point, toViewer, ior);
+        if (point.hasBody && !bent) return glm::dvec3(0.0);
+        const Leaving middle = leavingOf(bent.value_or(-toViewer), ior);
+        wayMetres = middle.wayMetres;
+        std::vector<Scatter> ways;
+        const Facets near(normal, point.passingAlpha, toViewer, ior, Facets::Send::Through);
+        if (!isRough || !bent) {
+            ways.push_back({middle.originRWS, middle.direction, {}, 1.0});
+        } else if (ior == 0.0) { // by definition its near side alone spreads light, around where that goes
+            ways.push_back(
+                {middle.originRWS, middle.direction,
+                 Facets(-middle.direction, point.passingAlpha, -middle.direction, ior, Facets::Send::Through), 1.0});
+        } else if (!middle.normal) {
+            ways.push_back({middle.originRWS, middle.direction, near, 1.0});
+        } else {
+            const bool isReflected = glm::dot(*middle.normal, middle.direction) > 0.0;
+            constexpr int kSide = 6; // of a square of facets of the near side
+            std::mt19937 generator(shown.seed * 2654435761u + 99991u);
+            std::uniform_real_distribution<double> uniform(0.0, 1.0);
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const double x = uniform(generator), y = uniform(generator);
+                const glm::dvec3 inside = near.direction({(i % kSide + x) / kSide, (double(i / kSide) + y) / kSide});
+                const double density = near.density(inside);
+                const double weight = density > 0.0 ? near.share(inside) / density : 0.0;
+                if (!(weight > 0.0)) continue;
+                const Leaving leaving = leavingOf(inside, ior);
+                Scatter way{leaving.originRWS, leaving.normal ? leaving.direction : inside, {}, weight};
+                if (leaving.normal)
+                    way.facets = Facets(*leaving.normal, point.passingAlpha, -inside, 1.0 / ior,
+                                        isReflected ? Facets::Send::Back : Facets::Send::Through);
+                ways.push_back(way);
+            }
+            if (ways.empty()) ways.push_back({middle.originRWS, middle.direction, {}, 1.0});
+            std::ranges::shuffle(ways, generator);
+        }
+        return around(ways);
     };
     const glm::dvec3 iors = iorsOf(point);
     BodyLight found;
@@ -195,35 +258,61 @@ Seen Shading::aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) con
     // The surface that a ray leaves is not met again.
     const double least = 1e-6 * std::max(entry.depthMetres, 1.0);
     Seen seen = sight_.aheadThroughGlass(bent, least);
-    if (settings_.farSide != FarSide::BackFaces)
+    if (!hasBackFaces(entry))
         std::erase_if(seen.transparent, [&](const Hit& hit) { return hit.object == entry.object; });
     return seen;
 }
 
-/// Surfaces and lights around a direction, and what is seen between them: the environment that lights the scene, else
-/// the background.
-glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, const glm::dvec3& originRWS,
-                                const glm::dvec3& direction, double alpha) const {
+/// Surfaces and lights along the ways of light, and what is seen between them: the environment that lights the scene,
+/// else the background.
+glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, std::span<const Scatter> ways) const {
     const auto aheadAlong = [&](const Ray& bent) { return aheadOf(shown, entry, bent); };
     const auto isAny = [](const Seen& seen) { return seen.opaque || seen.light || !seen.transparent.empty(); };
-    const auto rayAlong = [&](const glm::dvec3& way) { return bentRay(shown.ray, entry.depthMetres, originRWS, way); };
+    const auto rayAlong = [&](const glm::dvec3& originRWS, const glm::dvec3& way) {
+        return bentRay(shown.ray, entry.depthMetres, originRWS, way);
+    };
     const bool hasEnvironment = surroundings_.showsThroughBodies();
+    const bool isSpread = std::ranges::any_of(ways, [](const Scatter& way) { return way.facets.has_value(); });
     // Rough bodies behind one another would cost the product of their paths.
-    const int paths = shown.throughBodyPaths > 0 ? std::max(settings_.bodyPaths / 8, 4) : settings_.bodyPaths;
-    const glm::dvec3 surfaces =
-        Surroundings::meanAround(direction, alpha, shown.seed, paths, [&](const glm::dvec3& way) {
-            const Ray bent = rayAlong(way);
-            Shown met{bent, aheadAlong(bent), shown.seed, nullptr, {}};
-            if (!isAny(met.seen)) return hasEnvironment ? glm::dvec3(0.0) : glm::dvec3(scene_.background);
-            // A rough body shows many surfaces in a pixel.
-            met.throughBodyPaths =
-                alpha <= kSmallestAlpha ? settings_.environmentPaths : std::max(settings_.environmentPaths / paths, 16);
-            met.glassLeft = glassLeft(shown) - 1;
-            return shade(met).radiance;
-        });
+    const int mostPaths = shown.throughBodyPaths > 0 ? std::max(settings_.bodyPaths / 8, 4) : settings_.bodyPaths;
+    const int paths = isSpread ? mostPaths : 1;
+    std::mt19937 generator(shown.seed * 2654435761u + 54321u);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    glm::dvec3 surfaces(0.0);
+    double weights = 0.0;
+    const double turn = uniform(generator);
+    std::vector<int> strata(static_cast<std::size_t>(paths)); // of slopes; angles are by the golden ratio
+    std::iota(strata.begin(), strata.end(), 0);
+    std::ranges::shuffle(strata, generator);
+    for (int path = 0; path < paths; ++path) {
+        const Scatter& from = ways[std::size_t(path) * ways.size() / std::size_t(paths)];
+        glm::dvec3 way = from.direction;
+        double weight = from.weight;
+        if (from.facets) {
+            const double angle = (path + 1) * std::numbers::phi + turn;
+            const double slope = (strata[std::size_t(path)] + uniform(generator)) / paths;
+            way = from.facets->direction({slope, angle - std::floor(angle)});
+            const double density = from.facets->density(way);
+            weight *= density > 0.0 ? from.facets->share(way) / density : 0.0;
+        }
+        if (!(weight > 0.0)) continue;
+        weights += weight;
+        const Ray bent = rayAlong(from.originRWS, way);
+        Shown met{bent, aheadAlong(bent), shown.seed, nullptr, {}};
+        if (!isAny(met.seen)) {
+            if (!hasEnvironment) surfaces += weight * glm::dvec3(scene_.background);
+            continue;
+        }
+        // A rough body shows many surfaces in a pixel.
+        met.throughBodyPaths = isSpread ? std::max(settings_.environmentPaths / paths, 16) : settings_.environmentPaths;
+        met.glassLeft = glassLeft(shown) - 1;
+        surfaces += weight * shade(met).radiance;
+    }
+    if (weights > 0.0) surfaces /= weights;
     if (!hasEnvironment) return surfaces;
-    return surfaces + surroundings_.around(direction, alpha, shown.seed,
-                                           [&](const glm::dvec3& way) { return isAny(aheadAlong(rayAlong(way))); });
+    return surfaces + surroundings_.through(ways, shown.seed, [&](const glm::dvec3& originRWS, const glm::dvec3& way) {
+        return isAny(aheadAlong(rayAlong(originRWS, way)));
+    });
 }
 
 /// What all lights below the horizon give.

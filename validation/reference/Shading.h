@@ -69,8 +69,8 @@ private:
     }
     BodyLight throughBody(const SurfacePoint& point, const Shown& shown, const Hit& entry, const glm::dvec3& toViewer,
                           bool showsScene) const;
-    glm::dvec3 sceneAround(const Shown& shown, const Hit& entry, const glm::dvec3& originRWS,
-                           const glm::dvec3& direction, double alpha) const;
+    glm::dvec3 sceneAround(const Shown& shown, const Hit& entry, std::span<const Scatter> ways) const;
+    bool hasBackFaces(const Hit& entry) const;
     Seen aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) const;
     glm::dvec3 passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,
                           const glm::dvec3& toViewer, Shadows shadows, SurfaceMemo& memo) const;
@@ -88,6 +88,7 @@ private:
     Surroundings surroundings_;
     Occlusion occlusion_;
     Diffusion diffusion_;
+    std::vector<bool> closedBodies_; ///< by material, where that is asked
 };
 
 } // namespace tessera::reference

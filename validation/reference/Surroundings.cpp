@@ -196,58 +196,30 @@ Estimate Surroundings::on(const SurfacePoint& point, const glm::dvec3& toViewer,
     return all.times(point.openness);
 }
 
-namespace {
-
-/// A lobe of GGX along a direction, as of a mirror seen straight on, times the cosine; 1/sr, but for a factor.
-double weightAround(const glm::dvec3& direction, double alpha, const glm::dvec3& way) {
-    const double cosine = glm::dot(way, direction);
-    if (!(cosine > 0.0)) return 0.0;
-    return 0.25 * distributionGgx(alpha, glm::dot(glm::normalize(way + direction), direction)) * cosine;
-}
-
-/// Its integral. The lobe's share below a slope s of the half vector is s^2 / (s^2 + alpha^2); it ends where that leans
-/// by 45 degrees, and sends light by twice its angle.
-double wholeAround(double alpha) {
-    constexpr int kSteps = 4096;
-    const double last = 1.0 / (1.0 + alpha * alpha);
-    double whole = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double below = last * (i + 0.5) / kSteps, slope2 = alpha * alpha * below / (1.0 - below);
-        whole += last / kSteps * (1.0 - slope2) / (1.0 + slope2);
-    }
-    return whole;
-}
-
-} // namespace
-
-glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const {
-    return around(direction, alpha, seed, [](const glm::dvec3&) { return false; });
-}
-
-glm::dvec3 Surroundings::around(const glm::dvec3& direction, double alpha, std::uint32_t seed,
-                                const std::function<bool(const glm::dvec3& direction)>& isHidden) const {
-    if (alpha <= kSmallestAlpha) return isHidden(direction) ? glm::dvec3(0.0) : radianceOf(direction);
-    if (!lights_) return glm::dvec3(0.0);
+glm::dvec3 Surroundings::through(std::span<const Scatter> ways, std::uint32_t seed, const IsHidden& isHidden) const {
     const ByMap map(*this);
-    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
-    const Strategy* const strategies[] = {&map, &lobe};
-    const Estimate light = sampled(strategies, paths_, seed, [&](const glm::dvec3& way) {
-        const double share = weightAround(direction, alpha, way);
-        return share > 0.0 && !isHidden(way) ? share * radianceOf(way) : glm::dvec3(0.0);
-    });
-    return light.light / wholeAround(alpha);
-}
-
-glm::dvec3 Surroundings::meanAround(const glm::dvec3& direction, double alpha, std::uint32_t seed, int paths,
-                                    const std::function<glm::dvec3(const glm::dvec3& direction)>& light) {
-    if (alpha <= kSmallestAlpha) return light(direction);
-    const ByMicrofacets lobe(glm::dvec2(alpha), direction, glm::dvec3(0.0), direction);
-    const Strategy* const strategies[] = {&lobe};
-    const Estimate mean = sampled(strategies, paths, seed, [&](const glm::dvec3& way) {
-        const double share = weightAround(direction, alpha, way);
-        return share > 0.0 ? share * light(way) : glm::dvec3(0.0);
-    });
-    return mean.light / wholeAround(alpha);
+    const int paths = std::max(paths_ / int(ways.size()), 8);
+    glm::dvec3 light(0.0);
+    double whole = 0.0;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        const Scatter& way = ways[i];
+        if (!way.facets) {
+            whole += way.weight;
+            if (!isHidden(way.originRWS, way.direction)) light += way.weight * radianceOf(way.direction);
+            continue;
+        }
+        const double all = way.facets->whole();
+        if (!(all > 0.0)) continue;
+        whole += way.weight * all;
+        if (!lights_) continue;
+        const Strategy* const strategies[] = {&map, &*way.facets};
+        const Estimate found = sampled(strategies, paths, seed + std::uint32_t(i), [&](const glm::dvec3& from) {
+            const double share = way.facets->share(from);
+            return share > 0.0 && !isHidden(way.originRWS, from) ? share * radianceOf(from) : glm::dvec3(0.0);
+        });
+        light += way.weight * found.light;
+    }
+    return whole > 0.0 ? light / whole : glm::dvec3(0.0);
 }
 
 void Surroundings::makeIrradiances() {

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
+#include "validation/reference/Facets.h"
 #include "validation/reference/Sampling.h"
 #include "validation/reference/Settings.h"
 
@@ -31,15 +33,9 @@ public:
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                 std::uint32_t seed, int paths) const;
 
-    /// The mean around a unit direction by a lobe of GGX along it, as of a mirror seen straight on, times the cosine;
-    /// of the least alpha what comes from the direction itself.
-    glm::dvec3 around(const glm::dvec3& direction, double alpha, std::uint32_t seed) const;
-    /// The same of what is not hidden.
-    glm::dvec3 around(const glm::dvec3& direction, double alpha, std::uint32_t seed,
-                      const std::function<bool(const glm::dvec3& direction)>& isHidden) const;
-    /// The same mean of any light, of `paths` directions of the lobe.
-    static glm::dvec3 meanAround(const glm::dvec3& direction, double alpha, std::uint32_t seed, int paths,
-                                 const std::function<glm::dvec3(const glm::dvec3& direction)>& light);
+    /// What of it comes along these ways and is not hidden, as a share of all that would come: a mean.
+    using IsHidden = std::function<bool(const glm::dvec3& originRWS, const glm::dvec3& direction)>;
+    glm::dvec3 through(std::span<const Scatter> ways, std::uint32_t seed, const IsHidden& isHidden) const;
 
     /// On a surface that faces this way, interpolated between directions three degrees apart.
     glm::dvec3 irradiance(const glm::dvec3& normal) const;

@@ -137,12 +137,26 @@ float depthStep(int layer, ivec2 pixel, ivec2 axis, float depth)
     return stepOnSurface(depthBehind(layer, pixel - axis), depth, depthBehind(layer, pixel + axis));
 }
 
+// By pixel, how a surface's depth changes to the right and up.
+vec2 slopeBehind(int layer, ivec2 pixel, float depth)
+{
+    return vec2(depthStep(layer, pixel, ivec2(1, 0), depth), depthStep(layer, pixel, ivec2(0, 1), depth));
+}
+
+// Whether a ray goes into the plane of the surface that a pixel shows. One that leads out of it is found behind the middle
+// of a pixel all the same, where a body stands on what is seen flat.
+bool leadsInto(int layer, ScreenRay ray, ivec2 pixel)
+{
+    precise float rate = ray.way.z - dot(slopeBehind(layer, pixel, depthBehind(layer, pixel)), ray.way.xy);
+    return rate < 0.0;
+}
+
 // Where a ray meets the plane of the surface that the pixel of `after` shows; `after` itself where that lies elsewhere.
 vec3 placeMet(int layer, ScreenRay ray, vec3 after)
 {
     ivec2 pixel = pixelBehind(after.xy);
     float depth = depthBehind(layer, pixel);
-    precise vec2 slope = vec2(depthStep(layer, pixel, ivec2(1, 0), depth), depthStep(layer, pixel, ivec2(0, 1), depth));
+    vec2 slope = slopeBehind(layer, pixel, depth);
     vec2 middle = vec2(pixel) + 0.5;
     precise float above = after.z - (depth + dot(slope, after.xy - middle));
     precise float rate = ray.way.z - dot(slope, ray.way.xy);
@@ -171,7 +185,7 @@ ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
     // A body that is thicker than the room before a surface ends there, but a ray that leads out at once, reflected where the
     // body stands on that surface, leaves it. What is nearer than the body's near side, a ray passes behind.
     hit.isMet = layer == kOpaqueLayer && wasBehind && depthBehind(layer, hit.pixel) <= bodyDepth
-                && isBehind(layer, ray.begin + ray.way / float(steps));
+                && isBehind(layer, ray.begin + ray.way / float(steps)) && leadsInto(layer, ray, hit.pixel);
     for (int i = 1; i <= steps && !hit.isMet; ++i) {
         precise float after = float(i) / float(steps);
         bool goesBehind = isBehind(layer, ray.begin + after * ray.way);
@@ -185,7 +199,8 @@ ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
                     before = middle;
             }
             precise vec3 lastBefore = ray.begin + before * ray.way, firstBehind = ray.begin + after * ray.way;
-            hit.isMet = isMet(layer, ray, lastBefore, firstBehind);
+            hit.isMet = isMet(layer, ray, lastBefore, firstBehind)
+                        && (layer != kOpaqueLayer || leadsInto(layer, ray, pixelBehind(firstBehind.xy)));
             if (hit.isMet) {
                 hit.place = placeMet(layer, ray, firstBehind);
                 hit.pixel = pixelBehind(firstBehind.xy);
@@ -247,15 +262,16 @@ vec4 levelBehind(vec2 place, int level)
 // The picture around a place, averaged over as many pixels as the lobe of a rough body covers there. Half of a GGX lobe
 // lies within a slope of alpha of its half vectors, which turns light by twice that angle: a disk of 2 alpha l in radius, l
 // away. The square of as large a variance as a disk that holds half of its light there, interpolated between texels, has a
-// side of 3 alpha l.
+// side of 3 alpha l; a lobe's tails reach farther, and 3.4 is nearer to Walter's integral (docs/glass.md). Lobes narrower
+// than a pixel still blur a little.
 vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 {
     vec3 metLS = viewpointFromDepth(place.xy, place.z).positionLS;
     vec2 spread = raySpread();
     precise float pixelMetres =
         (spread.x + spread.y * dot(view.forwardLS.xyz, metLS)) * length(view.rayDxLS.xyz);
-    precise float widthPixels = 3.0 * alpha * length(metLS - originLS) / pixelMetres;
-    precise float level = clamp(log2(max(widthPixels, 1.0)), 0.0, float(BEHIND_COARSEST));
+    precise float widthPixels = 3.4 * alpha * length(metLS - originLS) / pixelMetres;
+    precise float level = clamp(0.5 * log2(1.0 + widthPixels * widthPixels), 0.0, float(BEHIND_COARSEST));
     int fine = min(int(level), BEHIND_COARSEST - 1);
     vec4 finer = levelBehind(place.xy, fine), coarser = levelBehind(place.xy, fine + 1);
     precise vec4 mean = finer + (level - float(fine)) * (coarser - finer);

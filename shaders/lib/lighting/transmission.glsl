@@ -3,6 +3,7 @@
 #pragma once
 #include "lib/lighting/lighting.glsl"
 #include "lib/material/material.glsl"
+#include "shared/refraction.h"
 #if HAS_PASSING_LOBES
 #include "lib/reflectance/lobes.glsl"
 #endif
@@ -77,20 +78,36 @@ struct BentRay {
     vec3 originLS;
     vec3 directionLS;   // unit
     float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
+    float alpha;        // of the GGX lobe that light is spread by around it; ALPHA_MIN: not at all
 };
 
+// Of a ray that passes facets of a surface, by what they turn it.
+float spreadOf(Surface surface, vec2 turns)
+{
+    return surface.passingAlpha > ALPHA_MIN ? passingAlpha(surface.passingAlpha, turns, ALPHA_MIN) : ALPHA_MIN;
+}
+
+// Of one that enters between two sides along each other, and leaves: the far one carries on what the near one turns,
+// and turns it by as much again.
+float spreadOfSides(Surface surface, float ior, float cosOutside, float cosInside)
+{
+    if (!(ior > 0.0)) return spreadOf(surface, vec2(1.0));
+    vec2 turns = turnsOfLeaving(ior, cosOutside, cosInside);
+    return spreadOf(surface, vec2(turnsTogether(turns.x, turns.x), turnsTogether(turns.y, turns.y)));
+}
+
 // What a ray shows, of which `kept` comes through, by channel: surfaces that the picture holds, and beyond them the
-// environment, or the background where none lights the scene. Light spreads around the ray by a GGX lobe of `alpha`.
-vec3 lightAlong(BentRay ray, vec3 kept, float alpha, Viewpoint viewpoint, vec2 pixel)
+// environment, or the background where none lights the scene.
+vec3 lightAlong(BentRay ray, vec3 kept, Viewpoint viewpoint, vec2 pixel)
 {
 #if HAS_SCENE_BEHIND
-    vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, alpha);
+    vec4 met = sceneBehind(ray.originLS, ray.directionLS, viewpoint.depth, ray.alpha);
     precise vec3 shown = kept * met.rgb;
     if (met.a >= 1.0) return shown;
     precise float rest = 1.0 - met.a;
 #endif
 #if HAS_ENVIRONMENT
-    precise vec3 around = kept * surroundingsAlong(ray.directionLS, alpha, pixel) * environmentIntensity();
+    precise vec3 around = kept * surroundingsAlong(ray.directionLS, ray.alpha, pixel) * environmentIntensity();
 #else
     precise vec3 around = kept * view.background.rgb;
 #endif
@@ -132,10 +149,10 @@ vec3 iorByChannel(float ior)
 #endif
 
 #if HAS_BACK_FACES
-// The normal of a far side where a ray meets it, interpolated between pixels that show any.
-vec3 farSideNormal(ScreenHit hit)
+// The normal of a far side at a place on the screen, interpolated between pixels that show any; `other` where none does.
+vec3 farSideNormal(vec2 place, vec3 other)
 {
-    precise vec2 corner = hit.place.xy - 0.5;
+    precise vec2 corner = place - 0.5;
     ivec2 low = ivec2(floor(corner));
     precise vec2 share = corner - vec2(low);
     precise vec3 sum = vec3(0.0);
@@ -145,7 +162,7 @@ vec3 farSideNormal(ScreenHit hit)
         precise float weight = (offset.x == 1 ? share.x : 1.0 - share.x) * (offset.y == 1 ? share.y : 1.0 - share.y);
         if (side.w > 0.0) sum += weight * side.xyz;
     }
-    return safeNormalize(sum, texelFetch(farSides, hit.pixel, 0).xyz);
+    return safeNormalize(sum, other);
 }
 
 // Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
@@ -163,31 +180,83 @@ vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
 }
 #endif
 
+#if HAS_BACK_FACES
+// A far side around the place where a ray meets it.
+struct FarSide {
+    vec3 positionLS;
+    vec3 outwardLS; // unit
+};
+
+// Which way a ray leaves that comes a little aside of the one that meets a far side: the normal there is that of the
+// pixel in which the plane of the far side shows the place.
+vec3 leavingBeside(FarSide side, vec3 originLS, vec3 bent, float ior)
+{
+    precise float toPlane = dot(side.positionLS - originLS, side.outwardLS);
+    precise vec3 metLS = originLS + (toPlane / max(dot(bent, side.outwardLS), 1e-3)) * bent;
+    precise vec4 clip = view.clipFromLS * vec4(metLS, 1.0);
+    precise vec2 place = (clip.xy / clip.w + 1.0) * (0.5 * vec2(view.sizePixels.xy));
+    bool isSeen = clip.w > 0.0 && all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, vec2(view.sizePixels.xy)));
+    vec3 normal = isSeen ? farSideNormal(place, side.outwardLS) : side.outwardLS;
+    return leavingDirection(bent, dot(normal, bent) < 0.0 ? -normal : normal, ior);
+}
+
+// By how much facets of both sides turn a ray that leaves a body: the lobe of the near side as the far one carries it on,
+// which a round one gathers or scatters, by rays through its edges; and that of the far side itself.
+float spreadThrough(Surface surface, Viewpoint viewpoint, vec3 bent, FarSide side, vec3 leaving, float ior, vec2 entering)
+{
+    if (!(surface.passingAlpha > ALPHA_MIN)) return ALPHA_MIN;
+    if (!(ior > 0.0)) return spreadOf(surface, entering);
+    precise float cosInside = dot(side.outwardLS, bent), cosOutside = dot(side.outwardLS, leaving);
+    bool isReflected = cosOutside * cosInside < 0.0;
+    vec2 own = isReflected ? vec2(2.0 * cosInside, 2.0) : turnsOfLeaving(ior, cosOutside, cosInside);
+    vec3 across = safeNormalize(cross(surface.normalLS, bent), anyPerpendicular(bent)), along = cross(bent, across);
+    vec2 turns;
+    for (int i = 0; i < 2; ++i) {
+        precise vec3 aside = (surface.passingAlpha * entering[i]) * (i == 0 ? across : along);
+        vec3 left = leavingBeside(side, viewpoint.positionLS, safeNormalize(bent - aside, bent), ior);
+        vec3 right = leavingBeside(side, viewpoint.positionLS, safeNormalize(bent + aside, bent), ior);
+        precise float carried = 0.5 * length(right - left) / surface.passingAlpha;
+        turns[i] = turnsTogether(carried, own[i]);
+    }
+    return spreadOf(surface, turns);
+}
+#endif
+
 // How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside,
 // unless it meets a surface before; or through the far side that is drawn where it meets any; else as it was bent.
 BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float ior)
 {
+    precise float cosOutside = abs(dot(viewpoint.toViewerLS, surface.normalLS)), cosInside = abs(dot(bent, surface.normalLS));
+    vec2 entering = turnsOfEntering(ior, cosOutside, cosInside);
 #if HAS_PARALLEL_SIDES
     // Beyond the critical angle of an index below 1 rays run along the surface, without end.
-    precise float cosine = max(abs(dot(bent, surface.normalLS)), 1e-3);
+    precise float cosine = max(cosInside, 1e-3);
     precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
 #if HAS_SCENE_BEHIND
     ScreenRay inside = screenRayTo(viewpoint.positionLS, vec4(farSide, 1.0));
-    if (screenHit(kOpaqueLayer, inside, viewpoint.depth).isMet) return BentRay(viewpoint.positionLS, bent, -1.0);
+    if (screenHit(kOpaqueLayer, inside, viewpoint.depth).isMet)
+        return BentRay(viewpoint.positionLS, bent, -1.0, spreadOf(surface, entering));
 #endif
-    return BentRay(farSide, -viewpoint.toViewerLS, -1.0);
+    return BentRay(farSide, -viewpoint.toViewerLS, -1.0, spreadOfSides(surface, ior, cosOutside, cosInside));
 #else
 #if HAS_BACK_FACES
-    ScreenHit hit = screenHit(kFarLayer, screenRay(viewpoint.positionLS, bent), viewpoint.depth);
+    bool hasBack = true;
+#if BACK_FACES_OF_CLOSED
+    hasBack = materialFlag(MATERIAL_FLAG_CLOSED);
+#endif
+    ScreenHit hit;
+    hit.isMet = false;
+    if (hasBack) hit = screenHit(kFarLayer, screenRay(viewpoint.positionLS, bent), viewpoint.depth);
     if (hit.isMet) {
-        vec3 normal = farSideNormal(hit);
-        vec3 outward = dot(normal, bent) < 0.0 ? -normal : normal;
-        vec3 leavesLS = viewpointFromDepth(hit.place.xy, hit.place.z).positionLS;
-        precise float insideMetres = length(leavesLS - viewpoint.positionLS);
-        return BentRay(leavesLS, leavingDirection(bent, outward, ior), insideMetres);
+        vec3 normal = farSideNormal(hit.place.xy, texelFetch(farSides, hit.pixel, 0).xyz);
+        FarSide side = FarSide(viewpointFromDepth(hit.place.xy, hit.place.z).positionLS, dot(normal, bent) < 0.0 ? -normal : normal);
+        precise float insideMetres = length(side.positionLS - viewpoint.positionLS);
+        vec3 leaving = leavingDirection(bent, side.outwardLS, ior);
+        float alpha = spreadThrough(surface, viewpoint, bent, side, leaving, ior, entering);
+        return BentRay(side.positionLS, leaving, insideMetres, alpha);
     }
 #endif
-    return BentRay(viewpoint.positionLS, bent, -1.0);
+    return BentRay(viewpoint.positionLS, bent, -1.0, spreadOf(surface, entering));
 #endif
 }
 
@@ -203,7 +272,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     if (ray.insideMetres >= 0.0) left = leftByBody(ray.insideMetres / material.transmission.z);
 #endif
     precise vec3 kept = share * left;
-    return lightAlong(ray, kept, surface.passingAlpha, viewpoint, pixel);
+    return lightAlong(ray, kept, viewpoint, pixel);
 }
 
 // The same of a body whose colours may bend apart. One loop, so that a program holds the way of a ray once.
@@ -240,12 +309,15 @@ ThroughSurface lightThrough(Surface surface, Viewpoint viewpoint, vec2 pixel)
     if (material.transmission.z > 0.0)
         return ThroughSurface(lightThroughBody(surface, viewpoint, share, pixel), vec3(0.0));
 #endif
-    precise vec3 kept = share * surface.leftByBody;
 #if HAS_SCATTERING_SHEETS
     if (surface.passingAlpha > ALPHA_MIN) {
-        BentRay straight = BentRay(viewpoint.positionLS, -viewpoint.toViewerLS, -1.0);
-        return ThroughSurface(lightAlong(straight, kept, surface.passingAlpha, viewpoint, pixel), vec3(0.0));
+        float ior = surface.passingIor;
+        precise float cosOutside = min(abs(seen.nv), 1.0);
+        precise float cosInside = sqrt(max(1.0 - (1.0 - cosOutside * cosOutside) / max(ior * ior, 1e-6), 0.0));
+        BentRay straight = BentRay(viewpoint.positionLS, -viewpoint.toViewerLS, -1.0, spreadOfSides(surface, ior, cosOutside, cosInside));
+        return ThroughSurface(lightAlong(straight, share, viewpoint, pixel), vec3(0.0)); // sheets absorb nothing
     }
 #endif
+    precise vec3 kept = share * surface.leftByBody;
     return ThroughSurface(vec3(0.0), kept);
 }

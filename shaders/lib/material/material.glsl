@@ -1,7 +1,6 @@
 // A surface from a material, as it is rasterised; and from the material's constants alone, where pixels hold its
 // number.
 #pragma once
-#include "shared/refraction.h"
 #include "lib/material/hook.glsl"
 #include "lib/material/material_frame.glsl"
 #include "lib/material/material_lobes.glsl"
@@ -32,12 +31,11 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     precise float bodyMetres = material.transmission.z * thicknesses;
     precise float share = transmission * (1.0 - metallic);
     precise vec3 passing = baseColor * share;
-    precise float alpha = max(surface.alpha * passingScale(ior), ALPHA_MIN);
     surface.transmission = transmission;
     surface.passing = passing;
     surface.leftByBody = leftByBody(thicknesses);
     surface.passingIor = ior;
-    surface.passingAlpha = alpha;
+    surface.passingAlpha = ior == 1.0 ? ALPHA_MIN : surface.alpha; // facets that bend nothing spread nothing
     surface.bodyMetres = bodyMetres;
 }
 #endif

@@ -39,8 +39,8 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
         const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
                      idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
                      shadowSamples, shadowMaps, shadowTerminator, subsurface, diffusion, environment, area, refraction,
-                     glassDepth, culling, lightOn, snapPixels, texturesAStage, softwareBackend, display, exposureEV,
-                     toneMap] = settings;
+                     glassDepth, culling, lightOn, snapPixels, texturesAStage, hasClosedBodies, softwareBackend,
+                     display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
@@ -53,7 +53,7 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                                     intensity, backdrop, areaLights, areaSamples, refraction, glassDepth, method,
                                     tilePixels, builder, normals, lightOn, exposureEV, toneMap),
                          std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
-                                    softwareBackend, display, lanes));
+                                    hasClosedBodies, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
         return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};

@@ -22,40 +22,50 @@ scenes::Scene underASlope(double slope) {
     return scene;
 }
 
-/// The mean cosine to the axis of light that mirrors send which lean by GGX, seen along the axis, weighted by that
-/// cosine: over the angle by which they lean, to 45 degrees, by the midpoint rule.
-double meanCosine(double alpha) {
+/// The mean cosine to the axis of light that facets refract which lean by GGX, seen straight on: over the angle by
+/// which they lean, by the midpoint rule. Walter et al. 2007, equation 41 without what masks the viewer's ray, by half
+/// vectors.
+double meanCosine(double alpha, double ior) {
     constexpr int kSteps = 20000;
     double weights = 0.0, sum = 0.0;
     for (int i = 0; i < kSteps; ++i) {
-        const double lean = (i + 0.5) * 0.25 * std::numbers::pi / kSteps, c2 = std::cos(lean) * std::cos(lean);
-        const double spread = c2 * (alpha * alpha - 1.0) + 1.0;
-        // D, times the cosine that a mirror's solid angle takes: dl = 4 cos dh, of density D / 4.
-        const double weight =
-            alpha * alpha / (spread * spread) * std::cos(lean) * std::sin(lean) * std::cos(2.0 * lean);
+        const double lean = (i + 0.5) * 0.5 * std::numbers::pi / kSteps, cosine = std::cos(lean);
+        const double sine = ior > 0.0 ? std::sin(lean) / ior : 0.0;
+        if (sine >= 1.0) break;
+        const double turned = lean - std::asin(sine), spread = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
+        if (turned >= 0.5 * std::numbers::pi) break;
+        // By amplitudes at the angles to the facet, sin(a - b) / sin(a + b) and tan(a - b) / tan(a + b).
+        const double crossed = std::sin(turned) / std::sin(lean + std::asin(sine));
+        const double along = std::tan(turned) / std::tan(lean + std::asin(sine));
+        const double passed = ior > 0.0 ? 1.0 - 0.5 * (crossed * crossed + along * along) : 1.0;
+        const double masked = 2.0 / (1.0 + std::hypot(1.0, alpha * std::tan(turned)));
+        // D (h.n) over the viewer's cosine to the facet.
+        const double weight = cosine * std::sin(lean) / (spread * spread) * masked * passed;
         weights += weight;
-        sum += weight * std::cos(2.0 * lean);
+        sum += weight * std::cos(turned);
     }
     return sum / weights;
 }
 
-TEST(ReferenceSurroundings, theMeanAroundADirectionIsThatOfItsLobe) {
+TEST(ReferenceSurroundings, throughFacetsShowsTheMeanOfTheirLobe) {
     constexpr double kSlope = 0.8;
     const scenes::Scene scene = underASlope(kSlope);
     Settings settings;
     settings.environmentPaths = 8192;
     const Surroundings surroundings(scene, settings);
+    const auto isHidden = [](const glm::dvec3&, const glm::dvec3&) { return false; };
     test::Random random(26);
-    for (const double alpha : {0.02, 0.1, 0.4, 1.0})
-        for (std::uint32_t seed = 0; seed < 4; ++seed) {
+    for (const double ior : {0.0, 0.8, 1.3, 1.5, 2.4})
+        for (const double alpha : {0.02, 0.1, 0.4, 1.0}) {
             const glm::dvec3 direction = random.direction();
+            const Scatter way{{}, direction, Facets(-direction, alpha, -direction, ior, Facets::Send::Through), 0.5};
             // Noise of the samples.
-            EXPECT_NEAR(surroundings.around(direction, alpha, seed).g, 1.0 + kSlope * direction.y * meanCosine(alpha),
-                        1e-2)
-                << alpha << ", height " << direction.y;
+            EXPECT_NEAR(surroundings.through({&way, 1}, 7, isHidden).g,
+                        1.0 + kSlope * direction.y * meanCosine(alpha, ior), 7e-3)
+                << alpha << ", " << ior << ", height " << direction.y;
         }
-    const glm::dvec3 direction(0.6, 0.8, 0.0);
-    EXPECT_EQ(surroundings.around(direction, kSmallestAlpha, 0), surroundings.radianceOf(direction)) << "a clear body";
+    const Scatter clear{{}, {0.6, 0.8, 0.0}, {}, 0.5};
+    EXPECT_EQ(surroundings.through({&clear, 1}, 0, isHidden), surroundings.radianceOf(clear.direction));
 }
 
 /// Of even light a white matte surface reflects pi times its radiance (its model has no 1/pi), of which occlusion

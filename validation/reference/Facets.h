@@ -1,0 +1,48 @@
+#pragma once
+#include <optional>
+
+#include "validation/reference/Sampling.h"
+
+namespace tessera::reference {
+
+/// Where the facets of a rough side send the viewer's ray: through, or back where the side reflects all light. The
+/// lobe is the one that is published, with Fresnel's factor, which leaves out what facets do not send that way.
+/// Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 16, 17, 20, 21,
+/// 23, 33 to 36 and 38. An index of 0 is one without bound, of light that passes.
+class Facets : public Strategy {
+public:
+    enum class Send { Through, Back };
+    /// `normal` on the side of the ray, `toViewer` back along it, `ior` that beyond over that of the ray's own side.
+    Facets(const glm::dvec3& normal, double alpha, const glm::dvec3& toViewer, double ior, Send send)
+        : frame_(frameOf(normal)), alpha_(alpha), toViewer_(toViewer), ior_(ior), send_(send) {}
+
+    glm::dvec3 direction(const glm::dvec2& random) const override; ///< 0 where the facet sends nothing that way
+    double density(const glm::dvec3& direction) const override;
+    /// Of light from a direction, 1/sr, times the cosine there; but for a factor that is the same for all.
+    double share(const glm::dvec3& direction) const;
+    double whole() const; ///< its integral
+
+private:
+    struct Met {
+        glm::dvec3 half{0.0};   ///< unit, on the side of the ray
+        double perHalf = 0.0;   ///< sr of half vectors to one of directions; 0 where no facet sends the ray there
+        double cosNormal = 0.0; ///< of the direction, on its own side
+    };
+    Met met(const glm::dvec3& direction) const;
+
+    Frame frame_;
+    double alpha_;
+    glm::dvec3 toViewer_;
+    double ior_;
+    Send send_;
+};
+
+/// One of the ways light that a body or a sheet shows comes along to its last side.
+struct Scatter {
+    glm::dvec3 originRWS{0.0};
+    glm::dvec3 direction{0.0};    ///< where nothing spreads it
+    std::optional<Facets> facets; ///< that spread it
+    double weight = 1.0;
+};
+
+} // namespace tessera::reference
