@@ -245,8 +245,10 @@ void BetweenOpaqueAndTransparent::expectSameNormals() {
     EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 3));
     for (const Technique technique : test::techniquesInTurn(1))
         EXPECT_TRUE(normals(scene, technique, 1) == truth) << engine::infoOf(technique).name;
+    // Of several samples, a fragment has the normal of the middle of those that it covers.
+    const std::vector<float> several = normals(scene, Technique::Forward, 4);
     for (const Technique technique : test::techniquesInTurn(0, 4))
-        EXPECT_TRUE(normals(scene, technique, 4) == truth) << engine::infoOf(technique).name << ", 4 samples";
+        EXPECT_TRUE(normals(scene, technique, 4) == several) << engine::infoOf(technique).name << ", 4 samples";
 }
 TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
     expectSameNormals();

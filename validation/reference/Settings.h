@@ -64,7 +64,7 @@ struct Settings {
     int glassDepth = 0;
     int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
     double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
-    bool softensTerminators = true; ///< shadows of smooth-shaded triangles are asked for from above them
+    bool softensTerminators = false; ///< shadows of smooth-shaded triangles are asked for from above them
     int shadowRings = 16;           ///< on the disk of a light with a size, four times as many rays each
     int penumbraRings = 64;         ///< of points that those find to see part of it
     int shadowSamples = 0;          ///< rays that a program tries: their noise is allowed it too; 0: none is
