@@ -26,7 +26,7 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     EXPECT_THAT(said, HasSubstr("tile_minmax, 16"));
     EXPECT_THAT(said, HasSubstr("skipped forward, cluster"));
     const Json record = json("out/of/bench/bench.json");
-    EXPECT_EQ(record["schema"], 8);
+    EXPECT_EQ(record["schema"], 9);
     EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
