@@ -58,7 +58,7 @@ TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
         State state;
         state.looks[0].settings.shadowFilter = filter.filter;
         const Look before = state.looks[0];
-        pressSliders(250.0f, [&] { shadowsPanel(state, {}); });
+        pressSliders(300.0f, [&] { shadowsPanel(state, {}); });
         for (const engine::Setting& setting : engine::settingTable()) {
             if (!std::holds_alternative<engine::NumberKind>(setting.value.kind)) continue;
             const bool isSlid = setting.panel == engine::SettingPanel::Shadows && setting.whyIdle(before).empty();
