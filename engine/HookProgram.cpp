@@ -1,6 +1,10 @@
 #include "engine/HookProgram.h"
 
+#include <fmt/format.h>
+
+#include "base/Error.h"
 #include "renderer/frame/HookConstants.h"
+#include "renderer/frame/LightRounds.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/hook.h"
 #include "shaders/shared/slots.h"
@@ -18,7 +22,7 @@ shader::ProgramDesc hookProgram(const std::string& name, const scenes::Hook& hoo
 
 HookRun::HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds,
                  shader::ProgramLibrary& programs)
-    : constants_(gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)})) {
+    : constants_(gpu::Buffer::of("hook", std::vector{frame::hookConstants(hook, timeSeconds)})), file_(hook.file) {
     gpu::useProgram(programs.get(hookProgram(name, hook)));
     gpu::bindUniformBuffer(UNIFORM_HOOK, constants_);
 }
@@ -31,6 +35,13 @@ gpu::Buffer HookRun::runInto(std::uint32_t givenSlot, const gpu::Buffer& given, 
     gpu::dispatch(std::uint32_t((count + HOOK_GROUP - 1) / HOOK_GROUP));
     gpu::memoryBarrier(graph::Barrier::TransferOrUpdate);
     return taken;
+}
+
+void HookRun::failCut() const {
+    throw InputError(
+        fmt::format("{}: its loops take more than the {} iterations that Mesa's software rasteriser makes; "
+                    "take fewer, or end them by break",
+                    file_, frame::kMostLoopIterations));
 }
 
 } // namespace tessera::engine

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -22,11 +23,15 @@ public:
     /// Throws InputError where the hook is faulty.
     HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds, shader::ProgramLibrary& programs);
 
-    /// Runs the hook on `count` items and returns a row an item. The slots are those of its storage blocks.
+    /// Runs the hook on `count` items and returns a row an item. The slots are those of its storage blocks. Throws
+    /// InputError where the driver ended loops of the hook early.
     template <typename Row>
     std::vector<Row> run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
                          std::size_t count) const {
-        return runInto(givenSlot, given, takenSlot, count, count * sizeof(Row)).template downloadAs<Row>(count);
+        std::vector<Row> rows =
+            runInto(givenSlot, given, takenSlot, count, count * sizeof(Row)).template downloadAs<Row>(count);
+        if (std::ranges::any_of(rows, [](const Row& row) { return row.isCut != 0; })) failCut();
+        return rows;
     }
 
 private:
@@ -34,7 +39,10 @@ private:
     gpu::Buffer runInto(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot, std::size_t count,
                         std::size_t bytes) const;
 
+    [[noreturn]] void failCut() const;
+
     gpu::Buffer constants_;
+    std::string file_; ///< of the hook
 };
 
 } // namespace tessera::engine

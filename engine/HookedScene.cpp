@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,15 +47,24 @@ void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<g
 /// What is farther from its place counts as nowhere: no scene reaches there.
 constexpr double kFarthestMarkedMetres = 1e6;
 
+constexpr std::string_view kNoNumberRemedy =
+    "look for a division by 0, a root or a logarithm of less than 0, or a vector without length that it normalizes";
+
+bool isFinite(const glm::vec3& vector) {
+    return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
 std::string excessText(const scenes::Hook& hook, const scenes::Mesh& mesh, std::size_t vertex, double timeSeconds,
-                       double metres) {
-    const std::string place = fmt::format("{}: at {:g} s hookVertex moves vertex {} of the mesh '{}'", hook.file,
-                                          timeSeconds, vertex, mesh.name);
+                       double metres, const glm::vec3& normal) {
+    const std::string place = fmt::format("{}: at {:g} s hookVertex", hook.file, timeSeconds);
+    const std::string which = fmt::format("vertex {} of the mesh '{}'", vertex, mesh.name);
     if (!std::isfinite(metres))
-        return place + " to a position that is infinite or NaN; look for a division by 0, a root or a logarithm of "
-                       "less than 0, or a vector without length that it normalizes";
-    return place + fmt::format(" by {:g} m, and mayMoveMetres is {:g}; raise that, or move it less", metres,
-                               hook.mayMoveMetres);
+        return fmt::format("{} moves {} to a position that is infinite or NaN; {}", place, which, kNoNumberRemedy);
+    if (!isFinite(normal))
+        return fmt::format("{} gives {} a normal that is infinite or NaN; {}", place, which, kNoNumberRemedy);
+    return fmt::format("{} moves {}", place, which) +
+           fmt::format(" by {:g} m, and mayMoveMetres is {:g}; raise that, or move it less", metres,
+                       hook.mayMoveMetres);
 }
 
 MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, const scenes::Mesh& mesh,
@@ -67,7 +77,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
         const gpu::Buffer given = gpu::Buffer::of("hook rest", restOf(mesh, first, count));
         const auto moved = moving.run<shared::HookMovedRow>(STORAGE_HOOK_REST, given, STORAGE_HOOK_MOVED, count);
         for (std::size_t i = 0; i < count; ++i) {
-            const auto& [positionOS, normalOS] = moved[i];
+            const auto& [positionOS, normalOS, isCut] = moved[i];
             glm::vec3 position(positionOS[0], positionOS[1], positionOS[2]);
             const glm::vec3 normal(normalOS[0], normalOS[1], normalOS[2]);
             const glm::vec3& rest = mesh.positionsOS[first + i];
@@ -75,14 +85,16 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             // What rounding to fp32 adds to a movement just as long.
             const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
             const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
-            if (isTooFar && excess == Excess::Mark) {
-                const bool isNowhere = !(metres <= kFarthestMarkedMetres);
+            const bool hasNormal = isFinite(normal);
+            static_cast<void>(isCut); // HookRun looks at it
+            if ((isTooFar || !hasNormal) && excess == Excess::Mark) {
+                const bool isNowhere = !(metres <= kFarthestMarkedMetres) || !hasNormal;
                 mark(first + i, vertices, float(isNowhere ? HOOK_MARK_NOWHERE : HOOK_MARK_TOO_FAR), result.colors);
                 if (isNowhere) position = rest;
-            } else if (isTooFar) {
-                throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres));
+            } else if (isTooFar || !hasNormal) {
+                throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres, normal));
             }
-            // As it was where it has no direction any more.
+            // As it was where it has no direction, or more than squares can tell.
             const glm::dvec3 direction(normal);
             const double length = glm::length(direction);
             const bool isKept = normal == mesh.normalsOS[first + i] || !(length > 0.0) || !std::isfinite(length);

@@ -17,7 +17,7 @@ std::vector<shared::HookPointRow> rowsOf(std::span<const scenes::HookPoint> poin
     rows.reserve(points.size());
     for (const auto& [surface, uv, positionOS, instance] : points) {
         const auto& [color, emission, alpha, metallic] = surface;
-        rows.push_back({{{color.x, color.y, color.z}, {emission.x, emission.y, emission.z}, alpha, metallic},
+        rows.push_back({{{color.x, color.y, color.z}, {emission.x, emission.y, emission.z}, alpha, metallic, 0},
                         {uv.x, uv.y},
                         {positionOS.x, positionOS.y, positionOS.z},
                         instance});
@@ -28,7 +28,7 @@ std::vector<shared::HookPointRow> rowsOf(std::span<const scenes::HookPoint> poin
 void addTaken(const HookRun& hook, std::span<const scenes::HookPoint> points,
               std::vector<scenes::HookedSurface>& surfaces) {
     const gpu::Buffer given = gpu::Buffer::of("hook points", rowsOf(points));
-    for (const auto& [color, emission, alpha, metallic] :
+    for (const auto& [color, emission, alpha, metallic, isCut] :
          hook.run<shared::HookSurfaceRow>(STORAGE_HOOK_POINTS, given, STORAGE_HOOK_SURFACES, points.size()))
         surfaces.push_back({{color[0], color[1], color[2]}, {emission[0], emission[1], emission[2]}, alpha, metallic});
 }

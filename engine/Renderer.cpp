@@ -34,7 +34,7 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
 
 /// Looks at every text of a hook as loading its scene did: an edit may have made it break its promises.
 shader::SourceTree checkingHooks(shader::SourceTree shaders) {
-    shaders.checkHooks(scenes::requireHook);
+    shaders.prepareHooks(scenes::hookProgramText);
     return shaders;
 }
 

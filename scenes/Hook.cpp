@@ -6,6 +6,10 @@
 #include <fmt/ranges.h>
 
 #include "base/Error.h"
+#include "base/HookPrefix.h"
+#include "scenes/HookBounds.h"
+#include "scenes/HookTokens.h"
+#include "scenes/HookWords.h"
 
 namespace tessera::scenes {
 namespace {
@@ -31,6 +35,7 @@ constexpr RefusedWord kRefusedWords[] = {
     {Refused::Word, "layout", "a hook binds nothing; take it out, and declare numbers as parameters of the scene"},
     {Refused::Word, "uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
     {Refused::Word, "buffer", "a hook binds nothing; take it out"},
+    {Refused::Word, "shared", "points share no memory; take it out"},
     // With Fine and Coarse behind them as well.
     {Refused::Beginning, "dFdx", kDiffersBetweenPixels},
     {Refused::Beginning, "dFdy", kDiffersBetweenPixels},
@@ -97,6 +102,31 @@ std::string withoutComments(std::string_view text, std::optional<std::size_t>* o
     if (open != nullptr && in == In::Block) *open = begin;
     return code;
 }
+
+/// Of the words of a structure's members, which follow a dot elsewhere: those that are types or sizes of arrays.
+class Members {
+public:
+    /// Whether a token names a member. All tokens have to be given in order.
+    bool isMember(const HookToken& token) {
+        if (token.is("struct")) state_ = State::Named;
+        if (state_ == State::Outside) return false;
+        if (token.is("{")) state_ = State::Type;
+        if (token.is("}") || (state_ == State::Named && token.is(";"))) state_ = State::Outside;
+        if (token.is("[")) ++brackets_;
+        if (token.is("]") && brackets_ > 0) --brackets_;
+        if (token.is(";") && state_ == State::Member) state_ = State::Type;
+        if (!token.isName() || brackets_ > 0 || isHookQualifier(token.text)) return false;
+        if (state_ == State::Type) {
+            state_ = State::Member;
+            return false;
+        }
+        return state_ == State::Member;
+    }
+
+private:
+    enum class State { Outside, Named, Type, Member } state_ = State::Outside;
+    std::size_t brackets_ = 0;
+};
 
 } // namespace
 
@@ -187,7 +217,29 @@ std::optional<HookFault> hookFault(std::string_view text) {
     if (!functions.surface && !functions.vertex)
         return HookFault{1, "it defines neither hookSurface nor hookVertex; write void hookSurface(inout HookedSurface "
                             "surface, HookInputs inputs)"};
+    try {
+        requireBounds(expandedTokens(code));
+    } catch (const HookFault& fault) {
+        return fault;
+    }
     return std::nullopt;
+}
+
+std::string hookProgramText(const std::string& file, std::string_view text) {
+    requireHook(file, text);
+    const std::string code = withoutComments(text);
+    std::string written;
+    std::uint32_t line = 1;
+    bool isField = false; // behind a dot
+    Members members;
+    for (const HookToken& token : expandedTokens(code)) {
+        for (; line < token.line; ++line) written += '\n';
+        const bool isMember = members.isMember(token);
+        if (token.isName() && !isField && !isMember && !isHookWord(token.text)) written += kHookPrefix;
+        written.append(token.text) += ' ';
+        isField = token.is(".");
+    }
+    return written + '\n';
 }
 
 void requireHook(const std::string& file, std::string_view text) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 
+#include "scenes/HookBounds.h"
 #include "scenes/Limits.h"
 
 /// How shaders get through all lights although Mesa's software rasterisers end loops early.
@@ -13,6 +14,7 @@ inline constexpr std::size_t kMostLoopIterations = 65535;
 inline constexpr std::size_t kMostLanesTogether = 16;
 /// What loops other than those over lights may make: texture filters, the cells of a tile.
 inline constexpr std::size_t kOtherLoopIterations = 2048;
+static_assert(scenes::kMostHookIterations <= kMostLoopIterations - kOtherLoopIterations);
 
 /// Lights that a round of lib/lighting/lighting.glsl's loop visits at most: it spells out that many.
 inline constexpr std::size_t kMostLightsPerRound = 8;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/HookPrefix.h"
 #include "renderer/shader/LineScanner.h"
 
 namespace tessera::shader {
@@ -26,12 +27,18 @@ std::string hookDefine(const ProgramDesc& desc, std::string_view name) {
     return found == desc.defines.end() ? "" : found->second;
 }
 
-/// Without warnings, most of which are about the program's own files.
+constexpr const char* kNamesRemedy = "a hook has the words of GLSL that need no texture and no neighbour, what "
+                                     "docs/hooks.md lists, and what it declares "
+                                     "itself; it has no other name of the program";
+
+/// Without warnings, most of which are about the program's own files. The hook's own names are as its file has them.
 std::string errorsOf(std::string_view log) {
     std::string errors;
     std::istringstream lines{std::string(log)};
     for (std::string line; std::getline(lines, line);)
         if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
+    for (std::size_t at = errors.find(kHookPrefix); at != std::string::npos; at = errors.find(kHookPrefix, at))
+        errors.erase(at, kHookPrefix.size());
     return errors;
 }
 
@@ -145,6 +152,10 @@ std::string hookFaultText(const SourceTree& tree, const ProgramDesc& desc, std::
     std::string text = fmt::format("{}{}: the driver refuses this hook: {}", hook,
                                    line ? fmt::format(":{}", *line) : std::string(), errors);
     if (!isPlaced) text += fmt::format("\n{}", kHookRemedy);
+    const bool isUnknown = errors.find("undeclared") != std::string::npos || // Mesa, glslang
+                           errors.find("undefined") != std::string::npos ||  // NVIDIA
+                           errors.find("no function with name") != std::string::npos;
+    if (isPlaced && isUnknown) text += fmt::format("\n{}", kNamesRemedy);
     if (std::ranges::any_of(names, [&](const std::string& name) { return isAskedForAsField(name, code); }))
         text += "\n" + hookFields(tree, desc);
     return text;

@@ -120,7 +120,8 @@ private:
                                          hookFile_));
         std::string text;
         for (const std::string& line : files_[*hook].lines) text += line + '\n';
-        tree_.requireHook(hookFile_, text); // an editor may have saved it since the scene was loaded
+        // An editor may have saved it since the scene was loaded. The empty hook is the program's own.
+        if (std::filesystem::path(hookFile_).is_absolute()) text = tree_.preparedHook(hookFile_, std::move(text));
         // The driver finds a name of a parameter that means something else in GLSL.
         result_.files.push_back(hookFile_ + " (its parameters)");
         result_.text += "#if HOOKED\n" + lineDirective(1, result_.files.size() - 1);

@@ -25,12 +25,12 @@ public:
     bool isEmbedded() const { return folder_.empty(); }
     /// "embedded shaders" or the folder, for messages.
     std::string describe() const;
-    /// Has the text of every hook looked at before a program takes it: `check` gets its file and its text, and throws
-    /// InputError where it does what no hook may do.
-    using CheckHook = std::function<void(const std::string& file, std::string_view text)>;
-    void checkHooks(CheckHook check) { checkHook_ = std::move(check); }
-    void requireHook(const std::string& file, std::string_view text) const {
-        if (checkHook_) checkHook_(file, text);
+    /// What every hook goes through before a program takes it: `prepare` gets its file and its text, gives the text for
+    /// programs, and throws InputError where that one does what no hook may do.
+    using PrepareHook = std::function<std::string(const std::string& file, std::string_view text)>;
+    void prepareHooks(PrepareHook prepare) { prepareHook_ = std::move(prepare); }
+    std::string preparedHook(const std::string& file, std::string text) const {
+        return prepareHook_ ? prepareHook_(file, text) : text;
     }
     /// When a file of the folder last changed, so that a viewer knows when to reload; none for embedded files.
     std::optional<std::filesystem::file_time_type> newestChange() const;
@@ -39,7 +39,7 @@ private:
     struct Embedded {};
     explicit SourceTree(Embedded) {}
     std::filesystem::path folder_; ///< empty: embedded
-    CheckHook checkHook_;
+    PrepareHook prepareHook_;
 };
 
 } // namespace tessera::shader

@@ -1,10 +1,10 @@
 // What a scene's hook makes of surfaces at points that are given, for the reference renderer.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
+#include "lib/maths/cut_loop.glsl"
 
 layout(local_size_x = HOOK_GROUP) in;
 
-// Names that hooks are unlikely to use.
 layout(std430, binding = STORAGE_HOOK_POINTS) readonly buffer HookPoints
 {
     HookPointRow hookPointRows[];
@@ -33,4 +33,5 @@ void main()
     }
     hookSurfaceRows[at].alpha = surface.alpha;
     hookSurfaceRows[at].metallic = surface.metallic;
+    hookSurfaceRows[at].isCut = loopsAreCut(point.instance) ? 1 : 0;
 }

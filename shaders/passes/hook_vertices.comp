@@ -1,10 +1,10 @@
 // Moves the vertices of a mesh as its scene's hook says. Every pass reads what it writes.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
+#include "lib/maths/cut_loop.glsl"
 
 layout(local_size_x = HOOK_GROUP) in;
 
-// Names that hooks are unlikely to use.
 layout(std430, binding = STORAGE_HOOK_REST) readonly buffer HookRest
 {
     HookVertexRow hookRestRows[];
@@ -26,4 +26,5 @@ void main()
         hookMovedRows[at].positionOS[i] = positionOS[i];
         hookMovedRows[at].normalOS[i] = normalOS[i];
     }
+    hookMovedRows[at].isCut = loopsAreCut(int(at)) ? 1 : 0;
 }

@@ -11,7 +11,7 @@
 #define HOOK_GROUP 64
 
 // Opacities of vertices that a debug view marks: moved farther than the hook may move them; moved nowhere, to NaN or
-// beyond 1000 km.
+// beyond 1000 km, or with a normal of NaN.
 #define HOOK_MARK_TOO_FAR 2.0
 #define HOOK_MARK_NOWHERE 3.0
 
@@ -24,7 +24,7 @@ struct HookConstants {
 
 // What the compute shaders read and write: storage blocks of such rows, without gaps in std430 as in C++.
 
-// Of passes/hook_vertices.comp: 32 bytes a vertex in, 24 out.
+// Of passes/hook_vertices.comp: 32 bytes a vertex in, 28 out.
 struct HookVertexRow {
     float positionOS[3];
     float normalOS[3];
@@ -33,14 +33,16 @@ struct HookVertexRow {
 struct HookMovedRow {
     float positionOS[3];
     float normalOS[3]; // of any length
+    int isCut;         // hookVertex() took more iterations than the driver makes
 };
 
-// Of passes/hook_surfaces.comp: 56 bytes a point in, 32 out.
+// Of passes/hook_surfaces.comp: 60 bytes a point in, 36 out.
 struct HookSurfaceRow {
     float color[3];
     float emission[3];
     float alpha;
     float metallic;
+    int isCut; // as HookMovedRow's; 0 where it comes in
 };
 struct HookPointRow {
     HookSurfaceRow surface; // as the material has it

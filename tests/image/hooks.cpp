@@ -1,10 +1,12 @@
 // Hooks of surfaces: every technique, what they change and what they do not, and the reference.
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -186,6 +188,57 @@ TEST_F(Hooks, whatIsBeyondABoundIsDrawnAsTheBound) {
         EXPECT_EQ(shown, wanted);
         EXPECT_NE(shown, drawn(scene, settings));
     }
+}
+
+/// Whatever else a program holds, and the reference's too.
+TEST_F(Hooks, theProgramsOwnNamesAreUnknownToThem) {
+    for (const char* reached : {"float(view.sizePixels.x)", "texture(baseColorTexture, inputs.uv).x", "kPi",
+                                "float(hookPointRows.length())", "float(MATERIAL_FLAG_HOOKED)"}) {
+        const scenes::Scene scene =
+            hooked(test::quadScene({}), fmt::format("{{\n    surface.color.r = {};\n}}\n", reached));
+        const auto expectRefused = [&](const auto& draw) {
+            try {
+                draw();
+                ADD_FAILURE() << reached;
+            } catch (const InputError& error) {
+                EXPECT_THAT(error.what(), HasSubstr(scene.hook->file + ":3: error"));
+                EXPECT_THAT(error.what(), HasSubstr("it has no other name of the program"));
+                EXPECT_THAT(error.what(), testing::Not(HasSubstr("ofHook")));
+            }
+        };
+        expectRefused([&] { drawn(scene, smallSettings()); });
+        engine::Renderer renderer(context(), scene);
+        expectRefused([&] { validation::referencePicture(renderer, smallSettings()); });
+    }
+    // A name of the program is as good as another.
+    const scenes::Scene own = hooked(test::quadScene({}), "{\n    float view = 0.25, kPi = view;\n"
+                                                          "    surface.color.r = kPi;\n}\n");
+    EXPECT_EQ(drawn(own, smallSettings()),
+              drawn(hooked(test::quadScene({}), "{\n    surface.color.r = 0.25;\n}\n"), smallSettings()));
+}
+
+TEST_F(Hooks, pixelsWhoseLoopsTheDriverEndsAreNaNAndTheReferenceRefusesThem) {
+    scenes::Material glowing;
+    glowing.model = scenes::MaterialModel::SingleColor;
+    const auto looping = [&](const char* rounds) {
+        return hooked(test::quadScene(glowing),
+                      fmt::format("{{\n    float sum = 0.0;\n    for (float i = 0.0; i < {}; ++i) sum += 1.0;\n"
+                                  "    surface.emission = vec3(1e-6 * sum);\n}}\n",
+                                  rounds));
+    };
+    frame::FrameSettings settings = smallSettings();
+    settings.sizePixels = {16, 9};
+    const auto middleOf = [&](const scenes::Scene& scene, Technique technique) {
+        return drawn(scene, settings, technique)[4 * (16 * 4 + 8)];
+    };
+    for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+        EXPECT_NEAR(middleOf(looping("60000.0"), technique), 0.06f, 1e-5f);
+        EXPECT_TRUE(std::isnan(middleOf(looping("65540.0"), technique)));
+        EXPECT_TRUE(std::isnan(middleOf(looping("1e6"), technique)));
+    }
+    const scenes::Scene scene = looping("1e6");
+    engine::Renderer renderer(context(), scene);
+    EXPECT_THROW(validation::referencePicture(renderer, settings), InputError);
 }
 
 TEST_F(Hooks, aFaultNamesFileAndLineAndLeavesOtherScenesAlone) {

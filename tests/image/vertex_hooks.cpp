@@ -145,17 +145,39 @@ TEST_F(VertexHooks, viewsOfAFrameShowOneTime) {
 TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
     const struct {
         std::string_view body, says;
-    } cases[] = {
-        {"{\n    positionOS.y += 2.0;\n}\n", "by 2 m, and mayMoveMetres is 1"},
-        {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "to a position that is infinite or NaN"}};
+    } cases[] = {{"{\n    positionOS.y += 2.0;\n}\n", "by 2 m, and mayMoveMetres is 1"},
+                 {"{\n    positionOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "to a position that is infinite or NaN"},
+                 {"{\n    normalOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "a normal that is infinite or NaN"},
+                 {"{\n    normalOS /= hook.timeSeconds;\n}\n", "a normal that is infinite or NaN"}};
     for (const auto& tried : cases) {
         const scenes::Scene scene = moving(test::quadScene({}), tried.body, 1.0);
         try {
             drawn(scene, smallSettings());
             FAIL() << "expected an InputError";
         } catch (const InputError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(scene.hook->file + ": at 0 s hookVertex moves vertex 0"));
+            EXPECT_THAT(error.what(),
+                        testing::ContainsRegex("^" + scene.hook->file + ": at 0 s hookVertex (moves|gives) vertex 0"));
             EXPECT_THAT(error.what(), HasSubstr(tried.says));
+        }
+    }
+}
+
+/// The text does not tell how often: the driver ends them after 65,535 iterations.
+TEST_F(VertexHooks, loopsThatTheDriverEndsAreRefused) {
+    const auto looping = [&](const char* rounds) {
+        return moving(test::quadScene({}),
+                      fmt::format("{{\n    float sum = 0.0;\n    for (float i = 0.0; i < {}; ++i) sum += 1.0;\n"
+                                  "    positionOS.z += 1e-7 * sum;\n}}\n",
+                                  rounds),
+                      1.0);
+    };
+    EXPECT_NO_THROW(drawn(looping("60000.0"), smallSettings()));
+    for (const char* rounds : {"65540.0", "1e6"}) {
+        try {
+            drawn(looping(rounds), smallSettings());
+            FAIL() << "expected an InputError";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("its loops take more than the 65535 iterations"));
         }
     }
 }
@@ -182,6 +204,7 @@ TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
         {"{\n    positionOS.z += 0.5;\n}\n", glm::vec3(0.4f), glm::vec3(0.4f)},
         {"{\n    positionOS.z += 1.5;\n}\n", {0.9f, 0.0f, 0.9f}, {0.9f, 0.0f, 0.9f}},
         {"{\n    positionOS.z = sqrt(-1.0 - hook.timeSeconds);\n}\n", {0.0f, 0.9f, 0.9f}, {0.0f, 0.9f, 0.9f}},
+        {"{\n    normalOS.z = sqrt(-1.0 - hook.timeSeconds);\n}\n", {0.0f, 0.9f, 0.9f}, {0.0f, 0.9f, 0.9f}},
     };
     for (const auto& tried : cases) {
         const scenes::Scene scene = moving(test::quadScene(material), tried.body, 1.0);

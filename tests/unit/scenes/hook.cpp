@@ -1,7 +1,10 @@
 #include "scenes/Hook.h"
 
+#include <chrono>
 #include <limits>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -91,6 +94,136 @@ TEST(Hook, whatWouldBreakOtherPassesIsRefusedWithItsLine) {
     ASSERT_TRUE(none.has_value());
     EXPECT_EQ(none->line, 1u);
     EXPECT_THAT(none->why, HasSubstr("defines neither hookSurface nor hookVertex"));
+}
+
+constexpr std::string_view kBody = "void hookSurface(inout HookedSurface surface, HookInputs inputs)\n{\n"
+                                   "float x = inputs.uv.x;\n";
+
+std::string repeated(std::size_t times, std::string_view text) {
+    std::string all;
+    for (std::size_t i = 0; i < times; ++i) all += text;
+    return all;
+}
+std::string chained(int from, int to, std::string_view pattern) {
+    std::string all;
+    for (int i = from; i <= to; ++i) all += fmt::format(fmt::runtime(pattern), i, i - 1);
+    return all;
+}
+std::string bodied(std::string_view statements, std::string_view before = "") {
+    return fmt::format("{}{}{}}}\n", before, kBody, statements);
+}
+
+/// Each would crash a driver, or take it minutes and gigabytes.
+TEST(Hook, whatDriversBreakOnIsRefusedAtOnceWithItsLine) {
+    const std::string doubling = chained(1, 24, "#define m{0} m{1} + m{1}\n"),
+                      fullStop = "\nsurface.color = vec3(x);\n";
+    const struct {
+        std::string text;
+        std::size_t line;
+        std::string_view why;
+    } cases[] = {
+        {bodied("x = m24;", "#define m0 x\n" + doubling), 29, "more than 1000000 words and signs"},
+        {bodied("m24", "#define m0\n" + chained(1, 24, "#define m{0} m{1} m{1}\n")), 29, "more than 1000000"},
+        {bodied("x = m24(x);", "#define m0(a) a\n" + chained(1, 24, "#define m{0}(a) m{1}(a) + m{1}(a)\n")), 29,
+         "more than 1000000"},
+        {bodied("x = " + repeated(99, "m(") + "x" + repeated(99, ")") + ";", "#define m(a) a\n"), 5,
+         "more than 64 calls"},
+        {"#if " + repeated(99, "!") + "1\n#endif\n" + bodied(""), 1, "no expression of whole numbers"},
+        {bodied("x = x" + repeated(20'000, " + x") + ";" + fullStop), 4, "more than 4000 operators"},
+        {bodied("x = (x" + repeated(2500, " + x") + ")" + repeated(2500, " * x") + ";"), 4, ""},
+        {bodied("x = x * (x" + repeated(2500, " + x * (1.0") + repeated(2500, ")") + ");"), 4,
+         "brackets stand in each"},
+        {bodied("x = " + repeated(5000, "- ") + "x;"), 4, "more than 4000 operators"},
+        {bodied(repeated(300, "if (x > 0.0) ") + "x = 1.0;"), 4, "more than 256 statements"},
+        {bodied(repeated(9000, "x = x * 1.1;\n")), 8334, "more than 50000 words and signs"},
+        {bodied(repeated(600, "if (x > 0.0) return;\n")), 1, "more than 500 branches"},
+        {bodied("x = f14(x);", "float f0(float x) { return sin(x); }\n" +
+                                   chained(1, 14, "float f{0}(float x) {{ return f{1}(x) + f{1}(x + 0.5); }}\n")),
+         12, "more than 50000 words and signs"},
+        {bodied("x = sin(x);", "float cos(float x) { return x; }\nfloat sin(float x) { return " +
+                                   repeated(1500, "cos(x) + ") +
+                                   "x; }\nfloat tan(float x) { return sin(x) + sin(x) + sin(x) + sin(x) + sin(x); }\n"),
+         3, "more than 50000"},
+        {"float a(float x);\nfloat b(float x) { return a(x); }\nfloat a(float x) { return b(x); }\n" + bodied(""), 2,
+         "GLSL has no recursion"},
+        {bodied("float a[65536];"), 1, "more than 4096 numbers in arrays"},
+        {bodied("float a[64][65];"), 1, "more than 4096 numbers in arrays"},
+        {bodied("float b, a[kSide * kSide + 1];", "const int kSide = 64;\n"), 2, "more than 4096 numbers in arrays"},
+        {bodied("float a[max(1, 65536)];"), 4, "an array's size is a whole number"},
+        {bodied("B b[17];", "struct A { vec4 a[4]; };\nstruct B { A a[4], c[12]; };\n"), 3, "more than 4096 numbers"},
+        {bodied("", "struct A0 { float x; };\n" + chained(1, 20, "struct A{0} {{ A{1} a; }};\n")), 17,
+         "more than 16 structures"},
+        {bodied("for (int i = 0; i < 100000; ++i) x += 1.0;"), 4, "more than 60000 rounds"},
+        {bodied("for (int i = 0; i < 300; ++i)\nfor (int j = kEnd; j > 0; j -= 2) { x += 1.0; }",
+                "const int kEnd = 402;\n"),
+         6, "more than 60000 rounds"},
+        {bodied("for (int i = 0; i < 300; ++i) x += f(x);",
+                "float f(float x) { for (int i = 0; i != 300; ++i) x *= 1.1; return x; }\n"),
+         2, "more than 60000 rounds"},
+        {bodied("for (int i = 0; i < 100000; ++i) { if (x > 9.0) break; x += 1.0; }"), 4, ""},
+        {bodied("for (int i = 0; i < 60000; ++i) x += 1.0;"), 4, ""},
+    };
+    for (const auto& tried : cases) {
+        SCOPED_TRACE(tried.text.substr(0, 200));
+        const auto began = std::chrono::steady_clock::now();
+        const std::optional<HookFault> fault = hookFault(tried.text);
+        EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(1));
+        ASSERT_EQ(fault.has_value(), !tried.why.empty()) << (fault ? fault->why : "");
+        if (!fault) continue;
+        EXPECT_EQ(fault->line, tried.line) << fault->why;
+        EXPECT_THAT(fault->why, HasSubstr(tried.why));
+        EXPECT_EQ(fault->why.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Hook, programsTakeItWithoutMacrosAndWithNamesOfItsOwn) {
+    const std::string taken =
+        hookProgramText("a.glsl", "#define FIELD color\n#define SET(what, by) surface.what = by // x\n"
+                                  "const int SIZE = 2;\n#if defined(FIELD) && __VERSION__ > 400\n"
+                                  "struct Own { float view[SIZE], a; Own2 b; };\n#else\n#error\n"
+                                  "#endif\nvoid hookSurface(inout HookedSurface surface, HookInputs "
+                                  "inputs)\n{\n    SET(FIELD,\n        vec3(view.x + hook.wind));\n}\n");
+    EXPECT_EQ(taken, "\n\nconst int ofHookSIZE = 2 ; \n\nstruct ofHookOwn { float view [ ofHookSIZE ] , a ; ofHookOwn2 "
+                     "b ; } ; \n\n\n\n"
+                     "void hookSurface ( inout HookedSurface ofHooksurface , HookInputs ofHookinputs ) \n{ \n"
+                     "ofHooksurface . color = vec3 ( ofHookview . x + hook . wind ) \n; \n} \n");
+    for (const char* reached : {"view.sizePixels", "texture(baseColorTexture, inputs.uv)", "hookMovedRows[0]",
+                                "__LINE__", "VIEW_MOVED_TOO_FAR", "imageStore", "HookMovedRow"}) {
+        const std::string text = hookProgramText("a.glsl", bodied(fmt::format("x = {};", reached)));
+        EXPECT_THAT(text, HasSubstr("x = ofHook")) << reached;
+    }
+}
+
+TEST(Hook, macrosExpandAsInGlsl) {
+    const struct {
+        std::string_view text, taken;
+    } cases[] = {{"#define f(x) x + f\nA f(1)(2) f", "ofHookA 1 + ofHookf ( 2 ) ofHookf"},
+                 {"#define a b\n#define b a 1\na b", "ofHooka 1 ofHookb 1"},
+                 {"#define g f(2)\n#define f(x) -x\ng f (3) f", "- 2 - 3 ofHookf"},
+                 {"#define two(a, b) b a\ntwo((1, 2), two(3, 4))", "4 3 ( 1 , 2 )"},
+                 {"#define none() 7\nnone() none( )", "7 7"},
+                 {"#define o (1)\n#undef o\no", "ofHooko"},
+                 {"#if 0\n1\n#elif 2 - 1\n2\n#elif 1\n3\n#else\n4\n#endif", "2"},
+                 {"#if 0\n# if 1\n1\n# else\n2\n# endif\n#else\n3\n#endif", "3"},
+                 {"#if (1 << 4) == 0x10 && !defined x && 7 % 4 * 2 == 6 && 010 == 8u\n1\n#endif", "1"},
+                 {"1e-5+.5-x.y", "1e-5 + .5 - ofHookx . y"}};
+    for (const auto& tried : cases) {
+        std::string text = hookProgramText("a.glsl", fmt::format("void hookVertex;\n{}\n", tried.text)).substr(18);
+        std::string words;
+        for (const char c : text)
+            if (c != '\n' && !(c == ' ' && words.ends_with(' '))) words += c;
+        while (words.ends_with(' ')) words.pop_back();
+        EXPECT_EQ(words, tried.taken) << tried.text;
+    }
+    for (const auto& [text, why] :
+         {std::pair("#define f(a) a\nf(1, 2)", "takes 1 arguments, not 2"),
+          std::pair("#define f(a) a\nf(1", "have no end"), std::pair("#define f(a,,b) a", "names with commas between"),
+          std::pair("#if 1 / 0\n#endif", "no expression of whole numbers"),
+          std::pair("#warning x", "is no directive of GLSL"), std::pair("#error x", "gives up itself")}) {
+        const std::optional<HookFault> fault = hookFault(fmt::format("void hookVertex;\n{}\n", text));
+        ASSERT_TRUE(fault.has_value()) << text;
+        EXPECT_THAT(fault->why, HasSubstr(why));
+    }
 }
 
 TEST(Hook, itsFunctionsAreThoseOutsideOfComments) {

@@ -205,12 +205,14 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
     EXPECT_THAT(expanded("main.frag", {{"HOOK_HASH", "7u"}}).text, Not(HasSubstr("HookBlock")));
 }
 
-TEST_F(Expand, theTextOfAHookIsLookedAtBeforeAProgramTakesIt) {
+TEST_F(Expand, aHookIsPreparedBeforeAProgramTakesItOrRefused) {
     folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
     folder.write("lib/material/hook_interface.glsl", "\n");
     const std::string hook = folder.write("tint.glsl", "void hookSurface()\r\n{}").string();
     SourceTree tree(folder.path());
-    tree.checkHooks([&](const std::string& file, std::string_view seen) {
+    tree.prepareHooks([](const std::string&, std::string_view) { return std::string("prepared"); });
+    EXPECT_THAT(expand(tree, "main.frag", {{"HOOK_FILE", hook}}).text, HasSubstr("prepared#endif"));
+    tree.prepareHooks([&](const std::string& file, std::string_view seen) -> std::string {
         EXPECT_EQ(seen, "void hookSurface()\n{}\n");
         throw InputError(file + ": not this one");
     });
