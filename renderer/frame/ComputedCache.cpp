@@ -1,9 +1,8 @@
 #include "renderer/frame/ComputedCache.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <mutex>
 #include <span>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/AtomicFile.h"
+#include "base/Sha256.h"
 #include "renderer/frame/LobeTable.h"
 #include "shaders/shared/environment.h"
 #include "shaders/shared/lobe_table.h"
@@ -24,46 +24,39 @@ namespace {
 /// Change with what filterEnvironment() and makeLobeTable() compute.
 constexpr std::uint64_t kEnvironmentVersion = 10, kLobeVersion = 6;
 
-/// Of words and bytes; another one in the place of any single word gives another hash for sure.
-class WordHash {
-public:
-    explicit WordHash(std::uint64_t start) : value_(start) {}
-    void add(std::uint64_t word) {
-        value_ = (value_ ^ word) * 0xff51afd7ed558ccdu;
-        value_ ^= value_ >> 32;
-    }
-    void add(std::span<const std::byte> bytes) {
-        for (; !bytes.empty(); bytes = bytes.subspan(std::min(bytes.size(), sizeof(std::uint64_t)))) {
-            std::uint64_t word = 0;
-            std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof(word)));
-            add(word);
-        }
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_;
-};
-
-/// Parts of memory that lie in a file one after the other, behind its key and their hash.
+/// Parts of memory that lie in a file one after the other, behind its head.
 using Parts = std::vector<std::span<std::byte>>;
 
-std::uint64_t hashOf(std::uint64_t key, const Parts& parts) {
-    WordHash hash(key);
+/// What a file begins with.
+struct Head {
+    Sha256Digest key, content; ///< of all that the parts are computed from, and of the key and the parts
+    bool operator==(const Head&) const = default;
+};
+
+Head headOf(const Sha256Digest& key, const Parts& parts) {
+    Sha256 hash;
+    hash.add(key);
     for (const std::span<std::byte>& part : parts) hash.add(part);
-    return hash.value();
+    return {key, hash.digest()};
+}
+
+/// A whole number of a key, alike on every machine.
+void add(Sha256& hash, std::uint64_t number) {
+    std::array<std::byte, 8> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = std::byte(number >> (8 * i) & 0xff);
+    hash.add(bytes);
 }
 
 /// Whether all was there as it was written, and nothing else.
-bool read(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
+bool read(const std::filesystem::path& file, const Sha256Digest& key, const Parts& parts) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) return false; // a pipe would wait for its other end
     std::ifstream in(file, std::ios::binary);
-    std::uint64_t found[2] = {};
-    if (!in.read(reinterpret_cast<char*>(found), sizeof(found)) || found[0] != key) return false;
+    Head found{};
+    if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found.key != key) return false;
     for (const std::span<std::byte>& part : parts)
         if (!in.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()))) return false;
-    return in.peek() == std::ifstream::traits_type::eof() && found[1] == hashOf(key, parts);
+    return in.peek() == std::ifstream::traits_type::eof() && found == headOf(key, parts);
 }
 
 /// The first fault, until it is taken; none is noted after it.
@@ -87,9 +80,9 @@ void noteFault(const std::filesystem::path& file, const std::string& reason) {
                              file.string(), reason.substr(0, reason.find("; ")));
 }
 
-void write(const std::filesystem::path& file, std::uint64_t key, const Parts& parts) {
-    const std::uint64_t head[] = {key, hashOf(key, parts)};
-    std::string bytes(reinterpret_cast<const char*>(head), sizeof(head));
+void write(const std::filesystem::path& file, const Sha256Digest& key, const Parts& parts) {
+    const Head head = headOf(key, parts);
+    std::string bytes(reinterpret_cast<const char*>(&head), sizeof(head));
     for (const std::span<std::byte>& part : parts)
         bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
     try {
@@ -107,12 +100,22 @@ void write(const std::filesystem::path& file, std::uint64_t key, const Parts& pa
     }
 }
 
-std::uint64_t keyOf(const scenes::Image& map) {
-    WordHash hash(0x9e3779b97f4a7c15u ^ kEnvironmentVersion);
-    hash.add(std::uint64_t(map.width));
-    hash.add(std::uint64_t(map.height));
+/// Of the texels and of all that decides on what they are filtered to.
+Sha256Digest keyOf(const scenes::Image& map) {
+    Sha256 hash;
+    for (const std::uint64_t number :
+         {kEnvironmentVersion, std::uint64_t(map.width), std::uint64_t(map.height), std::uint64_t(ENVIRONMENT_LEVELS),
+          std::uint64_t(ENVIRONMENT_IRRADIANCE_SIDE), std::uint64_t(map.texels.size())})
+        add(hash, number);
     hash.add(map.texels);
-    return hash.value();
+    return hash.digest();
+}
+
+Sha256Digest lobeKey() {
+    Sha256 hash;
+    for (const std::uint64_t number : {kLobeVersion, std::uint64_t(LOBE_TABLE_SIDE), std::uint64_t(LOBE_TABLE_LAYERS)})
+        add(hash, number);
+    return hash.digest();
 }
 
 /// Room for what a map is filtered to.
@@ -156,8 +159,8 @@ std::string takeCacheFault() {
 FilteredEnvironment cachedEnvironment(const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
                                       const std::function<void(double)>& progress) {
     if (!folder) return filterEnvironment(map, progress);
-    const std::uint64_t key = keyOf(map);
-    const std::filesystem::path file = *folder / fmt::format("environment-{:016x}.bin", key);
+    const Sha256Digest key = keyOf(map);
+    const std::filesystem::path file = *folder / fmt::format("environment-{}.bin", hexadecimal(key));
     FilteredEnvironment result = emptyFor(map);
     if (read(file, key, partsOf(result))) return result;
     result = filterEnvironment(map, progress);
@@ -167,11 +170,12 @@ FilteredEnvironment cachedEnvironment(const scenes::Image& map, const std::optio
 
 std::vector<glm::vec4> cachedLobeTable(const std::optional<std::filesystem::path>& folder) {
     if (!folder) return makeLobeTable();
-    const std::filesystem::path file = *folder / fmt::format("lobes-{}.bin", kLobeVersion);
+    const Sha256Digest key = lobeKey();
+    const std::filesystem::path file = *folder / fmt::format("lobes-{}.bin", hexadecimal(key));
     std::vector<glm::vec4> table(std::size_t(LOBE_TABLE_SIDE) * LOBE_TABLE_SIDE * LOBE_TABLE_LAYERS);
-    if (read(file, kLobeVersion, {std::as_writable_bytes(std::span(table))})) return table;
+    if (read(file, key, {std::as_writable_bytes(std::span(table))})) return table;
     table = makeLobeTable();
-    write(file, kLobeVersion, {std::as_writable_bytes(std::span(table))});
+    write(file, key, {std::as_writable_bytes(std::span(table))});
     return table;
 }
 
