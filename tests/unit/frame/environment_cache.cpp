@@ -57,15 +57,19 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     EXPECT_TRUE(computed);
 }
 
-/// Maps of one shape whose word hash, as an earlier key was made, is the same: one word is undone after another. The
-/// hash is spelt out here to find them.
+/// The hash of 64 bits that was the key of version 10, of the first words of a map's texels: each step can be undone.
 std::uint64_t wordHash(const scenes::Image& map, std::size_t words) {
-    std::uint64_t value = 0;
+    std::uint64_t value = 0x9e3779b97f4a7c15u ^ 10u;
+    const auto add = [&](std::uint64_t word) {
+        value = (value ^ word) * 0xff51afd7ed558ccdu;
+        value ^= value >> 32;
+    };
+    add(std::uint64_t(map.width));
+    add(std::uint64_t(map.height));
     for (std::size_t i = 0; i < words; ++i) {
         std::uint64_t word = 0;
         std::memcpy(&word, map.texels.data() + 8 * i, 8);
-        value = (value ^ word) * 0xff51afd7ed558ccdu;
-        value ^= value >> 32;
+        add(word);
     }
     return value;
 }
