@@ -86,10 +86,10 @@ struct Setting {
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
     bool ofEnvironment = false; ///< it changes nothing of a scene without an environment
     bool ofReference = false;   ///< no technique heeds it, the reference alone does
-    /// What of the way to find the environment's light heeds it; null: it is heeded with any.
+    /// Whether a way to find the environment's light reads the setting; null: all do.
     bool frame::EnvironmentLightInfo::*ofLight = nullptr;
     bool ofAreaLights = false; ///< it changes nothing of a scene without area lights
-    /// What of the way to find the light of area lights heeds it; null: it is heeded with any.
+    /// Whether a way to find the light of area lights reads the setting; null: all do.
     bool frame::AreaLightsInfo::*ofAreaMethod = nullptr;
     bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
 

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostStructNesting = 16;
 inline constexpr std::size_t kMostHookSize = 50'000;       ///< words and signs
 inline constexpr std::size_t kMostHookBranches = 500;      ///< if, case, break, continue and loops
 inline constexpr std::size_t kMostHookArrays = 4096;       ///< numbers in arrays
-inline constexpr std::size_t kMostHookIterations = 60'000; ///< of loops, where the text tells how many
+inline constexpr std::size_t kMostHookIterations = 60'000; ///< per loop whose count is a constant of the text
 
 /// Throws HookFault where the tokens exceed a bound. What is no GLSL is left to the driver.
 void requireBounds(std::span<const HookToken> tokens);

@@ -21,8 +21,8 @@ std::string textOf(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// Every text that a record is told in.
-void tell(const std::string& folder) {
+/// Writes a record in every output format.
+void writeAll(const std::string& folder) {
     const validation::BenchRecord record = validation::recordIn(folder);
     validation::benchJson(record);
     validation::benchCsv(record);
@@ -33,7 +33,7 @@ void tell(const std::string& folder) {
 
 } // namespace
 
-/// What a run keeps: run.json in the first line, then its first group. It is told, merged and gone on with.
+/// A stored run: run.json in the first line, then its first group. Reports, merges and resumes it.
 void readBench(const fs::path& file) {
     const fs::path bench = file.parent_path() / "bench", merged = file.parent_path() / "merged";
     const std::string text = textOf(file);
@@ -44,7 +44,7 @@ void readBench(const fs::path& file) {
     std::ofstream(validation::groupFile(bench.string(), 0), std::ios::binary)
         << text.substr(std::min(end + 1, text.size()));
     const validation::Json run = validation::runIn(bench.string());
-    tell(bench.string());
+    writeAll(bench.string());
     {
         const validation::RunIdentity identity{.machine = run.at("machine"),
                                                .renderer = run.at("renderer"),
@@ -62,7 +62,7 @@ void readBench(const fs::path& file) {
         }
     }
     validation::mergeRuns({bench.string()}, merged.string());
-    tell(merged.string());
+    writeAll(merged.string());
     validation::mergeMachines(validation::shardsByMachine({bench.string()}), (merged / "of_machines").string());
 }
 

@@ -51,7 +51,7 @@ protected:
         return settings;
     }
 
-    /// A quad of 2 x 2 m in z = 0 of which every pixel sees the middle, from a viewer of this cosine.
+    /// A quad of 2 x 2 m in z = 0. Every pixel sees its middle, from a viewer of this cosine.
     static scenes::Scene pointOf(const scenes::Material& material, double cosView) {
         scenes::Scene scene = quadScene(material);
         scenes::Camera& camera = scene.cameras[0];

@@ -61,7 +61,7 @@ glm::dvec3 seenFacet(double alpha, const glm::dvec3& toViewer, double u, double 
 
 struct BentByFacet {
     glm::dvec3 direction{0.0};
-    double weight = 0.0; ///< what of the ray goes that way; 0: none
+    double weight = 0.0; ///< transmitted or reflected fraction of the ray; 0: none
 };
 
 /// By a facet of a rough side: Walter et al. 2007, equations 21 and 40, of facets that are seen.

@@ -134,8 +134,8 @@ TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
     expectShown(lit(sheet), glm::mix(glm::dvec3(highlight), glm::dvec3(whole), 0.75));
 }
 
-/// Of even light a black sheet reflects what its sheen does, and what the sheen reflects does not pass: by the integral
-/// of the sheen's lobe, of which the product has a fit.
+/// Under even light a black sheet reflects its sheen alone, and transmits the rest. The truth is the integral of the
+/// sheen's lobe; the product has a fit of it.
 TEST_F(GlassSheets, underASheenPassWhatItsLobeDoesNotReflect) {
     double most = 0.0;
     for (const double roughness : {0.3, 0.5, 1.0})
@@ -419,19 +419,28 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
         }
 }
 
-/// Roughness spreads light by the index of refraction: none at 1. At grazing angles the closed form lacks that lobes
-/// lean aside, of sheets twice (docs/glass.md): by an integral of its own, sums are 1 and 4.4 % off and pixels 0.1 and
-/// 0.4.
+/// Roughness blurs what glass transmits by its index of refraction: not at all at 1. The reference integrates Walter's
+/// lobe; the closed form ignores that lobes lean aside at grazing angles, which darkens bodies of index 2 and roughness
+/// 0.6 by 4.1 %, sheets by 5.0 % (docs/glass.md).
 void GlassTruth::expectRoughAsTheReference() {
     struct Case {
         double ior;
         bool isSheet;
+        double roughness = 0.6;
     };
-    for (const auto& [ior, isSheet] :
-         {Case{1.0, false}, {1.25, false}, {1.5, false}, {2.0, false}, {0.0, false}, {1.5, true}, {1.25, true}}) {
-        if (!isWholeSweep() && (ior == 1.25 || (ior == 1.5 && !isSheet))) continue;
-        SCOPED_TRACE(fmt::format("{} of index {}", isSheet ? "sheet" : "body", ior));
-        Material rough = bareGlass(ior, 0.3);
+    for (const auto& [ior, isSheet, roughness] : {Case{1.0, false},
+                                                  {1.25, false},
+                                                  {1.5, false},
+                                                  {2.0, false},
+                                                  {0.0, false},
+                                                  {1.5, true},
+                                                  {1.25, true},
+                                                  {1.5, false, 0.3},
+                                                  {2.0, false, 0.3},
+                                                  {1.5, true, 0.3}}) {
+        if (!isWholeSweep() && (ior == 1.25 || (ior == 1.5 && !isSheet) || roughness == 0.3)) continue;
+        SCOPED_TRACE(fmt::format("{} of index {}, roughness {}", isSheet ? "sheet" : "body", ior, roughness));
+        Material rough = bareGlass(ior, roughness);
         if (isSheet) rough.thicknessMetres = 0.0f;
         if (ior == 2.0) rough.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
         rough.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
@@ -454,9 +463,13 @@ void GlassTruth::expectRoughAsTheReference() {
                 worst = std::max(worst, double(std::abs(shown[i] - truth.picture.rgba[i])));
             }
             EXPECT_GT(other, 100.0);
-            // At 0 all pixels look one way, so that what the filtered map's texels round there, 3.3 %, does not average
-            // out.
-            EXPECT_NEAR(own, other, (isSheet || ior == 0.0 ? 0.05 : 0.02) * other) << infoOf(light).name;
+            fmt::print("{} of index {}, roughness {}, {}: sum {:+.2f} %, worst pixel {:.3f}\n",
+                       isSheet ? "sheet" : "body", ior, roughness, infoOf(light).name, 100.0 * (own / other - 1.0),
+                       worst);
+            // At index 0 all pixels look one way, so that the rounding of the filtered map's texels there, 3.3 %, does
+            // not average out.
+            const bool isFar = isSheet || ior == 0.0 || (ior == 2.0 && roughness == 0.6);
+            EXPECT_NEAR(own, other, (isFar ? 0.05 : 0.02) * other) << infoOf(light).name;
             EXPECT_LE(worst, isSheet ? 0.45 : 0.15) << infoOf(light).name; // noise of both; levels between alphas
         }
     }

@@ -138,7 +138,7 @@ TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) 
                 const double lift = isLifted ? (1.0 - across * across) * std::sin(kLean) / blend : 0.0;
                 const double behindEdge = kPlateEdge + (kPlateMetres - lift) / kSlope - placeWS.z;
                 const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
-                // A height is held in steps of a twelfth at most, of which half may be left out.
+                // Heights are stored in steps of a twelfth at most; rounding loses up to half a step.
                 const double leeway = 1e-3 + 0.045 * lift / kSlope;
                 const bool isDark = seen[4 * std::size_t(128 * y + x)] == 0.0f;
                 dark += isDark;

@@ -22,8 +22,8 @@ struct ShadowFigures {
 inline constexpr double kShadowNoises = 5.0;
 
 /// What is missed, one sentence each: over 5 % of the pixels undecided; more noise than independent rays leave; a bias
-/// beyond a thousandth, which is for the reference's own 1024 rays, and five standard errors. `longest` names what of
-/// the scene takes most digits; it may be empty.
+/// beyond a thousandth, which is for the reference's own 1024 rays, and five standard errors. `longest` names the part
+/// of the scene that takes most digits; it may be empty.
 std::vector<std::string> missedByShadows(const ShadowFigures& figures, const std::string& longest = {});
 
 /// One line for a terminal.

@@ -88,7 +88,7 @@ private:
     Surroundings surroundings_;
     Occlusion occlusion_;
     Diffusion diffusion_;
-    std::vector<bool> closedBodies_; ///< by material, where that is asked
+    std::vector<bool> closedBodies_; ///< per material; empty unless the settings need it
 };
 
 } // namespace tessera::reference

@@ -99,11 +99,7 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
     const int kRuns = (1 << ENVIRONMENT_SAMPLES_LOG2) / ENVIRONMENT_SAMPLES;
     int first = int(random.z % uint(kRuns)) * ENVIRONMENT_SAMPLES;
     vec3 normal = seen.surface.normalLS;
-#if HAS_TANGENT_FRAME
-    vec3 tangent = isAnisotropic(seen.surface) ? seen.surface.tangentLS : anyPerpendicular(normal);
-#else
-    vec3 tangent = anyPerpendicular(normal);
-#endif
+    vec3 tangent = sampledTangent(seen);
     vec3 bounces = bouncesBelowLayers(seen);
     precise vec3 sum = vec3(0.0);
     for (int k = 0; k < ENVIRONMENT_SAMPLES; ++k) {
@@ -115,8 +111,7 @@ vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
         if (samplesLobe) sum += sampledDirection(seen, bounces, lobeDirection(point, seen, tangent));
 #if HAS_CLEARCOAT && !SPECULAR_OFF
         if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0)
-            sum += sampledDirection(seen, bounces, visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer,
-                                                            seen.coatNormalLS, anyPerpendicular(seen.coatNormalLS)));
+            sum += sampledDirection(seen, bounces, coatDirection(point, seen));
 #endif
     }
     precise float scale = environmentIntensity() * openShare(seen.surface);

@@ -331,11 +331,7 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoi
     // Other numbers than those of shadows, so that the mean of their product is the product of the means.
     vec2 random = unitOf(hashOf(uvec3(uvec2(viewpoint.pixel), uint(index) + 0x7f4a7c15u)).xy);
     vec3 normal = seen.surface.normalLS;
-#if HAS_TANGENT_FRAME
-    vec3 tangent = isAnisotropic(seen.surface) ? seen.surface.tangentLS : anyPerpendicular(normal);
-#else
-    vec3 tangent = anyPerpendicular(normal);
-#endif
+    vec3 tangent = sampledTangent(seen);
     bool samplesLobe = hasLobe(seen);
     precise vec3 sum = vec3(0.0);
     int k = 0;
@@ -345,11 +341,8 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoi
         sum += worthOf(seenIn(source, cosineDirection(point, normal, tangent)), source, seen);
         if (samplesLobe) sum += worthOf(seenIn(source, lobeDirection(point, seen, tangent)), source, seen);
 #if HAS_CLEARCOAT && !SPECULAR_OFF
-        if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0) {
-            vec3 coated = visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer, seen.coatNormalLS,
-                                            anyPerpendicular(seen.coatNormalLS));
-            sum += worthOf(seenIn(source, coated), source, seen);
-        }
+        if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0)
+            sum += worthOf(seenIn(source, coatDirection(point, seen)), source, seen);
 #endif
     }
     if (k < AREA_SAMPLES) return vec3(CUT_LOOP);

@@ -61,6 +61,24 @@ vec3 lobeDirection(vec2 point, SeenSurface seen, vec3 tangent)
 #endif
 }
 
+#if HAS_CLEARCOAT && !SPECULAR_OFF
+// A sample of the coat's lobe.
+vec3 coatDirection(vec2 point, SeenSurface seen)
+{
+    return visibleReflection(point, vec2(seen.surface.coatAlpha), seen.toViewer, seen.coatNormalLS,
+                             anyPerpendicular(seen.coatNormalLS));
+}
+#endif
+
+// The vector that lobes with two alphas are sampled along; any in the plane for others.
+vec3 sampledTangent(SeenSurface seen)
+{
+#if HAS_TANGENT_FRAME
+    if (isAnisotropic(seen.surface)) return seen.surface.tangentLS;
+#endif
+    return anyPerpendicular(seen.surface.normalLS);
+}
+
 // How densely one sample each of the cosine, the lobe and the coat lie around a direction, 1/sr.
 float surfaceDensity(SeenSurface seen, vec3 toLight)
 {

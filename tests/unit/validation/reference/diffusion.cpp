@@ -63,7 +63,7 @@ TEST(ReferenceDiffusion, aStepOfLightIsASumOfErrorFunctions) {
         whole += answer.whole.r / double(rendered.spread.size());
         apart += answer.apart;
     }
-    EXPECT_NEAR(whole, 1.0, 2e-3) << "the profile's integral over a plane, of which nothing is cut off";
+    EXPECT_NEAR(whole, 1.0, 2e-3) << "the profile's integral over an unbounded plane";
     EXPECT_EQ(apart, 0.0);
 }
 

@@ -41,7 +41,7 @@ protected:
     Hit hit_;
 };
 
-/// A program adds up three products, of which each and each sum may be rounded.
+/// A program adds up three products. Each product and each sum may be rounded.
 TEST_F(ReferenceSlots, edgesOfTexelsAreUndecidedWithinAFewRoundingsOfTheCoordinate) {
     for (const double sign : {1.0, -1.0}) {
         EXPECT_TRUE(isUndecidedBeyondEdge(sign * kRounding));
