@@ -259,10 +259,19 @@ vec4 levelBehind(vec2 place, int level)
     return mean;
 }
 
-// The picture around a place, averaged over as many pixels as the lobe of a rough body covers there. Half of a GGX lobe
-// lies within a slope of alpha of its half vectors, which turns light by twice that angle: a disk of 2 alpha l in radius, l
-// away. The square of as large a variance as a disk that holds half of its light there, interpolated between texels, has a
-// side of 3 alpha l; a lobe's tails reach farther, and 3.4 is nearer to Walter's integral (docs/glass.md). Lobes narrower
+// The mean of the image over a square around a place, interpolated between levels.
+vec4 meanBehind(vec2 place, float widthPixels)
+{
+    precise float level = clamp(0.5 * log2(1.0 + widthPixels * widthPixels), 0.0, float(BEHIND_COARSEST));
+    int fine = min(int(level), BEHIND_COARSEST - 1);
+    vec4 finer = levelBehind(place, fine), coarser = levelBehind(place, fine + 1);
+    precise vec4 mean = finer + (level - float(fine)) * (coarser - finer);
+    return mean;
+}
+
+// The image around a place, blurred by the lobe of a rough body. Half of a GGX lobe lies within a slope of alpha of its
+// half vectors, which turns light by twice that angle: a disk of radius 2 alpha l at the distance l. One square has no
+// tails, so the lobe is the sum of a narrow and a wide one, fitted to Walter's integral (docs/glass.md). Lobes narrower
 // than a pixel still blur a little.
 vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 {
@@ -270,12 +279,9 @@ vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
     vec2 spread = raySpread();
     precise float pixelMetres =
         (spread.x + spread.y * dot(view.forwardLS.xyz, metLS)) * length(view.rayDxLS.xyz);
-    precise float widthPixels = 3.4 * alpha * length(metLS - originLS) / pixelMetres;
-    precise float level = clamp(0.5 * log2(1.0 + widthPixels * widthPixels), 0.0, float(BEHIND_COARSEST));
-    int fine = min(int(level), BEHIND_COARSEST - 1);
-    vec4 finer = levelBehind(place.xy, fine), coarser = levelBehind(place.xy, fine + 1);
-    precise vec4 mean = finer + (level - float(fine)) * (coarser - finer);
-    return mean;
+    precise float slopePixels = alpha * length(metLS - originLS) / pixelMetres;
+    precise vec4 sum = 0.6 * meanBehind(place.xy, 2.6 * slopePixels) + 0.4 * meanBehind(place.xy, 5.8 * slopePixels);
+    return sum;
 }
 #endif
 
