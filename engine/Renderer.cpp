@@ -13,7 +13,6 @@
 #include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
-#include "scenes/ClosedBodies.h"
 #include "scenes/Hook.h"
 
 namespace tessera::engine {
@@ -71,7 +70,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // before there are three
         frame::FeatureSet uploads = features;
         if (spec.features[frame::Feature::Shadows]) uploads.add(frame::Feature::Shadows);
-        auto scene = std::make_unique<frame::SceneGpu>(shown_, uploads, filter, subsurface);
+        auto scene = std::make_unique<frame::SceneGpu>(shown_, closedMeshes_, uploads, filter, subsurface);
         uploaded_.insert(uploaded_.begin(), {features, filter, subsurface, std::move(scene)});
     } else {
         if (found->geometryChanged)
@@ -107,7 +106,7 @@ const scenes::Scene& Renderer::sceneAt(double timeSeconds, Excess excess) {
 void Renderer::forgetGeometry() {
     drawn_.reset(); // it points at atlases
     bounds_ = frame::surfaceBounds(shown_);
-    closedMeshes_.clear();
+    closedMeshes_.verticesMoved();
     uvAtlases_.forget();
     for (auto& [view, memory] : diffusionMemories_) memory.forget();
     for (Uploaded& uploaded : uploaded_) uploaded.geometryChanged = true;

@@ -14,6 +14,7 @@
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/shader/ProgramLibrary.h"
 #include "scenes/Clips.h"
+#include "scenes/ClosedBodies.h"
 
 namespace tessera::engine {
 
@@ -196,7 +197,7 @@ private:
     std::unique_ptr<HookedScene> hooked_; ///< null where no hook moves vertices
     const scenes::Scene& shown_;
     std::vector<frame::SurfaceBounds> bounds_;
-    std::vector<std::optional<bool>> closedMeshes_; ///< by mesh, those that were asked (scenes/ClosedBodies.h)
+    scenes::ClosedMeshes closedMeshes_;
     shader::ProgramLibrary programs_;
     std::size_t reloaded_ = 0; ///< ProgramLibrary::reloaded() as forgetReloaded() knows it
     gpu::GraphBackend backend_;

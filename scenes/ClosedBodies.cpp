@@ -1,107 +1,144 @@
 #include "scenes/ClosedBodies.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <unordered_map>
+#include <tuple>
 
 #include "scenes/InUse.h"
 
 namespace tessera::scenes {
 namespace {
 
-/// Of each vertex the first at the same place, up to rounding: the ends of a turn differ by some.
-std::vector<std::uint32_t> weldedByPlace(const Mesh& mesh) {
-    Box3 box;
-    for (const glm::vec3& position : mesh.positionsOS) box.extend(glm::dvec3(position));
-    if (box.empty()) return {};
-    const glm::dvec3 size = box.max - box.min, reach = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const double near =
-        std::max({1e-6 * std::max({size.x, size.y, size.z}), 4e-7 * std::max({reach.x, reach.y, reach.z}), 1e-30});
-    using Cell = std::array<std::int64_t, 3>;
-    const auto hash = [](const Cell& cell) {
-        std::size_t mixed = 0;
-        for (const std::int64_t part : cell) mixed = (mixed ^ std::size_t(part)) * 0x9e3779b97f4a7c15u;
-        return mixed ^ (mixed >> 32);
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using Seams = ClosedMeshes::Seams;
+
+/// Edges that are passed one way alone.
+Seams seamsOf(const std::vector<Edge>& passed) {
+    // The two ways of an edge lie side by side.
+    const auto sorted = [](Edge edge) {
+        const auto [low, high] = std::minmax(edge.first, edge.second);
+        return std::tuple(low, high, edge.first > edge.second);
     };
-    const double cellSize = 4.0 * near;
-    const auto cellOf = [&](const glm::dvec3& place) {
-        const glm::dvec3 cell = glm::floor((place - box.min) / cellSize);
-        return Cell{std::int64_t(cell.x), std::int64_t(cell.y), std::int64_t(cell.z)};
-    };
-    std::unordered_map<Cell, std::vector<std::uint32_t>, decltype(hash)> cells(mesh.positionsOS.size(), hash);
-    std::vector<std::uint32_t> welded;
-    welded.reserve(mesh.positionsOS.size());
-    for (std::uint32_t i = 0; i < mesh.positionsOS.size(); ++i) {
-        const glm::dvec3 place(mesh.positionsOS[i]);
-        const Cell low = cellOf(place - near), high = cellOf(place + near);
-        std::optional<std::uint32_t> same;
-        for (std::int64_t x = low[0]; x <= high[0] && !same; ++x)
-            for (std::int64_t y = low[1]; y <= high[1] && !same; ++y)
-                for (std::int64_t z = low[2]; z <= high[2] && !same; ++z) {
-                    const auto found = cells.find({x, y, z});
-                    if (found == cells.end()) continue;
-                    for (const std::uint32_t other : found->second)
-                        if (glm::distance(glm::dvec3(mesh.positionsOS[other]), place) <= near) same = other;
-                }
-        if (!same) cells[cellOf(place)].push_back(i);
-        welded.push_back(same.value_or(i));
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>> ways(passed.size());
+    std::ranges::transform(passed, ways.begin(), sorted);
+    std::ranges::sort(ways);
+    Seams seams;
+    seams.isManifold = std::ranges::adjacent_find(ways) == ways.end();
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        const auto [low, high, isBack] = ways[i];
+        const bool isBoth = i + 1 < ways.size() && low == std::get<0>(ways[i + 1]) && high == std::get<1>(ways[i + 1]);
+        if (isBoth)
+            ++i;
+        else
+            seams.edges.push_back(isBack ? Edge{high, low} : Edge{low, high});
     }
-    return welded;
+    return seams;
+}
+
+Seams seamsOf(const Mesh& mesh) {
+    std::vector<Edge> passed;
+    passed.reserve(mesh.indices.size());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* const corners = &mesh.indices[i];
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+        for (int c = 0; c < 3; ++c) passed.emplace_back(corners[c], corners[(c + 1) % 3]);
+    }
+    return seamsOf(passed);
+}
+
+/// How far apart vertices at one position may lie, by rounding: the two sides of a seam differ slightly.
+float weldedMetres(const Mesh& mesh) {
+    if (mesh.positionsOS.empty()) return 0.0f;
+    glm::vec3 low = mesh.positionsOS[0], high = low;
+    for (const glm::vec3& position : mesh.positionsOS) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const glm::vec3 size = high - low, extent = glm::max(glm::abs(low), glm::abs(high));
+    return std::max(
+        {1e-6f * std::max({size.x, size.y, size.z}), 4e-7f * std::max({extent.x, extent.y, extent.z}), 1e-30f});
+}
+
+/// Replaces each vertex of the edges by the first one at its position.
+void weld(std::vector<Edge>& edges, const Mesh& mesh) {
+    const auto position = [&](std::uint32_t vertex) { return glm::dvec3(mesh.positionsOS[vertex]); };
+    std::vector<std::uint32_t> vertices;
+    for (const auto& [from, to] : edges) vertices.insert(vertices.end(), {from, to});
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    // Sorted along a direction that no row of vertices stands across, those at one position are neighbours.
+    const glm::dvec3 direction(0.726, 0.548, 0.4137);
+    const auto along = [&](std::uint32_t vertex) { return glm::dot(direction, position(vertex)); };
+    std::vector<std::uint32_t> sorted = vertices;
+    std::ranges::stable_sort(sorted, {}, along);
+    const double most = weldedMetres(mesh);
+    std::vector<std::uint32_t> first(mesh.positionsOS.size());
+    for (const std::uint32_t vertex : vertices) first[vertex] = vertex;
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+        for (std::size_t k = i; k-- > 0 && along(sorted[i]) - along(sorted[k]) <= most;) {
+            if (glm::distance(position(sorted[i]), position(sorted[k])) > most) continue;
+            first[sorted[i]] = first[sorted[k]];
+            break;
+        }
+    for (auto& [from, to] : edges) std::tie(from, to) = std::tuple(first[from], first[to]);
+    std::erase_if(edges, [](const Edge& edge) { return edge.first == edge.second; });
+}
+
+bool enclosesVolume(const Mesh& mesh) {
+    double volume = 0.0, area = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 origin(mesh.positionsOS[mesh.indices[0]]);
+        glm::dvec3 corners[3];
+        for (std::size_t c = 0; c < 3; ++c) corners[c] = glm::dvec3(mesh.positionsOS[mesh.indices[i + c]]) - origin;
+        volume += glm::dot(corners[0], glm::cross(corners[1], corners[2])) / 6.0;
+        area += 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    }
+    // The volume of a sphere is 0.09 area^(3/2); that of a two-sided sheet is rounding alone.
+    return volume > 1e-6 * area * std::sqrt(area);
+}
+
+bool closes(const Mesh& mesh, const Seams& seams) {
+    if (!seams.isManifold || !enclosesVolume(mesh)) return false;
+    std::vector<Edge> edges = seams.edges;
+    weld(edges, mesh);
+    const Seams left = seamsOf(edges);
+    return left.isManifold && left.edges.empty();
 }
 
 } // namespace
 
 bool isClosed(const Mesh& mesh) {
-    const std::vector<std::uint32_t> welded = weldedByPlace(mesh);
-    std::vector<std::uint64_t> edges, turned;
-    double volume = 0.0, area = 0.0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t corners[] = {welded[mesh.indices[i]], welded[mesh.indices[i + 1]],
-                                         welded[mesh.indices[i + 2]]};
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-        const glm::dvec3 origin(mesh.positionsOS[mesh.indices[0]]);
-        glm::dvec3 places[3];
-        for (int c = 0; c < 3; ++c) {
-            places[c] = glm::dvec3(mesh.positionsOS[corners[c]]) - origin;
-            const std::uint64_t from = corners[c], to = corners[(c + 1) % 3];
-            edges.push_back(from << 32 | to);
-            turned.push_back(to << 32 | from);
-        }
-        volume += glm::dot(places[0], glm::cross(places[1], places[2])) / 6.0;
-        area += 0.5 * glm::length(glm::cross(places[1] - places[0], places[2] - places[0]));
-    }
-    // Of spheres the volume is 0.09 of the area to the power of 3/2; of a sheet with two sides rounding is left.
-    if (!(volume > 1e-6 * area * std::sqrt(area))) return false;
-    std::ranges::sort(edges);
-    std::ranges::sort(turned);
-    return std::ranges::adjacent_find(edges) == edges.end() && edges == turned;
+    return closes(mesh, seamsOf(mesh));
 }
 
-std::vector<bool> closedBodies(const Scene& scene, std::vector<std::optional<bool>>& known) {
-    known.resize(scene.meshes.size());
+bool ClosedMeshes::isClosed(const Scene& scene, std::size_t mesh) {
+    known_.resize(std::max(known_.size(), scene.meshes.size()));
+    Known& known = known_[mesh];
+    if (!known.seams) known.seams = seamsOf(scene.meshes[mesh]);
+    if (!known.isClosed) known.isClosed = closes(scene.meshes[mesh], *known.seams);
+    return *known.isClosed;
+}
+
+void ClosedMeshes::verticesMoved() {
+    for (Known& known : known_) known.isClosed.reset();
+}
+
+std::vector<bool> closedBodies(const Scene& scene, ClosedMeshes& meshes) {
     std::vector<bool> used(scene.materials.size()), open(used.size());
     for (const Node& node : scene.nodes)
         for (const MeshInstance& instance : node.instances) {
             if (!isDrawn(scene, instance)) continue;
-            const auto mesh = std::size_t(instance.mesh), material = std::size_t(instance.material);
+            const auto material = std::size_t(instance.material);
             if (!hasBody(scene.materials[material])) continue;
-            if (!known[mesh]) known[mesh] = isClosed(scene.meshes[mesh]);
             used[material] = true;
-            if (!*known[mesh]) open[material] = true;
+            if (!meshes.isClosed(scene, std::size_t(instance.mesh))) open[material] = true;
         }
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] && !open[i];
     return used;
 }
 
-std::vector<bool> closedBodies(const Scene& scene) {
-    std::vector<std::optional<bool>> known;
-    return closedBodies(scene, known);
-}
-
-bool hasClosedBodies(const Scene& scene, std::vector<std::optional<bool>>& known) {
-    const std::vector<bool> closed = closedBodies(scene, known);
+bool hasClosedBodies(const Scene& scene, ClosedMeshes& meshes) {
+    const std::vector<bool> closed = closedBodies(scene, meshes);
     return std::ranges::find(closed, true) != closed.end();
 }
 

@@ -99,8 +99,8 @@ bool showsAnyOpaque(const scenes::Scene& scene, const FrameSpec& spec) {
 bool mayLeaveByBackFaces(const scenes::Scene& scene, const FrameSettings& settings) {
     if (!settings.prune || infoOf(settings.refraction).farSide == RefractionInfo::FarSide::BackFaces) return true;
     if (settings.hasClosedBodies) return *settings.hasClosedBodies;
-    std::vector<std::optional<bool>> known;
-    return scenes::hasClosedBodies(scene, known);
+    scenes::ClosedMeshes meshes;
+    return scenes::hasClosedBodies(scene, meshes);
 }
 
 /// Decides what glass shows of what is behind it, once the features of surfaces and the lights that are seen are known.

@@ -13,7 +13,6 @@
 #include "renderer/frame/PackedMaterial.h"
 #include "renderer/frame/TextureLevels.h"
 #include "renderer/gpu/TexelBuffer.h"
-#include "scenes/ClosedBodies.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
 #include "shaders/shared/slots.h"
@@ -94,9 +93,9 @@ std::uint64_t newRevision() {
 
 } // namespace
 
-SceneGpu::SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter,
-                   scenes::SubsurfaceRequest subsurface)
-    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface),
+SceneGpu::SceneGpu(const scenes::Scene& scene, scenes::ClosedMeshes& closedMeshes, const FeatureSet& features,
+                   TextureFilter filter, scenes::SubsurfaceRequest subsurface)
+    : scene_(scene), features_(features), filter_(filter), subsurface_(subsurface), closedMeshes_(closedMeshes),
       materialsInUse_(scenes::inUse(scene).materials), geometry_(makeGeometry(scene, features)),
       draws_(makeDraws(geometry_.ranges)), materials_(makeMaterials()) {
     uploadTextures();
@@ -197,7 +196,6 @@ void SceneGpu::updateMaterials() {
 void SceneGpu::updateGeometry() {
     Geometry geometry = makeGeometry(scene_, features_);
     Draws draws = makeDraws(geometry.ranges);
-    closedMeshes_.clear();
     Materials materials = makeMaterials();
     std::vector<CasterMaterial> revised = casterMaterials();
     // Nothing throws from here on.

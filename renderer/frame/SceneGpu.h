@@ -17,6 +17,7 @@
 #include "renderer/gpu/Sampler.h"
 #include "renderer/gpu/Texture.h"
 #include "renderer/gpu/VertexArray.h"
+#include "scenes/ClosedBodies.h"
 
 namespace tessera::frame {
 
@@ -27,11 +28,12 @@ inline std::size_t trianglesIn(const gpu::DrawIndexedCommand& command) {
 /// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded, nor meshes and
 /// textures that nothing drawn uses, and a table of materials only where they do not vary. With
 /// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
-/// approximately, and no levels beyond the first, which the filter does not read. The scene must outlive the object.
+/// approximately, and no levels beyond the first, which the filter does not read. The scene and its
+/// closed meshes must outlive the object.
 class SceneGpu {
 public:
-    SceneGpu(const scenes::Scene& scene, const FeatureSet& features, TextureFilter filter = TextureFilter::Hardware,
-             scenes::SubsurfaceRequest subsurface = {});
+    SceneGpu(const scenes::Scene& scene, scenes::ClosedMeshes& closedMeshes, const FeatureSet& features,
+             TextureFilter filter = TextureFilter::Hardware, scenes::SubsurfaceRequest subsurface = {});
 
     /// Uploads the scene's current materials; their textures and features must be unchanged. Derives tangents anew
     /// where a material follows others than before. Throws as makeVertexStreams() does, and std::runtime_error when
@@ -152,8 +154,8 @@ private:
     FeatureSet features_;
     TextureFilter filter_;
     scenes::SubsurfaceRequest subsurface_;
-    std::vector<std::optional<bool>> closedMeshes_; ///< by mesh, those that were asked
-    std::vector<bool> materialsInUse_;              ///< by material; the table holds those in use, in their order
+    scenes::ClosedMeshes& closedMeshes_;
+    std::vector<bool> materialsInUse_; ///< by material; the table holds those in use, in their order
     Geometry geometry_;
     Draws draws_;
     Materials materials_;

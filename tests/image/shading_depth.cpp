@@ -42,7 +42,8 @@ protected:
     std::vector<Pixel> prepassed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
         const frame::PreparedView prepared = engine::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
-        const frame::SceneGpu sceneGpu(scene, spec.features);
+        scenes::ClosedMeshes closedMeshes;
+        const frame::SceneGpu sceneGpu(scene, closedMeshes, spec.features);
         frame::DrawnView view;
         view.prepared = prepared;
         view.scene = &sceneGpu;

@@ -56,10 +56,13 @@ Shading::Shading(const scenes::Scene& scene, const Settings& settings, const Sig
     : scene_(scene), settings_(settings), sight_(sight), lights_(sight.lights()), surroundings_(scene, settings),
       occlusion_(scene, sight.objects()),
       diffusion_(sight.objects(), sight.textures(), lights_, surroundings_, occlusion_, settings) {
-    if (settings.farSide == FarSide::BackFacesOfClosed) closedBodies_ = scenes::closedBodies(scene);
+    if (settings.farSide == FarSide::BackFacesOfClosed) {
+        scenes::ClosedMeshes meshes;
+        closedBodies_ = scenes::closedBodies(scene, meshes);
+    }
 }
 
-/// Whether rays leave what a ray has entered by the back faces of its mesh.
+/// Whether rays leave the entered body through the back faces of its mesh.
 bool Shading::hasBackFaces(const Hit& entry) const {
     if (settings_.farSide != FarSide::BackFacesOfClosed) return settings_.farSide == FarSide::BackFaces;
     return closedBodies_[std::size_t(entry.object->material - scene_.materials.data())];

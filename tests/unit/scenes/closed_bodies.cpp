@@ -57,12 +57,19 @@ TEST(ClosedBodies, aBodyIsClosedWhereAllMeshesThatShowItAre) {
     scene.materials = {body, body, body, sheet};
     Node& node = scene.nodes.emplace_back();
     node.instances = {{0, 0}, {0, 1}, {1, 1}, {0, 3}};
-    EXPECT_EQ(closedBodies(scene), (std::vector<bool>{true, false, false, false}));
-    std::vector<std::optional<bool>> known;
-    EXPECT_TRUE(hasClosedBodies(scene, known));
-    EXPECT_EQ(known, (std::vector<std::optional<bool>>{true, false}));
+    ClosedMeshes meshes;
+    EXPECT_EQ(closedBodies(scene, meshes), (std::vector<bool>{true, false, false, false}));
+    EXPECT_TRUE(hasClosedBodies(scene, meshes));
+    // Vertices that move apart open a mesh once it is told, and close it again.
+    const float rest = scene.meshes[0].positionsOS[0].x;
+    for (const bool isMoved : {true, false}) {
+        scene.meshes[0].positionsOS[0].x = isMoved ? rest + 1e-3f : rest;
+        EXPECT_EQ(hasClosedBodies(scene, meshes), isMoved);
+        meshes.verticesMoved();
+        EXPECT_EQ(hasClosedBodies(scene, meshes), !isMoved);
+    }
     node.instances = {{0, 1}, {1, 1}};
-    EXPECT_FALSE(hasClosedBodies(scene, known));
+    EXPECT_FALSE(hasClosedBodies(scene, meshes));
 }
 
 } // namespace
