@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <span>
 
@@ -38,24 +39,30 @@ protected:
 
     static constexpr double kMostArithmetic = 1e-8;
 
-    /// The lines of one point of `technique`, which the reference is the truth of.
+    /// Lines of one point of `technique` per environment method, judged by the reference.
     std::vector<AttributionLine> linesOf(const scenes::Scene& scene, frame::FrameSettings settings,
-                                         Technique technique = Technique::Forward) {
+                                         Technique technique = Technique::Forward,
+                                         std::vector<frame::EnvironmentLight> methods = {}) {
         settings.filter = frame::TextureFilter::Exact;
+        if (methods.empty()) methods = {settings.environment.light};
         engine::Renderer renderer(context(), scene);
         const validation::GroupTruth truth(renderer, validation::BenchTruth::Reference, settings,
                                            frame::TextureFilter::Exact, [] {});
-        validation::BenchPoint point;
-        point.technique = technique;
-        point.settings = settings;
-        point.key.technique = infoOf(technique).name;
-        point.key.layout = settings.layout == frame::exactLayout().layout ? "exact" : "packed";
-        point.key.rangeTolerance = settings.rangeTolerance;
-        const frame::PackedLights lights = engine::prepareView(scene, technique, settings).lights;
-        point.key.shadow = validation::shadowKeyOf(lights, settings);
-        point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
-        if (scene.environment) point.key.environment = validation::environmentKeyOf(settings);
-        return validation::attributeErrors(context(), truth, "reference", {&point, 1});
+        std::vector<validation::BenchPoint> points;
+        for (const frame::EnvironmentLight method : methods) {
+            validation::BenchPoint& point = points.emplace_back();
+            point.technique = technique;
+            point.settings = settings;
+            point.settings.environment.light = method;
+            point.key.technique = infoOf(technique).name;
+            point.key.layout = settings.layout == frame::exactLayout().layout ? "exact" : "packed";
+            point.key.rangeTolerance = settings.rangeTolerance;
+            const frame::PackedLights lights = engine::prepareView(scene, technique, point.settings).lights;
+            point.key.shadow = validation::shadowKeyOf(lights, settings);
+            point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
+            if (scene.environment) point.key.environment = validation::environmentKeyOf(point.settings);
+        }
+        return validation::attributeErrors(context(), truth, "reference", points);
     }
 
     /// Holds the lines to what they promise: the causes sum to the whole, fp32 is fine, and no two are one.
@@ -147,6 +154,30 @@ void Attribution::expectSwitched(std::span<const Switch> switches) {
 
 TEST_F(Attribution, fp32ArithmeticIsNotTheErrorOfTheEnvironment) {
     expectSwitched(std::array{Switch{"environment", &Switches::environment}});
+}
+/// Glass shows the environment by the point's method, so each method has its row of glass; their sums are the wholes.
+TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {
+    Switches on;
+    on.glass = on.environment = true;
+    frame::FrameSettings settings;
+    settings.sizePixels = {24, 18};
+    settings.environment.backdrop = frame::Backdrop::Off;
+    settings.environment.samples = 256;
+    using frame::EnvironmentLight;
+    const std::array methods{EnvironmentLight::SplitSum, EnvironmentLight::Sampled};
+    const std::vector<AttributionLine> lines =
+        linesOf(sceneOf(on), settings, Technique::Forward, {methods.begin(), methods.end()});
+    double arithmetic = 0.0;
+    std::map<std::string, double> sums, wholes;
+    for (const AttributionLine& line : lines) {
+        fmt::print("  {:12} {:80} relMse {:.3e}\n", line.cause, line.what, line.relMse.value());
+        if (line.cause == "arithmetic") arithmetic = line.relMse.value();
+        for (const EnvironmentLight method : methods)
+            if (line.what.find(infoOf(method).name) != std::string::npos)
+                (line.cause == validation::kWholeCause ? wholes : sums)[std::string(infoOf(method).name)] += line.relMse.value();
+    }
+    ASSERT_EQ(wholes.size(), methods.size());
+    for (const auto& [name, whole] : wholes) EXPECT_NEAR(sums[name] + arithmetic, whole, 0.1 * whole) << name;
 }
 TEST_F(AttributionSlow, causesThatAreSwitchedOnOneByOneSumToTheWhole) {
     expectSwitched(std::array{Switch{"environment", &Switches::environment}, Switch{"area", &Switches::area},

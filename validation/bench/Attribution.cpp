@@ -40,14 +40,14 @@ struct Ground {
     frame::FrameSettings settings;
 };
 
-/// A part of a picture that is found by approximation, and only by the reference exactly. Where it is off, there is
-/// nothing to approximate, in the program's pictures and in those of the truth.
+/// An approximated effect, exact only in the reference. Turned off, it is absent from the program's images and from the
+/// truth.
 struct Part {
     const char* cause;
-    bool addsLight; ///< pictures with it are sums: it is measured alone. Else it changes what all lights show
+    bool addsLight; ///< the effect adds light, so it is measured alone; else it alters the light of all sources
     bool (*isIn)(const Ground& whole);
     void (*turnOff)(Ground& ground);
-    /// How a point finds it, of the settings of the truth but for what `take` takes from a point's.
+    /// Name of the method, from the truth's settings with those that `take` copies from a point.
     std::string (*text)(const scenes::Scene& scene, const frame::FrameSettings& settings);
     void (*take)(frame::FrameSettings& settings, const frame::FrameSettings& own);
 };
@@ -152,7 +152,7 @@ public:
     Causes(gpu::Context& context, const GroupTruth& truth, const std::string& truthName,
            std::span<const BenchPoint> points)
         : context_(context), truth_(truth), truthName_(truthName),
-          points_(points), whole_{truth.renderer().scene(), truth.settings()},
+          points_(points), whole_{truth.renderer().scene(), truth.settings()}, in_(partsOf(whole_)),
           exact_(truth.pictureOf(Technique::Forward, truth.settings())) {}
 
     std::vector<AttributionLine> find() {
@@ -167,7 +167,7 @@ public:
 
 private:
     void add(const AttributionLine& line) { lines_.push_back(line); }
-    /// Of the truth with a difference.
+    /// Error figures of the truth plus a difference.
     RadianceFigures figuresOf(const Difference& difference) const {
         Picture off = truth_.picture();
         for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] = float(double(off.rgba[i]) + difference[i]);
@@ -183,7 +183,7 @@ private:
         add(lineOf(cause, what, against, radianceFigures(shown, exact_, truth_.excluded())));
     }
 
-    /// That of a picture of the ground, found with `settings`, from its own truth.
+    /// Renders the ground with `settings` and subtracts the ground's own truth.
     Difference differenceOn(engine::Renderer& renderer, const Ground& ground,
                             const frame::FrameSettings& settings) const {
         const Picture shown = toPicture(renderer.render(Technique::Forward, settings));
@@ -193,7 +193,7 @@ private:
                                        : truth_.pictureOn(renderer, ground.settings, shown));
     }
 
-    /// A ground and who renders it: the group's renderer where all is on.
+    /// A ground with its renderer: the group's own if all effects are on.
     struct Stage {
         Ground ground;
         std::unique_ptr<engine::Renderer> own = {};
@@ -214,33 +214,60 @@ private:
         return differenceOn(stage.own ? *stage.own : truth_.renderer(), stage.ground, settings);
     }
 
-    void addParts() {
+    static std::vector<const Part*> partsOf(const Ground& whole) {
         std::vector<const Part*> in;
         for (const Part& part : kParts)
-            if (part.isIn(whole_)) in.push_back(&part);
-        const std::unique_ptr<Stage> base = stageOf(in, [](const Part&) { return false; });
+            if (part.isIn(whole)) in.push_back(&part);
+        return in;
+    }
+
+    /// The truth's settings with a point's methods for a part and, if it alters the light of others, for these too.
+    frame::FrameSettings settingsOf(const Part& part, const frame::FrameSettings& own,
+                                    frame::FrameSettings usual) const {
+        for (const Part* before : in_)
+            if (!part.addsLight && before < &part) before->take(usual, own);
+        part.take(usual, own);
+        return usual;
+    }
+
+    /// Names the method of a part, and those of the light that it alters where the points differ in them. Empty: none.
+    std::string textOf(const Part& part, const frame::FrameSettings& own) const {
+        const frame::FrameSettings settings = settingsOf(part, own, whole_.settings);
+        std::string text = part.text(whole_.scene, settings);
+        if (text.empty() || part.addsLight) return text;
+        for (const Part* before : in_) {
+            if (before >= &part) break;
+            const auto nameOf = [&](const frame::FrameSettings& some) {
+                return before->text(whole_.scene, settingsOf(part, some, whole_.settings));
+            };
+            const std::string name = nameOf(own);
+            if (std::ranges::any_of(points_, [&](const BenchPoint& point) { return nameOf(point.settings) != name; }))
+                text += ", " + name;
+        }
+        return text;
+    }
+
+    void addParts() {
+        const std::unique_ptr<Stage> base = stageOf(in_, [](const Part&) { return false; });
         const Difference arithmetic = differenceOn(*base, base->ground.settings);
-        // Against itself forward has no error.
-        if (truthName_ == "reference") addPart("arithmetic", kArithmetic, arithmetic);
-        for (const Part* own : in) {
+        // Against itself forward has no error. A difference of 0 in all pixels means that no light is left to measure
+        // by.
+        const bool isMeasured = std::ranges::any_of(arithmetic, [](double value) { return value != 0.0; });
+        if (truthName_ == "reference" && isMeasured) addPart("arithmetic", kArithmetic, arithmetic);
+        for (const Part* own : in_) {
             const auto isBefore = [&](const Part& other) { return !own->addsLight && &other < own; };
             const auto isOn = [&](const Part& other) { return &other == own || isBefore(other); };
-            const std::unique_ptr<Stage> with = stageOf(in, isOn);
-            const frame::FrameSettings& usual = with->ground.settings;
-            std::optional<Difference> before;
-            if (own->addsLight) before = arithmetic;
+            const std::unique_ptr<Stage> with = stageOf(in_, isOn);
+            const std::unique_ptr<Stage> without = own->addsLight ? nullptr : stageOf(in_, isBefore);
             std::set<std::string> done;
             for (const BenchPoint& point : points_) {
-                frame::FrameSettings settings = usual;
-                own->take(settings, point.settings);
-                const std::string text = own->text(with->ground.scene, settings);
+                const std::string text = textOf(*own, point.settings);
                 if (text.empty() || !done.insert(text).second) continue;
-                if (truthName_ != "reference" && text == own->text(with->ground.scene, usual)) continue;
-                if (!before) {
-                    const std::unique_ptr<Stage> without = stageOf(in, isBefore);
-                    before = differenceOn(*without, without->ground.settings);
-                }
-                addPart(own->cause, text, differenceOn(*with, settings) - *before);
+                if (truthName_ != "reference" && text == textOf(*own, whole_.settings)) continue;
+                const auto shown = [&](const Stage& stage) {
+                    return differenceOn(stage, settingsOf(*own, point.settings, stage.ground.settings));
+                };
+                addPart(own->cause, text, shown(*with) - (without ? shown(*without) : arithmetic));
             }
         }
     }
@@ -330,12 +357,7 @@ private:
     /// The names of the lines that make up a point's error.
     std::set<std::string> causesOf(const BenchPoint& point) const {
         std::set<std::string> names{kArithmetic, shadowCause(point), rangeCause(point), layoutCause(point)};
-        for (const Part& part : kParts) {
-            if (!part.isIn(whole_)) continue;
-            frame::FrameSettings settings = whole_.settings;
-            part.take(settings, point.settings);
-            names.insert(part.text(whole_.scene, settings));
-        }
+        for (const Part* part : in_) names.insert(textOf(*part, point.settings));
         return names;
     }
 
@@ -359,7 +381,7 @@ private:
                 relMse += line.relMse.value_or(0.0);
             }
             add({kCrossCause,
-                 "products of the causes of " + pointName(point.key),
+                 "cross term of " + pointName(point.key),
                  truthName_,
                  finite(figuresOf(sum).relMse - relMse),
                  {},
@@ -372,7 +394,8 @@ private:
     const std::string& truthName_;
     std::span<const BenchPoint> points_;
     const Ground whole_;
-    const Picture exact_; ///< of forward, by the settings of the truth
+    const std::vector<const Part*> in_; ///< those of the scene, in the order of the table
+    const Picture exact_;               ///< of forward, by the settings of the truth
     std::vector<AttributionLine> lines_;
     std::map<std::string, Difference> differences_; ///< by AttributionLine::what
 };
