@@ -24,10 +24,11 @@ void appendFlatTriangle(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, co
     for (std::uint32_t i = 0; i < 3; ++i) mesh.indices.push_back(first + i);
 }
 
-/// A foot whose edge is rounded, up to the wall above it.
+/// A closed foot whose edge is rounded, up to the wall above it.
 Profile roundedFoot(double radiusMetres, double edgeMetres) {
-    Profile profile({radiusMetres - edgeMetres, 0.0});
-    profile.arcAround({radiusMetres - edgeMetres, edgeMetres}, kQuarterTurn, 5);
+    Profile profile({0.0, 0.0});
+    profile.lineTo({radiusMetres - edgeMetres, 0.0})
+        .arcAround({radiusMetres - edgeMetres, edgeMetres}, kQuarterTurn, 5);
     return profile;
 }
 
@@ -71,8 +72,8 @@ Mesh vase() {
     constexpr double kLipMetres = 0.002;
     Profile inside({kLip.x - kLipMetres, kLip.y});
     inside.curveThrough({{0.026, 0.150}, {0.037, 0.108}, {0.041, 0.062}, {0.030, 0.016}}, 8).lineTo({0.0, 0.014});
-    Profile outside({0.024, 0.0});
-    outside
+    Profile outside({0.0, 0.0});
+    outside.lineTo({0.024, 0.0})
         .curveThrough({{0.033, 0.012}, {0.045, 0.062}, {0.041, 0.108}, {0.029, 0.150}, {kLip.x + kLipMetres, kLip.y}},
                       8)
         .arcAround(kLip, std::numbers::pi, 6);
