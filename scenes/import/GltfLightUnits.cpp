@@ -33,13 +33,15 @@ void takeLightUnits(Document& document, std::vector<std::string>& notes) {
     const std::optional<ExporterVersion> blender = blenderVersion(document.model.generator);
     if (!(wish ? wish == LightUnits::Lumen : blender.has_value())) return;
     constexpr ExporterVersion kSunsToo{3, 4};
+    bool areDivided = false;
     for (model::Light& light : document.model.lights) {
         const bool isWatts = !wish && light.type == LightType::Directional && *blender < kSunsToo;
         if (isWatts) continue;
+        areDivided = true;
         light.wattsPerUnit = 1.0 / kLumensPerWatt;
         light.intensity = static_cast<float>(light.intensity * light.wattsPerUnit);
     }
-    if (!wish)
+    if (!wish && areDivided)
         notes.push_back(fmt::format("its lights are in lumens, {} for each watt, as Blender exports them, and shown in "
                                     "watts; --light-units watt takes them as they are",
                                     kLumensPerWatt));

@@ -34,7 +34,7 @@ int letterOn(int key, int scancode) {
     return letter >= 'A' && letter <= 'Z' ? letter : 0;
 }
 
-/// Of the primary screen, in its coordinates; 0 x 0 where it is not known.
+/// Work area of the primary screen, in its coordinates; 0 x 0 if unknown.
 struct WorkArea {
     glm::ivec2 corner{0}, size{0};
 };
@@ -62,7 +62,8 @@ std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
 Window::Window(glm::ivec2 sizeScreen) : context_(makeContext(sizeScreen)) {
     window_ = static_cast<GLFWwindow*>(context_->windowHandle());
     const WorkArea area = workArea();
-    if (sizeScreen.x > area.size.x || sizeScreen.y > area.size.y)
+    const bool isKnown = area.size.x > 0 && area.size.y > 0;
+    if (isKnown && (sizeScreen.x > area.size.x || sizeScreen.y > area.size.y))
         glfwSetWindowPos(window_, area.corner.x, area.corner.y);
     glm::dvec2 pointer(0.0);
     glfwGetCursorPos(window_, &pointer.x, &pointer.y);
