@@ -90,8 +90,8 @@ fs::path temporaryName(const fs::path& folder) {
     return folder / fmt::format(".tessera-{:08x}{:08x}.tmp", random(), random());
 }
 
-/// Opens a new file for writing that nobody may read who may not read the finished one: with the permissions of the
-/// earlier file where there is one. Null where it cannot be made; errno says why.
+/// Creates a file for writing with the permissions of the file that it replaces, so private content stays private.
+/// Returns null on failure, with the reason in errno.
 std::FILE* createFile(const fs::path& path, const fs::file_status& earlier) {
 #if __has_include(<unistd.h>)
     const fs::perms permissions = fs::exists(earlier) ? earlier.permissions() : fs::perms(0666);

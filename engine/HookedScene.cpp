@@ -86,7 +86,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
             const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
             const bool hasNormal = isFinite(normal);
-            static_cast<void>(isCut); // HookRun looks at it
+            static_cast<void>(isCut); // checked by HookRun
             if ((isTooFar || !hasNormal) && excess == Excess::Mark) {
                 const bool isNowhere = !(metres <= kFarthestMarkedMetres) || !hasNormal;
                 mark(first + i, vertices, float(isNowhere ? HOOK_MARK_NOWHERE : HOOK_MARK_TOO_FAR), result.colors);
@@ -94,7 +94,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             } else if (isTooFar || !hasNormal) {
                 throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres, normal));
             }
-            // As it was where it has no direction, or more than squares can tell.
+            // Keeps the rest normal where the new one has no length, or its square overflows.
             const glm::dvec3 direction(normal);
             const double length = glm::length(direction);
             const bool isKept = normal == mesh.normalsOS[first + i] || !(length > 0.0) || !std::isfinite(length);

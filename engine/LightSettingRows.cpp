@@ -170,8 +170,7 @@ std::vector<Setting> shadowSettings() {
          .flag = "--shadow-terminator",
          .key = "shadowTerminator",
          .type = "WHERE",
-         .help =
-             "Where the shadows of smooth-shaded triangles are asked for: " + listed(frame::shadowTerminatorTable()),
+         .help = "Where shadow rays of smooth-shaded triangles start: " + listed(frame::shadowTerminatorTable()),
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .label = "Terminator",

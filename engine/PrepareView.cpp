@@ -70,7 +70,7 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
 /// for. At this angular radius that is the penumbra of a caster 0.58 of the radius away.
 constexpr double kWidestPcssRadians = std::numbers::pi / 6.0;
 
-/// Of lights that are too wide for their penumbrae to be found in maps; empty: none is.
+/// Warning: a sun whose penumbrae exceed the search radius of pcss; empty if there is none.
 std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::ShadowFilterInfo& filter = infoOf(prepared.spec.settings.shadowFilter);
     if (!filter.usesMaps || !filter.heedsSizes) return "";
@@ -78,7 +78,7 @@ std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedVi
         const scenes::Light& light = scene.lights[std::size_t(prepared.lights.sceneIndex[i])];
         if (light.type != scenes::LightType::Directional || double(light.angularRadiusRadians) <= kWidestPcssRadians)
             continue;
-        return fmt::format("{} finds no penumbra as wide as that of a sun of {:.3g} degrees, which looks too bright; "
+        return fmt::format("{} truncates the penumbrae of a sun of {:.3g} degrees, which then looks too bright; "
                            "give {} traced, or no more than {:.3g} degrees",
                            filter.name, glm::degrees(double(light.angularRadiusRadians)),
                            settingOf("shadowFilter").flag, glm::degrees(kWidestPcssRadians));

@@ -26,8 +26,8 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
 /// Over which objects light is asked to spread and does not, since their texels are larger than all widths of their
 /// profiles, and what to do; empty: over none.
 std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared);
-/// How shadows or samples of area lights may take more iterations than Mesa lets loops make, and what to do; `why` is
-/// empty where they do not.
+/// Warning: loops of shadows or of area light samples may exceed Mesa's iteration limit. `why` names cause and remedy;
+/// it is empty within the limit.
 struct CutShadows {
     std::string why;
     std::size_t iterations = 0;

@@ -103,7 +103,7 @@ std::string withoutComments(std::string_view text, std::optional<std::size_t>* o
     return code;
 }
 
-/// Of the words of a structure's members, which follow a dot elsewhere: those that are types or sizes of arrays.
+/// Separates the member names of structures, which get no prefix, from their types and array sizes.
 class Members {
 public:
     /// Whether a token names a member. All tokens have to be given in order.

@@ -86,8 +86,8 @@ std::optional<HookFault> hookFault(std::string_view text);
 /// Throws InputError with the file's name, the line and the remedy where there is one.
 void requireHook(const std::string& file, std::string_view text);
 
-/// As requireHook(); gives the text that programs take: without macros and comments, line by line, its own names behind
-/// kHookPrefix. So a hook cannot name what a program has beside its interface.
+/// Checks the text as requireHook() does and returns it for programs: macros expanded, comments removed, lines kept,
+/// declared names prefixed by kHookPrefix. So a hook reaches only its documented interface.
 std::string hookProgramText(const std::string& file, std::string_view text);
 
 } // namespace tessera::scenes

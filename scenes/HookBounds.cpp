@@ -38,8 +38,8 @@ bool closes(const HookToken& token) {
     return token.is(")") || token.is("]") || token.is("}");
 }
 
-/// How deep an expression's tree may be: operators of its brackets count for what stands in them, those before a comma
-/// not for what stands behind it.
+/// Limits the depth of expression trees, estimated by the operators in all enclosing brackets since their last comma or
+/// semicolon.
 void requireShallowExpressions(Tokens tokens) {
     std::vector<std::size_t> levels(1);
     std::size_t operators = 0;
@@ -76,7 +76,7 @@ struct Function {
     std::string_view name;
     std::uint32_t line = 0;
     std::size_t order = 0; ///< place in the text
-    /// Of the body by itself, then with the functions that it calls.
+    /// Cost of the body alone; Calls::count() adds that of the called functions.
     std::size_t size = 0, branches = 0, arrays = 0, iterations = 0;
     struct Call {
         std::string_view name;
@@ -166,7 +166,7 @@ private:
         return {type.starts_with("d") ? 2 * numbers : numbers, 0};
     }
 
-    /// Values of an initialiser between two places, whose own brackets count with `isDeep`.
+    /// Counts the values of an initialiser in [at, end); with `isDeep` those of nested brackets too.
     std::size_t valuesIn(std::size_t at, std::size_t end, bool isDeep) const {
         while (at < end && !tokens_[at].is("(") && !tokens_[at].is("{"))
             at = tokens_[at].is("[") ? behindMatch(at) : at + 1;
@@ -350,8 +350,8 @@ private:
     static void requireRounds(std::uint32_t line, std::size_t rounds) {
         if (rounds > kMostHookIterations)
             throw HookFault{
-                line, fmt::format("loops take more than {} rounds here, after which software rasterisers end them "
-                                  "without a word; take fewer, or end them by break",
+                line, fmt::format("loops make more than {} iterations here, after which software rasterisers truncate "
+                                  "them silently; shorten them, or end them by break",
                                   kMostHookIterations)};
     }
 
@@ -441,15 +441,15 @@ private:
     Tokens tokens_;
     std::vector<std::size_t> matches_; ///< of an opening bracket where it closes; else the number of tokens
     std::size_t at_ = 0;
-    std::size_t times_ = 1; ///< how often the loops around run what is read
+    std::size_t times_ = 1; ///< iterations of the enclosing loops, multiplied
     std::unordered_map<std::string_view, std::int64_t> constants_;
     std::unordered_map<std::string_view, TypeSize> types_;
     std::vector<Function> functions_;
     std::multimap<std::string_view, std::size_t> prototypes_; ///< places of them by name
 };
 
-/// Adds to each function what it calls. Of several functions of one name any may be meant, of those that stand or are
-/// announced before the call: the largest counts.
+/// Adds the cost of called functions to their callers. Among the overloads that are declared before a call, the largest
+/// counts.
 class Calls {
 public:
     Calls(std::vector<Function>& functions, const std::multimap<std::string_view, std::size_t>& prototypes)
@@ -484,8 +484,8 @@ private:
         demand(one.arrays, kMostHookArrays, "numbers in arrays");
         if (one.iterations > kMostHookIterations)
             throw HookFault{line,
-                            fmt::format("the loops of what it calls take more than {} rounds, after which software "
-                                        "rasterisers end them without a word; take fewer, or end them by break",
+                            fmt::format("the loops that it calls make more than {} iterations, after which software "
+                                        "rasterisers truncate them silently; shorten them, or end them by break",
                                         kMostHookIterations)};
     }
 
@@ -513,7 +513,7 @@ private:
         const bool isAnnounced = std::any_of(first, last, [&](const auto& one) { return one.second < call.order; });
         Function most;
         for (const std::size_t i : found->second) {
-            if (i == caller || (functions_[i].order > call.order && !isAnnounced)) continue; // itself: the driver tells
+            if (i == caller || (functions_[i].order > call.order && !isAnnounced)) continue; // the driver reports it
             count(i, depth + 1);
             called_.emplace(call.name, true);
             most.size = std::max(most.size, functions_[i].size);

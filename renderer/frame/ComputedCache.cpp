@@ -100,7 +100,7 @@ void write(const std::filesystem::path& file, const Sha256Digest& key, const Par
     }
 }
 
-/// Of the texels and of all that decides on what they are filtered to.
+/// Hash of the texels and of all parameters that determine the filtered result.
 Sha256Digest keyOf(const scenes::Image& map) {
     Sha256 hash;
     for (const std::uint64_t number :

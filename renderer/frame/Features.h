@@ -48,7 +48,7 @@ enum class Feature : std::uint8_t {
     Shadows,     // of lights in view that casters may hide
     SoftShadows, // of such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced
-    ShadowLift,  // smooth-shaded triangles ask for shadows from above themselves; only where there are shadows
+    ShadowLift,  // shadow rays of smooth-shaded triangles start above the triangle; only with shadows
     SubsurfaceWrap,
     SubsurfacePassage,   // light passes through surfaces; only where some light casts shadows
     SubsurfaceDiffusion, // light has spread over surfaces before they are drawn; only of lit pictures

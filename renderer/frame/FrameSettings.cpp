@@ -40,7 +40,7 @@ static_assert(int(ShadowFilter::Hard) == SHADOW_FILTER_HARD && int(ShadowFilter:
 
 constexpr ShadowTerminatorInfo kShadowTerminators[] = {
     {ShadowTerminator::Exact, "exact", "on the triangles themselves"},
-    {ShadowTerminator::Softened, "softened", "on the curved surface that the normals of their corners tell"},
+    {ShadowTerminator::Softened, "softened", "on the curved surface that their vertex normals imply"},
 };
 
 constexpr EnvironmentLightInfo kEnvironmentLights[] = {

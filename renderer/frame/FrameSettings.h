@@ -54,7 +54,7 @@ struct ShadowFilterInfo {
 std::span<const ShadowFilterInfo> shadowFilterTable();
 const ShadowFilterInfo& infoOf(ShadowFilter filter);
 
-/// Where smooth-shaded triangles begin their ways to lights.
+/// Start of shadow rays on smooth-shaded triangles.
 enum class ShadowTerminator : std::uint8_t { Exact, Softened };
 struct ShadowTerminatorInfo {
     ShadowTerminator terminator;

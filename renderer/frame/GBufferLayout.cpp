@@ -127,7 +127,7 @@ static_assert(std::size(kChannels) == kChannelCount);
 constexpr MarkInfo kMarks[] = {
     {Mark::Facets, "facets", "FACETS", "the triangle's own normal, octahedral", 2 * FACET_BITS, Channel::Specular,
      "scenes with shadows in view", false, [](const FeatureSet& f) { return f[Feature::Shadows]; }},
-    {Mark::Lift, "lift", "LIFT", "how far above the triangle its shadows are asked for", LIFT_BITS, Channel::Normal,
+    {Mark::Lift, "lift", "LIFT", "height above the triangle at which shadow rays start", LIFT_BITS, Channel::Normal,
      "scenes with shadows in view whose terminators are softened", false,
      [](const FeatureSet& f) { return f[Feature::ShadowLift]; }},
     {Mark::Subsurface, "subsurface", "SUBSURFACE", "row of the subsurface's constants", SUBSURFACE_BITS,

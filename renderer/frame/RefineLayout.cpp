@@ -82,7 +82,7 @@ bool storesStreak(const Material& material) {
     return scenes::isAnisotropic(material) && !scenes::isTransparent(material);
 }
 
-/// Whether the smaller of a streak's alphas may be below kThinAlpha. Textures multiply them by any share.
+/// Whether the smaller of a streak's alphas may be below kThinAlpha. Textures may scale them down to 0.
 bool mayBeThin(const Material& material) {
     if (!storesStreak(material)) return false;
     const auto isTextured = [&](TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };

@@ -27,9 +27,9 @@ std::string hookDefine(const ProgramDesc& desc, std::string_view name) {
     return found == desc.defines.end() ? "" : found->second;
 }
 
-constexpr const char* kNamesRemedy = "a hook has the words of GLSL that need no texture and no neighbour, what "
-                                     "docs/hooks.md lists, and what it declares "
-                                     "itself; it has no other name of the program";
+constexpr const char* kNamesRemedy = "a hook may use GLSL without textures and derivatives, the names that "
+                                     "docs/hooks.md lists, and names that it declares "
+                                     "itself; other names of the program are hidden";
 
 /// Without warnings, most of which are about the program's own files. The hook's own names are as its file has them.
 std::string errorsOf(std::string_view log) {

@@ -25,8 +25,8 @@ public:
     bool isEmbedded() const { return folder_.empty(); }
     /// "embedded shaders" or the folder, for messages.
     std::string describe() const;
-    /// What every hook goes through before a program takes it: `prepare` gets its file and its text, gives the text for
-    /// programs, and throws InputError where that one does what no hook may do.
+    /// Sets the function that checks and rewrites each hook for programs. `prepare` receives the file and its text,
+    /// returns the text for programs, and throws InputError for forbidden constructs.
     using PrepareHook = std::function<std::string(const std::string& file, std::string_view text)>;
     void prepareHooks(PrepareHook prepare) { prepareHook_ = std::move(prepare); }
     std::string preparedHook(const std::string& file, std::string text) const {

@@ -4,7 +4,7 @@
 
 #define FACET_BITS 12 // a coordinate
 
-// How long the normal of a triangle is, in object space, whose corners have different normals; else 1. A power of two,
+// Length of the stored object-space normal of a smooth-shaded triangle, which flags it; else 1. A power of two,
 // which moves no digit.
 #define LIFTED_FACET 2.0f
 

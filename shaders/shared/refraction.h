@@ -11,8 +11,8 @@
 
 SHARED_BEGIN
 
-// By how much a facet of a rough surface turns a ray that passes, for each radian that it leans, to first order: by
-// sin(x) = ior sin(y), where the facet leans towards the plane of incidence, and within it. Cosines are those of the
+// Deflection of a transmitted ray per radian of microfacet tilt, to first order, by
+// sin(x) = ior sin(y): for tilts across the plane of incidence, then for tilts within it. Cosines are those of the
 // ray to the surface's normal, outside and inside. An index of 0 is one without bound, of a ray that enters.
 SHARED_FUNCTION vec2 turnsOfEntering(float ior, float cosOutside, float cosInside) {
     if (!(ior > 0.0f)) return vec2(1.0f, 1.0f);
@@ -33,7 +33,7 @@ SHARED_FUNCTION float turnsTogether(float first, float second) {
     return together;
 }
 
-// The alpha of the lobe around a ray that a mirror with GGX would have, seen straight on, by the turns of facets of
+// Alpha of the GGX lobe around a transmitted ray, as of a mirror at normal incidence, from the deflections of facets of
 // `alpha`: a mirror turns light by twice the angle of its facets. Facets that turn it by far more reflect it all.
 SHARED_FUNCTION float passingAlpha(float alpha, vec2 turns, float leastAlpha) {
     SHARED_PRECISE float turn = min(sqrt(turns.x * turns.y), 4.0f);

@@ -132,7 +132,7 @@ TEST_F(AreaLightFloorsSlow, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays
 }
 
 /// What transformed cosines lack is measured without the reference too, by samples on the same machine.
-TEST_F(AreaLightFloors, samplesTellTheErrorOfTransformedCosines) {
+TEST_F(AreaLightFloors, samplesMeasureTheErrorOfTransformedCosines) {
     const scenes::Scene scene = floorUnder(LightType::Sphere, 0.5, 0.1);
     const std::vector<float> closed = shown(scene, {});
     const BallError byIntegral = errorOf(closed, integral(scene));

@@ -324,8 +324,8 @@ TEST_F(AreaSamplesSlow, everyFaultOfADensityShows) {
     expectEveryFaultShows();
 }
 
-/// A flat light that stands through a surface fills half of what its foot sees; one that lies in the surface gives it
-/// nothing, as its light would run along it; one just above it all of what lies below it sees. However it is found.
+/// A flat light that cuts a surface fills half of the hemisphere of the points on the cut; one in the surface gives it
+/// nothing; one just above it fills the hemisphere of the points below. LTC, samples and reference agree.
 void AreaSamples::expectLightOfTouchingOnes() {
     scenes::Scene scene = pointOf(sampledMatte(), 1.0);
     engine::Renderer renderer(context(), scene);

@@ -202,7 +202,7 @@ TEST_F(Hooks, theProgramsOwnNamesAreUnknownToThem) {
                 ADD_FAILURE() << reached;
             } catch (const InputError& error) {
                 EXPECT_THAT(error.what(), HasSubstr(scene.hook->file + ":3: error"));
-                EXPECT_THAT(error.what(), HasSubstr("it has no other name of the program"));
+                EXPECT_THAT(error.what(), HasSubstr("other names of the program are hidden"));
                 EXPECT_THAT(error.what(), testing::Not(HasSubstr("ofHook")));
             }
         };

@@ -370,7 +370,7 @@ TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
 
 // The edge of a plate before the sun's disk, and of another that hides none of it, 0.36 m aside where casters are
 // looked for within 0.26 m at most. What the share of a disk is that a straight edge leaves is known.
-TEST_F(ShadowOutline, ofPcssHeedsNoCasterBesideTheLight) {
+TEST_F(ShadowOutline, ofPcssIgnoresCastersBesideTheLight) {
     constexpr double kTangent = 0.14, kLowMetres = 0.2, kHighMetres = 0.6, kHighEdge = 0.36;
     scenes::Light light = sun();
     light.directionWS = glm::normalize(glm::dvec3(1.0, 0.0, -1.0));

@@ -43,7 +43,7 @@ protected:
 };
 
 // A ball hides none of its points whose normal faces the light.
-TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundOneThatItsNormalsTell) {
+TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundBallThatItApproximates) {
     scenes::Scene scene = coarseBall();
     scene.nodes[0].instances = {{0, 0}};
     for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard, ShadowFilter::Pcf}) {

@@ -188,7 +188,7 @@ TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
 
 // A penumbra reaches an eighth of a map's side at most. At 30 degrees that is the one of a caster 0.58 of the radius
 // away of the ball that the map is made for.
-TEST_F(SoftShadows, ofSunsThatPcssIsTooNarrowForAreTold) {
+TEST_F(SoftShadows, ofSunsTooWideForPcssAreWarnedOf) {
     scenes::Scene scene = truthScene();
     frame::FrameSettings settings;
     settings.sizePixels = {32, 18};

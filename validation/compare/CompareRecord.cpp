@@ -48,7 +48,7 @@ bool isJudged(const Tolerance& tolerance) {
     return tolerance.maxRel || tolerance.bitEqual || tolerance.relMse || tolerance.p999Rel || tolerance.bias;
 }
 
-/// Whether the pair is held to something: to figures, or to what no picture may miss and this one does.
+/// Whether the pair has a verdict: it has a tolerance, or it misses a requirement of all pairs.
 bool isHeld(const ComparePair& pair) {
     return isJudged(pair.tolerance) || !pair.verdict.ok;
 }

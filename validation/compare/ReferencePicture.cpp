@@ -194,7 +194,7 @@ bool hasTracedShadows(const scenes::Scene& scene, const frame::FrameSettings& se
 
 namespace {
 
-/// Of light that meets rough glass straight on, the least that any lets pass by its constants, where it is no metal.
+/// Least transmittance of the scene's rough glass at normal incidence, by material constants; metalness is ignored.
 double leastPassed(const scenes::Scene& scene) {
     constexpr double kLeast = 1e-3; // an index of 0 has no bound, and lets none pass
     double least = 1.0;

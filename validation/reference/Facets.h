@@ -5,8 +5,8 @@
 
 namespace tessera::reference {
 
-/// Where the facets of a rough side send the viewer's ray: through, or back where the side reflects all light. The
-/// lobe is the one that is published, with Fresnel's factor, which leaves out what facets do not send that way.
+/// Microfacets of a rough side, which refract the viewer's ray, or reflect it beyond the critical angle. The
+/// lobe is the published one, times Fresnel's transmittance or reflectance.
 /// Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", equations 16, 17, 20, 21,
 /// 23, 33 to 36 and 38. An index of 0 is one without bound, of light that passes.
 class Facets : public Strategy {
@@ -18,7 +18,7 @@ public:
 
     glm::dvec3 direction(const glm::dvec2& random) const override; ///< 0 where the facet sends nothing that way
     double density(const glm::dvec3& direction) const override;
-    /// Of light from a direction, 1/sr, times the cosine there; but for a factor that is the same for all.
+    /// BSDF times cosine for light from a direction, 1/sr, up to a constant factor.
     double share(const glm::dvec3& direction) const;
     double whole() const; ///< its integral
 
@@ -37,7 +37,7 @@ private:
     Send send_;
 };
 
-/// One of the ways light that a body or a sheet shows comes along to its last side.
+/// A path of transmitted light up to the last side of a body or a sheet.
 struct Scatter {
     glm::dvec3 originRWS{0.0};
     glm::dvec3 direction{0.0};    ///< where nothing spreads it

@@ -32,7 +32,7 @@ double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
     return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
 }
 
-/// Where terminators are softened: how far above a smooth-shaded triangle the light is asked for. Hanika 2021 ("Hacking
+/// Softened terminators: height above a smooth-shaded triangle at which shadow rays start. Hanika 2021 ("Hacking
 /// the Shadow Terminator", Ray Tracing Gems II, chapter 4) projects the point onto the plane through each corner across
 /// its normal, and blends the three by the corners' weights. Here that is a height along the triangle's normal, and
 /// heights below the triangle count against those above.
@@ -56,7 +56,7 @@ double terminatorLift(const Hit& hit) {
 /// A program holds that height in steps, and its direction as it holds the triangle's normal: half a twelfth of it, and
 /// little more.
 constexpr double kLiftSteps = 0.045;
-/// Of a pixel's width: below, it may hold none.
+/// In pixel widths: a program may store smaller heights as 0.
 constexpr double kLiftLeastPixels = 1.0 / 4096.0;
 
 /// How far apart the points are that two pixels show beside each other, the wider way.
@@ -70,8 +70,8 @@ double pixelMetres(const Hit& hit) {
     return std::max(glm::length(across), glm::length(up));
 }
 
-/// A plane of a point of a surface that hides what lies on the other side of it than the viewer: of its triangle, or of
-/// the normal that it is lit with.
+/// A plane through a surface point that hides lights on the side away from the viewer: that of its triangle, or of
+/// its shading normal.
 struct OwnPlane {
     glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 of a triangle without area
     /// A program stores the normal in 24 bits, and finds it from rounded corners or from rounded points of pixels.
@@ -162,7 +162,7 @@ Occlusion::Occlusion(const scenes::Scene& scene, const Objects& objects) : caste
 
 Occlusion::~Occlusion() = default;
 
-/// Where ways to a light begin.
+/// Start of shadow rays.
 struct Occlusion::Start {
     const Hit& hit;
     const SurfacePoint& surface;

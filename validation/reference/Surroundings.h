@@ -33,7 +33,7 @@ public:
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                 std::uint32_t seed, int paths) const;
 
-    /// What of it comes along these ways and is not hidden, as a share of all that would come: a mean.
+    /// Mean environment radiance along these paths; occluded directions count as 0.
     using IsHidden = std::function<bool(const glm::dvec3& originRWS, const glm::dvec3& direction)>;
     glm::dvec3 through(std::span<const Scatter> ways, std::uint32_t seed, const IsHidden& isHidden) const;
 

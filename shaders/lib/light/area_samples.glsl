@@ -28,7 +28,7 @@ struct AreaSource {
     int light, type;
     bool isSeen, isTwoSided;
     vec3 middle;
-    vec3 front;     // of what is flat, unit, to the side of its plane where the surface's normal points; of a sphere to its middle; of a tube along its axis
+    vec3 front;     // unit; flat: normal on the surface's side; sphere: to its middle; tube: its axis
     vec3 right, up; // of what is flat its vectors; of a sphere and a tube unit vectors across `front`, of a tube the
                     // first to the point
     float size;     // of what is flat its square metres; of a sphere 1 - cos of its angular radius; of a tube its radius
@@ -300,7 +300,7 @@ vec2 stratifiedPoint(int k, vec2 random)
     return vec2(min(column, 0.99999994), row);
 }
 
-// What the light seen in a direction is worth, for a radiance of 1 and to be divided by the number of samples of each kind.
+// Weighted contribution of the light in a direction, for unit radiance; callers divide by the samples of each kind.
 vec3 worthOf(SeenPlace place, AreaSource source, SeenSurface seen)
 {
     if (!(place.density >= 0.0)) return vec3(0.0);

@@ -143,8 +143,8 @@ vec2 slopeBehind(int layer, ivec2 pixel, float depth)
     return vec2(depthStep(layer, pixel, ivec2(1, 0), depth), depthStep(layer, pixel, ivec2(0, 1), depth));
 }
 
-// Whether a ray goes into the plane of the surface that a pixel shows. One that leads out of it is found behind the middle
-// of a pixel all the same, where a body stands on what is seen flat.
+// Whether a ray enters the plane of the surface that a pixel shows. Where a body stands on a surface at a grazing angle,
+// a ray that leaves the plane is also found behind the centre of a pixel.
 bool leadsInto(int layer, ScreenRay ray, ivec2 pixel)
 {
     precise float rate = ray.way.z - dot(slopeBehind(layer, pixel, depthBehind(layer, pixel)), ray.way.xy);

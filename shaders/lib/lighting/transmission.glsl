@@ -81,14 +81,14 @@ struct BentRay {
     float alpha;        // of the GGX lobe that light is spread by around it; ALPHA_MIN: not at all
 };
 
-// Of a ray that passes facets of a surface, by what they turn it.
+// Alpha of the lobe around a transmitted ray, from the deflections by the surface's microfacets.
 float spreadOf(Surface surface, vec2 turns)
 {
     return surface.passingAlpha > ALPHA_MIN ? passingAlpha(surface.passingAlpha, turns, ALPHA_MIN) : ALPHA_MIN;
 }
 
-// Of one that enters between two sides along each other, and leaves: the far one carries on what the near one turns,
-// and turns it by as much again.
+// The same through two parallel sides: the far one transmits the deflection by the near one
+// and adds an equal one.
 float spreadOfSides(Surface surface, float ior, float cosOutside, float cosInside)
 {
     if (!(ior > 0.0)) return spreadOf(surface, vec2(1.0));

@@ -3,8 +3,8 @@
 
 #define CUT_LOOP uintBitsToFloat(0x7FC00000u)
 
-// Whether they are used up: then each further loop ends after its first iteration. `place` is not negative, which no
-// compiler knows, so that none counts the rounds ahead.
+// Whether the driver's iterations are exhausted: then each further loop ends after its first one. `place` is never
+// negative; compilers do not know that, so they cannot unroll the loop.
 bool loopsAreCut(int place)
 {
     int most = place < 0 ? 3 : 2;

@@ -63,7 +63,7 @@ struct Surface {
     vec3 passing;       // share of white light that passes, before surface and layers reflect and the body absorbs
     vec3 leftByBody;    // what a body leaves of white light that goes as far as it is thick
     float passingIor;   // index of refraction below the surface
-    float passingAlpha; // GGX alpha of the facets that light passes, >= ALPHA_MIN, at which they spread none
+    float passingAlpha; // GGX alpha of the transmitting microfacets, >= ALPHA_MIN, which means smooth
     float bodyMetres;   // how thick the body below the surface is; 0 where there is none
 #endif
 };
