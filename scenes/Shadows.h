@@ -46,6 +46,10 @@ bool isCaster(const Scene& scene, const MeshInstance& instance);
 
 bool hasCasters(const Scene& scene);
 
+/// Softened terminators lift a triangle's points (docs/shadows.md) only where the normals of its corners lie within
+/// this angle of its own. The corners of a box with averaged normals are 45 and 54.7 degrees off: its sides stay flat.
+inline constexpr double kMostLiftedDegrees = 44.0;
+
 /// What a scene draws, by whether it hides light.
 struct CasterCounts {
     std::size_t triangles = 0;   ///< of casters

@@ -1,6 +1,8 @@
 #include "renderer/frame/VertexStreams.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -9,6 +11,7 @@
 #include "base/Error.h"
 #include "renderer/frame/Tangents.h"
 #include "scenes/InUse.h"
+#include "scenes/Shadows.h"
 #include "shaders/shared/facet.h"
 
 namespace tessera::frame {
@@ -27,9 +30,19 @@ void append(std::vector<T>& stream, const std::vector<T>& values, std::size_t co
     }
 }
 
-/// By vertex, the normal of the triangles that end with it, LIFTED_FACET long where their corners have different
-/// normals, else unit: where those of two differ, the second gets a copy of the vertex. A triangle without an area
-/// shows nothing and shares any.
+/// Whether softened terminators lift points of a triangle with this normal: its corners have different normals, all
+/// within kMostLiftedDegrees of it.
+bool isLifted(const glm::dvec3& facetNormal, const std::array<glm::dvec3, 3>& cornerNormals) {
+    if (cornerNormals[0] == cornerNormals[1] && cornerNormals[1] == cornerNormals[2]) return false;
+    static const double kLeastCosine = std::cos(glm::radians(scenes::kMostLiftedDegrees));
+    return std::ranges::all_of(cornerNormals, [&](const glm::dvec3& normal) {
+        return glm::dot(normal, facetNormal) >= kLeastCosine * glm::length(normal);
+    });
+}
+
+/// By vertex, the normal of the triangles that end with it, LIFTED_FACET long where their points are lifted, else unit:
+/// where those of two differ, the second gets a copy of the vertex. A triangle without an area shows nothing and shares
+/// any.
 std::vector<glm::vec3> splitByFacets(const scenes::Mesh& mesh, TangentMesh& split) {
     const std::size_t own = mesh.positionsOS.size();
     const auto ownVertex = [&](std::uint32_t vertex) { return vertex < own ? vertex : split.copiedOf[vertex - own]; };
@@ -41,10 +54,12 @@ std::vector<glm::vec3> splitByFacets(const scenes::Mesh& mesh, TangentMesh& spli
         const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
         const double length = glm::length(normal);
         if (!(length > 0.0)) continue;
-        const auto cornerNormal = [&](std::size_t c) { return mesh.normalsOS[ownVertex(split.indices[first + c])]; };
-        const bool isSmooth =
-            !mesh.normalsOS.empty() && (cornerNormal(0) != cornerNormal(1) || cornerNormal(1) != cornerNormal(2));
-        const glm::vec3 normalOS(normal / length * (isSmooth ? double(LIFTED_FACET) : 1.0));
+        const auto cornerNormal = [&](std::size_t c) {
+            return glm::dvec3(mesh.normalsOS[ownVertex(split.indices[first + c])]);
+        };
+        const bool lifts =
+            !mesh.normalsOS.empty() && isLifted(normal / length, {cornerNormal(0), cornerNormal(1), cornerNormal(2)});
+        const glm::vec3 normalOS(normal / length * (lifts ? double(LIFTED_FACET) : 1.0));
         const std::uint32_t last = split.indices[first + 2];
         if (normalsOS[last] == glm::vec3(0.0f)) {
             normalsOS[last] = normalOS;

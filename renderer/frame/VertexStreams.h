@@ -31,7 +31,7 @@ struct VertexStreams {
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
     /// With shadows: of the triangles that end with a vertex, out of the front of its mesh; LIFTED_FACET long where
-    /// their corners have different normals, else unit; of those without an area any. Where triangles of one end have
+    /// softened terminators lift their points, else unit; of those without an area any. Where triangles of one end have
     /// different ones, each that differs from the first has a copy of it.
     std::vector<glm::vec3> facetNormalsOS;
 };

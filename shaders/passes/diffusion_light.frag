@@ -32,7 +32,7 @@ void main()
 {
     Fragment fragment = rasterisedFragment();
 #if HAS_SHADOW_LIFT
-    fragment.liftCode = encodeLift(rasterisedLift(positionLS, fragment.normalLS, vec2(0.0), true), positionLS);
+    fragment.liftCode = encodeLift(rasterisedLift(positionLS, fragment.normalLS, vec2(0.0)), positionLS);
 #endif
     Surface surface = surfaceFromMaterial(fragment, materialBaseColor(fragment));
     takeEnteredValues(surface);

@@ -52,8 +52,10 @@ layout(location = 9) flat out vec3 facetNormalLS;
 // With --filter exact, fragments have the whole triangle.
 #define LIFTS (HAS_SHADOW_LIFT && !DEPTH_ONLY && (!FILTER_EXACT || IN_ATLAS))
 #if LIFTS
-layout(location = 18) out float tangentPlane;   // dot(normalLS, the vertex's position)
-layout(location = 19) flat out float facetIsLifted; // 1 where the corners of the triangle have different normals, else 0
+layout(location = 18) out float tangentPlane; // dot(normalLS, the vertex's position)
+#endif
+#if HAS_SHADOW_LIFT && !DEPTH_ONLY
+layout(location = 19) flat out float facetIsLifted; // 1 where shadows are asked for from above the triangle, else 0
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
 layout(location = 11) flat out vec3 objectRow0;
@@ -119,6 +121,8 @@ void main()
 #if LIFTS
     precise float onNormal = dot(normalLS, lsFromRWS(positionRWS));
     tangentPlane = onNormal;
+#endif
+#if HAS_SHADOW_LIFT
     facetIsLifted = dot(facetNormalOS, facetNormalOS) > 0.5 * (1.0 + LIFTED_FACET * LIFTED_FACET) ? 1.0 : 0.0;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS

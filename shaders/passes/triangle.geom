@@ -29,6 +29,10 @@ layout(location = 1) out vec4 tangentLS;
 layout(location = 9) flat in vec3 vertexFacetNormalLS[];
 layout(location = 9) flat out vec3 facetNormalLS;
 #endif
+#if HAS_SHADOW_LIFT
+layout(location = 19) flat in float vertexFacetIsLifted[];
+layout(location = 2) flat out float facetIsLifted;
+#endif
 #if HAS_OBJECT_SPACE_NORMALS
 layout(location = 5) flat in vec3 vertexNormalFromObject0[];
 layout(location = 6) flat in vec3 vertexNormalFromObject1[];
@@ -89,6 +93,9 @@ void main()
 #endif
 #if HAS_SHADOWS
         facetNormalLS = vertexFacetNormalLS[2];
+#endif
+#if HAS_SHADOW_LIFT
+        facetIsLifted = vertexFacetIsLifted[2];
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
         normalFromObject0 = vertexNormalFromObject0[corner];

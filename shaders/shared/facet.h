@@ -4,8 +4,8 @@
 
 #define FACET_BITS 12 // a coordinate
 
-// Length of the stored object-space normal of a smooth-shaded triangle, which flags it; else 1. A power of two,
-// which moves no digit.
+// Length of the stored object-space normal of a lifted triangle, which flags it; else 1. Its corners have different
+// normals, all close to its own (kMostLiftedDegrees in scenes/Shadows.h). A power of two, which moves no digit.
 #define LIFTED_FACET 2.0f
 
 // How far above such a triangle its shadows are asked for (lib/shadow/shadow_lift.glsl), in parts of a pixel's width: 1

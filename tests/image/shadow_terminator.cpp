@@ -40,19 +40,44 @@ protected:
     std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         return renderer.render(Technique::Deferred, settings).radiance;
     }
+    /// Expects that points of a square whose normals lean outwards, in radians, are lifted, and by how much.
+    void expectLifted(double lean);
+    /// Expects that softened terminators change no bit of the picture, and shadows do.
+    void expectExactToTheLastBit(const scenes::Scene& scene) {
+        engine::Renderer renderer(context(), scene);
+        for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf}) {
+            for (const auto textures : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+                frame::FrameSettings exact = settingsOf(filter, ShadowTerminator::Exact),
+                                     softened = settingsOf(filter, ShadowTerminator::Softened), none = exact;
+                exact.filter = softened.filter = none.filter = textures;
+                none.shadows = {scenes::ShadowRequest::Kind::None};
+                const std::vector<float> seen = picture(renderer, exact);
+                EXPECT_EQ(picture(renderer, softened), seen) << infoOf(filter).name;
+                EXPECT_NE(picture(renderer, none), seen) << "no shadow";
+            }
+        }
+    }
 };
 
 // A ball hides none of its points whose normal faces the light.
 TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundBallThatItApproximates) {
     scenes::Scene scene = coarseBall();
     scene.nodes[0].instances = {{0, 0}};
-    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Hard, ShadowFilter::Pcf}) {
+    struct Way {
+        ShadowFilter filter;
+        int texels = 1024;
+    };
+    for (const auto& [filter, texels] :
+         {Way{ShadowFilter::Traced}, Way{ShadowFilter::Hard}, Way{ShadowFilter::Hard, 128},
+          Way{ShadowFilter::Hard, 4096}, Way{ShadowFilter::Pcf}, Way{ShadowFilter::Pcf, 128},
+          Way{ShadowFilter::Pcss}}) {
         std::size_t torn[2] = {0, 0}, lit = 0;
         for (const double turn : {0.3, 2.0, 4.0}) {
             scene.lights[0].directionWS = glm::normalize(glm::dvec3(std::cos(turn), -0.4, std::sin(turn)));
+            scene.lights[0].angularRadiusRadians = filter == ShadowFilter::Pcss ? 0.02f : 0.0f;
             engine::Renderer renderer(context(), scene);
             frame::FrameSettings settings = settingsOf(filter, ShadowTerminator::Exact);
-            settings.shadowMaps.resolutionTexels = 1024;
+            settings.shadowMaps.resolutionTexels = texels;
             settings.shadows = {scenes::ShadowRequest::Kind::None};
             const std::vector<float> open = picture(renderer, settings);
             const float brightest = *std::ranges::max_element(open);
@@ -65,9 +90,10 @@ TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundBallThatItApproximates)
             }
             for (std::size_t i = 0; i < open.size(); i += 4) lit += open[i] > 0.01f * brightest;
         }
-        fmt::print("{}: of {} lit pixels {} torn, softened {}\n", infoOf(filter).name, lit, torn[0], torn[1]);
-        EXPECT_GT(torn[0], lit / 50) << infoOf(filter).name;
-        EXPECT_LE(torn[1], lit / 1000) << infoOf(filter).name;
+        fmt::print("{}, {} texels: of {} lit pixels {} torn, softened {}\n", infoOf(filter).name, texels, lit, torn[0],
+                   torn[1]);
+        EXPECT_GT(torn[0], lit / 50) << infoOf(filter).name << ", " << texels << " texels";
+        EXPECT_EQ(torn[1], 0u) << infoOf(filter).name << ", " << texels << " texels";
     }
 }
 
@@ -86,31 +112,46 @@ TEST_F(ShadowTerminators, ofRealFacetsAreExactToTheLastBit) {
         }
     }
     scene.meshes[0] = facets;
-    engine::Renderer renderer(context(), scene);
-    for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf}) {
-        for (const auto textures : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
-            frame::FrameSettings exact = settingsOf(filter, ShadowTerminator::Exact),
-                                 softened = settingsOf(filter, ShadowTerminator::Softened), none = exact;
-            exact.filter = softened.filter = none.filter = textures;
-            none.shadows = {scenes::ShadowRequest::Kind::None};
-            const std::vector<float> seen = picture(renderer, exact);
-            EXPECT_EQ(picture(renderer, softened), seen) << infoOf(filter).name;
-            EXPECT_NE(picture(renderer, none), seen) << "no shadow";
+    expectExactToTheLastBit(scene);
+}
+
+// The corners of a box with averaged normals are 54.7 degrees off its sides, those of a beam without ends 45. Points in
+// the middle of a side would be lifted past what stands on it: here a plate 0.1 m above the upper one.
+TEST_F(ShadowTerminators, ofBoxesWithAveragedNormalsAreExactToTheLastBit) {
+    scenes::Scene scene = coarseBall();
+    scenes::builtin::appendFloor(scene.meshes.emplace_back(), {0.0, 1.1, 0.0}, {0.4, 0.3}, {1, 1});
+    scene.nodes[0].instances.push_back({2, 0});
+    for (const bool isBeam : {false, true}) {
+        scenes::Mesh& box = scene.meshes[0] = {};
+        const glm::vec3 middle(0.0f, 0.6f, 0.0f), half(0.5f, 0.4f, 0.3f);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 side((corner & 1) != 0 ? 1.0f : -1.0f, (corner & 2) != 0 ? 1.0f : -1.0f,
+                                 (corner & 4) != 0 ? 1.0f : -1.0f);
+            box.positionsOS.push_back(middle + half * side);
+            box.normalsOS.push_back(glm::normalize(isBeam ? glm::vec3(0.0f, side.y, side.z) : side));
+            box.texCoords[0].emplace_back(0.0f);
         }
+        box.indices = {0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5, 0, 1, 4, 1, 5, 4,
+                       2, 6, 3, 3, 6, 7, 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6};
+        expectExactToTheLastBit(scene);
     }
 }
 
 // A square of 2 m whose normals lean by a to both sides of the middle, as on a roll of paper: the planes through its
 // left and right corners lie (1 + x) sin a and (1 - x) sin a above it at x. Their corners weigh (1 - x) / 2 and (1 + x)
 // / 2, so the blend is (1 - x^2) sin a, over the length of the normals' blend. From there the edge of a plate 1 m above
-// throws its shadow that much less far.
+// throws its shadow that much less far. Normals that lean towards the middle, as in a gutter, lift points as high.
 TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) {
-    constexpr double kLean = 0.15, kPlateMetres = 1.0, kPlateEdge = -1.6, kSlope = 0.6; // of the sun
+    expectLifted(0.15);
+    expectLifted(-0.15);
+}
+void ShadowTerminators::expectLifted(double lean) {
+    constexpr double kPlateMetres = 1.0, kPlateEdge = -1.6, kSlope = 0.6; // of the sun
     scenes::Scene scene = coarseBall();
     scenes::Mesh& square = scene.meshes[0] = {};
     for (const glm::vec2 place : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
         square.positionsOS.emplace_back(place.x, 0.0f, place.y);
-        square.normalsOS.emplace_back(place.x * std::sin(kLean), std::cos(kLean), 0.0);
+        square.normalsOS.emplace_back(place.x * std::sin(lean), std::cos(lean), 0.0);
         square.texCoords[0].push_back(place);
     }
     square.indices = {0, 2, 1, 1, 2, 3};
@@ -133,9 +174,9 @@ TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) 
         for (int y = 0; y < 128; ++y) {
             for (int x = 0; x < 128; ++x) {
                 const glm::dvec3 placeWS = rays.eyeWS() + rays.through(x, y).originRWS;
-                const double across = placeWS.x, blend = std::hypot(std::cos(kLean), across * std::sin(kLean));
+                const double across = placeWS.x, blend = std::hypot(std::cos(lean), across * std::sin(lean));
                 const bool isLifted = terminator == ShadowTerminator::Softened;
-                const double lift = isLifted ? (1.0 - across * across) * std::sin(kLean) / blend : 0.0;
+                const double lift = isLifted ? (1.0 - across * across) * std::abs(std::sin(lean)) / blend : 0.0;
                 const double behindEdge = kPlateEdge + (kPlateMetres - lift) / kSlope - placeWS.z;
                 const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
                 // Heights are stored in steps of a twelfth at most; rounding loses up to half a step.
@@ -177,7 +218,7 @@ TEST_F(ShadowTerminators, ofAFineBallHaveNoDotsWhereAPixelHasSeveralSamples) {
         }
         fmt::print("{}: {} dots among {} pixels\n", int(terminator), dots, lit);
         EXPECT_GT(lit, 100u);
-        EXPECT_LE(dots, terminator == ShadowTerminator::Exact ? 3u : 0u);
+        EXPECT_EQ(dots, 0u);
     }
 }
 
@@ -191,12 +232,15 @@ TEST_F(ShadowTerminators, areThoseOfTheReferenceAndOfEveryTechnique) {
             scene.lights = {lamp};
         }
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, ShadowTerminator::Softened);
+        frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, ShadowTerminator::Exact);
+        const test::WrongPixels exact = test::wrongPixels(renderer, settings);
+        settings.shadowTerminator = ShadowTerminator::Softened;
         const test::WrongPixels count = test::wrongPixels(renderer, settings);
-        fmt::print("{} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, count.undecided,
-                   count.hidden, count.covered);
+        fmt::print("{} pixels wrong, {} undecided (exact {}), {} changed by shadows of {}\n", count.wrong,
+                   count.undecided, exact.undecided, count.hidden, count.covered);
         EXPECT_EQ(count.wrong, 0u);
-        EXPECT_LE(count.undecided, count.covered / 20) << "as compare allows";
+        // Penumbrae are undecided by the noise of their rays.
+        EXPECT_LE(count.undecided, exact.undecided + count.covered / 500);
         EXPECT_GT(count.hidden, count.covered / 25);
         expectParity(renderer, settings, test::techniquesInTurn(turn++));
         settings.samples = 4;

@@ -32,11 +32,29 @@ double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
     return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
 }
 
+/// Whether the corners of the triangle have different normals, all close enough to its own, in the mesh's space.
+bool isLifted(const Hit& hit) {
+    const scenes::Mesh& mesh = *hit.object->mesh;
+    glm::dvec3 corners[3], normals[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = mesh.indices[3 * std::size_t(hit.triangle) + i];
+        corners[i] = glm::dvec3(mesh.positionsOS[vertex]);
+        normals[i] = glm::dvec3(mesh.normalsOS[vertex]);
+    }
+    if (normals[0] == normals[1] && normals[1] == normals[2]) return false;
+    const glm::dvec3 facet = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double least = std::cos(glm::radians(scenes::kMostLiftedDegrees)) * glm::length(facet);
+    return least > 0.0 && std::ranges::all_of(normals, [&](const glm::dvec3& normal) {
+               return glm::dot(normal, facet) >= least * glm::length(normal);
+           });
+}
+
 /// Softened terminators: height above a smooth-shaded triangle at which shadow rays start. Hanika 2021 ("Hacking
 /// the Shadow Terminator", Ray Tracing Gems II, chapter 4) projects the point onto the plane through each corner across
 /// its normal, and blends the three by the corners' weights. Here that is a height along the triangle's normal, and
-/// heights below the triangle count against those above.
+/// heights below the triangle count against those above. A sum below it lifts the point as far above.
 double terminatorLift(const Hit& hit) {
+    if (!isLifted(hit)) return 0.0;
     const scenes::Mesh& mesh = *hit.object->mesh;
     glm::dvec3 normals[3], point(0.0), blended(0.0);
     for (int corner = 0; corner < 3; ++corner) {
@@ -45,16 +63,14 @@ double terminatorLift(const Hit& hit) {
         point += hit.weights[corner] * hit.object->cornerRWS(hit.triangle, corner);
         blended += hit.weights[corner] * normals[corner];
     }
-    if (normals[0] == normals[1] && normals[1] == normals[2]) return 0.0;
     double height = 0.0;
     for (int corner = 0; corner < 3; ++corner)
         height += hit.weights[corner] * glm::dot(normals[corner], hit.object->cornerRWS(hit.triangle, corner) - point);
     const double length = glm::length(blended);
-    return length > 0.0 ? std::max((hit.frontFacing ? height : -height) / length, 0.0) : 0.0;
+    return length > 0.0 ? std::abs(height) / length : 0.0;
 }
 
-/// A program holds that height in steps, and its direction as it holds the triangle's normal: half a twelfth of it, and
-/// little more.
+/// A program holds that height in steps: it is off by half a twelfth, and little more.
 constexpr double kLiftSteps = 0.045;
 /// In pixel widths: a program may store smaller heights as 0.
 constexpr double kLiftLeastPixels = 1.0 / 4096.0;
@@ -124,10 +140,16 @@ Occlusion::Answer decided(double share) {
     return {share, share, share};
 }
 
-/// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not count,
-/// and `pointMetres` what rounding leaves open of the point.
+/// What a program may round of a point: so many metres in every direction, and a lifted one by this step up or down.
+struct PointLeeway {
+    double metres = 0.0;
+    glm::dvec3 liftStep{0.0};
+    double reachMetres() const { return metres + glm::length(liftStep); }
+};
+
+/// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not count.
 Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool isPlaced, const ShiningLight& light,
-                         const Hit* surface, const OwnPlane* own, double pointMetres, bool leeway) {
+                         const Hit* surface, const OwnPlane* own, const PointLeeway& point, bool leeway) {
     const bool isBehind = own && own->hides(segment.along);
     if (isBehind && !leeway) return decided(0.0);
     const Casters::Met exact = casters.meet(segment, surface);
@@ -136,15 +158,20 @@ Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool is
     const Occlusion::Answer undecided{share, 0.0, 1.0, true};
     if (exact.isUndecided) return undecided;
     const glm::dvec3& along = segment.along;
-    const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
+    const double lightMetres = casters.leewayMetres(isPlaced, light, point.metres, glm::length(along));
     // Where casters hide the light, the own triangle does not matter.
-    const bool isOwnUndecided = own && own->isUndecided(along, pointMetres + lightMetres);
+    const bool isOwnUndecided = own && own->isUndecided(along, point.reachMetres() + lightMetres);
     if (isBehind && !isOwnUndecided) return decided(0.0);
     if (isOwnUndecided && !exact.isHidden) return undecided;
-    for (const Segment& moved : movedEnds(segment, pointMetres, lightMetres)) {
-        const Casters::Met other = casters.meet(moved, surface);
-        if (other.isHidden != exact.isHidden || other.isUndecided) return undecided;
-    }
+    const auto isOtherwise = [&](const glm::dvec3& step) {
+        const Segment lifted{segment.from + step, isPlaced ? along - step : along};
+        return std::ranges::any_of(movedEnds(lifted, point.metres, lightMetres), [&](const Segment& moved) {
+            const Casters::Met other = casters.meet(moved, surface);
+            return other.isHidden != exact.isHidden || other.isUndecided;
+        });
+    };
+    const bool isLifted = point.liftStep != glm::dvec3(0.0);
+    if (isOtherwise(point.liftStep) || (isLifted && isOtherwise(-point.liftStep))) return undecided;
     return decided(share);
 }
 
@@ -211,15 +238,17 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     // Past all casters, where the light has no place.
     const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0;
     const bool wraps = surface.wrap != glm::dvec3(0.0);
-    const OwnPlane ownPlane =
-        terminatorLift > 0.0 ? OwnPlane(surface.normal, kStoredFacetRadians + kNormalRounding) : ownTriangle;
+    const OwnPlane ownPlane = terminatorLift > 0.0 ? OwnPlane(surface.normal, kNormalRounding) : ownTriangle;
     const OwnPlane* const own = wraps ? nullptr : &ownPlane;
     const Hit* const start = lift > 0.0 || terminatorLift > 0.0 ? nullptr : &hit;
-    const double pointMetres = casters.leewayMetres(fromRWS) +
-                               (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) +
-                               (terminatorLift > 0.0 ? kLiftSteps * terminatorLift + 2.0 * hit.roundingMetres : 0.0);
+    // A lifted point also moves aside, as the triangle's normal is off.
+    const double asideMetres =
+        terminatorLift > 0.0 ? 0.5 * kStoredFacetRadians * terminatorLift + 2.0 * hit.roundingMetres : 0.0;
+    const PointLeeway point{casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) +
+                                asideMetres,
+                            kLiftSteps * terminatorLift * ownTriangle.normal};
     const Segment toCentre{from, toLight * reach};
-    if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, pointMetres, settings.leeway);
+    if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, point, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // of every other ray
     // The outline of an area is cut at the surface already, so only what lies before the own triangle counts.
@@ -240,7 +269,7 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
                 if (isCut && own->hides(place)) continue;
                 ++rays;
                 halves[(ring + sector) % 2] +=
-                    decide(casters, {from, place * reach}, isPlaced, light, start, own, pointMetres, false).share;
+                    decide(casters, {from, place * reach}, isPlaced, light, start, own, point, false).share;
             }
         }
         counted = double(rays) / double(rings * sectors);
@@ -267,12 +296,12 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     // lie far from its position, in which no ray ends.
     const Segment toMiddle{from, (toLight + face.middle()) * reach};
     if (settings.leeway && toMiddle.along != glm::dvec3(0.0) &&
-        decide(casters, toMiddle, isPlaced, light, start, nullptr, pointMetres, true).isUndecided) {
+        decide(casters, toMiddle, isPlaced, light, start, nullptr, point, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
     // The own triangle's plane may cut the face elsewhere: by the length of the chord there, at most its diameter.
-    const double metres = pointMetres + casters.leewayMetres(isPlaced, light, pointMetres, distance * reach);
+    const double metres = point.reachMetres() + casters.leewayMetres(isPlaced, light, point.metres, distance * reach);
     const double cut = ownPlane.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
     if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
         const double share = face.shareOfCut(cut, own->normal) / std::max(counted, 1e-9);

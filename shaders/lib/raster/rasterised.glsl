@@ -114,9 +114,9 @@ Fragment rasterisedFragment()
 #if HAS_SHADOW_LIFT && !IN_ATLAS
     vec3 positionLS = viewpointFromDepth(place.pixel, place.depth).positionLS;
 #if BY_TRIANGLE
-    float metres = rasterisedLift(placeWeights, fragment.frontFacing);
+    float metres = rasterisedLift(placeWeights);
 #else
-    float metres = rasterisedLift(positionLS, fragment.normalLS, place.pixel - gl_FragCoord.xy, fragment.frontFacing);
+    float metres = rasterisedLift(positionLS, fragment.normalLS, place.pixel - gl_FragCoord.xy);
 #endif
     fragment.liftCode = encodeLift(metres, positionLS);
 #endif

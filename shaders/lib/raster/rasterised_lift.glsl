@@ -3,12 +3,16 @@
 // point) above the point, and the corners' weights blend these heights:
 //   sum of weight_i dot(normal_i, corner_i - point) = sum over the edges of weight_i weight_j dot(corner_j - corner_i,
 //   normal_j - normal_i)
-// So triangles with a common edge agree along it, and one whose corners have one normal is lifted by exactly 0. What bends
-// towards the viewer (below 0) is not lifted.
+// So triangles with a common edge agree along it, and one whose corners have one normal is lifted by exactly 0. Where the
+// surface is hollow, the planes lie below the triangle, which turns away from lights that its normals face all the same:
+// there the point is lifted as far as they lie below.
 #pragma once
 #if BY_TRIANGLE
-float rasterisedLift(dvec3 weights, bool frontFacing)
+layout(location = 2) flat in float facetIsLifted;
+
+float rasterisedLift(dvec3 weights)
 {
+    if (!(facetIsLifted > 0.0)) return 0.0;
     dvec3 normal = weights.x * dvec3(triangleNormalLS[0]) + weights.y * dvec3(triangleNormalLS[1])
                    + weights.z * dvec3(triangleNormalLS[2]);
     double sum = 0.0;
@@ -17,15 +21,14 @@ float rasterisedLift(dvec3 weights, bool frontFacing)
         dvec3 edge = dvec3(triangleLS[j]) - dvec3(triangleLS[i]);
         sum += weights[i] * weights[j] * dot(edge, dvec3(triangleNormalLS[j]) - dvec3(triangleNormalLS[i]));
     }
-    float metres = float(sum / sqrt(max(dot(normal, normal), 1e-300LF)));
-    return max(frontFacing ? metres : -metres, 0.0);
+    return abs(float(sum / sqrt(max(dot(normal, normal), 1e-300LF))));
 }
 #else
 layout(location = 18) in float tangentPlane;
 layout(location = 19) flat in float facetIsLifted;
 
 // At a point of the triangle with that normal, not unit; `aside` pixels from where vertices are interpolated.
-float rasterisedLift(vec3 positionLS, vec3 normal, vec2 aside, bool frontFacing)
+float rasterisedLift(vec3 positionLS, vec3 normal, vec2 aside)
 {
     precise float plane = tangentPlane;
 #if SAMPLES > 1
@@ -33,6 +36,6 @@ float rasterisedLift(vec3 positionLS, vec3 normal, vec2 aside, bool frontFacing)
     plane = planeAside;
 #endif
     precise float metres = (plane - dot(normal, positionLS)) / sqrt(max(dot(normal, normal), 1e-37));
-    return facetIsLifted > 0.0 ? max(frontFacing ? metres : -metres, 0.0) : 0.0;
+    return facetIsLifted > 0.0 ? abs(metres) : 0.0;
 }
 #endif

@@ -31,8 +31,8 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
     bool isCut = false;
 #endif
     vec3 placeLS = lightTexel(index, 0).xyz;
-    bool triangleHides = true;
-    vec3 hidingNormalLS = surface.facetNormalLS;
+    OwnPlane own = OwnPlane(surface.facetNormalLS, FACET_ERROR_RADIANS, true);
+    vec3 planeNormalLS = surface.facetNormalLS;
 #if HAS_SHADOW_LIFT
     float lift = decodeLift(surface.liftCode, viewpoint.positionLS);
 #if HAS_SUBSURFACE_WRAP
@@ -45,7 +45,12 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
     if (lift > 0.0) {
         precise vec3 liftedLS = viewpoint.positionLS - lift * surface.facetNormalLS;
         viewpoint.positionLS = liftedLS;
-        hidingNormalLS = -surface.normalLS;
+        own.normal = -surface.normalLS;
+        own.errorRadians = 0.0;
+#if HAS_SHADOW_MAPS
+        precise vec3 toLight = isFar ? placeLS : placeLS - liftedLS;
+        planeNormalLS = liftedPlaneNormal(surface.facetNormalLS, toLight);
+#endif
     }
 #endif
 #if HAS_SUBSURFACE_WRAP
@@ -54,13 +59,13 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
         precise float cosine = dot(surface.normalLS, toLight) / sqrt(max(dot(toLight, toLight), 1e-37));
         precise vec3 liftedLS = viewpoint.positionLS + surface.normalLS * liftMetres(surface, cosine);
         viewpoint.positionLS = liftedLS;
-        triangleHides = false;
+        own.hides = false;
     }
 #endif
 #if HAS_SHADOW_MAPS
-    return mappedShadow(index, kind, placeLS, isFar, surface.facetNormalLS, hidingNormalLS, triangleHides, viewpoint);
+    return mappedShadow(index, kind, placeLS, isFar, planeNormalLS, own, viewpoint);
 #else
-    return tracedShadow(index, placeLS, isFar, isCut, hidingNormalLS, triangleHides, viewpoint);
+    return tracedShadow(index, placeLS, isFar, isCut, own, viewpoint);
 #endif
 }
 

@@ -243,13 +243,12 @@ float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
 // By how much of its half side a cascade passes over into the next; hard shadows change at once.
 const float kBlendShare = SHADOW_FILTER == SHADOW_FILTER_HARD ? 0.0 : 0.1;
 
-// The share of light `index` that its maps let through; isFar: of a directional one, with cascades; triangleHides: lights
-// behind the plane of hidingNormalLS are hidden, that of the point's own triangle or of the normal that it is lit with.
+// The share of light `index` that its maps let through; isFar: of a directional one, with cascades; planeNormalLS: away
+// from the viewer, of the plane that the surface continues along (liftedPlaneNormal()).
 //
 // One loop over the faces that may hold the point: of cascades the finest, and where it ends the next one. It runs no
 // time for lights without shadows: rasterisers that mask lanes skip loops, but run whatever else is not asked for.
-float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, vec3 hidingNormalLS, bool triangleHides,
-                   Viewpoint viewpoint)
+float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 planeNormalLS, OwnPlane own, Viewpoint viewpoint)
 {
     precise float hidden = 0.0;
     precise float share = 1.0;
@@ -266,10 +265,10 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
             face += SHADOW_FACE_TEXELS * (2 * axis + (fromLight[axis] < 0.0 ? 1 : 0));
         }
         precise vec3 positionRWS = rwsFromLS * viewpoint.positionLS;
-        precise vec3 facetNormalRWS = rwsFromLS * facetNormalLS;
+        precise vec3 planeNormalRWS = rwsFromLS * planeNormalLS;
         precise float rounding =
             shadow.w + 1.9e-6 * length(viewpoint.positionLS) + snappingMetres(viewpoint.positionLS);
-        FacePoint point = facePoint(face, shadow, positionRWS, facetNormalRWS, rounding);
+        FacePoint point = facePoint(face, shadow, positionRWS, planeNormalRWS, rounding);
         vec2 fromMiddle = abs(point.texel - point.face.xy);
         precise float room = point.face.z - max(fromMiddle.x, fromMiddle.y);
         precise float ownShare = 1.0;
@@ -281,7 +280,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNorm
         if (room <= 0.0) ownShare = 0.0;
         // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
         // and the steeper it is.
-        bool isBehind = triangleHides && isBehindFacet(hidingNormalLS, toLight, rounding);
+        bool isBehind = hidesBehind(own, toLight, rounding);
         if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
 #if SHOWS_FACES
         precise vec4 answer = (share * ownShare) * vec4(faceColor((face - int(shadow.z)) / SHADOW_FACE_TEXELS), 1.0);

@@ -8,12 +8,11 @@
 #include "lib/shadow/surface_samples.glsl"
 #endif
 
-// 0 where something hides what is at that place, else 1. `behind` grows by 1 where the point's own triangle does.
-float visibilityOf(vec3 toPlaceCS, float placeRounding, vec3 facetNormal, bool triangleHides, vec3 originLS,
-                   inout float behind)
+// 0 where something hides what is at that place, else 1. `behind` grows by 1 where the point's own plane does.
+float visibilityOf(vec3 toPlaceCS, float placeRounding, OwnPlane own, vec3 originLS, inout float behind)
 {
     ShadowRay ray = shadowRay(originLS, toPlaceCS, placeRounding);
-    bool isBehind = triangleHides && isBehindFacet(facetNormal, toPlaceCS, ray.originRounding + placeRounding);
+    bool isBehind = hidesBehind(own, toPlaceCS, ray.originRounding + placeRounding);
     behind += isBehind ? 1.0 : 0.0;
     return visibilityAlong(ray, isBehind);
 }
@@ -35,13 +34,12 @@ float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoi
 #endif
 
 // What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
-// rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space. `triangleHides`:
-// the point's own triangle hides lights behind it. Of lights that are cut at the horizon (isCut), the share is that of
-// what lies before the triangle.
-float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, vec3 facetNormalLS, bool triangleHides,
-                   Viewpoint viewpoint)
+// rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space. Of
+// lights that are cut at the horizon (isCut), the share is that of what lies before the point's own plane.
+float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, OwnPlane ownLS, Viewpoint viewpoint)
 {
-    precise vec3 facetNormal = mat3(view.worldFromLS) * facetNormalLS;
+    precise vec3 ownNormal = mat3(view.worldFromLS) * ownLS.normal;
+    OwnPlane own = OwnPlane(ownNormal, ownLS.errorRadians, ownLS.hides);
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
     precise vec3 toLight = mat3(view.worldFromLS) * fromPoint;
     precise float farAway = 2.0 * (casterTree.rounding.z + length(positionCS(viewpoint.positionLS)));
@@ -63,14 +61,13 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, vec3 facetNo
     int i = 0;
     for (; i < rays; ++i) {
         precise vec3 toSurface = toLight + surfacePlace(surface, i, random, third);
-        seen += visibilityOf(reach * toSurface, lightRounding, facetNormal, triangleHides, viewpoint.positionLS,
-                             behind);
+        seen += visibilityOf(reach * toSurface, lightRounding, own, viewpoint.positionLS, behind);
     }
     if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()
     float counted = float(rays) - (isCut ? behind : 0.0);
     precise float perRay = 1.0 / max(counted, 1.0);
     return seen * perRay;
 #else
-    return visibilityOf(reach * toLight, lightRounding, facetNormal, triangleHides, viewpoint.positionLS, behind);
+    return visibilityOf(reach * toLight, lightRounding, own, viewpoint.positionLS, behind);
 #endif
 }

@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "renderer/frame/Tangents.h"
 #include "scenes/Load.h"
+#include "shaders/shared/facet.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {
@@ -292,8 +293,9 @@ scenes::Scene wavyScene() {
     for (std::uint32_t y = 0; y < kSide; ++y)
         for (std::uint32_t x = 0; x < kSide; ++x) {
             const float number = float(mesh.positionsOS.size());
-            mesh.positionsOS.emplace_back(float(x), float(y), std::sin(1.3f * float(x)) * std::cos(0.7f * float(y)));
-            mesh.normalsOS.push_back(glm::normalize(glm::vec3(0.01f * number, 0.0f, 1.0f)));
+            mesh.positionsOS.emplace_back(float(x), float(y),
+                                          0.3f * std::sin(1.3f * float(x)) * std::cos(0.7f * float(y)));
+            mesh.normalsOS.push_back(glm::normalize(glm::vec3(0.002f * number, 0.0f, 1.0f)));
             mesh.texCoords[0].emplace_back(float(x % 4 < 3 ? x % 4 : 1), float(y));
             mesh.texCoords[1].emplace_back(number, -number);
             mesh.colors.emplace_back(number, 0.0f, 1.0f, 1.0f);
@@ -335,11 +337,33 @@ TEST(VertexStreams, copiesOfLastVerticesKeepAllTheirOtherAttributes) {
         for (std::size_t i = 0; i < 3; ++i)
             area += glm::cross(glm::dvec3(full.positionsOS[full.indices[corner + i]]),
                                glm::dvec3(full.positionsOS[full.indices[corner + (i + 1) % 3]]));
-        // The scene's corners have different normals, by which it is twice as long.
+        // The scene's corners have different normals close to it, by which it is twice as long.
         const glm::dvec3 stored = 0.5 * glm::dvec3(full.facetNormalsOS[full.indices[corner + 2]]);
         // Of fp32 three roundings.
         EXPECT_LT(glm::distance(stored, glm::normalize(area)), 3.0 * 0x1p-24) << "triangle " << corner / 3;
     }
+}
+
+TEST(VertexStreams, trianglesAreLiftedWhereTheNormalsOfTheirCornersDifferAndAreCloseToTheirOwn) {
+    const auto lengthWith = [](double degrees) {
+        scenes::Scene scene = scenes::tinyScene();
+        scenes::Mesh& mesh = scene.meshes[0];
+        const glm::vec3 across = mesh.positionsOS[1] - mesh.positionsOS[0];
+        const glm::dvec3 front =
+            glm::normalize(glm::dvec3(glm::cross(across, mesh.positionsOS[2] - mesh.positionsOS[0])));
+        const double lean = glm::radians(degrees);
+        mesh.indices = {0, 1, 2};
+        mesh.normalsOS.assign(mesh.positionsOS.size(), glm::vec3(front));
+        mesh.normalsOS[1] =
+            glm::vec3(2.0 * (std::cos(lean) * front + std::sin(lean) * glm::normalize(glm::dvec3(across))));
+        const VertexStreams streams = makeVertexStreams(scene, allFeatures());
+        return glm::length(facetNormals(streams, streams.ranges.begin()->second).front());
+    };
+    constexpr float kRounding = 1e-6f;
+    EXPECT_NEAR(lengthWith(1.0), LIFTED_FACET, kRounding);
+    EXPECT_NEAR(lengthWith(43.9), LIFTED_FACET, kRounding);
+    EXPECT_NEAR(lengthWith(44.1), 1.0f, kRounding);
+    EXPECT_NEAR(lengthWith(170.0), 1.0f, kRounding);
 }
 
 TEST(VertexStreams, cornersOfTrianglesKeepTheirOrderAndPlacesWhereTheLastOnesAreCopied) {
