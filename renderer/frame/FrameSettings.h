@@ -196,7 +196,7 @@ struct FrameSettings {
     ShadowFilter shadowFilter = ShadowFilter::Traced;
     int shadowSamples = 16; ///< rays or look-ups of a pixel for a light with a size, 1 to kMostShadowSamples
     ShadowMapSettings shadowMaps;
-    ShadowTerminator shadowTerminator = ShadowTerminator::Exact;
+    ShadowTerminator shadowTerminator = ShadowTerminator::Softened;
     scenes::SubsurfaceRequest subsurface;
     DiffusionSettings diffusion;
     EnvironmentSettings environment;

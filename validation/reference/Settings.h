@@ -64,11 +64,11 @@ struct Settings {
     int glassDepth = 0;
     int areaSquares = 16384;     ///< of an area light as seen from a point, at most, 49 directions each (AreaLights.h)
     double areaTolerance = 2e-5; ///< of what is reflected of it, where fewer will do
-    bool softensTerminators = false; ///< shadows of smooth-shaded triangles are asked for from above them
-    int shadowRings = 16;            ///< on the disk of a light with a size, four times as many rays each
-    int penumbraRings = 64;          ///< of points that those find to see part of it
-    int shadowSamples = 0;           ///< rays that a program tries: their noise is allowed it too; 0: none is
-    bool specular = true;            ///< false leaves the specular lobe out
+    bool softensTerminators = true; ///< shadows of smooth-shaded triangles are asked for from above them
+    int shadowRings = 16;           ///< on the disk of a light with a size, four times as many rays each
+    int penumbraRings = 64;         ///< of points that those find to see part of it
+    int shadowSamples = 0;          ///< rays that a program tries: their noise is allowed it too; 0: none is
+    bool specular = true;           ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
     bool leeway = true;          ///< whether to find other values that the definition allows (Rendered::alternatives)
     double rangeTolerance = 0.0; ///< unit of colour x intensity: A B C and area lights end where they fall to it;
