@@ -144,7 +144,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     rigging.finish();
     bindVariant(context, materials);
     placeThicknesses(context, materials);
-    sizeThinSolids(context);
+    sizeThinSolids(scene, context.thinModes);
     importEnvironment(context);
     ledger.settle(mark, bytesOf(scene));
     return scene;

@@ -175,9 +175,8 @@ std::vector<std::uint32_t> cornersOfSolids(int mode, const std::vector<std::uint
     return corners;
 }
 
-void sizeThinSolids(Context& context) {
-    if (context.thinModes.empty()) return;
-    Scene& scene = context.scene;
+void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
+    if (thinModes.empty()) return;
     const Sizes sizes = sizesOf(scene);
     const glm::dvec3 sidesWS = sizes.boundsWS.empty() ? glm::dvec3(0.0) : sizes.boundsWS.max - sizes.boundsWS.min;
     const double longestWS = std::max({sidesWS.x, sidesWS.y, sidesWS.z});
@@ -199,7 +198,7 @@ void sizeThinSolids(Context& context) {
     std::map<int, int> shapes; // by mesh
     for (const Deformed& deformed : scene.rig.deformed) shapes[deformed.mesh] = deformed.shape;
     std::set<int> inflated; // shapes
-    for (const auto& [mesh, mode] : context.thinModes) {
+    for (const auto& [mesh, mode] : thinModes) {
         Mesh& drawn = scene.meshes[static_cast<std::size_t>(mesh)];
         const auto shape = shapes.find(mesh);
         if (shape == shapes.end()) {
@@ -212,8 +211,8 @@ void sizeThinSolids(Context& context) {
         std::ranges::copy(rest.normalsOS, drawn.normalsOS.begin());
     }
     const auto isPoints = [](const auto& entry) { return entry.second == kPoints; };
-    const bool hasPoints = std::ranges::any_of(context.thinModes, isPoints);
-    const bool hasLines = !std::ranges::all_of(context.thinModes, isPoints);
+    const bool hasPoints = std::ranges::any_of(thinModes, isPoints);
+    const bool hasLines = !std::ranges::all_of(thinModes, isPoints);
     scene.notes.push_back(
         fmt::format("its {} are drawn as thin solids; lines are {:g} % of the model's longest side wide, points {:g} %",
                     !hasLines   ? "points"

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "scenes/import/GltfContext.h"
@@ -27,10 +28,10 @@ std::vector<std::uint32_t> thinElements(int mode, std::vector<std::uint32_t> cor
 /// until sizeThinSolids().
 std::vector<std::uint32_t> cornersOfSolids(int mode, const std::vector<std::uint32_t>& elements);
 
-/// Gives all solids of the scene their size and normals, and notes that they are drawn. Called when all nodes,
-/// instances and skins are there. Of nodes that show one mesh at several scales the largest counts, and of skins their
-/// first joint; no solid becomes so thin that single precision cannot hold it, nor wider than its mesh is long. What
-/// a node flattens to nothing, as a clip may begin, is as wide as at a scale of 1.
-void sizeThinSolids(Context& context);
+/// Gives all solids of the scene, in meshes of these glTF modes, their size and normals, and notes that they are drawn.
+/// Called when all nodes, instances and skins are there. Of nodes that show one mesh at several scales the largest
+/// counts, and of skins their first joint; no solid becomes so thin that single precision cannot hold it, nor wider
+/// than its mesh is long. What a node flattens to nothing, as a clip may begin, is as wide as at a scale of 1.
+void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes);
 
 } // namespace tessera::scenes::gltf

@@ -3,26 +3,33 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
-#include <set>
+#include <span>
 #include <system_error>
 #include <variant>
 
-#include <fmt/format.h>
-
+#include "scenes/Material.h"
+#include "scenes/import/NamedFile.h"
 #include "scenes/import/ObjLines.h"
 
 namespace tessera::scenes::obj {
 namespace {
 
-enum class NumberRange { NotNegative, Share, WholeNumber };
+/// Below kMostEmission, and exact in single precision.
+constexpr double kMostGlow = 0x1p99;
 
+/// Numbers from 0 to `most`.
 struct NumberValue {
     std::optional<float> MtlMaterial::*member;
-    NumberRange range;
+    double most = 1.0;
 };
-using ColourValue = std::optional<glm::vec3> MtlMaterial::*;
+struct ColourValue {
+    std::optional<glm::vec3> MtlMaterial::*member;
+    double most = kMostColor;
+};
 using PictureValue = std::optional<MtlPicture> MtlMaterial::*;
 using WithoutEffect = std::monostate;
 
@@ -35,16 +42,16 @@ struct Keyword {
 /// (Exocortex 2015, "Extending Wavefront MTL for physically-based rendering"). Ambient light and what only bends
 /// rays have no counterpart in direct lighting.
 constexpr Keyword kKeywords[] = {
-    {"Kd", &MtlMaterial::diffuse},
-    {"Ks", &MtlMaterial::specular},
-    {"Ke", &MtlMaterial::emission},
-    {"Ns", NumberValue{&MtlMaterial::exponent, NumberRange::NotNegative}},
-    {"Ni", NumberValue{&MtlMaterial::ior, NumberRange::NotNegative}},
-    {"d", NumberValue{&MtlMaterial::opacity, NumberRange::Share}},
-    {"Tr", NumberValue{&MtlMaterial::transparency, NumberRange::Share}},
-    {"Pr", NumberValue{&MtlMaterial::perceptualRoughness, NumberRange::Share}},
-    {"Pm", NumberValue{&MtlMaterial::metalness, NumberRange::Share}},
-    {"illum", NumberValue{&MtlMaterial::illumination, NumberRange::WholeNumber}},
+    {"Kd", ColourValue{&MtlMaterial::diffuse}},
+    {"Ks", ColourValue{&MtlMaterial::specular, 1.0}},
+    {"Ke", ColourValue{&MtlMaterial::emission, kMostGlow}},
+    {"Ns", NumberValue{&MtlMaterial::exponent, std::numeric_limits<float>::max()}},
+    {"Ni", NumberValue{&MtlMaterial::ior, kMostIor}},
+    {"d", NumberValue{&MtlMaterial::opacity}},
+    {"Tr", NumberValue{&MtlMaterial::transparency}},
+    {"Pr", NumberValue{&MtlMaterial::perceptualRoughness}},
+    {"Pm", NumberValue{&MtlMaterial::metalness}},
+    {"illum", NumberValue{&MtlMaterial::illumination, 10.0}},
     {"map_Kd", &MtlMaterial::diffusePicture},
     {"map_Ks", &MtlMaterial::specularPicture},
     {"map_Ke", &MtlMaterial::emissionPicture},
@@ -61,7 +68,7 @@ constexpr Keyword kKeywords[] = {
     {"sharpness", WithoutEffect()},
 };
 
-/// Those that readPicture() takes over, and others that only warn.
+/// Those that takeOptions() takes over, and others that are left out.
 struct TextureOption {
     std::string_view name;
     std::size_t mostNumbers; ///< 0: one word that is no number
@@ -76,192 +83,283 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
                               [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
+constexpr std::string_view kStatementLeftOut = "the statement is left out";
+
 /// Reads one MTL file, in its order.
 class MtlReader {
 public:
-    MtlReader(const std::filesystem::path& file, std::vector<std::string>& warnings, LoadLedger& ledger)
-        : file_(file), warnings_(warnings), ledger_(ledger) {}
+    MtlReader(const std::filesystem::path& file, Repairs& repairs, LoadLedger& ledger)
+        : folder_(file.parent_path()), file_(file.string()), repairs_(repairs), ledger_(ledger) {}
 
-    std::vector<MtlMaterial> read() {
-        forEachLine(readText(file_, ledger_), [&](const Line& line) { readLine(line); });
-        const auto warn = [&](const char* what, const std::set<std::string>& which) {
-            if (!which.empty())
-                warnings_.push_back(fmt::format("{}: {}: {}", file_.string(), what, fmt::join(which, ", ")));
-        };
-        warn("statements that are not supported are left out", unknown_);
-        warn("texture options that are not supported are left out", unusedOptions_);
+    std::vector<MtlMaterial> read(const std::string& text) {
+        forEachLine(text, [&](const Line& line) { readLine(line); });
         return std::move(materials_);
     }
 
 private:
     void readLine(const Line& line) {
-        if (line.keyword == "newmtl") {
+        if (equalsIgnoringCase(line.keyword, "newmtl")) {
             beginMaterial(line);
             return;
         }
         const auto keyword = std::ranges::find_if(
             kKeywords, [&](const Keyword& known) { return equalsIgnoringCase(known.name, line.keyword); });
-        if (keyword == std::end(kKeywords)) {
-            if (unknown_.emplace(line.keyword).second) charge(keptTextBytes(line.keyword), line);
-            return;
-        }
-        if (std::holds_alternative<WithoutEffect>(keyword->value)) return;
+        const bool isKnown = keyword != std::end(kKeywords);
+        if (isKnown && std::holds_alternative<WithoutEffect>(keyword->value)) return;
         if (materials_.empty())
-            failAt(file_, line.number, fmt::format("'{}' stands before the first newmtl", line.keyword));
-        if (line.words.empty()) failAt(file_, line.number, fmt::format("'{}' gives no value", line.keyword));
-        if (const PictureValue* picture = std::get_if<PictureValue>(&keyword->value))
+            repairs_.note(file_, line.number, kStatementLeftOut,
+                          [&] { return fmt::format("'{}' stands before the first newmtl", line.keyword); });
+        else if (!isKnown)
+            addUnsupported(line, std::string(line.keyword));
+        else if (const PictureValue* picture = std::get_if<PictureValue>(&keyword->value))
             readPicture(line, keyword->name, materials_.back().*(*picture));
-        else if (line.words.front() == "spectral" || line.words.front() == "xyz")
-            unknown_.insert(fmt::format("{} {}", keyword->name, line.words.front()));
+        else if (!line.words.empty() && (line.words.front() == "spectral" || line.words.front() == "xyz"))
+            addUnsupported(line, fmt::format("{} {}", keyword->name, line.words.front()));
         else
             readNumbers(line, *keyword);
     }
 
     void beginMaterial(const Line& line) {
-        if (line.rest.empty()) failAt(file_, line.number, "'newmtl' gives no name");
-        // In the file's list, and after that among those of all files.
-        constexpr std::size_t kBytes = kGrown * sizeof(MtlMaterial) + kNodeBytes<MtlMaterial>;
-        charge(kBytes + keptTextBytes(file_.native()) + keptTextBytes(line.rest), line);
+        // In the file's list, and after that among those of all files, by one or two names.
+        constexpr std::size_t kBytes = kGrown * sizeof(MtlMaterial) + 2 * kNodeBytes<std::string>;
+        charge(kBytes + keptTextBytes(file_) + 2 * keptTextBytes(line.rest), line);
         materials_.emplace_back();
         materials_.back().name = line.rest;
-        materials_.back().file = file_.string();
+        materials_.back().file = file_;
+        materials_.back().line = line.number;
+        if (line.rest.empty()) addFlaw(line, "'newmtl' gives no name", "it is drawn where 'usemtl' gives none either");
+    }
+
+    void addUnsupported(const Line& line, const std::string& what) {
+        if (materials_.back().unsupported.insert(what).second) charge(keptTextBytes(what), line);
+    }
+
+    void addFlaw(const Line& line, std::string text, std::string_view repair) {
+        charge(kGrown * sizeof(MtlFlaw) + kRoom * text.size(), line);
+        materials_.back().flaws.push_back({line.number, std::move(text), repair});
     }
 
     void readNumbers(const Line& line, const Keyword& keyword) {
         std::vector<std::string_view> words = line.words;
-        if (words.front() == "-halo") words.erase(words.begin()); // opacity that falls off at the silhouette
-        const NumberValue* number = std::get_if<NumberValue>(&keyword.value);
-        if (words.empty() || (number == nullptr && words.size() == 2))
-            failAt(file_, line.number,
-                   fmt::format("'{}' needs {}", keyword.name, number == nullptr ? "3 numbers" : "a number"));
+        if (!words.empty() && words.front() == "-halo") words.erase(words.begin()); // opacity fades at the silhouette
         MtlMaterial& material = materials_.back();
-        if (number != nullptr) {
-            material.*(number->member) = readNumber(line, keyword.name, words[0], number->range);
+        if (const NumberValue* number = std::get_if<NumberValue>(&keyword.value)) {
+            words.resize(std::min<std::size_t>(words.size(), 1));
+            if (const std::optional<glm::vec3> value = readValues(line, keyword.name, words, 1, number->most))
+                material.*(number->member) = value->x;
             return;
         }
-        words.resize(std::max<std::size_t>(words.size(), 3), words.front()); // green and blue default to red
-        glm::vec3 colour;
-        for (glm::length_t i = 0; i < 3; ++i)
-            colour[i] = readNumber(line, keyword.name, words[static_cast<std::size_t>(i)], NumberRange::NotNegative);
-        material.*std::get<ColourValue>(keyword.value) = colour;
+        if (words.size() == 1) words.resize(3, words.front()); // green and blue default to red
+        const ColourValue& colour = std::get<ColourValue>(keyword.value);
+        if (const std::optional<glm::vec3> value = readValues(line, keyword.name, words, 3, colour.most))
+            material.*(colour.member) = *value;
     }
 
-    float readNumber(const Line& line, const char* keyword, std::string_view word, NumberRange range) {
-        const float value = finiteNumber(file_, line, word);
-        if (value < 0.0f || (range == NumberRange::Share && value > 1.0f))
-            failAt(file_, line.number,
-                   fmt::format("'{}' is {}; it must {}", keyword, word,
-                               range == NumberRange::Share ? "lie between 0 and 1" : "not be negative"));
-        if (range == NumberRange::WholeNumber && !parseInteger(word))
-            failAt(file_, line.number, fmt::format("'{}' is {}; it must be a whole number", keyword, word));
-        return value;
+    /// The numbers within 0 and `most`; none, which is a flaw, where a word is no number or one is missing.
+    std::optional<glm::vec3> readValues(const Line& line, const char* keyword, std::span<const std::string_view> words,
+                                        std::size_t count, double most) {
+        const bool isModel = keyword == std::string_view("illum");
+        std::string flaw;
+        if (words.size() < count) flaw = fmt::format("'{}' needs {}", keyword, count == 1 ? "a number" : "3 numbers");
+        glm::vec3 values(0.0f);
+        for (std::size_t i = 0; i < count && flaw.empty(); ++i) {
+            const double number = parseNumber(words[i]).value_or(std::nan(""));
+            if (!std::isfinite(number)) {
+                finiteNumber(keyword, words[i], flaw);
+            } else if (isModel && (number < 0.0 || number > most || number != std::floor(number))) {
+                flaw = fmt::format("'illum' is {}; it must be a whole number from 0 to {}", words[i], most);
+            } else if (number < 0.0) {
+                addFlaw(line, fmt::format("'{}' is {}; it must not be negative", keyword, words[i]), "0 is taken");
+            } else if (number > most) {
+                addFlaw(line, fmt::format("'{}' is {}; it must not exceed {:g}", keyword, words[i], most),
+                        "that bound is taken");
+            }
+            values[static_cast<glm::length_t>(i)] = static_cast<float>(std::clamp(number, 0.0, most));
+        }
+        if (flaw.empty()) return values;
+        addFlaw(line, std::move(flaw), kStatementLeftOut);
+        return std::nullopt;
     }
 
-    /// keyword -option values ... file name up to the line's end. Options of an earlier statement of the material that
-    /// this one does not give stay.
+    /// keyword -option values ... file name -option values ...; options may stand on both sides of the name. Options of
+    /// an earlier statement of the material that this one does not give stay.
     void readPicture(const Line& line, const char* keyword, std::optional<MtlPicture>& stated) {
         MtlPicture picture = stated.value_or(MtlPicture{});
-        std::size_t word = 0;
-        while (word < line.words.size() && line.words[word].starts_with('-')) {
-            const auto option = std::ranges::find(kTextureOptions, line.words[word], &TextureOption::name);
-            if (option == std::end(kTextureOptions))
-                failAt(file_, line.number, fmt::format("'{}' has the unknown option '{}'", keyword, line.words[word]));
-            ++word;
-            if (option->name == "-o") {
-                picture.offset = glm::vec2(takeNumbers(line, *option, word, 0.0f));
-            } else if (option->name == "-s") {
-                picture.scale = glm::vec2(takeNumbers(line, *option, word, 1.0f));
-            } else if (option->name == "-bm") {
-                picture.bumpMultiplier = takeNumbers(line, *option, word, 1.0f).x;
-            } else if (option->name == "-clamp") {
-                picture.clamp = !takeWord(line, word).starts_with("off");
-            } else {
-                unusedOptions_.emplace(option->name);
-                if (option->mostNumbers == 0)
-                    takeWord(line, word);
-                else
-                    takeNumbers(line, *option, word, 0.0f);
-            }
+        // A name may begin as an option does.
+        const std::size_t first = isFile(line.rest) ? 0 : takeOptions(line, 0, picture);
+        if (first >= line.words.size())
+            return addFlaw(line, fmt::format("'{}' names no picture", keyword), kStatementLeftOut);
+        std::string_view name = line.rest.substr(offsetOf(line, first));
+        if (!isFile(name)) name = withoutComment(name);
+        const auto isOption = [](std::string_view word) {
+            return std::ranges::find(kTextureOptions, word, &TextureOption::name) != std::end(kTextureOptions);
+        };
+        const auto words = std::span(line.words).subspan(first + 1);
+        const auto option = isFile(name) ? words.end() : std::ranges::find_if(words, isOption);
+        if (option != words.end()) {
+            const std::string_view& last = *(&*option - 1);
+            name = name.substr(0, static_cast<std::size_t>(last.data() + last.size() - name.data()));
+            takeOptions(line, static_cast<std::size_t>(&*option - line.words.data()), picture);
         }
-        if (word >= line.words.size()) failAt(file_, line.number, fmt::format("'{}' names no picture", keyword));
-        const std::size_t nameStart = static_cast<std::size_t>(line.words[word].data() - line.rest.data());
         picture.keyword = keyword;
-        picture.name = line.rest.substr(nameStart);
+        picture.line = line.number;
+        picture.name = name;
         stated = std::move(picture);
     }
 
-    std::string_view takeWord(const Line& line, std::size_t& word) const {
-        return word < line.words.size() ? line.words[word++] : std::string_view();
+    static std::size_t offsetOf(const Line& line, std::size_t word) {
+        return static_cast<std::size_t>(line.words[word].data() - line.rest.data());
     }
 
-    /// The numbers that follow the option, as many as it may have.
-    glm::vec3 takeNumbers(const Line& line, const TextureOption& option, std::size_t& word, float missing) const {
-        glm::vec3 numbers(missing);
-        std::size_t count = 0;
-        while (count < option.mostNumbers && word < line.words.size() && parseNumber(line.words[word]))
-            numbers[static_cast<glm::length_t>(count++)] = finiteNumber(file_, line, line.words[word++]);
-        if (count == 0) failAt(file_, line.number, fmt::format("the option '{}' needs a number", option.name));
-        return numbers;
+    bool isFile(std::string_view name) const {
+        std::error_code failure;
+        return !name.empty() && std::filesystem::is_regular_file(folder_ / name, failure);
+    }
+
+    /// Takes the options that begin at a word, and returns the word behind them.
+    std::size_t takeOptions(const Line& line, std::size_t word, MtlPicture& picture) {
+        while (word < line.words.size() && line.words[word].starts_with('-')) {
+            const std::string_view name = line.words[word++];
+            const auto option = std::ranges::find(kTextureOptions, name, &TextureOption::name);
+            const bool isKnown = option != std::end(kTextureOptions);
+            std::string_view value;
+            if (isKnown && option->mostNumbers == 0 && word < line.words.size()) value = line.words[word++];
+            glm::vec3 numbers(name == "-s" || name == "-bm" ? 1.0f : 0.0f);
+            std::size_t count = 0;
+            std::string flaw;
+            for (const std::size_t most = isKnown ? option->mostNumbers : 3;
+                 count < most && word < line.words.size() && parseNumber(line.words[word]); ++count, ++word)
+                numbers[static_cast<glm::length_t>(count)] =
+                    static_cast<float>(finiteNumber(line.keyword, line.words[word], flaw).value_or(0.0));
+            if (isKnown && option->mostNumbers > 0 && count == 0)
+                flaw = fmt::format("the option '{}' needs a number", name);
+            if (!flaw.empty())
+                addFlaw(line, flaw, "the option is left out");
+            else if (name == "-o")
+                picture.offset = glm::vec2(numbers);
+            else if (name == "-s")
+                picture.scale = glm::vec2(numbers);
+            else if (name == "-bm")
+                picture.bumpMultiplier = numbers.x;
+            else if (name == "-clamp")
+                picture.clamp = !value.starts_with("off");
+            else
+                addUnsupported(line, fmt::format("the option {}", name));
+        }
+        return word;
     }
 
     void charge(std::uint64_t bytes, const Line& line) const {
-        ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_.string(), line.number); });
+        ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_, line.number); });
     }
 
-    const std::filesystem::path& file_;
-    std::vector<std::string>& warnings_;
+    const std::filesystem::path folder_;
+    const std::string file_;
+    Repairs& repairs_;
     LoadLedger& ledger_;
     std::vector<MtlMaterial> materials_;
-    std::set<std::string> unknown_;
-    std::set<std::string> unusedOptions_;
 };
 
-bool isFile(const std::filesystem::path& path) {
-    std::error_code failure;
-    return std::filesystem::is_regular_file(path, failure);
+/// The files that the text behind mtllib names: one name that may hold spaces and '#', or several without.
+std::vector<NamedFile> librariesOf(const std::string& statement, const std::filesystem::path& folder) {
+    const std::string name(withoutComment(statement));
+    for (const std::string& whole : {statement, name})
+        if (NamedFile file = fileNamed(folder, whole); file.isFound) return {file};
+    std::vector<std::string_view> words;
+    addWords(name, words);
+    std::vector<NamedFile> files;
+    for (const std::string_view word : words) files.push_back(fileNamed(folder, std::string(word)));
+    // If there is no file of that name, a message should show the whole statement.
+    if (std::ranges::any_of(files, &NamedFile::isFound)) return files;
+    return {{folder / name, false}};
 }
 
-/// The files an mtllib statement names: one name that may hold spaces, or several without.
-std::vector<std::string> fileNamesOf(const std::string& statement, const std::filesystem::path& folder) {
-    if (isFile(folder / statement)) return {statement};
-    std::vector<std::string> names;
-    forEachLine("mtllib " + statement, [&](const Line& line) { names.assign(line.words.begin(), line.words.end()); });
-    // If there is no file of that name, a message should show the whole statement.
-    const bool someExist = std::ranges::any_of(names, [&](const std::string& name) { return isFile(folder / name); });
-    return someExist ? names : std::vector<std::string>{statement};
-}
+/// The materials of all libraries, by name; a name that ends in a comment counts without it too.
+class Definitions {
+public:
+    Definitions(const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger)
+        : objFile_(objFile), repairs_(repairs), ledger_(ledger) {}
+
+    void read(const std::string& statement) {
+        if (withoutComment(statement).empty())
+            return repairs_.note(objFile_.string(), 0, kStatementLeftOut, [] { return "'mtllib' names no file"; });
+        for (const NamedFile& file : librariesOf(statement, objFile_.parent_path())) {
+            if (!visited_.insert(file.path.string()).second) continue;
+            const auto note = [&](std::string_view repair, const std::string& flaw) {
+                repairs_.note(objFile_.string(), 0, repair, [&] { return flaw; });
+            };
+            const std::string name = file.path.lexically_relative(objFile_.parent_path()).string();
+            if (!file.isFound) {
+                note("default materials are used", fmt::format("its material library '{}' is missing", name));
+                continue;
+            }
+            if (!file.isAsNamed)
+                note("that one is read", fmt::format("its material library '{}' is there as '{}'", statement, name));
+            std::string text;
+            try {
+                text = readText(file.path, ledger_);
+            } catch (const MemoryRefused&) {
+                throw;
+            } catch (const InputError& error) {
+                note("default materials are used",
+                     fmt::format("its material library cannot be read: {}", error.what()));
+            }
+            add(MtlReader(file.path, repairs_, ledger_).read(text));
+        }
+    }
+
+    /// The material that a text behind usemtl names, called as it does there.
+    std::optional<MtlMaterial> named(const std::string& text) const {
+        for (const std::string& name : {text, std::string(withoutComment(text))})
+            if (const auto found = byName_.find(name); found != byName_.end()) {
+                MtlMaterial material = materials_[found->second];
+                material.name = name;
+                return material;
+            }
+        return std::nullopt;
+    }
+
+private:
+    void add(std::vector<MtlMaterial> materials) {
+        for (MtlMaterial& material : materials) {
+            const std::string name = material.name, file = material.file;
+            const int line = material.line;
+            const auto [known, isNew] = byName_.try_emplace(name, materials_.size());
+            MtlMaterial& first = isNew ? materials_.emplace_back(std::move(material)) : materials_[known->second];
+            if (isNew)
+                byName_.try_emplace(std::string(withoutComment(name)), known->second);
+            else if (first.file == file && first.name == name)
+                first.flaws.push_back(
+                    {line, fmt::format("'{}' is defined again", name), "the first definition counts"});
+        }
+    }
+
+    const std::filesystem::path& objFile_;
+    Repairs& repairs_;
+    LoadLedger& ledger_;
+    std::set<std::string> visited_;
+    std::vector<MtlMaterial> materials_;
+    std::map<std::string, std::size_t> byName_;
+};
 
 } // namespace
 
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
-                                       const std::filesystem::path& objFile, std::vector<std::string>& warnings,
-                                       LoadLedger& ledger) {
-    std::map<std::string, MtlMaterial> defined;
-    std::set<std::string> visited;
-    for (const std::string& statement : libraries) {
-        for (const std::string& name : fileNamesOf(statement, objFile.parent_path())) {
-            if (!visited.insert(name).second) continue;
-            const std::filesystem::path file = objFile.parent_path() / name;
-            if (!isFile(file)) {
-                warnings.push_back(fmt::format("{}: its material library '{}' is missing; default materials are used",
-                                               objFile.string(), name));
-                continue;
-            }
-            for (MtlMaterial& material : MtlReader(file, warnings, ledger).read())
-                defined.emplace(material.name, std::move(material));
-        }
-    }
+                                       const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger) {
+    Repairs unused(false); // where nothing is drawn with a material
+    Definitions definitions(objFile, names.empty() ? unused : repairs, ledger);
+    for (const std::string& statement : libraries) definitions.read(statement);
     std::vector<MtlMaterial> found;
     for (const std::string& name : names) {
-        if (const auto material = defined.find(name); material != defined.end()) {
-            found.push_back(std::move(material->second));
-            continue;
-        }
-        warnings.push_back(fmt::format("{}: no material library defines '{}'; a default material of that name is used",
-                                       objFile.string(), name));
         MtlMaterial undefined;
-        undefined.name = name;
-        found.push_back(std::move(undefined));
+        undefined.name = withoutComment(name);
+        std::optional<MtlMaterial> material = definitions.named(name);
+        if (!material && undefined.name.empty())
+            repairs.note(objFile.string(), 0, "a default material is used", [] { return "'usemtl' gives no name"; });
+        else if (!material)
+            repairs.note(objFile.string(), 0, "a default material of that name is used",
+                         [&] { return fmt::format("no material library defines '{}'", undefined.name); });
+        found.push_back(material ? std::move(*material) : std::move(undefined));
     }
     return found;
 }

@@ -1,29 +1,43 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "scenes/LoadLedger.h"
+#include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::obj {
 
 /// A picture that a statement names, and the statement's options.
 struct MtlPicture {
     const char* keyword = ""; ///< of the statement, in MTL's spelling
-    std::string name;         ///< as written; relative to the library's folder
-    glm::vec2 offset{0.0f};   ///< -o, v up
-    glm::vec2 scale{1.0f};    ///< -s, v up
+    int line = 0;
+    std::string name;       ///< as written; relative to the library's folder
+    glm::vec2 offset{0.0f}; ///< -o, v up
+    glm::vec2 scale{1.0f};  ///< -s, v up
     bool clamp = false;
     float bumpMultiplier = 1.0f; ///< -bm
 };
 
-/// A material of an MTL file, or one that no file defines: then nothing is stated. What is not stated is not 0.
+/// A flaw of a material's statements, noted where the material is drawn.
+struct MtlFlaw {
+    int line;
+    std::string text;
+    std::string_view repair;
+};
+
+/// A material of an MTL file, or one that no file defines: then nothing is stated. Unset values are not 0.
 struct MtlMaterial {
     std::string name;
     std::string file; ///< the library that defines it; empty: none does
+    int line = 0;
+    std::vector<MtlFlaw> flaws;
+    std::set<std::string> unsupported; ///< statements and options that are left out
 
     std::optional<glm::vec3> diffuse;           ///< Kd
     std::optional<glm::vec3> specular;          ///< Ks
@@ -45,12 +59,10 @@ struct MtlMaterial {
     std::optional<MtlPicture> bumpPicture;      ///< map_bump or bump
 };
 
-/// The materials called `names`, all different, looked up in the libraries that `libraries` (texts of mtllib
-/// statements) name beside `objFile`; the first definition counts. A missing library or an undefined material is a
-/// warning; the material then states nothing. What is not supported is a warning too; a statement that is wrong throws
-/// InputError "file:line: ...".
+/// The materials of the texts behind usemtl, `names`, in their order, looked up in the libraries that the texts behind
+/// mtllib name beside `objFile`; the first definition counts. A missing library or material is noted; the material then
+/// states nothing. Names may end in comments, unless a name with '#' is defined.
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
-                                       const std::filesystem::path& objFile, std::vector<std::string>& warnings,
-                                       LoadLedger& ledger);
+                                       const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -1,13 +1,18 @@
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/ObjMaterials.h"
-#include "scenes/import/ObjNormals.h"
 #include "scenes/import/ObjText.h"
 
 namespace tessera::scenes {
@@ -32,6 +37,83 @@ struct CornerKeyHash {
     }
 };
 
+constexpr glm::vec3 kUp{0.0f, 1.0f, 0.0f};
+
+glm::vec3 unitOr(const glm::dvec3& vector, const glm::vec3& otherwise) {
+    const double length = glm::length(vector);
+    return length > 0.0 && std::isfinite(length) ? glm::vec3(vector / length) : otherwise;
+}
+
+/// A normal for every corner of every triangle. Where the file gives none, it is the triangle's own outside smoothing
+/// groups, and inside one the mean over the group's triangles at that position, weighted by their angles there, so that
+/// it does not depend on how polygons were cut. Source: Thuermer & Wuethrich 1998, "Computing Vertex Normals from
+/// Polygonal Facets".
+class CornerNormals {
+public:
+    explicit CornerNormals(const ObjFile& obj) : obj_(obj) {
+        normals_.reserve(obj.normalsOS.size());
+        for (const glm::vec3& normalOS : obj.normalsOS) normals_.push_back(unitOr(normalOS, kUp));
+        std::vector<glm::dvec3> sums; // of the normals that follow those of the file
+        for (const Group& group : obj.groups)
+            for (const Triangle& triangle : group.triangles) {
+                // A triangle with all its normals needs none made, and its neighbours in a file have them too.
+                const auto lacksNormal = [](const Corner& corner) { return corner.normal == kNone; };
+                if (triangle.smoothingGroup == 0 || std::ranges::none_of(triangle.corners, lacksNormal)) continue;
+                const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const std::uint64_t key = keyOf(triangle.corners[i].position, triangle.smoothingGroup);
+                    const auto [entry, isNew] = smooth_.try_emplace(key, normals_.size() + sums.size());
+                    if (isNew) sums.emplace_back(0.0);
+                    sums[entry->second - normals_.size()] += normals[i];
+                }
+            }
+        normals_.reserve(normals_.size() + sums.size());
+        for (const glm::dvec3& sum : sums) normals_.push_back(unitOr(sum, kUp));
+    }
+
+    /// The number of a corner's normal: equal numbers are equal normals.
+    std::size_t indexAt(const Triangle& triangle, std::size_t corner) {
+        const Corner& index = triangle.corners[corner];
+        if (index.normal != kNone) return static_cast<std::size_t>(index.normal);
+        if (triangle.smoothingGroup != 0) return smooth_.at(keyOf(index.position, triangle.smoothingGroup));
+        if (flatTriangle_ != &triangle) {
+            const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
+            normals_.push_back(unitOr(normals[0] + normals[1] + normals[2], kUp));
+            flatTriangle_ = &triangle;
+        }
+        return normals_.size() - 1;
+    }
+
+    /// Unit length; +Y where a triangle has no area.
+    const glm::vec3& operator[](std::size_t index) const { return normals_[index]; }
+
+private:
+    static std::uint64_t keyOf(int position, std::uint32_t smoothingGroup) {
+        return static_cast<std::uint64_t>(position) << 32 | smoothingGroup;
+    }
+
+    /// The triangle's unit normal times its angle at each corner; zero without area.
+    std::array<glm::dvec3, 3> weightedNormals(const Triangle& triangle) const {
+        const auto at = [&](std::size_t i) {
+            return obj_.positions[static_cast<std::size_t>(triangle.corners[i % 3].position)];
+        };
+        std::array<glm::dvec3, 3> normals{};
+        const glm::dvec3 areaNormal = glm::cross(at(1) - at(0), at(2) - at(0));
+        const double length = glm::length(areaNormal);
+        for (std::size_t i = 0; i < 3 && length > 0.0; ++i) {
+            const glm::dvec3 toNext = at(i + 1) - at(i), toPrevious = at(i + 2) - at(i);
+            const double angle = std::atan2(glm::length(glm::cross(toNext, toPrevious)), glm::dot(toNext, toPrevious));
+            normals[i] = areaNormal / length * angle;
+        }
+        return normals;
+    }
+
+    const ObjFile& obj_;
+    std::vector<glm::vec3> normals_;                        ///< those of the file first
+    std::unordered_map<std::uint64_t, std::size_t> smooth_; ///< by position and smoothing group
+    const Triangle* flatTriangle_ = nullptr;                ///< that the last normal was made for
+};
+
 /// One mesh as it grows: equal corners share a vertex.
 class MeshBuilder {
 public:
@@ -43,8 +125,18 @@ public:
             const CornerKey key{corner.position, corner.texCoord, normals_.indexAt(triangle, i)};
             const auto [entry, isNew] =
                 vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positionsOS.size()));
-            if (isNew) addVertex(key);
+            if (isNew) addVertex(corner, normals_[key.normal]);
             mesh_.indices.push_back(entry->second);
+        }
+    }
+
+    /// Adds points or segments, whose solids share no vertices. sizeThinSolids() gives them size and normals.
+    void addThin(int mode, const std::vector<Corner>& ends) {
+        std::vector<std::uint32_t> elements(ends.size());
+        std::iota(elements.begin(), elements.end(), 0u);
+        for (const std::uint32_t end : gltf::cornersOfSolids(mode, elements)) {
+            mesh_.indices.push_back(static_cast<std::uint32_t>(mesh_.positionsOS.size()));
+            addVertex(ends[end], kUp);
         }
     }
 
@@ -56,14 +148,14 @@ public:
     }
 
 private:
-    void addVertex(const CornerKey& key) {
-        const auto position = static_cast<std::size_t>(key.position);
-        mesh_.positionsOS.push_back(obj_.positionsOS[position]);
-        mesh_.normalsOS.push_back(normals_[key.normal]);
+    void addVertex(const Corner& corner, const glm::vec3& normalOS) {
+        const auto position = static_cast<std::size_t>(corner.position);
+        mesh_.positionsOS.emplace_back(obj_.positions[position] - obj_.origin);
+        mesh_.normalsOS.push_back(normalOS);
         if (!obj_.colors.empty()) mesh_.colors.emplace_back(obj_.colors[position], 1.0f);
         glm::vec2 uv(0.0f); // of a corner without, beside others that have them
-        if (key.texCoord != kNone) uv = obj_.texCoords[static_cast<std::size_t>(key.texCoord)];
-        (key.texCoord != kNone ? hasTexCoords_ : lacksTexCoords_) = true;
+        if (corner.texCoord != kNone) uv = obj_.texCoords[static_cast<std::size_t>(corner.texCoord)];
+        (corner.texCoord != kNone ? hasTexCoords_ : lacksTexCoords_) = true;
         mesh_.texCoords[0].emplace_back(uv.x, 1.0f - uv.y); // the file's origin is the bottom-left corner
     }
 
@@ -78,82 +170,76 @@ private:
 class ObjImporter {
 public:
     ObjImporter(const std::filesystem::path& file, LoadLedger& ledger)
-        : file_(file), ledger_(ledger), obj_(readObj(file, ledger)), normals_(obj_), materials_(scene_, ledger) {}
+        : file_(file), repairs_(ledger.wishes().isStrict), ledger_(ledger), obj_(readObj(file, ledger, repairs_)),
+          normals_(obj_), materials_(scene_, repairs_, ledger) {}
 
     Scene import() {
         scene_.name = file_.stem().string();
-        scene_.warnings = obj_.warnings;
-        mtl_ = findMaterials(obj_.materials, obj_.libraries, file_, scene_.warnings, ledger_);
+        scene_.warnings = std::move(obj_.warnings);
+        mtl_ = findMaterials(obj_.materials, obj_.libraries, file_, repairs_, ledger_);
         for (const Group& group : obj_.groups) addGroup(group);
-        warnOfLosses();
+        materials_.finish();
+        gltf::sizeThinSolids(scene_, thinModes_);
+        if (lacksSomeTexCoords_)
+            repairs_.note(file_.string(), 0, "they get (0, 0)",
+                          [] { return "corners have no texture coordinates, beside others that have them"; });
+        std::ranges::move(repairs_.warnings(), std::back_inserter(scene_.warnings));
         return std::move(scene_);
     }
 
 private:
-    /// One node, with a mesh per material.
+    /// One node, with a mesh for each kind of element and material.
     void addGroup(const Group& group) {
-        std::vector<std::pair<int, MeshBuilder>> builders; // in the order the materials are first used
-        std::map<int, std::size_t> builderOfMaterial;
-        for (const Triangle& triangle : group.triangles) {
-            const auto [entry, isNew] = builderOfMaterial.try_emplace(triangle.material, builders.size());
-            if (isNew) builders.emplace_back(triangle.material, MeshBuilder(obj_, normals_));
-            builders[entry->second].second.addTriangle(triangle);
-        }
+        using Part = std::pair<int, int>;                   // mode and material
+        std::vector<std::pair<Part, MeshBuilder>> builders; // in the order the materials are first used
+        std::map<Part, std::size_t> builderOfPart;
+        const auto builderOf = [&](const Part& part) -> MeshBuilder& {
+            const auto [entry, isNew] = builderOfPart.try_emplace(part, builders.size());
+            if (isNew) builders.emplace_back(part, MeshBuilder(obj_, normals_));
+            return builders[entry->second].second;
+        };
+        for (const Triangle& triangle : group.triangles)
+            builderOf({gltf::kTriangles, triangle.material}).addTriangle(triangle);
+        for (const auto& [part, ends] : group.thin) builderOf(part).addThin(part.first, ends);
 
         Node node;
         node.name = group.name.empty() ? scene_.name : group.name;
-        for (auto& [number, builder] : builders) {
-            const int material = materialOf(number);
+        node.parentFromNode = glm::translate(glm::dmat4(1.0), obj_.origin);
+        for (auto& [part, builder] : builders) {
+            const bool isThin = part.first != gltf::kTriangles;
+            const int material = materialOf(part.second, isThin);
             lacksSomeTexCoords_ = lacksSomeTexCoords_ || builder.lacksSomeTexCoords();
             Mesh mesh = builder.take();
             mesh.name = builders.size() == 1 ? node.name
                                              : fmt::format("{}, {}", node.name,
                                                            scene_.materials[static_cast<std::size_t>(material)].name);
-            node.instances.push_back({static_cast<int>(scene_.meshes.size()), material});
+            const int index = static_cast<int>(scene_.meshes.size());
+            if (isThin) thinModes_[index] = part.first;
+            node.instances.push_back({index, material});
             scene_.meshes.push_back(std::move(mesh));
         }
         scene_.nodes.push_back(std::move(node));
     }
 
-    /// Materials are converted, and their pictures read, when the first triangle uses them.
-    int materialOf(int number) {
-        const auto [entry, isNew] = materialOfNumber_.try_emplace(number, kNone);
-        if (!isNew) return entry->second;
-        if (number == kNone) return entry->second = materials_.addDefault("default");
-        const MtlMaterial& mtl = mtl_[static_cast<std::size_t>(number)];
-        const bool isDefined = !mtl.file.empty();
-        return entry->second = isDefined ? materials_.add(mtl) : materials_.addDefault(mtl.name);
-    }
-
-    void warnOfLosses() {
-        const auto warn = [&](const std::string& what) {
-            scene_.warnings.push_back(fmt::format("{}: {}", file_.string(), what));
-        };
-        if (normals_.replacedZeroNormals()) warn("normals of zero length are replaced by the faces' own");
-        const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z}); };
-        glm::vec3 least(std::numeric_limits<float>::max()), most(std::numeric_limits<float>::lowest());
-        for (const glm::vec3& position : obj_.positionsOS) {
-            least = glm::min(least, position);
-            most = glm::max(most, position);
-        }
-        const float farthest = largest(glm::max(glm::abs(least), glm::abs(most)));
-        const float step = farthest * std::numeric_limits<float>::epsilon();
-        constexpr float kVisibleShare = 1e-4f; // of the model's size
-        if (step > kVisibleShare * largest(most - least))
-            warn(fmt::format("lies {:.3g} from its origin, where single precision has steps of {:.2g}; move it to the "
-                             "origin before exporting it",
-                             farthest, step));
-        if (lacksSomeTexCoords_) warn("corners without texture coordinates, beside others that have them, get (0, 0)");
+    /// Materials are converted, and their pictures read, when the first element uses them.
+    int materialOf(int number, bool isUnlit) {
+        const MtlMaterial* mtl = number == kNone ? nullptr : &mtl_[static_cast<std::size_t>(number)];
+        const auto [entry, isNew] = materialOfName_.try_emplace({mtl ? mtl->name : "", mtl != nullptr, isUnlit}, kNone);
+        if (isNew) entry->second = materials_.add(mtl, isUnlit);
+        return entry->second;
     }
 
     const std::filesystem::path& file_;
+    Repairs repairs_;
     LoadLedger& ledger_;
     Scene scene_;
     ObjFile obj_;
     CornerNormals normals_;
     MaterialConverter materials_;
-    std::vector<MtlMaterial> mtl_;        ///< in the order of ObjFile::materials
-    std::map<int, int> materialOfNumber_; ///< scene material by number in ObjFile::materials, or kNone
+    std::vector<MtlMaterial> mtl_; ///< in the order of ObjFile::materials
+    /// Scene materials by name, whether there is one, and whether they are unlit.
+    std::map<std::tuple<std::string, bool, bool>, int> materialOfName_;
+    std::map<int, int> thinModes_; ///< the glTF modes of meshes that draw points or lines
     bool lacksSomeTexCoords_ = false;
 };
 

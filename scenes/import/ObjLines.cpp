@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <fmt/format.h>
@@ -21,35 +22,65 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Takes the line at `at` from `text`; ends are LF, CR LF or CR.
+/// Takes the line at `at` from `text`, trimmed; ends are LF, CR LF or CR.
 std::string_view takeLine(std::string_view text, std::size_t& at) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::string_view line = text.substr(at, end - at);
     at = end;
     if (at < text.size()) at += text.substr(at, 2) == "\r\n" ? 2 : 1;
-    return line;
+    return trimmed(line);
 }
 
-std::string_view withoutPlus(std::string_view word) {
-    if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-    return word;
+bool isContinued(std::string_view line) {
+    return line.ends_with('\\') && withoutComment(line).size() == line.size();
+}
+
+/// Without the comment behind numbers, which needs no blank. "1.#IND" is how some compilers write NaN.
+std::string_view withoutCommentOfNumbers(std::string_view text) {
+    for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1))
+        if (at == 0 || text[at - 1] != '.') return text.substr(0, at);
+    return text;
 }
 
 template <typename Value>
 std::optional<Value> parseWhole(std::string_view word) {
-    word = withoutPlus(word);
+    if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
     Value value{};
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
-        if constexpr (std::numeric_limits<Value>::has_infinity) {
-            // Too small for a double is 0; too large has a positive exponent.
-            const std::size_t exponent = word.find_first_of("eE");
-            const bool tiny = exponent != std::string_view::npos && word.substr(exponent + 1, 1) == "-";
-            return tiny ? Value{} : std::numeric_limits<Value>::infinity();
-        }
+    if (end != word.data() + word.size()) return std::nullopt;
+    if constexpr (std::numeric_limits<Value>::has_infinity) {
+        // Too small for a double is 0; too large has a positive exponent.
+        const std::size_t exponent = word.find_first_of("eE");
+        const bool isTiny = exponent != std::string_view::npos && word.substr(exponent + 1, 1) == "-";
+        if (error == std::errc::result_out_of_range) return isTiny ? Value{} : std::numeric_limits<Value>::infinity();
     }
-    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return value;
+    return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+void appendUtf8(std::string& text, std::uint32_t c) {
+    const std::uint32_t size = c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
+    constexpr std::uint32_t kLead[] = {0x00, 0xc0, 0xe0, 0xf0};
+    text.push_back(static_cast<char>(kLead[size - 1] | c >> 6 * (size - 1)));
+    for (std::uint32_t i = size - 1; i-- > 0;) text.push_back(static_cast<char>(0x80 | (c >> 6 * i & 0x3f)));
+}
+
+/// Half of a pair without its other half becomes U+FFFD.
+std::string utf8OfUtf16(std::string_view bytes, bool isBigEndian) {
+    const auto unitAt = [&](std::size_t at) -> std::uint32_t {
+        const auto first = static_cast<unsigned char>(bytes[at]), second = static_cast<unsigned char>(bytes[at + 1]);
+        return isBigEndian ? first << 8u | second : second << 8u | first;
+    };
+    std::string text;
+    text.reserve(bytes.size() / 2 * 3);
+    for (std::size_t at = 0; at + 1 < bytes.size(); at += 2) {
+        std::uint32_t c = unitAt(at);
+        if (c >> 10 == 0x36 && at + 3 < bytes.size() && unitAt(at + 2) >> 10 == 0x37) {
+            c = 0x10000 + ((c & 0x3ff) << 10 | (unitAt(at + 2) & 0x3ff));
+            at += 2;
+        }
+        appendUtf8(text, c >> 11 == 0x1b ? 0xfffd : c);
+    }
+    return text;
 }
 
 } // namespace
@@ -59,35 +90,40 @@ void forEachLine(std::string_view text, const std::function<void(const Line&)>& 
     std::string joined;
     int number = 0;
     for (std::size_t at = 0; at < text.size();) {
-        std::string_view content = trimmed(takeLine(text, at));
+        std::string_view content = takeLine(text, at);
         line.number = ++number;
-        if (content.empty() || content.front() == '#') continue;
-        if (content.back() == '\\' && at < text.size()) {
+        if (isContinued(content) && at < text.size()) {
             joined.clear();
-            while (!content.empty() && content.back() == '\\') {
+            while (isContinued(content) && at < text.size()) {
                 joined.append(content.substr(0, content.size() - 1)).append(" ");
-                if (at >= text.size()) {
-                    content = {};
-                    break;
-                }
-                content = trimmed(takeLine(text, at));
+                content = takeLine(text, at);
                 ++number;
             }
-            joined.append(content);
+            joined.append(content.substr(0, content.size() - (isContinued(content) ? 1 : 0)));
             content = trimmed(joined);
-            if (content.empty()) continue;
         }
+        if (content.empty() || content.front() == '#') continue;
         const std::size_t keywordEnd = std::min(content.find_first_of(kBlank), content.size());
         line.keyword = content.substr(0, keywordEnd);
         line.rest = trimmed(content.substr(keywordEnd));
         line.words.clear();
-        for (std::size_t i = line.rest.find_first_not_of(kBlank); i < line.rest.size();) {
-            const std::size_t end = std::min(line.rest.find_first_of(kBlank, i), line.rest.size());
-            line.words.push_back(line.rest.substr(i, end - i));
-            i = line.rest.find_first_not_of(kBlank, end);
-        }
+        addWords(withoutCommentOfNumbers(line.rest), line.words);
         visit(line);
     }
+}
+
+void addWords(std::string_view text, std::vector<std::string_view>& words) {
+    for (std::size_t i = text.find_first_not_of(kBlank); i < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(kBlank, i), text.size());
+        words.push_back(text.substr(i, end - i));
+        i = text.find_first_not_of(kBlank, end);
+    }
+}
+
+std::string_view withoutComment(std::string_view name) {
+    for (std::size_t at = name.find('#'); at != std::string_view::npos; at = name.find('#', at + 1))
+        if (at == 0 || kBlank.find(name[at - 1]) != std::string_view::npos) return trimmed(name.substr(0, at));
+    return name;
 }
 
 std::optional<double> parseNumber(std::string_view word) {
@@ -98,26 +134,28 @@ std::optional<long long> parseInteger(std::string_view word) {
     return parseWhole<long long>(word);
 }
 
-float finiteNumber(const std::filesystem::path& file, const Line& line, std::string_view word) {
+std::optional<double> finiteNumber(std::string_view keyword, std::string_view word, std::string& flaw) {
     const std::optional<double> number = parseNumber(word);
-    if (!number) failAt(file, line.number, fmt::format("'{}' needs a number, not '{}'", line.keyword, word));
-    if (!std::isfinite(*number) || std::abs(*number) > std::numeric_limits<float>::max())
-        failAt(file, line.number,
-               fmt::format("'{}' is given {}, which is not a finite number in single precision", line.keyword, word));
-    return static_cast<float>(*number);
-}
-
-void failAt(const std::filesystem::path& file, int line, const std::string& what) {
-    throw InputError(fmt::format("{}:{}: {}", file.string(), line, what));
+    if (number && std::isfinite(*number) && std::abs(*number) <= std::numeric_limits<float>::max()) return number;
+    flaw = number ? fmt::format("'{}' is given {}, which is not a finite number in single precision", keyword, word)
+                  : fmt::format("'{}' needs a number, not '{}'", keyword, word);
+    return std::nullopt;
 }
 
 std::string readText(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     ledger.charge(bytes.size(), [&] { return file.string(); }); // once more as text
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const bool hasMark = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    const auto isZero = [&](std::size_t i) { return text[i] == '\0'; };
+    const bool alternates =
+        text.size() > 3 && isZero(0) != isZero(1) && isZero(0) == isZero(2) && isZero(1) == isZero(3);
+    if (hasMark || alternates) {
+        ledger.charge(2 * bytes.size(), [&] { return file.string(); });
+        const bool isBigEndian = isZero(0) || text[0] == '\xfe';
+        text = utf8OfUtf16(std::string_view(text).substr(hasMark ? 2 : 0), isBigEndian);
+    }
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        throw InputError(file.string() + ": the text is UTF-16; save it as UTF-8");
     if (text.empty()) throw InputError(file.string() + ": the file is empty; export the model again");
     return text;
 }

@@ -27,24 +27,28 @@ constexpr std::size_t keptTextBytes(std::string_view text) {
 struct Line {
     int number = 0;                      ///< counted from 1; the first of several joined by a backslash
     std::string_view keyword;            ///< first word
-    std::vector<std::string_view> words; ///< those after it
-    std::string_view rest;               ///< all after the keyword, trimmed: names may hold spaces
+    std::string_view rest;               ///< all after the keyword, trimmed: names may hold spaces and '#'
+    std::vector<std::string_view> words; ///< those of `rest` before a comment
 };
 
-/// Calls `visit` for every statement, without comments and empty lines; a backslash at a line's end continues it.
+/// Calls `visit` for every statement, without comment lines and empty ones; a backslash at a line's end continues it.
 void forEachLine(std::string_view text, const std::function<void(const Line&)>& visit);
+
+/// Appends the words of a text.
+void addWords(std::string_view text, std::vector<std::string_view>& words);
+
+/// A name without the comment that a '#' begins at its start or behind a blank.
+std::string_view withoutComment(std::string_view name);
 
 /// The whole word as a number; "nan" and "inf" are numbers here, so that callers can name them.
 std::optional<double> parseNumber(std::string_view word);
 std::optional<long long> parseInteger(std::string_view word);
 
-/// The number, which must be finite in single precision. Throws InputError naming file and line otherwise.
-float finiteNumber(const std::filesystem::path& file, const Line& line, std::string_view word);
+/// The number, where it is finite in single precision; else the reason in `flaw`.
+std::optional<double> finiteNumber(std::string_view keyword, std::string_view word, std::string& flaw);
 
-/// Throws InputError "file:line: what".
-[[noreturn]] void failAt(const std::filesystem::path& file, int line, const std::string& what);
-
-/// A file's text without a byte order mark. Throws InputError when it is missing, unreadable or empty.
+/// A file's text as UTF-8 or in an encoding with ASCII's characters, without a byte order mark. UTF-16 is converted,
+/// also without its mark. Throws InputError when the file is missing, unreadable or empty.
 std::string readText(const std::filesystem::path& file, LoadLedger& ledger);
 
 } // namespace tessera::scenes::obj

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/Error.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/NamedFile.h"
 #include "scenes/import/PackChannels.h"
 #include "scenes/import/StandIn.h"
 
@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kConstantColour = 0.0f; ///< illum 0
 constexpr float kDiffuseOnly = 1.0f;    ///< illum 1
+constexpr int kMatte = -1;              ///< the channel of opacity: alpha, or red of pictures without it
 
 /// The perceptual roughness whose GGX lobe is about as wide as a Blinn-Phong lobe of this exponent.
 /// Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.4: the Phong
@@ -33,19 +34,46 @@ TextureTransform transformOf(const MtlPicture& picture) {
     return transform;
 }
 
-/// The picture's path, with the separators of other systems where only those lead to a file.
-std::filesystem::path pathOf(const MtlMaterial& mtl, const std::string& name) {
-    const std::filesystem::path folder = std::filesystem::path(mtl.file).parent_path();
-    std::error_code failure;
-    if (std::filesystem::exists(folder / name, failure)) return folder / name;
-    std::string slashed = name;
-    std::ranges::replace(slashed, '\\', '/');
-    return std::filesystem::exists(folder / slashed, failure) ? folder / slashed : folder / name;
+/// Points and lines have no normals to be lit by.
+Material unlitOf(const Material& lit) {
+    Material unlit;
+    unlit.name = lit.name + ", unlit";
+    unlit.model = MaterialModel::SingleColor;
+    const glm::vec3 colour = glm::vec3(lit.baseColor) + lit.emissive;
+    unlit.baseColor = glm::vec4(glm::min(colour, static_cast<float>(kMostColor)), lit.baseColor.w);
+    unlit.texture(TextureSlot::BaseColor) = lit.texture(TextureSlot::BaseColor);
+    unlit.alphaMode = lit.alphaMode;
+    return unlit;
 }
 
 } // namespace
 
-int MaterialConverter::add(const MtlMaterial& mtl) {
+int MaterialConverter::add(const MtlMaterial* mtl, bool isUnlit) {
+    Material material;
+    if (mtl != nullptr && !mtl->file.empty()) {
+        for (const auto& [line, text, repair] : mtl->flaws)
+            repairs_.note(mtl->file, line, repair, [&] { return text; });
+        unsupported_[mtl->file].insert(mtl->unsupported.begin(), mtl->unsupported.end());
+        warnOfNothingShown(*mtl);
+        material = converted(*mtl);
+    } else {
+        material.name = mtl == nullptr ? "default" : mtl->name;
+        material.baseColor = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
+        material.metallic = 0.0f;
+        material.perceptualRoughness = 0.5f;
+    }
+    scene_.materials.push_back(isUnlit ? unlitOf(material) : std::move(material));
+    return static_cast<int>(scene_.materials.size()) - 1;
+}
+
+void MaterialConverter::finish() {
+    for (const auto& [file, what] : unsupported_)
+        if (!what.empty())
+            scene_.warnings.push_back(
+                fmt::format("{}: statements that are not supported are left out: {}", file, fmt::join(what, ", ")));
+}
+
+Material MaterialConverter::converted(const MtlMaterial& mtl) {
     Material material;
     material.name = mtl.name;
     material.metallic = 0.0f;
@@ -56,28 +84,17 @@ int MaterialConverter::add(const MtlMaterial& mtl) {
     setOpacity(mtl, material);
     if (mtl.illumination == kConstantColour) {
         material.model = MaterialModel::SingleColor;
-    } else {
-        setMetallicRoughness(mtl, material);
-        setSpecular(mtl, material);
-        setNormalMap(mtl, material);
-        if (mtl.emissionPicture) {
-            material.emissive = glm::vec3(1.0f);
-            material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture, TextureSlot::Emissive);
-        }
-        if (mtl.emission) material.emissive = *mtl.emission;
+        return material;
     }
-    scene_.materials.push_back(std::move(material));
-    return static_cast<int>(scene_.materials.size()) - 1;
-}
-
-int MaterialConverter::addDefault(const std::string& name) {
-    Material material;
-    material.name = name;
-    material.baseColor = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
-    material.metallic = 0.0f;
-    material.perceptualRoughness = 0.5f;
-    scene_.materials.push_back(std::move(material));
-    return static_cast<int>(scene_.materials.size()) - 1;
+    setMetallicRoughness(mtl, material);
+    setSpecular(mtl, material);
+    setNormalMap(mtl, material);
+    if (mtl.emissionPicture) {
+        material.emissive = glm::vec3(1.0f);
+        material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture, TextureSlot::Emissive);
+    }
+    if (mtl.emission) material.emissive = *mtl.emission;
+    return material;
 }
 
 TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot) {
@@ -105,15 +122,23 @@ TextureUse MaterialConverter::pictureUse(const MtlMaterial& mtl, const MtlPictur
 }
 
 int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) {
-    const std::filesystem::path path = pathOf(mtl, picture.name);
-    const auto [entry, isNew] = imageOfFile_.try_emplace(path.lexically_normal().string(), kNone);
+    const std::filesystem::path folder = std::filesystem::path(mtl.file).parent_path();
+    const auto [entry, isNew] = imageOfFile_.try_emplace((folder / picture.name).string(), kNone);
     if (!isNew) return entry->second;
+    const NamedFile file = fileNamed(folder, picture.name);
+    const auto [same, isFirst] = imageOfFile_.try_emplace(file.path.lexically_normal().string(), kNone);
+    if (!file.isAsNamed)
+        repairs_.note(mtl.file, picture.line, "that one is read", [&] {
+            return fmt::format("'{}' names '{}', which is there as '{}'", picture.keyword, picture.name,
+                               file.path.lexically_relative(folder).string());
+        });
+    if (same != entry && !isFirst) return entry->second = same->second;
     const std::uint64_t mark = ledger_.usedBytes();
     const auto textOf = [&](const InputError& error) {
         return fmt::format("{}: material '{}', {}: {}", mtl.file, mtl.name, picture.keyword, error.what());
     };
     try {
-        scene_.images.push_back(readImage(path, ledger_));
+        scene_.images.push_back(readImage(file.path, ledger_));
     } catch (const MemoryRefused& error) {
         throw MemoryRefused(textOf(error));
     } catch (const InputError& error) {
@@ -122,7 +147,7 @@ int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) 
         scene_.warnings.push_back(textOf(error) + kStandInText);
         return kNone;
     }
-    return entry->second = static_cast<int>(scene_.images.size()) - 1;
+    return entry->second = same->second = static_cast<int>(scene_.images.size()) - 1;
 }
 
 void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
@@ -145,18 +170,8 @@ void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
     } else if (colour.transform != opacity.transform || colour.sampler != opacity.sampler) {
         warn(mtl, "map_d is placed as map_Kd is; its own options are left out");
     }
-    const auto [entry, isNew] = colourAndOpacity_.try_emplace({colour.image, opacity.image}, kNone);
-    if (isNew) {
-        charge(colour.image, opacity.image, mtl);
-        const Image* rgb = colour.image == kNone ? nullptr : &scene_.images[static_cast<std::size_t>(colour.image)];
-        const Image& mask = scene_.images[static_cast<std::size_t>(opacity.image)];
-        const int channel = hasAlpha(mask) ? 3 : 0; // MTL's default is the matte channel; grey pictures hold it in red
-        Image image =
-            packChannels(mask.name + " as opacity", {ChannelSource{rgb, 0}, {rgb, 1}, {rgb, 2}, {&mask, channel}});
-        scene_.images.push_back(std::move(image));
-        entry->second = static_cast<int>(scene_.images.size()) - 1;
-    }
-    colour.image = entry->second;
+    colour.image = packed(mtl, scene_.images[static_cast<std::size_t>(opacity.image)].name + " as opacity",
+                          {{{colour.image, 0}, {colour.image, 1}, {colour.image, 2}, {opacity.image, kMatte}}});
 }
 
 void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& material) {
@@ -182,21 +197,9 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
         (roughness.transform != metalness.transform || roughness.sampler != metalness.sampler))
         warn(mtl, "map_Pm is placed as map_Pr is; its own options are left out");
     // One picture for both is packed as in glTF, green and blue; two are packed here.
-    if (roughness.image != metalness.image) {
-        const auto [entry, isNew] = roughnessAndMetalness_.try_emplace({roughness.image, metalness.image}, kNone);
-        if (isNew) {
-            charge(roughness.image, metalness.image, mtl);
-            const auto source = [&](int image) {
-                return ChannelSource{image == kNone ? nullptr : &scene_.images[static_cast<std::size_t>(image)], 0};
-            };
-            Image image =
-                packChannels(mtl.name + " roughness and metalness",
-                             {ChannelSource{}, source(roughness.image), source(metalness.image), ChannelSource{}});
-            scene_.images.push_back(std::move(image));
-            entry->second = static_cast<int>(scene_.images.size()) - 1;
-        }
-        use.image = entry->second;
-    }
+    if (roughness.image != metalness.image)
+        use.image = packed(mtl, mtl.name + " roughness and metalness",
+                           {{{kNone, 0}, {roughness.image, 0}, {metalness.image, 0}, {kNone, 0}}});
     material.texture(TextureSlot::MetallicRoughness) = use;
 }
 
@@ -206,7 +209,7 @@ void MaterialConverter::setSpecular(const MtlMaterial& mtl, Material& material) 
         material.specularFactor = 0.0f;
         return;
     }
-    if (mtl.specular) material.specularColor = glm::min(*mtl.specular, glm::vec3(1.0f));
+    if (mtl.specular) material.specularColor = *mtl.specular;
     if (mtl.specularPicture)
         material.texture(TextureSlot::SpecularColor) =
             textureUse(mtl, *mtl.specularPicture, TextureSlot::SpecularColor);
@@ -223,12 +226,17 @@ void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material)
     material.normalScale = picture->bumpMultiplier;
 }
 
-/// For a picture packed of two: as wide and as high as the larger, in at most the wider format.
-void MaterialConverter::charge(int image, int other, const MtlMaterial& mtl) {
+/// As wide and as high as the largest source, in at most the widest format.
+int MaterialConverter::packed(const MtlMaterial& mtl, const std::string& name, const Channels& channels) {
+    const auto [entry, isNew] = packed_.try_emplace(channels, kNone);
+    if (!isNew) return entry->second;
+    std::array<ChannelSource, 4> sources;
     std::uint64_t width = 0, height = 0, bytes = 0;
-    for (const int one : {image, other}) {
-        if (one == kNone) continue;
-        const Image& part = scene_.images[static_cast<std::size_t>(one)];
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+        if (channels[i].first == kNone) continue;
+        const Image& part = scene_.images[static_cast<std::size_t>(channels[i].first)];
+        const int channel = channels[i].second;
+        sources[i] = {&part, channel == kMatte ? hasAlpha(part) ? 3 : 0 : channel};
         width = std::max(width, static_cast<std::uint64_t>(part.width));
         height = std::max(height, static_cast<std::uint64_t>(part.height));
         bytes = std::max<std::uint64_t>(bytes, texelBytes(part.format));
@@ -236,6 +244,31 @@ void MaterialConverter::charge(int image, int other, const MtlMaterial& mtl) {
     ledger_.charge(width * height * bytes, [&] {
         return fmt::format("{}: material '{}', a picture of {}x{} texels", mtl.file, mtl.name, width, height);
     });
+    scene_.images.push_back(packChannels(name, sources));
+    return entry->second = static_cast<int>(scene_.images.size()) - 1;
+}
+
+/// Files mean other things by these, and nothing else says why nothing is seen.
+void MaterialConverter::warnOfNothingShown(const MtlMaterial& mtl) {
+    constexpr float kRounding = 1e-3f;
+    if (mtl.opacity && mtl.transparency && std::abs(*mtl.opacity + *mtl.transparency - 1.0f) > kRounding)
+        warn(mtl, fmt::format("'d' is {} and 'Tr' is {}, which contradict each other; 'd' counts", *mtl.opacity,
+                              *mtl.transparency));
+    if (mtl.opacity.value_or(1.0f - mtl.transparency.value_or(0.0f)) == 0.0f)
+        warn(mtl, mtl.opacity ? "'d' is 0, which makes it invisible; 1 is opaque"
+                              : "'Tr' is 1, which makes it invisible; if it should be opaque, write 'Tr 0' or 'd 1'");
+    const auto warnOfProduct = [&](const char* keyword, bool isZero, const std::optional<MtlPicture>& picture) {
+        if (isZero && picture)
+            warn(mtl,
+                 fmt::format("'{}' is 0 and is multiplied by the picture of {}, which is not seen; write 1 to see it",
+                             keyword, picture->keyword));
+    };
+    warnOfProduct("Kd", mtl.diffuse == glm::vec3(0.0f), mtl.diffusePicture);
+    if (mtl.illumination == kConstantColour) return;
+    warnOfProduct("Ks", mtl.specular == glm::vec3(0.0f), mtl.specularPicture);
+    warnOfProduct("Ke", mtl.emission == glm::vec3(0.0f), mtl.emissionPicture);
+    warnOfProduct("Pr", mtl.perceptualRoughness == 0.0f, mtl.roughnessPicture);
+    warnOfProduct("Pm", mtl.metalness == 0.0f, mtl.metalnessPicture);
 }
 
 void MaterialConverter::warn(const MtlMaterial& mtl, const std::string& what) {

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,19 +24,21 @@ namespace tessera::scenes::obj {
 ///   ior           Ni where it exceeds 1 (exporters write 1 for "not set"), else 1.5
 ///   emission      Ke x map_Ke
 ///   normals       norm, else map_bump or bump taken for a tangent-space normal map, with a warning
-/// Values above what a parameter allows are clamped to it.
 class MaterialConverter {
 public:
-    MaterialConverter(Scene& scene, LoadLedger& ledger) : scene_(scene), ledger_(ledger) {}
+    MaterialConverter(Scene& scene, Repairs& repairs, LoadLedger& ledger)
+        : scene_(scene), repairs_(repairs), ledger_(ledger) {}
 
-    /// The index of the new material. For a picture that cannot be read a stand-in is drawn, with a warning naming MTL
-    /// file, material and picture; a load that is to be strict throws InputError with the same text.
-    int add(const MtlMaterial& mtl);
+    /// The index of the new material; null or undefined: grey, half rough, not metallic. Unlit, for points and lines:
+    /// base colour plus emission. Notes the material's flaws. For a picture that cannot be read a stand-in is drawn,
+    /// with a warning naming MTL file, material and picture; a strict load throws InputError with the same text.
+    int add(const MtlMaterial* mtl, bool isUnlit);
 
-    /// For faces without a material, or with an undefined one: grey, half rough, not metallic.
-    int addDefault(const std::string& name);
+    /// Warns of the statements of all materials that are not supported.
+    void finish();
 
 private:
+    Material converted(const MtlMaterial& mtl);
     /// Of no image where the picture cannot be read and nothing can stand in for it.
     TextureUse textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot);
     /// The same without regard to what a stand-in can be.
@@ -46,15 +50,18 @@ private:
     void setSpecular(const MtlMaterial& mtl, Material& material);
     void setNormalMap(const MtlMaterial& mtl, Material& material);
     void warn(const MtlMaterial& mtl, const std::string& what);
-
-    void charge(int image, int other, const MtlMaterial& mtl);
+    void warnOfNothingShown(const MtlMaterial& mtl);
+    /// Images, which may be kNone, and their channels.
+    using Channels = std::array<std::pair<int, int>, 4>;
+    int packed(const MtlMaterial& mtl, const std::string& name, const Channels& channels);
 
     Scene& scene_;
+    Repairs& repairs_;
     LoadLedger& ledger_;
-    std::map<std::string, int> imageOfFile_; ///< kNone: it cannot be read
+    std::map<std::string, std::set<std::string>> unsupported_; ///< statements and options by library
+    std::map<std::string, int> imageOfFile_; ///< by folder and name, and by path; kNone: it cannot be read
     int standIn_ = kNone;
-    std::map<std::pair<int, int>, int> colourAndOpacity_;      ///< packed image of two images, either may be kNone
-    std::map<std::pair<int, int>, int> roughnessAndMetalness_; ///< likewise
+    std::map<Channels, int> packed_; ///< images made of others
 };
 
 } // namespace tessera::scenes::obj

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <optional>
+#include <queue>
+#include <utility>
 
 namespace tessera::scenes::obj {
 namespace {
@@ -36,69 +36,143 @@ double areaOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 
 class Clipper {
 public:
-    Clipper(std::span<const glm::dvec3> corners, std::uint64_t& steps)
-        : corners_(corners), flat_(flattened(corners)), left_(corners.size()), steps_(steps) {
-        std::iota(left_.begin(), left_.end(), std::size_t{0});
+    Clipper(std::span<const glm::dvec3> corners, std::uint64_t& steps, std::uint64_t mostSteps)
+        : corners_(corners), flat_(flattened(corners)), links_(corners.size()), steps_(steps), mostSteps_(mostSteps) {
+        const auto size = static_cast<double>(corners.size());
+        side_ = static_cast<std::size_t>(std::sqrt(size));
+        cells_.assign(side_ * side_, kNoCorner);
+        glm::dvec2 most = least_ = flat_[0];
+        for (const glm::dvec2& corner : flat_) {
+            least_ = glm::min(least_, corner);
+            most = glm::max(most, corner);
+        }
+        cellsPerLength_ = static_cast<double>(side_) / glm::max(most - least_, glm::dvec2(1e-300));
+        for (std::size_t at = 0; at < corners.size(); ++at) {
+            links_[at].after = (at + 1) % corners.size();
+            links_[at].before = (at + corners.size() - 1) % corners.size();
+            std::size_t& first = cells_[cellOf(flat_[at])];
+            links_[at].inCell = std::exchange(first, at);
+        }
+        for (std::size_t at = 0; at < corners.size(); ++at) offer(at);
     }
 
     std::vector<std::array<std::size_t, 3>> clip() {
-        while (left_.size() > 3) {
-            const std::optional<std::size_t> ear = bestEar();
-            clipAt(ear.value_or(1)); // around the first corner: a fan
-        }
-        clipAt(1);
+        for (std::size_t left = corners_.size(); left > 3; --left) clipAt(bestEar().value_or(links_[first_].after));
+        clipAt(links_[first_].after);
         return std::move(triangles_);
     }
 
 private:
-    std::size_t before(std::size_t at) const { return left_[(at + left_.size() - 1) % left_.size()]; }
-    std::size_t after(std::size_t at) const { return left_[(at + 1) % left_.size()]; }
+    static constexpr std::size_t kNoCorner = ~std::size_t{0};
+    struct Links {
+        std::size_t before, after;       ///< among the corners that are left
+        std::size_t inCell = kNoCorner;  ///< the next of the same cell
+        std::size_t version = 0;         ///< raised when a neighbour or the corner itself is clipped
+        std::size_t waiting = kNoCorner; ///< the last in waits_ that this corner keeps from being an ear
+    };
+    struct Wait {
+        std::size_t at, version, next;
+    };
+    struct Offer {
+        double cut; ///< squared
+        std::size_t at, version;
+        bool operator>(const Offer& other) const { return std::pair(cut, at) > std::pair(other.cut, other.at); }
+    };
+
+    std::size_t columnOf(double length) const {
+        return static_cast<std::size_t>(std::clamp(length, 0.0, static_cast<double>(side_ - 1)));
+    }
+    std::size_t cellOf(const glm::dvec2& place) const {
+        const glm::dvec2 cell = (place - least_) * cellsPerLength_;
+        return columnOf(cell.y) * side_ + columnOf(cell.x);
+    }
+
+    void offer(std::size_t at) {
+        const glm::dvec3 cut = corners_[links_[at].after] - corners_[links_[at].before];
+        offers_.push({glm::dot(cut, cut), at, ++links_[at].version});
+    }
 
     void clipAt(std::size_t at) {
-        triangles_.push_back({before(at), left_[at], after(at)});
-        left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
+        Links& links = links_[at];
+        triangles_.push_back({links.before, at, links.after});
+        links_[links.before].after = links.after;
+        links_[links.after].before = links.before;
+        ++links.version;
+        if (at == first_) first_ = links.after;
+        if (steps_ > mostSteps_) return; // no ear is looked for any more
+        std::size_t* inCell = &cells_[cellOf(flat_[at])];
+        for (; *inCell != at; ++steps_) inCell = &links_[*inCell].inCell;
+        *inCell = links.inCell;
+        offer(links.before);
+        offer(links.after);
+        for (std::size_t i = links.waiting; i != kNoCorner; ++steps_) {
+            const std::size_t next = std::exchange(waits_[i].next, freeWait_);
+            freeWait_ = i;
+            if (links_[waits_[i].at].version == waits_[i].version) offer(waits_[i].at);
+            i = next;
+        }
     }
 
     std::optional<std::size_t> bestEar() {
-        steps_ += left_.size();
-        std::optional<std::size_t> best;
-        double shortest = std::numeric_limits<double>::infinity();
-        for (std::size_t at = 0; at < left_.size(); ++at) {
-            const glm::dvec3 cut = corners_[after(at)] - corners_[before(at)];
-            const double length = glm::dot(cut, cut);
-            if (length < shortest && isEar(at)) {
-                shortest = length;
-                best = at;
+        while (!offers_.empty() && steps_ <= mostSteps_) {
+            const Offer best = offers_.top();
+            offers_.pop();
+            ++steps_;
+            const Links& links = links_[best.at];
+            if (best.version != links.version) continue;
+            const glm::dvec2 &a = flat_[links.before], &b = flat_[best.at], &c = flat_[links.after];
+            if (!(areaOf(a, b, c) > 0.0)) continue;
+            const std::size_t within = cornerWithin(a, b, c);
+            if (within == kNoCorner) return best.at;
+            if (freeWait_ == kNoCorner) {
+                freeWait_ = waits_.size();
+                waits_.push_back({0, 0, kNoCorner});
             }
+            Wait& wait = waits_[freeWait_];
+            const std::size_t nextFree = wait.next;
+            wait = {best.at, best.version, std::exchange(links_[within].waiting, freeWait_)};
+            freeWait_ = nextFree;
         }
-        return best;
+        return std::nullopt;
     }
 
-    bool isEar(std::size_t at) {
-        const glm::dvec2& a = flat_[before(at)];
-        const glm::dvec2& b = flat_[left_[at]];
-        const glm::dvec2& c = flat_[after(at)];
-        if (!(areaOf(a, b, c) > 0.0)) return false;
-        return std::ranges::none_of(left_, [&](std::size_t other) {
-            ++steps_;
-            const glm::dvec2& p = flat_[other];
-            if (p == a || p == b || p == c) return false; // a corner itself, or one where a hole's bridge returns
-            return areaOf(a, b, p) >= 0.0 && areaOf(b, c, p) >= 0.0 && areaOf(c, a, p) >= 0.0;
-        });
+    /// A corner in the triangle or on its edge.
+    std::size_t cornerWithin(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+        const glm::dvec2 least = (glm::min(a, glm::min(b, c)) - least_) * cellsPerLength_;
+        const glm::dvec2 most = (glm::max(a, glm::max(b, c)) - least_) * cellsPerLength_;
+        for (std::size_t y = columnOf(least.y); y <= columnOf(most.y); ++y)
+            for (std::size_t x = columnOf(least.x); x <= columnOf(most.x); ++x, ++steps_)
+                for (std::size_t at = cells_[y * side_ + x]; at != kNoCorner; at = links_[at].inCell, ++steps_) {
+                    const glm::dvec2& p = flat_[at];
+                    // A corner itself, or one where a hole's bridge returns.
+                    if (p == a || p == b || p == c) continue;
+                    if (areaOf(a, b, p) >= 0.0 && areaOf(b, c, p) >= 0.0 && areaOf(c, a, p) >= 0.0) return at;
+                }
+        return kNoCorner;
     }
 
     std::span<const glm::dvec3> corners_;
     std::vector<glm::dvec2> flat_;
-    std::vector<std::size_t> left_; ///< corners not yet cut off
+    std::vector<Links> links_;
+    std::vector<std::size_t> cells_; ///< the first corner of each cell of a grid over the polygon
+    std::size_t side_ = 1;           ///< in cells
+    glm::dvec2 least_{0.0}, cellsPerLength_{1.0};
+    std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers_; ///< those of old versions do not count
+    std::vector<Wait> waits_;
+    std::size_t freeWait_ = kNoCorner; ///< the first of those in use no more
+    std::size_t first_ = 0;            ///< of the corners that are left
     std::uint64_t& steps_;
+    std::uint64_t mostSteps_;
     std::vector<std::array<std::size_t, 3>> triangles_;
 };
 
 } // namespace
 
-std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners, std::uint64_t& steps) {
+std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners, std::uint64_t& steps,
+                                                   std::uint64_t mostSteps) {
     assert(corners.size() >= 3);
-    return Clipper(corners, steps).clip();
+    if (corners.size() == 3) return {{0, 1, 2}};
+    return Clipper(corners, steps, mostSteps).clip();
 }
 
 } // namespace tessera::scenes::obj

@@ -9,20 +9,36 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/MtlLibrary.h"
+#include "scenes/import/ObjColours.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjPolygon.h"
 
 namespace tessera::scenes::obj {
 namespace {
 
+using gltf::kLines;
+using gltf::kPoints;
+
 /// Statements that change nothing in a triangle mesh: levels of detail, interpolation switches, ray tracing helpers.
 constexpr std::array<std::string_view, 8> kWithoutEffect = {"lod", "bevel",      "c_interp",  "d_interp",
                                                             "mg",  "shadow_obj", "trace_obj", "vw"};
 
-/// What a face's corner refers to, in the order it is written: i, i/j, i//k or i/j/k.
-constexpr std::array<std::string_view, 3> kAttributes = {"position", "texture coordinate", "normal"};
-constexpr std::array<std::string_view, 3> kAttributeKeywords = {"v", "vt", "vn"};
+/// The parts of a corner in the order it is written: i, i/j, i//k or i/j/k.
+enum Attribute : std::size_t { kPosition, kTexCoord, kNormal, kAttributeCount };
+struct AttributeInfo {
+    std::string_view keyword, name;
+    std::size_t numbers; ///< that are read
+    std::size_t needed;
+    std::string_view repair; ///< of an element that uses one which cannot be used
+};
+constexpr std::array<AttributeInfo, kAttributeCount> kAttributes{
+    {{"v", "position", 3, 3, "elements that use it are left out"},
+     {"vt", "texture coordinate", 2, 1, "the number is taken as 0"},
+     {"vn", "normal", 3, 3, "faces that use it get their own normals"}}};
+constexpr std::string_view kLeftOut = "the element is left out";
+constexpr std::string_view kWithoutIt = "the corner is drawn without it";
 
 // Bytes that are charged for what the text makes, up to the scene.
 /// Any corner may get a vertex of its own (position, normal, texture coordinate, colour, index), found by three
@@ -32,10 +48,13 @@ constexpr std::size_t kVertexBytes =
 constexpr std::size_t kCornerBytes = kRoom * kVertexBytes + sizeof(glm::vec4) + kNodeBytes<std::array<std::size_t, 3>> +
                                      sizeof(glm::vec3) + kNodeBytes<std::array<std::size_t, 2>>;
 constexpr std::size_t kTriangleBytes = kGrown * sizeof(Triangle) + 3 * kCornerBytes;
+/// A point or a segment becomes a solid.
+constexpr std::size_t kThinBytes =
+    kGrown * 2 * sizeof(Corner) + gltf::kCornersOfSolid * (kRoom * kVertexBytes + sizeof(glm::vec4));
 /// A position may have a colour; a normal is brought to unit length in a list of its own.
-constexpr std::size_t kAttributeBytes = kGrown * 2 * sizeof(glm::vec3);
-/// A name that usemtl gives becomes a material of the libraries, or a warning, and one of the scene.
-constexpr std::size_t kMaterialBytes = kGrown * (sizeof(MtlMaterial) + sizeof(Material) + 4 * sizeof(std::string));
+constexpr std::size_t kAttributeBytes = kGrown * (sizeof(glm::dvec3) + sizeof(glm::vec3));
+/// A name that usemtl gives becomes a material of the libraries, or a warning, and one or two of the scene.
+constexpr std::size_t kMaterialBytes = kGrown * (sizeof(MtlMaterial) + 2 * sizeof(Material) + 4 * sizeof(std::string));
 /// A material of a group becomes a mesh, the group a node. Where a group has many, their builders are in the place of
 /// groups and nodes.
 constexpr std::size_t kMeshBytes = kGrown * (sizeof(Group) + sizeof(Mesh) + sizeof(Node) + sizeof(MeshInstance));
@@ -43,68 +62,99 @@ constexpr std::size_t kMeshBytes = kGrown * (sizeof(Group) + sizeof(Mesh) + size
 /// Corners that are looked at to cut all polygons of a file: a second or so.
 constexpr std::uint64_t kMostSteps = 500'000'000;
 /// Beside them, each corner of the file is granted so many: quads take fewer.
-constexpr std::uint64_t kStepsACorner = 16;
+constexpr std::uint64_t kStepsACorner = 64;
 
 class ObjReader {
 public:
-    ObjReader(const std::filesystem::path& file, LoadLedger& ledger) : file_(file), ledger_(ledger) {}
+    ObjReader(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs)
+        : file_(file.string()), ledger_(ledger), repairs_(repairs) {}
 
     ObjFile read() {
         const std::string text = readText(file_, ledger_);
         // A face may stand before its vertices.
         forEachLine(text, [&](const Line& line) { readAttribute(line); });
-        if (obj_.colors.size() != obj_.positionsOS.size()) obj_.colors.clear();
+        isUsed_.resize(obj_.positions.size());
         forEachLine(text, [&](const Line& line) { readElement(line); });
+        if (!hasElements_) addVertices();
         if (obj_.groups.empty())
-            throw InputError(fmt::format(
-                "{}: has no face of three corners or more ('f' statements); export the model with its polygons",
-                file_.string()));
-        addWarnings();
+            throw InputError(!repairs_.first().empty()
+                                 ? repairs_.first()
+                                 : file_ + ": has nothing to draw ('f', 'l', 'p' or 'v' statements); export the model "
+                                           "with its polygons");
+        obj_.colors = colours_.take(file_, ObjColours::Srgb, isUsed_, repairs_);
+        placeOrigin();
+        if (!unknown_.empty())
+            obj_.warnings.push_back(fmt::format("{}: statements that are not supported are left out: {}", file_,
+                                                fmt::join(unknown_, ", ")));
         return std::move(obj_);
     }
 
 private:
+    struct Flaw {
+        int line;
+        std::string text;
+        bool isNoted = false;
+    };
+
+    static std::optional<Attribute> attributeOf(std::string_view keyword) {
+        const auto found = std::ranges::find(kAttributes, keyword, &AttributeInfo::keyword);
+        if (found == kAttributes.end()) return std::nullopt;
+        return static_cast<Attribute>(found - kAttributes.begin());
+    }
+
     void readAttribute(const Line& line) {
-        if (std::ranges::find(kAttributeKeywords, line.keyword) == kAttributeKeywords.end()) return;
-        const std::size_t needed = line.keyword == "vt" ? 1 : 3;
-        if (line.words.size() < needed)
-            failAt(file_, line.number,
-                   fmt::format("'{}' has {} of the {} numbers it needs", line.keyword, line.words.size(), needed));
+        const std::optional<Attribute> attribute = attributeOf(line.keyword);
+        if (!attribute) return;
+        const AttributeInfo& info = kAttributes[*attribute];
         charge(kAttributeBytes, line);
-        std::array<float, 6> numbers{}; // x y z r g b, or u v
-        for (std::size_t i = 0; i < line.words.size(); ++i) {
-            const float number = finiteNumber(file_, line, line.words[i]);
-            if (i < numbers.size()) numbers[i] = number;
+        std::string flaw;
+        if (line.words.size() < info.needed)
+            flaw = fmt::format("'{}' has {} of the {} numbers it needs", line.keyword, line.words.size(), info.needed);
+        glm::dvec3 numbers(0.0);
+        for (std::size_t i = 0; i < std::min(line.words.size(), info.numbers); ++i)
+            numbers[static_cast<glm::length_t>(i)] = finiteNumber(line.keyword, line.words[i], flaw).value_or(0.0);
+        if (*attribute == kNormal && flaw.empty() && glm::vec3(numbers) == glm::vec3(0.0f))
+            flaw = "the normal has no length";
+        if (!flaw.empty()) {
+            charge(kNodeBytes<std::pair<std::size_t, Flaw>> + kRoom * flaw.size(), line);
+            flaws_[*attribute].emplace(sizeOf(*attribute), Flaw{line.number, std::move(flaw)});
         }
-        if (line.keyword == "vt") {
-            obj_.texCoords.emplace_back(numbers[0], numbers[1]);
-        } else if (line.keyword == "vn") {
-            obj_.normalsOS.emplace_back(numbers[0], numbers[1], numbers[2]);
+        if (*attribute == kTexCoord) {
+            obj_.texCoords.emplace_back(numbers);
+        } else if (*attribute == kNormal) {
+            obj_.normalsOS.emplace_back(numbers);
         } else {
-            obj_.positionsOS.emplace_back(numbers[0], numbers[1], numbers[2]);
-            if (line.words.size() >= numbers.size()) obj_.colors.emplace_back(numbers[3], numbers[4], numbers[5]);
+            colours_.read(line, obj_.positions.size());
+            obj_.positions.push_back(numbers);
         }
+    }
+
+    std::size_t sizeOf(Attribute attribute) const {
+        if (attribute == kPosition) return obj_.positions.size();
+        return attribute == kTexCoord ? obj_.texCoords.size() : obj_.normalsOS.size();
     }
 
     void readElement(const Line& line) {
         const std::string_view keyword = line.keyword;
-        if (const auto found = std::ranges::find(kAttributeKeywords, keyword); found != kAttributeKeywords.end()) {
-            ++read_[static_cast<std::size_t>(found - kAttributeKeywords.begin())];
+        if (const std::optional<Attribute> attribute = attributeOf(keyword)) {
+            ++above_[*attribute];
         } else if (keyword == "f") {
             readFace(line);
+        } else if (keyword == "l" || keyword == "p") {
+            readThin(line, keyword == "l" ? kLines : kPoints);
         } else if (keyword == "g") {
-            beginGroup(fmt::to_string(fmt::join(line.words, " "))); // several names are one
+            std::vector<std::string_view> names; // several are one
+            addWords(withoutComment(line.rest), names);
+            beginGroup(fmt::to_string(fmt::join(names, " ")));
         } else if (keyword == "o") {
-            beginGroup(std::string(line.rest));
+            beginGroup(std::string(withoutComment(line.rest)));
         } else if (keyword == "s") {
             readSmoothing(line);
         } else if (keyword == "usemtl") {
-            useMaterial(line);
+            nextMaterial_ = line.rest;
         } else if (keyword == "mtllib") {
             charge(keptTextBytes(line.rest), line);
             obj_.libraries.emplace_back(line.rest);
-        } else if (keyword == "l" || keyword == "p") {
-            ++linesAndPoints_;
         } else if (std::ranges::find(kWithoutEffect, keyword) == kWithoutEffect.end()) {
             if (unknown_.emplace(keyword).second) charge(keptTextBytes(keyword), line);
         }
@@ -112,141 +162,198 @@ private:
 
     void beginGroup(std::string name) {
         groupName_ = std::move(name);
-        groupMaterials_.clear();
+        groupMeshes_.clear();
     }
 
+    /// Called for elements that are drawn: a material without one is not looked for.
     void useMaterial(const Line& line) {
+        if (!nextMaterial_) return;
         const auto [entry, isNew] =
-            materialOfName_.try_emplace(std::string(line.rest), static_cast<int>(obj_.materials.size()));
+            materialOfName_.try_emplace(*nextMaterial_, static_cast<int>(obj_.materials.size()));
         material_ = entry->second;
-        if (!isNew) return;
-        charge(kMaterialBytes + kGrown * line.rest.size() + file_.native().size(), line);
-        obj_.materials.emplace_back(line.rest);
+        if (isNew) {
+            charge(kMaterialBytes + kGrown * nextMaterial_->size() + file_.size(), line);
+            obj_.materials.push_back(*nextMaterial_);
+        }
+        nextMaterial_.reset();
+    }
+
+    /// The group that an element of a glTF mode is added to; charged for the meshes that its elements become.
+    Group& group(int mode) {
+        if (const bool isFirst = groupMeshes_.empty(); groupMeshes_.insert({mode, material_}).second) {
+            // Group, node and mesh have the group's name, and one of several meshes that of the material too.
+            const std::size_t materialBytes = material_ == kNone ? 0 : obj_.materials[index(material_)].size();
+            ledger_.charge(kMeshBytes + kGrown * groupName_.size() + materialBytes,
+                           [&] { return fmt::format("{}: group '{}'", file_, groupName_); });
+            if (isFirst) obj_.groups.push_back({groupName_, {}, {}});
+        }
+        return obj_.groups.back();
     }
 
     void readFace(const Line& line) {
-        if (line.words.size() < 3) {
-            if (++degenerateFaces_ == 1) firstDegenerateLine_ = line.number;
-            return;
+        if (!readCorners(line, 3)) return;
+        if (badSmoothing_)
+            repairs_.note(file_, badSmoothing_->line, "its faces are flat", [&] { return badSmoothing_->text; });
+        charge((corners_.size() - 2) * kTriangleBytes, line);
+        cornersOfFile_ += corners_.size();
+        facePositions_.clear();
+        for (const Corner& corner : corners_) facePositions_.push_back(obj_.positions[index(corner.position)]);
+        const std::uint64_t mostSteps = kMostSteps + kStepsACorner * cornersOfFile_;
+        const std::vector<std::array<std::size_t, 3>> cut = cutPolygon(facePositions_, steps_, mostSteps);
+        if (steps_ > mostSteps)
+            repairs_.note(file_, line.number, "the rest is cut as if they were convex", [] {
+                return "the faces up to here take too long to cut into triangles; export the model with triangles";
+            });
+        Group& group = this->group(gltf::kTriangles);
+        for (const auto& [a, b, c] : cut)
+            group.triangles.push_back({{corners_[a], corners_[b], corners_[c]}, material_, smoothingGroup_});
+    }
+
+    void readThin(const Line& line, int mode) {
+        if (!readCorners(line, mode == kLines ? 2 : 1)) return;
+        charge(corners_.size() * kThinBytes, line);
+        const std::size_t each = mode == kLines ? 2 : 1;
+        for (std::size_t i = 0; i + each <= corners_.size(); ++i) {
+            const auto at = [&](std::size_t end) { return obj_.positions[index(corners_[end].position)]; };
+            if (mode == kLines && at(i) == at(i + 1)) continue; // draws nothing
+            std::vector<Corner>& thin = group(mode).thin[{mode, material_}];
+            thin.insert(thin.end(), corners_.begin() + std::ptrdiff_t(i), corners_.begin() + std::ptrdiff_t(i + each));
         }
-        constexpr std::size_t kMostCorners = 1024;
-        if (line.words.size() > kMostCorners)
-            failAt(file_, line.number,
-                   fmt::format("the face has {} corners, more than {}; cut it into smaller polygons", line.words.size(),
-                               kMostCorners));
-        corners_ += line.words.size();
-        if (const bool isFirst = groupMaterials_.empty(); groupMaterials_.insert(material_).second) {
-            // Group, node and mesh have the group's name, and one of several meshes that of the material too.
-            const std::size_t materialBytes = material_ == kNone ? 0 : obj_.materials[index(material_)].size();
-            charge(kMeshBytes + kGrown * groupName_.size() + materialBytes, line);
-            if (isFirst) obj_.groups.push_back({groupName_, {}});
+    }
+
+    /// A file of vertices alone is a cloud of points.
+    void addVertices() {
+        for (std::size_t i = 0; i < obj_.positions.size(); ++i) {
+            if (flaws_[kPosition].contains(i)) continue;
+            ledger_.charge(kThinBytes, [&] { return file_ + ": its vertices as points"; });
+            isUsed_[i] = true;
+            group(kPoints).thin[{kPoints, material_}].push_back({static_cast<int>(i), kNone, kNone});
         }
-        charge((line.words.size() - 2) * kTriangleBytes, line);
-        faceCorners_.clear();
-        facePositionsOS_.clear();
-        for (const std::string_view word : line.words) {
-            faceCorners_.push_back(readCorner(line, word));
-            facePositionsOS_.emplace_back(obj_.positionsOS[index(faceCorners_.back().position)]);
-        }
-        const std::vector<std::array<std::size_t, 3>> triangles = cutPolygon(facePositionsOS_, steps_);
-        if (steps_ > kMostSteps + kStepsACorner * corners_)
-            failAt(file_, line.number,
-                   "the faces up to here take too long to cut into triangles; export the model with triangles");
-        for (const auto& [a, b, c] : triangles)
-            obj_.groups.back().triangles.push_back(
-                {{faceCorners_[a], faceCorners_[b], faceCorners_[c]}, material_, smoothingGroup_});
+        if (!obj_.groups.empty())
+            repairs_.note(file_, 0, "its vertices are drawn as points",
+                          [] { return "has no faces, lines or points ('f', 'l' or 'p' statements)"; });
     }
 
     static std::size_t index(int number) { return static_cast<std::size_t>(number); }
 
     void charge(std::uint64_t bytes, const Line& line) const {
-        ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_.string(), line.number); });
+        ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_, line.number); });
     }
 
-    Corner readCorner(const Line& line, std::string_view word) const {
-        std::array<int, 3> indices{kNone, kNone, kNone}; // in the order of kAttributes
-        std::string_view left = word;
-        for (std::size_t i = 0; i < indices.size(); ++i) {
-            const std::size_t slash = std::min(left.find('/'), left.size());
-            const std::string_view part = left.substr(0, slash);
-            if (!part.empty()) indices[i] = indexFromStart(line, part, i);
-            left.remove_prefix(slash);
-            if (left.empty()) break;
-            left.remove_prefix(1);
-            if (i + 1 == indices.size() || word.back() == '/')
-                failAt(file_, line.number,
-                       fmt::format("the face's corner '{}' is not of the form v, v/vt, v//vn or "
-                                   "v/vt/vn",
-                                   word));
+    /// Fills corners_. False where the element cannot be drawn, which is noted.
+    bool readCorners(const Line& line, std::size_t fewest) {
+        hasElements_ = true;
+        corners_.clear();
+        const auto leaveOut = [&](const std::string& flaw) {
+            repairs_.note(file_, line.number, kLeftOut, [&] { return flaw; });
+            return false;
+        };
+        if (line.words.size() < fewest)
+            return leaveOut(
+                fmt::format("'{}' has {} of the {} corners it needs", line.keyword, line.words.size(), fewest));
+        for (const std::string_view word : line.words) {
+            Corner& corner = corners_.emplace_back();
+            int* const members[] = {&corner.position, &corner.texCoord, &corner.normal};
+            std::string_view left = word;
+            for (std::size_t i = 0; i < kAttributeCount; ++i) {
+                const std::string_view part = left.substr(0, left.find('/'));
+                left.remove_prefix(std::min(left.size(), part.size() + 1));
+                std::string flaw;
+                if (!part.empty()) *members[i] = indexFromStart(part, static_cast<Attribute>(i), flaw);
+                if (i == kPosition && part.empty()) flaw = fmt::format("the corner '{}' has no position", word);
+                if (!flaw.empty() && i == kPosition) return leaveOut(flaw);
+                if (!flaw.empty()) repairs_.note(file_, line.number, kWithoutIt, [&] { return flaw; });
+                if (!isUsable(static_cast<Attribute>(i), *members[i])) return false;
+            }
+            if (!left.empty()) return leaveOut(fmt::format("the corner '{}' has more than three parts", word));
         }
-        if (indices[0] == kNone)
-            failAt(file_, line.number, fmt::format("the face's corner '{}' has no position", word));
-        return {indices[0], indices[1], indices[2]};
+        for (const Corner& corner : corners_) isUsed_[index(corner.position)] = true;
+        useMaterial(line);
+        return true;
     }
 
-    int indexFromStart(const Line& line, std::string_view part, std::size_t attribute) const {
+    /// kNone, with the reason in `flaw`, where the index is not of an attribute.
+    int indexFromStart(std::string_view part, Attribute attribute, std::string& flaw) const {
         const std::optional<long long> written = parseInteger(part);
-        if (!written) failAt(file_, line.number, fmt::format("the face's index '{}' is not a whole number", part));
-        if (*written == 0) failAt(file_, line.number, "a face's index is 0; indices count from 1");
-        const std::size_t inFile[] = {obj_.positionsOS.size(), obj_.texCoords.size(), obj_.normalsOS.size()};
-        const long long defined = static_cast<long long>(*written > 0 ? inFile[attribute] : read_[attribute]);
+        if (!written || *written == 0) {
+            flaw = !written ? fmt::format("the index '{}' is not a whole number", part)
+                            : "an index is 0; indices count from 1";
+            return kNone;
+        }
+        const auto defined = static_cast<long long>(*written > 0 ? sizeOf(attribute) : above_[attribute]);
         const long long found = *written > 0 ? *written - 1 : defined + *written;
-        if (found < 0 || found >= defined)
-            failAt(file_, line.number,
-                   fmt::format("the face refers to {} {}, but {} {} defined {}", kAttributes[attribute], *written,
-                               defined, defined == 1 ? "is" : "are", *written > 0 ? "in the file" : "above it"));
-        return static_cast<int>(found);
+        if (found >= 0 && found < defined) return static_cast<int>(found);
+        flaw = fmt::format("the {} {} is used, but {} {} defined {}", kAttributes[attribute].name, *written, defined,
+                           defined == 1 ? "is" : "are", *written > 0 ? "in the file" : "above it");
+        return kNone;
+    }
+
+    /// Notes the flaw of a used attribute, and takes a normal without direction off its corner. False of a position.
+    bool isUsable(Attribute attribute, int& used) {
+        if (used == kNone || flaws_[attribute].empty()) return true;
+        const auto flaw = flaws_[attribute].find(index(used));
+        if (flaw == flaws_[attribute].end()) return true;
+        if (!std::exchange(flaw->second.isNoted, true))
+            repairs_.note(file_, flaw->second.line, kAttributes[attribute].repair, [&] { return flaw->second.text; });
+        if (attribute == kNormal) used = kNone;
+        return attribute != kPosition;
     }
 
     void readSmoothing(const Line& line) {
         const std::string_view word = line.words.empty() ? "off" : line.words.front();
-        smoothingGroup_ = word == "on" ? 1 : 0;
-        if (word == "on" || word == "off") return;
         const std::optional<long long> number = parseInteger(word);
-        if (!number || *number < 0 || *number > 0x7fffffff)
-            failAt(file_, line.number,
-                   fmt::format("the smoothing group '{}' is neither a number from 0 nor on or off", word));
-        smoothingGroup_ = static_cast<std::uint32_t>(*number);
+        const bool isNumber = number && *number >= 0 && *number <= 0xffffffff;
+        smoothingGroup_ = word == "on" ? 1 : isNumber ? static_cast<std::uint32_t>(*number) : 0;
+        badSmoothing_.reset();
+        if (!isNumber && word != "on" && word != "off")
+            badSmoothing_ = {line.number,
+                             fmt::format("the smoothing group '{}' is neither a number from 0 nor on or off", word)};
     }
 
-    void addWarnings() {
-        const auto warn = [&](const std::string& what) {
-            obj_.warnings.push_back(fmt::format("{}: {}", file_.string(), what));
-        };
-        if (degenerateFaces_ > 0)
-            warn(fmt::format("{} face(s) with fewer than three corners are left out, the first at line {}",
-                             degenerateFaces_, firstDegenerateLine_));
-        if (linesAndPoints_ > 0)
-            warn(fmt::format("{} line and point element(s) are left out; only faces are drawn", linesAndPoints_));
-        if (!unknown_.empty())
-            warn(fmt::format("statements that are not supported are left out: {}", fmt::join(unknown_, ", ")));
+    /// Positions far from 0, as of a survey, keep their digits as distances from an origin among them.
+    void placeOrigin() {
+        Box3 box;
+        for (std::size_t i = 0; i < obj_.positions.size(); ++i)
+            if (isUsed_[i]) box.extend(obj_.positions[i]);
+        const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+        const double size = largest(box.max - box.min);
+        constexpr double kFar = 16.0; // sizes of the model: single precision loses 4 of its 24 bits
+        if (size > 0.0 && largest(glm::max(glm::abs(box.min), glm::abs(box.max))) > kFar * size) {
+            const double step = std::exp2(std::floor(std::log2(size))); // so that differences from it are exact
+            obj_.origin = glm::round(0.5 * (box.min + box.max) / step) * step;
+        }
     }
 
-    const std::filesystem::path& file_;
+    const std::string file_;
     LoadLedger& ledger_;
+    Repairs& repairs_;
     ObjFile obj_;
-    std::array<std::size_t, 3> read_{}; ///< attributes above the element being read, in the order of kAttributes
+    VertexColours colours_;
+    std::array<std::unordered_map<std::size_t, Flaw>, kAttributeCount>
+        flaws_;                                        ///< of attributes, noted where one is used
+    std::array<std::size_t, kAttributeCount> above_{}; ///< attributes above the element that is read
+    std::vector<bool> isUsed_;                         ///< by position
     std::unordered_map<std::string, int> materialOfName_;
-    // What the next face belongs to.
+    // Of the next element.
     std::string groupName_;
-    std::set<int> groupMaterials_; ///< that faces of the group have
+    std::set<std::pair<int, int>> groupMeshes_; ///< modes and materials of the group's elements
     int material_ = kNone;
+    std::optional<std::string> nextMaterial_; ///< named since the last element
     std::uint32_t smoothingGroup_ = 0;
-    // One face's, kept for their memory.
-    std::vector<Corner> faceCorners_;
-    std::vector<glm::dvec3> facePositionsOS_;
-    std::size_t corners_ = 0; ///< of all faces
-    std::uint64_t steps_ = 0; ///< of cutting polygons
-    std::size_t degenerateFaces_ = 0;
-    int firstDegenerateLine_ = 0;
-    std::size_t linesAndPoints_ = 0;
+    std::optional<Flaw> badSmoothing_;
+    // One element's, kept for their memory.
+    std::vector<Corner> corners_;
+    std::vector<glm::dvec3> facePositions_;
+    std::uint64_t cornersOfFile_ = 0; ///< of all faces
+    std::uint64_t steps_ = 0;         ///< of cutting polygons
+    bool hasElements_ = false;
     std::set<std::string> unknown_;
 };
 
 } // namespace
 
-ObjFile readObj(const std::filesystem::path& file, LoadLedger& ledger) {
-    return ObjReader(file, ledger).read();
+ObjFile readObj(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs) {
+    return ObjReader(file, ledger, repairs).read();
 }
 
 } // namespace tessera::scenes::obj

@@ -2,16 +2,19 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "scenes/LoadLedger.h"
+#include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::obj {
 
-/// What a corner of a face refers to, counted from 0; kNone is absent.
+/// The attributes of a face's corner, counted from 0; kNone is absent.
 struct Corner {
     int position = kNone;
     int texCoord = kNone;
@@ -28,23 +31,26 @@ struct Triangle {
 struct Group {
     std::string name; ///< may be empty
     std::vector<Triangle> triangles;
+    /// Points, and segments of lines, two corners each, by their glTF mode (kPoints, kLines) and material.
+    std::map<std::pair<int, int>, std::vector<Corner>> thin;
 };
 
-/// What the statements of an OBJ file say.
+/// The elements of an OBJ file that can be drawn, and all that they refer to.
 struct ObjFile {
-    std::vector<glm::vec3> positionsOS;
-    std::vector<glm::vec3> colors;      ///< one a position; empty unless every position has one
+    std::vector<glm::dvec3> positions;  ///< finite where an element uses them; far from 0 where the file is
+    glm::dvec3 origin{0.0};             ///< of the drawn positions, which are near it; 0 where they are near 0
+    std::vector<glm::vec3> colors;      ///< linear, one a position; may be empty
     std::vector<glm::vec2> texCoords;   ///< v points up from the bottom-left corner
-    std::vector<glm::vec3> normalsOS;   ///< of any length
-    std::vector<Group> groups;          ///< those with triangles, of which there is one at least
-    std::vector<std::string> libraries; ///< what mtllib says, as written
-    std::vector<std::string> materials; ///< the names that usemtl gives, each once
+    std::vector<glm::vec3> normalsOS;   ///< of any length but 0 where an element uses them
+    std::vector<Group> groups;          ///< those with elements, of which there is one at least
+    std::vector<std::string> libraries; ///< texts behind mtllib, as written
+    std::vector<std::string> materials; ///< texts behind usemtl, each once
     std::vector<std::string> warnings;
 };
 
-/// Reads an OBJ file and cuts its polygons into triangles. Throws InputError "file:line: ..." for a number that is none
-/// or not finite, a face's index that is out of range, and "file: ..." when there is no face. Charges the ledger for
-/// all that is made of the text, up to the scene.
-ObjFile readObj(const std::filesystem::path& file, LoadLedger& ledger);
+/// Reads an OBJ file and cuts its polygons into triangles. Elements that cannot be drawn are left out, and attributes
+/// that cannot be used are replaced, with a repair. Throws InputError "file:line: ..." where nothing can be drawn.
+/// Charges the ledger for all that is made of the text, up to the scene.
+ObjFile readObj(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs);
 
 } // namespace tessera::scenes::obj

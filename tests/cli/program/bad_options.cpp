@@ -264,7 +264,7 @@ TEST_F(BadOptions, anErrorThatCannotBePrintedKeepsItsExitCode) {
         EXPECT_EQ(result.exitCode, kBadInput) << closed;
     }
     // A closed stream's number never goes to a file, in which messages would end.
-    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n");
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 1 2\nf 1 2 3\n");
     ASSERT_EQ(runShell(std::string(kProgram) + " plan m.obj --json p.json 2>&-", folder_.path()).exitCode, 0);
     EXPECT_EQ(json("p.json").at("scene"), "m");
 }

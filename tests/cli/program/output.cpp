@@ -65,7 +65,7 @@ TEST_F(Output, failedPrintingIsAnError) {
 }
 
 TEST_F(Output, aReaderWhoLeftCostsNoFile) {
-    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n"); // warns of the line
+    folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 1 2\nf 1 2 3\n"); // warns of the curve
     const std::string tessera = kProgram;
     // Neither of the messages, which are a warning here, nor of the output, which then ends the program as others.
     const std::string run = "(sleep 0.3; " + tessera + " plan m.obj ";

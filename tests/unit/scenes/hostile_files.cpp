@@ -370,7 +370,7 @@ TEST(Memory, statementsThatAreLeftOutAreChargedForTheirWarning) {
     const std::filesystem::path obj = folder.write("m.obj", model + unknown);
     EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
     folder.write("m.obj", model);
-    folder.write("m.mtl", unknown);
+    folder.write("m.mtl", "newmtl m\n" + unknown);
     EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.mtl:"));
 }
 

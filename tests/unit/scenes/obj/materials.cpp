@@ -1,28 +1,15 @@
 #include <cmath>
 
-#include "scenes/import/Importers.h"
-#include "tests/support/UnderLedger.h"
-#include "tests/unit/scenes/TempFolder.h"
+#include "tests/unit/scenes/obj/ObjFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
-using test::TempFolder;
+using namespace test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Texels = std::vector<std::array<std::uint8_t, 4>>;
-
-constexpr std::string_view kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-
-/// The scene of one triangle whose material "paint" is the given MTL text.
-Scene painted(const TempFolder& folder, const std::string& mtl) {
-    folder.write("paint.mtl", "newmtl paint\n" + mtl);
-    Scene scene = underLedger(importObj, folder.write("model.obj", "mtllib paint.mtl\n" + std::string(kVertices) +
-                                                                       "usemtl paint\nf 1 2 3\n"));
-    checkScene(scene);
-    return scene;
-}
 
 Texels texelsOf(const Image& image) {
     EXPECT_EQ(image.format, TexelFormat::Rgba8Unorm);
@@ -40,7 +27,7 @@ const Image& imageOf(const Scene& scene, TextureSlot slot) {
 
 TEST(ObjMaterials, facesWithoutAMaterialGetTheDefaultOne) {
     const TempFolder folder;
-    const Scene scene = underLedger(importObj, folder.write("model.obj", std::string(kVertices) + "f 1 2 3\n"));
+    const Scene scene = underLedger(importObj, folder.write("model.obj", std::string(kThreeVertices) + "f 1 2 3\n"));
     ASSERT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(scene.materials[0].name, "default");
     EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
@@ -183,7 +170,7 @@ TEST(ObjMaterials, textureOptionsPlaceThePicture) {
     EXPECT_EQ(use.sampler.wrapV, Wrap::ClampToEdge);
     EXPECT_THAT(scene.warnings, IsEmpty());
     EXPECT_THAT(painted(folder, "map_Kd -mm 0 2 -blendu off colour.tga\n").warnings,
-                ElementsAre(HasSubstr("texture options that are not supported are left out: -blendu, -mm")));
+                ElementsAre(HasSubstr("are left out: the option -blendu, the option -mm")));
 }
 
 TEST(ObjMaterials, textureOptionsMayGiveFewerNumbersAndHoldUntilTheyAreGivenAgain) {
@@ -214,7 +201,7 @@ TEST(ObjMaterials, eachMaterialOfAShapeHasItsOwnMesh) {
     const Scene scene = underLedger(
         importObj,
         folder.write("model.obj",
-                     "mtllib a.mtl b.mtl\n" + std::string(kVertices) +
+                     "mtllib a.mtl b.mtl\n" + std::string(kThreeVertices) +
                          "o box\nusemtl warm red\nf 1 2 3\nusemtl warm blue\nf 1 3 2\nusemtl warm red\nf 1 2 3\n"));
     ASSERT_EQ(scene.nodes.size(), 1u);
     ASSERT_EQ(scene.nodes[0].instances.size(), 2u);
@@ -230,7 +217,7 @@ TEST(ObjMaterials, eachMaterialOfAShapeHasItsOwnMesh) {
 TEST(ObjMaterials, aMissingLibraryWarnsAndKeepsTheMaterialsNames) {
     const TempFolder folder;
     const std::filesystem::path file =
-        folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kVertices) + "usemtl skin\nf 1 2 3\n");
+        folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kThreeVertices) + "usemtl skin\nf 1 2 3\n");
     const Scene scene = underLedger(importObj, file);
     EXPECT_EQ(scene.materials.at(0).name, "skin");
     EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(0.8f, 0.8f, 0.8f, 1.0f));
@@ -257,9 +244,7 @@ TEST(ObjMaterials, aMissingPictureIsACheckerboardOfColoursAndNothingElse) {
     EXPECT_EQ(material.texture(TextureSlot::MetallicRoughness).image, kNone);
     EXPECT_EQ(material.alphaMode, AlphaMode::Blend) << "as without the picture of opacity";
 
-    ImportWishes strict;
-    strict.isStrict = true;
-    EXPECT_EQ(test::inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strict); }), text);
+    EXPECT_EQ(inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strictly()); }), text);
 }
 
 TEST(ObjMaterials, aMissingPictureBesideOneThatIsThereLeavesThatOne) {
@@ -277,26 +262,6 @@ TEST(ObjMaterials, unsupportedStatementsWarn) {
     EXPECT_THAT(painted(folder, "Ka 1 1 1\nKd 1 1 1\ndisp a.png\nfoo 1\nKs spectral x.rfl\n").warnings,
                 ElementsAre((folder.path() / "paint.mtl").string() +
                             ": statements that are not supported are left out: Ks spectral, disp, foo"));
-}
-
-TEST(ObjMaterials, brokenTextIsRefusedWithFileAndLine) {
-    const TempFolder folder;
-    const auto errorOf = [&](const std::string& mtl) {
-        const std::string error = test::inputErrorOf([&] { painted(folder, mtl); });
-        const std::string file = (folder.path() / "paint.mtl").string();
-        EXPECT_TRUE(error.starts_with(file + ":")) << error;
-        return error.substr(std::min(error.size(), file.size() + 1));
-    };
-    EXPECT_EQ(errorOf("Kd 1 red 1\n"), "2: 'Kd' needs a number, not 'red'");
-    EXPECT_EQ(errorOf("Kd 1 1\n"), "2: 'Kd' needs 3 numbers");
-    EXPECT_EQ(errorOf("Kd 1 -1 1\n"), "2: 'Kd' is -1; it must not be negative");
-    EXPECT_EQ(errorOf("\nd 1.5\n"), "3: 'd' is 1.5; it must lie between 0 and 1");
-    EXPECT_EQ(errorOf("Ns nan\n"), "2: 'Ns' is given nan, which is not a finite number in single precision");
-    EXPECT_EQ(errorOf("illum 1.5\n"), "2: 'illum' is 1.5; it must be a whole number");
-    EXPECT_EQ(errorOf("Kd\n"), "2: 'Kd' gives no value");
-    EXPECT_EQ(errorOf("map_Kd -s 1 1 1\n"), "2: 'map_Kd' names no picture");
-    EXPECT_EQ(errorOf("map_Kd -z 1 a.png\n"), "2: 'map_Kd' has the unknown option '-z'");
-    EXPECT_EQ(errorOf("newmtl\n"), "2: 'newmtl' gives no name");
 }
 
 } // namespace

@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/Error.h"
+
+namespace tessera::scenes {
+
+/// Flaws of a model's files that are drawn repaired: one warning for each kind of repair in a file, with its first
+/// place and how many follow. A strict load refuses the first.
+class Repairs {
+public:
+    explicit Repairs(bool isStrict) : isStrict_(isStrict) {}
+
+    /// `flaw` returns the flaw at a line of the file (0: at none), `repair` names what is drawn instead. Throws
+    /// InputError "file:line: flaw" when strict.
+    template <typename Flaw>
+    void note(const std::string& file, int line, std::string_view repair, Flaw&& flaw) {
+        const auto known =
+            std::ranges::find_if(kinds_, [&](const Kind& kind) { return kind.repair == repair && kind.file == file; });
+        if (known != kinds_.end()) {
+            ++known->count;
+            return;
+        }
+        std::string text = fmt::format("{}{}: {}", file, line == 0 ? "" : fmt::format(":{}", line), flaw());
+        if (isStrict_) throw InputError(text);
+        kinds_.push_back({file, std::string(repair), std::move(text)});
+    }
+
+    /// The first flaw, "file:line: flaw"; empty where there is none.
+    std::string first() const { return kinds_.empty() ? std::string() : kinds_.front().text; }
+
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> lines;
+        for (const Kind& kind : kinds_)
+            lines.push_back(fmt::format("{}; {}{}", kind.text, kind.repair,
+                                        kind.count == 1 ? "" : fmt::format(" (and {} more)", kind.count - 1)));
+        return lines;
+    }
+
+private:
+    struct Kind {
+        std::string file, repair, text;
+        std::size_t count = 1;
+    };
+    bool isStrict_;
+    std::vector<Kind> kinds_; ///< few
+};
+
+} // namespace tessera::scenes

@@ -1,0 +1,58 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/import/Importers.h"
+#include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/TempFolder.h"
+
+/// Small OBJ and MTL files, and what becomes of them.
+namespace tessera::scenes::test {
+
+constexpr std::string_view kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr std::string_view kOneTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+inline Scene importText(const TempFolder& folder, std::string_view text, const ImportWishes& wishes = {}) {
+    Scene scene = underLedger(importObj, folder.write("model.obj", text), {}, wishes);
+    checkScene(scene);
+    return scene;
+}
+
+/// The scene of one triangle whose material "paint" is the given MTL text.
+inline Scene painted(const TempFolder& folder, const std::string& mtl, const ImportWishes& wishes = {}) {
+    folder.write("paint.mtl", "newmtl paint\n" + mtl);
+    return importText(folder, "mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
+}
+
+inline ImportWishes strictly() {
+    ImportWishes wishes;
+    wishes.isStrict = true;
+    return wishes;
+}
+
+/// The scene's only warning, without the folder; a strict load refuses it with the part before the last ';'.
+inline std::string onlyWarning(const TempFolder& folder, const Scene& scene) {
+    EXPECT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);
+    if (scene.warnings.empty()) return {};
+    const std::string place = folder.path().string() + "/",
+                      strict =
+                          inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strictly()); });
+    const std::string& warning = scene.warnings.front();
+    EXPECT_EQ(strict, warning.substr(0, warning.rfind("; ")));
+    return warning.substr(warning.starts_with(place) ? place.size() : 0);
+}
+
+inline double areaOf(const Scene& scene) {
+    double area = 0.0;
+    for (const Mesh& mesh : scene.meshes)
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a(mesh.positionsOS[mesh.indices[i]]), b(mesh.positionsOS[mesh.indices[i + 1]]),
+                c(mesh.positionsOS[mesh.indices[i + 2]]);
+            area += 0.5 * glm::length(glm::cross(b - a, c - a));
+        }
+    return area;
+}
+
+} // namespace tessera::scenes::test
