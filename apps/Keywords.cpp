@@ -48,6 +48,10 @@ constexpr std::array kLoadKeywords{
                    [](const KeywordValue& value, FrameOptions& options) {
                        options.import.lightUnits = lightUnitsNamed(value.text);
                    }},
+    LoadKeywordRow{{"obj_colours", KeywordKind::Text, "The encoding of vertex colours of OBJ models: srgb or linear"},
+                   [](const KeywordValue& value, FrameOptions& options) {
+                       options.import.objColours = objColoursNamed(value.text);
+                   }},
     LoadKeywordRow{{"strict", KeywordKind::Switch,
                     "True refuses a model with a flaw that can be repaired, such as a picture that cannot be read"},
                    [](const KeywordValue& value, FrameOptions& options) { options.import.isStrict = value.isOn; }},

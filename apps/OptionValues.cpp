@@ -53,6 +53,9 @@ ValueText environments() {
 ValueText lightUnits() {
     return {.names = namesOfRows(scenes::kLightUnits)};
 }
+ValueText objColours() {
+    return {.names = namesOfRows(scenes::kObjColours)};
+}
 ValueText shells() {
     return {.names = namesOfRows(shellTable())};
 }
@@ -84,6 +87,7 @@ constexpr OwnValues kOwnValues[] = {
     {"", "--context", contexts},
     {"", "--environment", environments},
     {"", "--light-units", lightUnits},
+    {"", "--obj-colours", objColours},
     {"", "SHELL", shells},
 };
 

@@ -120,6 +120,12 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
         ->type_name("NAME")
         ->group("Reading");
     command
+        .add_option_function<std::string>(
+            "--obj-colours", [&options](const std::string& name) { options.import.objColours = objColoursNamed(name); },
+            "The encoding of the vertex colours of OBJ models: srgb or linear [srgb]")
+        ->type_name("NAME")
+        ->group("Reading");
+    command
         .add_flag(
             "--strict", options.import.isStrict,
             "Refuses a model with a flaw that can be repaired, such as a picture that cannot be read; else warns of it")

@@ -100,6 +100,10 @@ scenes::LightUnits lightUnitsNamed(const std::string& name) {
     return rowNamed(scenes::kLightUnits, name, "unit of light").units;
 }
 
+scenes::ObjColours objColoursNamed(const std::string& name) {
+    return rowNamed(scenes::kObjColours, name, "encoding of colours").encoding;
+}
+
 std::string camerasText(const FrameOptions& options, const Request& request) {
     const auto camera = std::size_t(request.settings.camera);
     const std::string others = scenes::otherCamerasText(request.scene, camera);

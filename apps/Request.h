@@ -23,6 +23,7 @@ inline constexpr const char* kReferenceName = "reference";
 std::vector<std::string> contextNames(); ///< that --context takes
 gpu::ContextKind contextKind(const std::string& name);
 scenes::LightUnits lightUnitsNamed(const std::string& name);
+scenes::ObjColours objColoursNamed(const std::string& name);
 
 /// The options of a frame, common to all commands that draw or plan one. Unset ones take the scene's value, else the
 /// default.

@@ -31,6 +31,7 @@ class Keywords(TypedDict, total=False):
     memory_limit: str | int | None
     variant: str | None
     light_units: str | None
+    obj_colours: str | None
     strict: bool | None
     default_camera: bool | None
     eye: _Point | None

@@ -1,17 +1,14 @@
 #pragma once
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "scenes/ImportWishes.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::obj {
-
-/// The encoding of vertex colours.
-enum class ObjColours : std::uint8_t { Srgb, Linear };
 
 /// The colours behind positions (v x y z r g b). Blender, three.js and MeshLab write them in sRGB, other programs in
 /// bytes.

@@ -48,6 +48,9 @@ TEST_F(ObjModels, vertexColoursAreSrgbOrLinear) {
     quad += "f 1 2 3 4\n";
     // Half of an 8-bit step of the G-buffer.
     EXPECT_NEAR(center(shown("", quad)).x, 0.5f, 0.003f);
+    scenes::ImportWishes linear;
+    linear.objColours = scenes::ObjColours::Linear;
+    EXPECT_NEAR(center(shown("", quad, linear)).x, 0.7353606f, 0.003f);
 }
 
 /// Bars of 0.25 m around 10 m, in survey coordinates, where single precision has steps of 0.5 m.

@@ -53,6 +53,8 @@ std::string importText(const scenes::ImportWishes& wishes) {
     if (wishes.variant) text += " --variant " + shellWord(*wishes.variant);
     if (wishes.lightUnits)
         text += fmt::format(" --light-units {}", scenes::kLightUnits[std::size_t(*wishes.lightUnits)].name);
+    if (wishes.objColours != scenes::ObjColours::Srgb)
+        text += fmt::format(" --obj-colours {}", scenes::kObjColours[std::size_t(wishes.objColours)].name);
     if (wishes.isStrict) text += " --strict";
     return text;
 }

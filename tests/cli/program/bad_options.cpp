@@ -33,6 +33,7 @@ TEST_F(BadOptions, unknownNamesAreAnsweredWithTheNearest) {
     expectRefused({"--prune", "maybe"}, {"--prune 'maybe'", "on, off"});
     expectRefused({"--specular", "0"}, {"--specular '0'", "on, off"});
     expectRefused({"--light-units", "lux"}, {"unknown unit of light 'lux'", "valid are lumen, watt"});
+    expectRefused({"--obj-colours", "bytes"}, {"unknown encoding of colours 'bytes'", "valid are srgb, linear"});
     expectRefused({"--background", "0.5"}, {"--background '0.5' is not three finite numbers"});
     expectRefused({"--background", "0,-1,0"}, {"cannot use the background 0,-1,0", "0 or more"});
     expectRefused({"--variant", "red"}, {"room: no model of the scene has variants, so none is called 'red'"});

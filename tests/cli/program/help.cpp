@@ -34,15 +34,14 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
         const std::string text = runGood({command, "--help"});
         expectReadable(text);
         EXPECT_THAT(text, HasSubstr(std::string("Usage: tessera ") + command + " "));
-        for (const char* option : {"--layout NAME",      "--size WxH",         "--samples N",
-                                   "--camera NAME",      "--default-camera",   "--eye X,Y,Z",
-                                   "--fov DEGREES",      "--time SECONDS",     "--lights N",
-                                   "--view NAME",        "--exposure EV",      "--range-tolerance EPS",
-                                   "--tonemap NAME",     "--prune on|off",     "--filter NAME",
-                                   "--solo N",           "--specular on|off",  "--space NAME",
-                                   "--no-default-light", "--background R,G,B", "--quiet",
-                                   "--context KIND",     "--clip NAME",        "--hook NAME=VALUE",
-                                   "--variant NAME",     "--light-units NAME", "--strict"})
+        for (const char* option :
+             {"--layout NAME",     "--size WxH",         "--samples N",        "--camera NAME",
+              "--default-camera",  "--eye X,Y,Z",        "--fov DEGREES",      "--time SECONDS",
+              "--lights N",        "--view NAME",        "--exposure EV",      "--range-tolerance EPS",
+              "--tonemap NAME",    "--prune on|off",     "--filter NAME",      "--solo N",
+              "--specular on|off", "--space NAME",       "--no-default-light", "--background R,G,B",
+              "--quiet",           "--context KIND",     "--clip NAME",        "--hook NAME=VALUE",
+              "--variant NAME",    "--light-units NAME", "--obj-colours NAME", "--strict"})
             EXPECT_THAT(text, HasSubstr(option));
         // The demonstration shows several.
         EXPECT_EQ(text.find("--technique NAME") == std::string::npos, std::string_view(command) == "demo");

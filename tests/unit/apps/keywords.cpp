@@ -44,6 +44,7 @@ const std::map<std::string_view, SaidTwice>& saidTwice() {
         {"memory_limit", {{.text = "4G"}, {"--memory-limit", "4G"}}},
         {"variant", {{.text = "deep red"}, {"--variant", "deep red"}}},
         {"light_units", {{.text = "watt"}, {"--light-units", "watt"}}},
+        {"obj_colours", {{.text = "linear"}, {"--obj-colours", "linear"}}},
         {"strict", {{.isOn = true}, {"--strict"}}},
         {"default_camera", {{.isOn = true}, {"--default-camera"}}},
         {"eye", {{.point = {1.0, 0.1, -3.0}}, {"--eye", "1,0.1,-3"}}},
@@ -116,6 +117,7 @@ TEST(Keywords, aValueThatTheCommandLineRefusesIsRefused) {
         {"eye", {.point = {0.0, kNaN, 0.0}}},
         {"variant", {}},
         {"light_units", {.text = "lux"}},
+        {"obj_colours", {.text = "bytes"}},
         {"hook", {.hooks = {{"", 1}}}},
         {"hook", {.hooks = {{"wind", std::numeric_limits<float>::infinity()}}}}};
     for (const auto& [keyword, value] : kBad) {

@@ -135,6 +135,7 @@ RenderRequest everythingSaid(const std::string& file) {
     request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
     request.import.isStrict = true;
     request.import.lightUnits = scenes::LightUnits::Watt;
+    request.import.objColours = scenes::ObjColours::Linear;
     request.import.variant = "it's red";
     for (const engine::Setting& setting : engine::settingTable())
         setting.value.copy(request, tessera::test::changedIn(setting, tessera::test::sceneOfTwoCameras()));

@@ -25,6 +25,9 @@ TEST(ObjColours, areSrgbUnlessLinearOnesAreAskedFor) {
     EXPECT_EQ(firstColour(scene).z, 0.0f);
     EXPECT_EQ(firstColour(scene).w, 1.0f);
     EXPECT_THAT(scene.warnings, IsEmpty());
+    ImportWishes linear;
+    linear.objColours = ObjColours::Linear;
+    EXPECT_EQ(firstColour(coloured(folder, kHalf, kHalf, kHalf, linear)).x, 0.73535698f);
 }
 
 TEST(ObjColours, inBytesAreDividedBy255) {
