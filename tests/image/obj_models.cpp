@@ -74,9 +74,10 @@ TEST_F(ObjModels, farModelsLookAsNearOnes) {
 }
 
 TEST_F(ObjModels, linesAndPointsAreSeen) {
-    const std::string square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
-    // A line is 1/400 of the model wide, less than a pixel here: a tenth of the pixels along it, or more.
-    EXPECT_GT(litPixels(shown("Kd 1 1 1\n", square + "l 1 2 3 4 1\n")), 20u);
+    // A line is 1/400 of the model wide, less than a tenth of a pixel: slanted ones cross some centres of pixels.
+    std::string fan = "v -1 -1 0\n";
+    for (int i = 0; i < 12; ++i) fan += fmt::format("v {} 1 0\nl 1 {}\n", 0.163 * i - 0.9, i + 2);
+    EXPECT_GT(litPixels(shown("Kd 1 1 1\n", fan)), 20u);
     // A point covers a twentieth of a pixel.
     std::string points;
     for (int i = 0; i < 400; ++i) points += fmt::format("v {} {} 0\n", 0.0971 * (i % 20), 0.1037 * (i / 20));

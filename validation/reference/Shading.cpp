@@ -201,6 +201,10 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
                 found.originRWS = inside.at(leaving->depthMetres);
                 found.direction = leavingDirection(bent, farNormal, ior);
                 found.normal = glm::dot(farNormal, bent) < 0.0 ? farNormal : -farNormal;
+                // A reflected ray goes on inside, in all as far as the body is thick.
+                if (glm::dot(*found.normal, found.direction) > 0.0)
+                    found.wayMetres = std::max(
+                        *found.wayMetres, point.bodyMetres / std::max(std::abs(glm::dot(bent, point.normal)), 1e-3));
             }
         }
         return found;

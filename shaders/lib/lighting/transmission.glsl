@@ -252,6 +252,9 @@ BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float io
         FarSide side = FarSide(viewpointFromDepth(hit.place.xy, hit.place.z).positionLS, dot(normal, bent) < 0.0 ? -normal : normal);
         precise float insideMetres = length(side.positionLS - viewpoint.positionLS);
         vec3 leaving = leavingDirection(bent, side.outwardLS, ior);
+        // A reflected ray goes on inside, in all as far as the body is thick.
+        precise float throughMetres = surface.bodyMetres / max(cosInside, 1e-3);
+        if (dot(leaving, side.outwardLS) < 0.0) insideMetres = max(insideMetres, throughMetres);
         float alpha = spreadThrough(surface, viewpoint, bent, side, leaving, ior, entering);
         return BentRay(side.positionLS, leaving, insideMetres, alpha);
     }
