@@ -209,7 +209,8 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     Start above = onTriangle;
     above.terminatorLift = lift;
     Answer answer = from(above, light, settings);
-    if (!settings.leeway || lift > kLiftLeastPixels * pixelMetres(hit) + 4.0 * casters_->leewayMetres(pointRWS))
+    // Rounding moves the height as far as the point.
+    if (!settings.leeway || lift > kLiftLeastPixels * pixelMetres(hit) + casters_->leewayMetres(pointRWS))
         return answer;
     const Answer exact = from(onTriangle, light, settings);
     answer.isUndecided = answer.isUndecided || std::abs(answer.share - exact.share) > kDecisiveShare;
