@@ -23,12 +23,10 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
     }
     if (bad > 0) {
         const std::string why =
-            scene.hook
-                ? fmt::format("a light is too bright or too near, or a loop of its hook takes more than the {} "
-                              "iterations of a pixel that Mesa's software rasteriser makes; dim or move the light, or "
-                              "shorten the loop",
-                              frame::kMostLoopIterations)
-                : "a light is too bright or too near; dim it or move it away";
+            scene.hook ? fmt::format("a light is too bright or too near, or a loop of its hook takes more than the {} "
+                                     "iterations that a pixel may take; dim or move the light, or shorten the loop",
+                                     frame::kMostHookIterations)
+                       : "a light is too bright or too near; dim it or move it away";
         return fmt::format("{} of its pixels are infinite or no numbers; {}", bad, hasNaN && !cut.empty() ? cut : why);
     }
     if (covered > 0)

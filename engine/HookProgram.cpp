@@ -38,10 +38,8 @@ gpu::Buffer HookRun::runInto(std::uint32_t givenSlot, const gpu::Buffer& given, 
 }
 
 void HookRun::failCut() const {
-    throw InputError(
-        fmt::format("{}: its loops take more than the {} iterations that Mesa's software rasteriser makes; "
-                    "take fewer, or end them by break",
-                    file_, frame::kMostLoopIterations));
+    throw InputError(fmt::format("{}: its loops take more than {} iterations, after which they are ended; take fewer",
+                                 file_, frame::kMostHookIterations));
 }
 
 } // namespace tessera::engine

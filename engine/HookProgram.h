@@ -24,7 +24,7 @@ public:
     HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds, shader::ProgramLibrary& programs);
 
     /// Runs the hook on `count` items and returns a row an item. The slots are those of its storage blocks. Throws
-    /// InputError where the driver ended loops of the hook early.
+    /// InputError where loops of the hook were ended early.
     template <typename Row>
     std::vector<Row> run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
                          std::size_t count) const {

@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "base/HookPrefix.h"
 #include "scenes/HookBounds.h"
+#include "scenes/HookLoops.h"
 #include "scenes/HookTokens.h"
 #include "scenes/HookWords.h"
 
@@ -218,7 +219,9 @@ std::optional<HookFault> hookFault(std::string_view text) {
         return HookFault{1, "it defines neither hookSurface nor hookVertex; write void hookSurface(inout HookedSurface "
                             "surface, HookInputs inputs)"};
     try {
-        requireBounds(expandedTokens(code));
+        const std::vector<HookToken> tokens = expandedTokens(code);
+        requireBounds(tokens);
+        hookLoopGuards(tokens);
     } catch (const HookFault& fault) {
         return fault;
     }
@@ -232,8 +235,12 @@ std::string hookProgramText(const std::string& file, std::string_view text) {
     std::uint32_t line = 1;
     bool isField = false; // behind a dot
     Members members;
-    for (const HookToken& token : expandedTokens(code)) {
+    const std::vector<HookToken> tokens = expandedTokens(code);
+    const auto guards = hookLoopGuards(tokens);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const HookToken& token = tokens[i];
         for (; line < token.line; ++line) written += '\n';
+        if (const auto guard = guards.find(i); guard != guards.end()) written += guard->second;
         const bool isMember = members.isMember(token);
         if (token.isName() && !isField && !isMember && !isHookWord(token.text)) written += kHookPrefix;
         written.append(token.text) += ' ';

@@ -87,7 +87,8 @@ std::optional<HookFault> hookFault(std::string_view text);
 void requireHook(const std::string& file, std::string_view text);
 
 /// Checks the text as requireHook() does and returns it for programs: macros expanded, comments removed, lines kept,
-/// declared names prefixed by kHookPrefix. So a hook reaches only its documented interface.
+/// declared names prefixed by kHookPrefix, loops guarded (HookLoops.h). So a hook reaches only its documented
+/// interface.
 std::string hookProgramText(const std::string& file, std::string_view text);
 
 } // namespace tessera::scenes

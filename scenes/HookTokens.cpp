@@ -72,7 +72,7 @@ std::vector<HookToken> tokensOf(std::string_view line, std::uint32_t number) {
 
 struct Macro {
     bool hasParameters = false;
-    std::vector<std::string_view> parameters;
+    std::unordered_map<std::string_view, std::size_t> parameters; ///< places by name
     std::vector<HookToken> body;
     bool isActive = false; ///< its own tokens are being read
 };
@@ -87,6 +87,10 @@ public:
             const std::size_t end = std::min(code.find('\n', at), code.size());
             const std::vector<HookToken> line = tokensOf(code.substr(at, end - at), ++number);
             at = end + 1;
+            for (std::size_t i = 1; i < line.size(); ++i)
+                if (line[i].is("#"))
+                    throw HookFault{number, "a # stands first in its line, or drivers may find a directive that macros "
+                                            "make; take it out"};
             if (!line.empty() && line[0].is("#"))
                 follow(line);
             else if (isActive())
@@ -185,7 +189,11 @@ private:
                 const bool isComma = rest[at].is(",");
                 if (isComma != (at % 2 == 1) || (!isComma && !rest[at].isName()))
                     throw HookFault{line, "the parameters of a macro are names with commas between; correct them"};
-                if (!isComma) macro.parameters.push_back(rest[at].text);
+                if (!isComma && !macro.parameters.try_emplace(rest[at].text, macro.parameters.size()).second)
+                    throw HookFault{line, "two parameters of this macro have one name; rename one"};
+                if (macro.parameters.size() > kMostMacroParameters)
+                    throw HookFault{line, fmt::format("this macro has more than {} parameters; take some out",
+                                                      kMostMacroParameters)};
             }
             if (at == rest.size()) throw HookFault{line, "the parameters of this macro have no end; write )"};
             ++at;
@@ -268,13 +276,13 @@ private:
         for (std::size_t i = 0; i < arguments.size(); ++i) expand(std::move(arguments[i]), expanded[i], depth + 1);
         std::vector<HookToken> body;
         for (const HookToken& token : macro.body) {
-            const auto parameter = std::ranges::find(macro.parameters, token.text);
+            charge(1, name.line);
+            const auto parameter = macro.parameters.find(token.text);
             if (parameter == macro.parameters.end()) {
-                charge(1, name.line);
                 body.push_back(token);
                 continue;
             }
-            const std::vector<HookToken>& argument = expanded[std::size_t(parameter - macro.parameters.begin())];
+            const std::vector<HookToken>& argument = expanded[parameter->second];
             charge(argument.size(), name.line);
             body.insert(body.end(), argument.begin(), argument.end());
         }
@@ -388,6 +396,15 @@ private:
 
 } // namespace
 } // namespace hooktokens
+
+std::size_t behindBracket(std::span<const HookToken> tokens, std::size_t open) {
+    std::size_t depth = 0;
+    for (std::size_t i = open; i < tokens.size(); ++i) {
+        depth += opens(tokens[i]);
+        if (closes(tokens[i]) && --depth == 0) return i + 1;
+    }
+    return tokens.size();
+}
 
 std::vector<HookToken> expandedTokens(std::string_view code) {
     return hooktokens::Preprocessor().run(code);

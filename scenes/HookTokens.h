@@ -12,6 +12,7 @@ namespace tessera::scenes {
 
 /// Tokens that the text and its macros may make on the way, arguments included.
 inline constexpr std::size_t kMostHookTokens = 1'000'000;
+inline constexpr std::size_t kMostMacroParameters = 255;
 
 struct HookToken {
     enum class Kind : std::uint8_t { Name, Number, Sign };
@@ -24,6 +25,14 @@ struct HookToken {
     bool is(std::string_view other) const { return text == other; }
     bool isName() const { return kind == Kind::Name; }
 };
+inline bool opens(const HookToken& token) {
+    return token.is("(") || token.is("[") || token.is("{");
+}
+inline bool closes(const HookToken& token) {
+    return token.is(")") || token.is("]") || token.is("}");
+}
+/// The place behind the bracket that opens here; the number of tokens where it does not close.
+std::size_t behindBracket(std::span<const HookToken> tokens, std::size_t open);
 
 /// The tokens that a driver would see: without directives, inactive branches and macros. Only the text's own macros are
 /// defined, and __VERSION__. `code` has no comments and no joined lines, and must outlive the result. Throws HookFault

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstddef>
 
-#include "scenes/HookBounds.h"
 #include "scenes/Limits.h"
+#include "shaders/shared/hook.h"
 
 /// How shaders get through all lights although Mesa's software rasterisers end loops early.
 namespace tessera::frame {
@@ -14,7 +14,9 @@ inline constexpr std::size_t kMostLoopIterations = 65535;
 inline constexpr std::size_t kMostLanesTogether = 16;
 /// What loops other than those over lights may make: texture filters, the cells of a tile.
 inline constexpr std::size_t kOtherLoopIterations = 2048;
-static_assert(scenes::kMostHookIterations <= kMostLoopIterations - kOtherLoopIterations);
+/// What loops of a scene's hook make at most.
+inline constexpr std::size_t kMostHookIterations = HOOK_ITERATIONS_MOST;
+static_assert(kMostHookIterations <= kMostLoopIterations - kOtherLoopIterations);
 
 /// Lights that a round of lib/lighting/lighting.glsl's loop visits at most: it spells out that many.
 inline constexpr std::size_t kMostLightsPerRound = 8;

@@ -1,7 +1,6 @@
 // What a scene's hook makes of surfaces at points that are given, for the reference renderer.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
-#include "lib/maths/cut_loop.glsl"
 
 layout(local_size_x = HOOK_GROUP) in;
 
@@ -33,5 +32,5 @@ void main()
     }
     hookSurfaceRows[at].alpha = surface.alpha;
     hookSurfaceRows[at].metallic = surface.metallic;
-    hookSurfaceRows[at].isCut = loopsAreCut(point.instance) ? 1 : 0;
+    hookSurfaceRows[at].isCut = hookIsCut(point.instance) ? 1 : 0;
 }

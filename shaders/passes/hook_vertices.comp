@@ -1,7 +1,6 @@
 // Moves the vertices of a mesh as its scene's hook says. Every pass reads what it writes.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
-#include "lib/maths/cut_loop.glsl"
 
 layout(local_size_x = HOOK_GROUP) in;
 
@@ -26,5 +25,5 @@ void main()
         hookMovedRows[at].positionOS[i] = positionOS[i];
         hookMovedRows[at].normalOS[i] = normalOS[i];
     }
-    hookMovedRows[at].isCut = loopsAreCut(int(at)) ? 1 : 0;
+    hookMovedRows[at].isCut = hookIsCut(int(at)) ? 1 : 0;
 }

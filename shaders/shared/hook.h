@@ -7,6 +7,9 @@
 
 #define HOOK_PARAMETERS_MOST 15
 
+// Iterations of all loops of a hook that an invocation makes; then each of them ends.
+#define HOOK_ITERATIONS_MOST 60000
+
 // Invocations of a group of the compute shaders.
 #define HOOK_GROUP 64
 
@@ -33,7 +36,7 @@ struct HookVertexRow {
 struct HookMovedRow {
     float positionOS[3];
     float normalOS[3]; // of any length
-    int isCut;         // hookVertex() took more iterations than the driver makes
+    int isCut;         // hookVertex() takes more than HOOK_ITERATIONS_MOST, or than the driver makes
 };
 
 // Of passes/hook_surfaces.comp: 60 bytes a point in, 36 out.

@@ -28,7 +28,7 @@ void takeHook(Fragment fragment, inout Surface surface)
     hookSurface(hooked, HookInputs(vec2(fragment.texCoord[0]), fragment.positionOS, fragment.instance));
     surface.albedo = boundHooked(hooked.color, surface.albedo, 0.0, 1.0);
     surface.emission = boundHooked(hooked.emission, surface.emission, 0.0, HOOK_EMISSION_MOST);
-    if (loopsAreCut(fragment.instance)) surface.emission = vec3(CUT_LOOP);
+    if (hookIsCut(fragment.instance)) surface.emission = vec3(CUT_LOOP);
     if (IS_MICROFACET(surface.model) || HAS_METALLIC(surface.model))
         surface.alpha = boundHooked(hooked.alpha, max(surface.alpha, ALPHA_MIN), ALPHA_MIN, 1.0);
     if (HAS_METALLIC(surface.model)) surface.metallic = boundHooked(hooked.metallic, surface.metallic, 0.0, 1.0);

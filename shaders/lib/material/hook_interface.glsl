@@ -1,6 +1,7 @@
 // What a scene's own GLSL is called with (docs/hooks.md). Where a program includes this file, the scene's text stands
 // behind all else, and before it the block `hook` with the time and its parameters.
 #pragma once
+#include "lib/maths/cut_loop.glsl"
 #include "shared/hook.h"
 
 #if HOOKED
@@ -16,6 +17,19 @@ struct HookInputs {
     vec3 positionOS; // as drawn: after skins, morph targets and hookVertex()
     int instance;    // place of the mesh instance in the scene, from 0
 };
+
+// Conditions of a hook's loops end by `&& hookGoesOn()` (scenes/HookLoops.h), so that no loop is endless.
+int hookIterations = 0;
+bool hookGoesOn()
+{
+    ++hookIterations;
+    return hookIterations <= HOOK_ITERATIONS_MOST;
+}
+// Whether loops of the hook were ended. `place` is that of loopsAreCut().
+bool hookIsCut(int place)
+{
+    return hookIterations > HOOK_ITERATIONS_MOST || loopsAreCut(place);
+}
 
 // The scene's, those that it has.
 #if HOOK_SURFACE

@@ -1,6 +1,6 @@
 #include "scenes/Hook.h"
 
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <utility>
 
@@ -129,46 +129,80 @@ TEST(Hook, whatDriversBreakOnIsRefusedAtOnceWithItsLine) {
         {bodied("x = " + repeated(99, "m(") + "x" + repeated(99, ")") + ";", "#define m(a) a\n"), 5,
          "more than 64 calls"},
         {"#if " + repeated(99, "!") + "1\n#endif\n" + bodied(""), 1, "no expression of whole numbers"},
-        {bodied("x = x" + repeated(20'000, " + x") + ";" + fullStop), 4, "more than 4000 operators"},
-        {bodied("x = (x" + repeated(2500, " + x") + ")" + repeated(2500, " * x") + ";"), 4, ""},
+        {bodied("x = x" + repeated(20'000, " + x") + ";" + fullStop), 4, "more than 1000 operators"},
+        {bodied("x = (x" + repeated(400, " + x") + ")" + repeated(400, " * x") + ";"), 4, ""},
+        {bodied("x += 1.0" + repeated(600, ", x += 1.0") + ";"), 4, "more than 1000 operators"},
+        {bodied("return (x" + repeated(1001, ", x") + ");"), 4, "more than 1000 operators"},
+        {bodied("x = max((x += 1.0" + repeated(600, ", x += 1.0") + "), 1.0);"), 4, "more than 1000 operators"},
         {bodied("x = x * (x" + repeated(2500, " + x * (1.0") + repeated(2500, ")") + ");"), 4,
          "brackets stand in each"},
-        {bodied("x = " + repeated(5000, "- ") + "x;"), 4, "more than 4000 operators"},
-        {bodied(repeated(300, "if (x > 0.0) ") + "x = 1.0;"), 4, "more than 256 statements"},
+        {bodied("x = " + repeated(5000, "- ") + "x;"), 4, "more than 1000 operators"},
+        {bodied(repeated(300, "if (x > 0.0) ") + "x = 1.0;"), 1, "more than 200 branches"},
         {bodied(repeated(9000, "x = x * 1.1;\n")), 8334, "more than 50000 words and signs"},
-        {bodied(repeated(600, "if (x > 0.0) return;\n")), 1, "more than 500 branches"},
+        {bodied(repeated(600, "if (x > 0.0) return;\n")), 1, "more than 200 branches"},
+        {bodied(repeated(250, "x = x > 0.5 ? 0.0 : x;\n")), 1, "more than 200 branches"},
+        {bodied("bool b = x > 0.0;\n" + repeated(150, "b = b && x > 1.0 || x < 0.0;\n")), 1, "more than 200 branches"},
+        {bodied(repeated(30, "for (int i = 0; i < int(x); ++i) x += 1.0;\n")), 1, "more than 200 branches"},
+        {bodied("mat4 m;\n" + repeated(200, "m = m * m;\n")), 1, "more than 20000 operations"},
+        {bodied("mat4 m;\n" + repeated(100, "m = inverse(m);\n")), 1, "more than 20000 operations"},
+        {bodied("dmat4 m;\n" + repeated(80, "m *= m;\n")), 1, "more than 20000 operations"},
+        {bodied("S s;\n" + repeated(200, "s.m = s.m * s.m;\n"), "struct S { mat4 m; };\n"), 2, "more than 20000"},
+        {bodied(repeated(500, "x = atan(x, x);\n")), 1, "more than 20000 operations"},
+        {bodied("int n = int(x);\n" + repeated(600, "n = n / 3;\n")), 1, "more than 20000 operations"},
+        {bodied("float a[500], b[500];\n" + repeated(50, "a = b;\n")), 1, "more than 20000 operations"},
+        {bodied("float a[500], b[500];\nx = float(a == b);"), 5, "names a value of more than 16 numbers"},
+        {bodied("float a[500], b[500];\n" + repeated(50, "a[1] = b[2];\n")), 1, ""},
         {bodied("x = f14(x);", "float f0(float x) { return sin(x); }\n" +
                                    chained(1, 14, "float f{0}(float x) {{ return f{1}(x) + f{1}(x + 0.5); }}\n")),
-         12, "more than 50000 words and signs"},
+         10, "more than 20000 operations"},
         {bodied("x = sin(x);", "float cos(float x) { return x; }\nfloat sin(float x) { return " +
-                                   repeated(1500, "cos(x) + ") +
+                                   repeated(300, "cos(x) + ") +
                                    "x; }\nfloat tan(float x) { return sin(x) + sin(x) + sin(x) + sin(x) + sin(x); }\n"),
-         3, "more than 50000"},
+         3, "more than 20000"},
         {"float a(float x);\nfloat b(float x) { return a(x); }\nfloat a(float x) { return b(x); }\n" + bodied(""), 2,
          "GLSL has no recursion"},
-        {bodied("float a[65536];"), 1, "more than 4096 numbers in arrays"},
-        {bodied("float a[64][65];"), 1, "more than 4096 numbers in arrays"},
-        {bodied("float b, a[kSide * kSide + 1];", "const int kSide = 64;\n"), 2, "more than 4096 numbers in arrays"},
-        {bodied("float a[max(1, 65536)];"), 4, "an array's size is a whole number"},
-        {bodied("B b[17];", "struct A { vec4 a[4]; };\nstruct B { A a[4], c[12]; };\n"), 3, "more than 4096 numbers"},
+        {bodied("float a[65536];"), 1, "more than 1024 numbers in arrays"},
+        {bodied("float a[64][65];"), 1, "more than 1024 numbers in arrays"},
+        {bodied("float b, a[kMost];", "const int kLeast = 1, kMost = 0x1001;\n"), 2,
+         "more than 1024 numbers in arrays"},
+        {bodied("float b, a[kMost];", "const int kLeast = 1, kMost = 99;\n"), 2, ""},
+        {bodied("mat4 a[65];"), 1, "more than 1024 numbers in arrays"},
+        {bodied("dvec4 a[129];"), 1, "more than 1024 numbers in arrays"},
+        {bodied(chained(1, 3, "float[400] a{0};")), 1, "more than 1024 numbers in arrays"},
+        {bodied("float a, S[3000];", "struct S { float x; };\n"), 2, "more than 1024 numbers in arrays"},
+        {bodied("x += float[](x" + repeated(700, ", x") + ")[0];\n"), 1, "more than 20000 operations"},
+        {bodied("const float a[800] = float[](1.0" + repeated(799, ", 1.0") + ");\n"), 1, "more than 1024 numbers"},
+        {bodied("const float a[500] = float[500](1.0" + repeated(499, ", 1.0") + ");\n"), 4, ""},
+        {bodied(repeated(3, "x += float[](0.5" + repeated(400, ", 0.5") + ")[0];\n")), 1,
+         "more than 1024 numbers in arrays"},
+        {bodied("f(float[9](x, x, x, x, x, x, x, x, x));", "void f(struct S s) { float a[4000]; }\n"), 1,
+         "more than 1024"},
+        {bodied("float a[max(1, 65536)];"), 4, "an array's size is one whole number"},
+        {bodied("float a[1 + 2000000000 / (65536 * 65536 + 1)];"), 4, "an array's size is one whole number"},
+        {bodied("float a[0xFFFFFFFF + 2];"), 4, "an array's size is one whole number"},
+        {bodied("float a[-1];"), 4, "an array's size is one whole number"},
+        {bodied("float a[4], b[a.length()];"), 4, "an array's size is one whole number"},
+        {bodied("float a[];\na[2000000000] = 1.0;"), 4, "an array's size is one whole number"},
+        {bodied("float a[N];", "const int N = 1;\nfloat g() { const int N = 2000000000; return 1.0; }\n"), 6,
+         "a const int that is declared once"},
+        {bodied("float a[N];", "const int M = 1, N = 2 * M;\n"), 5, "an array's size is one whole number"},
+        {bodied("B b[17];", "struct A { vec4 a[4]; };\nstruct B { A a[4], c[12]; };\n"), 3, "more than 1024 numbers"},
         {bodied("", "struct A0 { float x; };\n" + chained(1, 20, "struct A{0} {{ A{1} a; }};\n")), 17,
          "more than 16 structures"},
-        {bodied("for (int i = 0; i < 100000; ++i) x += 1.0;"), 4, "more than 60000 iterations"},
-        {bodied("for (int i = 0; i < 300; ++i)\nfor (int j = kEnd; j > 0; j -= 2) { x += 1.0; }",
-                "const int kEnd = 402;\n"),
-         6, "more than 60000 iterations"},
-        {bodied("for (int i = 0; i < 300; ++i) x += f(x);",
-                "float f(float x) { for (int i = 0; i != 300; ++i) x *= 1.1; return x; }\n"),
-         2, "more than 60000 iterations"},
-        {bodied("for (int i = 0; i < 100000; ++i) { if (x > 9.0) break; x += 1.0; }"), 4, ""},
-        {bodied("for (int i = 0; i < 60000; ++i) x += 1.0;"), 4, ""},
+        {bodied("while (bool b = x < 1.0) x += 1.0;"), 4, "the condition of a loop declares a variable"},
+        {bodied("for (;\nbool b = x < 1.0;) x += 1.0;"), 5, "the condition of a loop declares a variable"},
+        {bodied("F(" + repeated(199, ",") + ")", "#define F(a0" + chained(1, 299, ", a{0}") + ")\n"), 1,
+         "more than 255 parameters"},
+        {bodied(repeated(20'000, "F()\n"), "#define F(a)" + repeated(20'000, " a") + "\n"), 54, "more than 1000000"},
+        {bodied("H if 0", "#define H #\n"), 1, "a # stands first in its line"},
+        {bodied("E # if 0\nE # endif", "#define E\n"), 5, "a # stands first in its line"},
     };
     for (const auto& tried : cases) {
         SCOPED_TRACE(tried.text.substr(0, 200));
-        const auto began = std::chrono::steady_clock::now();
+        const std::clock_t began = std::clock();
         const std::optional<HookFault> fault = hookFault(tried.text);
-        EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(1));
-        ASSERT_EQ(fault.has_value(), !tried.why.empty()) << (fault ? fault->why : "");
+        EXPECT_LT(std::clock() - began, CLOCKS_PER_SEC);
+        EXPECT_EQ(fault.has_value(), !tried.why.empty()) << (fault ? fault->why : "");
         if (!fault) continue;
         EXPECT_EQ(fault->line, tried.line) << fault->why;
         EXPECT_THAT(fault->why, HasSubstr(tried.why));
@@ -192,6 +226,21 @@ TEST(Hook, programsTakeItWithoutMacrosAndWithNamesOfItsOwn) {
         const std::string text = hookProgramText("a.glsl", bodied(fmt::format("x = {};", reached)));
         EXPECT_THAT(text, HasSubstr("x = ofHook")) << reached;
     }
+}
+
+TEST(Hook, eachLoopHasAGuard) {
+    const auto taken = [](std::string_view body) {
+        const std::string text = hookProgramText("a.glsl", bodied(body));
+        return text.substr(text.find("uv . x ;") + 9);
+    };
+    EXPECT_EQ(taken("while (x < 1.0 || (x > 2.0))\nx += 1.0;"),
+              "\nwhile ( ( ofHookx < 1.0 || ( ofHookx > 2.0 ) ) && hookGoesOn() ) \nofHookx += 1.0 ; } \n");
+    EXPECT_EQ(taken("do x += 1.0; while (true);"), "\ndo ofHookx += 1.0 ; while ( ( true ) && hookGoesOn() ) ; } \n");
+    EXPECT_EQ(taken("for (;;) break;"), "\nfor ( ; hookGoesOn() ; ) break ; } \n");
+    EXPECT_EQ(taken("for (int i = int[](1, 2)[0]; i < 9; ++i) hookGoesOn();"),
+              "\nfor ( int ofHooki = int [ ] ( 1 , 2 ) [ 0 ] ; ( ofHooki < 9 ) && hookGoesOn() ; ++ ofHooki ) "
+              "ofHookhookGoesOn ( ) ; } \n");
+    EXPECT_EQ(taken("while ();\nfor (x;);"), "\nwhile ( ) ; \nfor ( ofHookx ; ) ; } \n") << "the driver refuses it";
 }
 
 TEST(Hook, macrosExpandAsInGlsl) {
