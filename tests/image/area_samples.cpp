@@ -104,12 +104,16 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
     const auto expect = [&](const scenes::Light& light, double factor, const std::string& what,
                             double rounding = 2e-5) {
         SCOPED_TRACE(what);
-        const SampledMean shown = seen(scene, renderer, light);
+        SampledMean shown = seen(scene, renderer, light);
+        // Of far lights few samples of the cosine hit the light, each by a part of `factor`, and each of these hits
+        // adds the same. Their number is a Poisson variable, of which the pixels tell nothing where there is none.
+        constexpr double kSamples = 256.0 * 16.0;
+        shown.standardError = std::max(shown.standardError, pi * factor * std::sqrt(factor / kSamples));
         expectWithinThree(shown, pi * factor, rounding);
         EXPECT_LE(shown.standardError, 0.02 * pi * factor);
     };
     // Parallel, above the middle (B-4, four times).
-    for (const double height : {0.05, 0.5, 50.0}) {
+    for (const double height : {0.05, 0.5, 5.0, 5000.0}) {
         scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0}, 1.0f);
         light.widthMetres = 2.0f;
         light.heightMetres = 1.0f;
