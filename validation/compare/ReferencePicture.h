@@ -28,6 +28,13 @@ struct ReferencePicture {
     /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size.
     Picture nearestTo(const Picture& shown) const;
 
+    /// As in reference::Rendered: below 1 where rough glass transmits so little that the error of the table of lobes is
+    /// a large part of it.
+    std::vector<float> errorWeights;
+
+    /// The picture that differs from `shown` by the error of `truth` times its weight. Tolerances hold for it.
+    Picture weighted(Picture truth, const Picture& shown) const;
+
     std::vector<std::uint8_t> undecidedShadows; ///< as in reference::Rendered
     std::vector<reference::Noise> shadowNoise;  ///< as in reference::Rendered
 

@@ -62,6 +62,12 @@ struct TruthPicture {
         const PairTruth truth = of(shown);
         return radianceFigures(shown, truth.picture, truth.excluded);
     }
+    /// Against the reference errors count by their weights.
+    Verdict verdictOf(const Picture& shown, const Tolerance& tolerance) const {
+        PairTruth truth = of(shown);
+        if (reference) truth.picture = reference->weighted(std::move(truth.picture), shown);
+        return checkTolerance(radianceFigures(shown, truth.picture, truth.excluded), tolerance);
+    }
 };
 
 TruthPicture referenceTruth(engine::Renderer& renderer, const frame::FrameSettings& settings,
@@ -198,7 +204,7 @@ void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl
     const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
     Tolerance tolerance = toleranceOf(renderer, gl, request, asked.technique, settings.layout);
     tolerance.isSigned = showsSigned(request);
-    for (const std::string& missed : checkTolerance(truth.figuresOf(picture), tolerance).missed)
+    for (const std::string& missed : truth.verdictOf(picture, tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
     verdict.ok = verdict.missed.empty();
 }
@@ -225,7 +231,9 @@ void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request
     PairTruth truth = reference.of(picture.picture);
     result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
                                               referenceTolerance(renderer.scene(), settings), truth.excluded));
-    missLostGeometry(result.record.pairs.back().verdict, reference.triangles.lost);
+    ComparePair& pair = result.record.pairs.back();
+    pair.verdict = reference.verdictOf(picture.picture, pair.tolerance);
+    missLostGeometry(pair.verdict, reference.triangles.lost);
     result.record.excludesPixels |= !reference.triangles.excluded.empty();
     std::vector<LostGeometry>& all = result.record.lost;
     for (const LostGeometry& lost : reference.triangles.lost)
@@ -362,6 +370,8 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture, truth.own));
         pair.culling = culling;
+        if (truth.reference && !request.tolerance && !isPacked(packingOf(asked.technique, asked.settings.layout)))
+            pair.verdict = truth.verdictOf(picture.picture, tolerance);
         if (truth.reference && hasTracedShadows(renderer.scene(), asked.settings) &&
             !isPacked(packingOf(asked.technique, asked.settings.layout))) {
             pair.shadows = truth.reference->shadowFigures(picture.picture, own.excluded);
