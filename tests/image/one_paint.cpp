@@ -9,6 +9,7 @@
 #include "tests/support/Random.h"
 #include "tests/support/TestScenes.h"
 #include "validation/figures/ErrorFigures.h"
+#include "validation/figures/Tolerance.h"
 
 namespace tessera {
 namespace {
@@ -72,16 +73,25 @@ TEST_F(OnePaint, aBallIsAsBrightInACoarseLayoutAsInFp32) {
     }
 }
 
-/// Radiance goes at most with 1/alpha^2, in the peak, or with alpha^2, far from it; so half a step of alpha changes it
-/// by a step, relative to alpha. A normal of 15 bits adds what it turns a highlight by, up to 1.5/alpha a radian.
-TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanHalfAStepOff) {
+/// A step of alpha, relative to it, where it is stored in so many bits: equal steps of its fourth root.
+double stepOfAlpha(float alpha, int bits) {
+    return 4.0 * (1.0 - std::pow(1e-3, 0.25)) / ((1 << bits) - 1) / std::pow(double(alpha), 0.25);
+}
+
+scenes::Material polishedBlack(float alpha) {
+    scenes::Material polished;
+    polished.model = scenes::MaterialModel::Microfacet;
+    polished.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    polished.alpha = alpha;
+    polished.ior = 1.5f; // which fields hold exactly
+    return polished;
+}
+
+/// Radiance goes at most with 1/alpha^2, in the peak, or with alpha^2, far from it; so a step of alpha changes it by
+/// two steps, relative to alpha. A normal of 15 bits adds what it turns a highlight by, up to 1.5/alpha a radian.
+TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanAStepOff) {
     for (const float alpha : {0.0300f, 0.0551f, 0.0800f}) {
-        scenes::Material polished;
-        polished.model = scenes::MaterialModel::Microfacet;
-        polished.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
-        polished.alpha = alpha;
-        polished.ior = 1.5f; // which fields hold exactly
-        const scenes::Scene scene = ballOf(polished);
+        const scenes::Scene scene = ballOf(polishedBlack(alpha));
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings;
         settings.sizePixels = {120, 120};
@@ -89,12 +99,38 @@ TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanHalfAStepOff) {
         settings.layout = frame::layoutTable()[1].layout;
         const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
         const validation::RadianceFigures figures = validation::radianceFigures(coarse, exact);
-        const double step = 4.0 * (1.0 - std::pow(1e-3, 0.25)) / 511.0 / std::pow(double(alpha), 0.25);
-        const double turned = 1.5 / double(alpha) * 2.0 / 32767.0;
+        const double step = stepOfAlpha(alpha, 11), turned = 1.5 / double(alpha) * 2.0 / 32767.0;
         fmt::print("alpha {}: max {:.2e}, p99 {:.2e}, a step is {:.2e}, turned {:.2e}\n", alpha, figures.maxRel,
                    figures.p99Rel, step, turned);
-        EXPECT_LE(figures.p99Rel, step + turned); // a few pixels at the terminator are off by their normals
+        EXPECT_LE(figures.p99Rel, 2.0 * step + turned); // a few pixels at the terminator are off by their normals
         EXPECT_GT(figures.p99Rel, 0.0);
+    }
+}
+
+/// A floor whose highlight is not in the picture has the same error of alpha in all of it.
+TEST_F(OnePaint, aHighlightBesideThePictureIsAsBrightInTheMean) {
+    for (const float alpha : {0.0123f, 0.0307f, 0.0551f, 0.0999f}) {
+        scenes::Scene scene = test::quadScene(polishedBlack(alpha));
+        scenes::Light sun;
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = glm::normalize(glm::dvec3(-0.6, -0.1, -1.0));
+        scene.lights = {sun};
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings;
+        settings.sizePixels = {128, 128};
+        const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
+        for (const auto& [place, bits] : {std::pair(1, 11), std::pair(2, 8)}) {
+            const frame::LayoutInfo& layout = frame::layoutTable()[std::size_t(place)];
+            settings.layout = layout.layout;
+            const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
+            const validation::RadianceFigures figures = validation::radianceFigures(coarse, exact);
+            const double step = stepOfAlpha(alpha, bits);
+            fmt::print("alpha {}, {}: bias {:+.1e}, p99 {:.1e}, a step is {:.1e}\n", alpha, layout.name, figures.bias,
+                       figures.p99Rel, step);
+            // alpha^2 has a second derivative, and a dithered value at most a quarter of the square of a step as its
+            // variance. The mean over 16384 pixels adds 1e-4; of slim the normal's 10 bits add 1e-3.
+            EXPECT_LE(std::abs(figures.bias), 0.25 * step * step + (place == 1 ? 1e-4 : 1e-3));
+        }
     }
 }
 
@@ -120,7 +156,7 @@ TEST_F(OnePaint, aStreakOnABallKeepsThePromiseOfEveryCoarseLayout) {
             fmt::print("alphas {} and {}, {}: bias {:.2e}, relMse {:.2e}\n", along, across, layout.name, figures.bias,
                        figures.relMse);
             EXPECT_LE(figures.relMse, layout.promise.relMse);
-            EXPECT_LE(std::abs(figures.bias), layout.promise.bias);
+            EXPECT_LE(std::abs(figures.bias), layout.promise.bias + validation::kBiasNoises * figures.biasNoise);
         }
     }
 }

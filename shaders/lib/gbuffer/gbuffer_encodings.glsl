@@ -54,8 +54,8 @@ vec2 takeOctahedral(ivec4 widths)
     return code;
 }
 
-// Alpha as its fourth root, from that of ALPHA_MIN to 1: a step is 0.3 to 2 % of alpha in 9 bits, and finest where highlights
-// are wide enough to be seen. Square roots are exact enough to be the same everywhere; a logarithm is not.
+// Alpha as its fourth root, from that of ALPHA_MIN to 1: a step is 0.16 to 0.9 % of alpha in 11 bits, and finest where
+// highlights are wide enough to be seen. Their peak goes with 1 / alpha^2, and far from it radiance goes with alpha^2. Square roots are exact enough to be the same everywhere; a logarithm is not.
 const float kLeastRoot = 0.17782794; // the fourth root of ALPHA_MIN
 
 float decodeAlpha(uint code, int width)
@@ -66,11 +66,7 @@ float decodeAlpha(uint code, int width)
     return max(alpha, ALPHA_MIN);
 }
 
-// Below it alpha is rounded to the nearest code. A narrow highlight reflects the same whatever its alpha, so the mean over a
-// surface does not need the mean of alphas; but its peak goes with 1 / alpha^2, and a whole step off shows in every pixel.
-const float kLeastDithered = 0.1;
-
-// From kLeastDithered on the mean over pixels is that of alpha, not of its root.
+// The mean over pixels is that of alpha, not of its root: a highlight that is off the picture has the same error in all of it.
 uint encodeAlpha(float alpha, int width, int field)
 {
     uint steps = largestCode(width);
@@ -78,7 +74,7 @@ uint encodeAlpha(float alpha, int width, int field)
     uint below = min(uint(position), steps - 1u);
     precise float first = decodeAlpha(below, width);
     precise float share = (alpha - first) / (decodeAlpha(below + 1u, width) - first);
-    return below + ditheredUp(share, alpha < kLeastDithered ? DITHER_NOT : field, steps);
+    return below + ditheredUp(share, field, steps);
 }
 
 // Model and masking-shadowing option: the models, then each microfacet model with every option but the first. An
