@@ -114,13 +114,14 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     Rigging rigging(context, materials, sceneNodes);
     Instancing instancing;
     for (const PlacedNode& placed : allPlaced) {
-        const model::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
+        const tiny::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
         Node node;
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
         const bool isDeformed = placed.isDrawn && stored.mesh != kNone && rigging.deformsOf(placed.node) != Deforms();
-        const bool isInstanced = placed.isDrawn && stored.mesh != kNone && stored.instanceAttributes.has_value();
+        const bool isInstanced =
+            placed.isDrawn && stored.mesh != kNone && stored.extensions.contains("EXT_mesh_gpu_instancing");
         if (isInstanced && isDeformed)
             context.warn(fmt::format("{}: its mesh is skinned or has morph targets that are used, so it is drawn once, "
                                      "and its instances are left out",

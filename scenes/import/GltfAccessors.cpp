@@ -10,8 +10,6 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-using model::ComponentType;
-
 /// An accessor without a buffer view is all zeros whatever the file's size, so its count needs a bound of its own.
 constexpr std::size_t kMaxCountWithoutView = std::size_t{1} << 22;
 
@@ -30,27 +28,26 @@ float converted(const std::byte* bytes, bool normalized) {
     return static_cast<float>(std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0));
 }
 
-float toFloat(const std::byte* bytes, ComponentType type, bool normalized) {
+float toFloat(const std::byte* bytes, int type, bool normalized) {
     switch (type) {
-    case ComponentType::Byte:
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
         return converted<std::int8_t>(bytes, normalized);
-    case ComponentType::UnsignedByte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return converted<std::uint8_t>(bytes, normalized);
-    case ComponentType::Short:
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
         return converted<std::int16_t>(bytes, normalized);
-    case ComponentType::UnsignedShort:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
         return converted<std::uint16_t>(bytes, normalized);
-    case ComponentType::UnsignedInt:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
         return converted<std::uint32_t>(bytes, normalized);
-    case ComponentType::Float:
-        break;
+    default:
+        return stored<float>(bytes);
     }
-    return stored<float>(bytes);
 }
 
-std::uint32_t toUnsigned(const std::byte* bytes, ComponentType type) {
-    if (type == ComponentType::UnsignedByte) return stored<std::uint8_t>(bytes);
-    if (type == ComponentType::UnsignedShort) return stored<std::uint16_t>(bytes);
+std::uint32_t toUnsigned(const std::byte* bytes, int type) {
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return stored<std::uint8_t>(bytes);
+    if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return stored<std::uint16_t>(bytes);
     return stored<std::uint32_t>(bytes);
 }
 
@@ -63,13 +60,8 @@ struct Accessors::Source {
     std::size_t componentBytes = 0;
 };
 
-std::size_t bytesOf(ComponentType type) {
-    if (type == ComponentType::Byte || type == ComponentType::UnsignedByte) return 1;
-    return type == ComponentType::Short || type == ComponentType::UnsignedShort ? 2 : 4;
-}
-
-Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count,
-                                    ComponentType type, std::size_t components, std::size_t byteStride) {
+Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, int type,
+                                    std::size_t components, std::size_t byteStride) {
     const std::size_t bytesEach = bytesOf(type);
     const std::size_t elementBytes = bytesEach * components;
     const std::size_t stride = byteStride == 0 ? elementBytes : byteStride;
@@ -78,7 +70,7 @@ Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t by
         document_.fail(place, fmt::format("has elements of {} bytes, but buffer view {} steps only {} bytes",
                                           elementBytes, bufferView, stride));
     const std::span<const std::byte> bytes = buffers_.view(bufferView);
-    // Offset and count are at most 2^53 and the stride at most 256 (GltfModel), so nothing wraps in 64 bits.
+    // Offset and count are at most 2^53 and the stride at most 256 (GltfProperties.h), so nothing wraps in 64 bits.
     const std::size_t end = byteOffset + (count - 1) * stride + elementBytes;
     if (end > bytes.size())
         document_.fail(
@@ -90,9 +82,9 @@ Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t by
 
 template <typename Value, typename Convert>
 std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed, Convert convert) {
-    const model::Accessor& accessor = accessorAt(index);
+    const tiny::Accessor& accessor = accessorAt(index);
     const std::string place = fmt::format("/accessors/{}", index);
-    const auto width = static_cast<std::size_t>(accessor.components);
+    const auto width = static_cast<std::size_t>(componentsOf(accessor));
     std::vector<Value> values;
 
     // Once here, once for the caller's copy.
@@ -125,17 +117,19 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
                                               accessor.count, kMaxCountWithoutView));
         reserve();
     }
-    if (!accessor.sparse) return values;
+    if (!accessor.sparse.isSparse) return values;
 
-    const model::Sparse& sparse = *accessor.sparse;
-    if (sparse.count > accessor.count)
-        document_.fail(place, fmt::format("replaces {} elements, but has only {}", sparse.count, accessor.count));
-    const Source targets =
-        placed(index, sparse.indicesView, sparse.indicesOffset, sparse.count, sparse.indexType, 1, 0);
+    const auto& [sparseCount, isSparse, targetsAt, replacementsAt] = accessor.sparse;
+    const auto count = static_cast<std::size_t>(sparseCount);
+    if (count > accessor.count)
+        document_.fail(place, fmt::format("replaces {} elements, but has only {}", count, accessor.count));
+    const Source targets = placed(index, targetsAt.bufferView, static_cast<std::size_t>(targetsAt.byteOffset), count,
+                                  targetsAt.componentType, 1, 0);
     const Source replacements =
-        placed(index, sparse.valuesView, sparse.valuesOffset, sparse.count, accessor.componentType, width, 0);
-    for (std::size_t i = 0; i < sparse.count; ++i) {
-        const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, sparse.indexType);
+        placed(index, replacementsAt.bufferView, static_cast<std::size_t>(replacementsAt.byteOffset), count,
+               accessor.componentType, width, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, targetsAt.componentType);
         if (target >= accessor.count)
             document_.fail(
                 place, fmt::format("sparse index {} is {}, but there are only {} elements", i, target, accessor.count));
@@ -144,26 +138,27 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
     return values;
 }
 
-const model::Accessor& Accessors::accessorAt(int index) const {
+const tiny::Accessor& Accessors::accessorAt(int index) const {
     return document_.model.accessors[static_cast<std::size_t>(index)];
 }
 
 Elements Accessors::elements(int index, std::span<const std::byte> packed) {
-    const model::Accessor& accessor = accessorAt(index);
-    if (accessor.components == 0)
+    const tiny::Accessor& accessor = accessorAt(index);
+    if (componentsOf(accessor) == 0)
         document_.fail(fmt::format("/accessors/{}", index), "is a matrix, which no vertex attribute is");
-    return {accessor.count, accessor.components, accessor.normalized, accessor.componentType,
-            read<float>(index, packed, [&accessor](const std::byte* bytes, ComponentType type) {
+    return {accessor.count, componentsOf(accessor), accessor.normalized, accessor.componentType,
+            read<float>(index, packed, [&accessor](const std::byte* bytes, int type) {
                 return toFloat(bytes, type, accessor.normalized);
             })};
 }
 
 std::vector<std::uint32_t> Accessors::indices(int index) {
-    const model::Accessor& accessor = accessorAt(index);
-    const ComponentType type = accessor.componentType;
-    const bool isUnsigned = type == ComponentType::UnsignedByte || type == ComponentType::UnsignedShort ||
-                            type == ComponentType::UnsignedInt;
-    if (accessor.components != 1 || !isUnsigned)
+    const tiny::Accessor& accessor = accessorAt(index);
+    const int type = accessor.componentType;
+    const bool isUnsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                            type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                            type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || !isUnsigned)
         document_.fail(fmt::format("/accessors/{}", index),
                        "holds indices, so it must be SCALAR of UNSIGNED_BYTE, UNSIGNED_SHORT or UNSIGNED_INT");
     return read<std::uint32_t>(index, {}, toUnsigned);

@@ -13,12 +13,14 @@ struct Elements {
     std::size_t count = 0;
     int components = 0; ///< 1..4 an element, or the 16 of a matrix, column by column
     bool normalized = false;
-    model::ComponentType componentType{};
+    int componentType = 0; ///< TINYGLTF_COMPONENT_TYPE_...
     std::vector<float> values;
 };
 
 /// Of one component.
-std::size_t bytesOf(model::ComponentType type);
+inline std::size_t bytesOf(int componentType) {
+    return static_cast<std::size_t>(tiny::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
+}
 
 /// Reads accessors of every form: interleaved, tightly packed, normalised, sparse, sparse without a buffer view. Every
 /// range is checked before it is read or memory is reserved for it; throws InputError naming the accessor.
@@ -33,9 +35,9 @@ public:
 
 private:
     struct Source;
-    Source placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, model::ComponentType type,
+    Source placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, int type,
                   std::size_t components, std::size_t byteStride);
-    const model::Accessor& accessorAt(int index) const;
+    const tiny::Accessor& accessorAt(int index) const;
     template <typename Value, typename Convert>
     std::vector<Value> read(int accessor, std::span<const std::byte> packed, Convert convert);
 

@@ -12,6 +12,13 @@
 namespace tessera::scenes::gltf {
 namespace {
 
+struct Meshopt {
+    std::size_t count = 0;
+    std::size_t byteStride = 0;
+    std::string mode;   ///< ATTRIBUTES, TRIANGLES or INDICES
+    std::string filter; ///< NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL
+};
+
 /// The vertex codec's best case is 2 bits for each group of 16 bytes, the index codecs' one byte for a triangle of 12:
 /// no data decodes to more than 64 times its size, plus one block's tail (at most 8 KiB). Larger claims are refused
 /// before memory is reserved for them. Source: EXT_meshopt_compression, appendix A.
@@ -19,7 +26,7 @@ constexpr std::size_t kMaxRatio = 64;
 constexpr std::size_t kBlockBytes = 8192;
 
 /// Throws InputError with the reason when the layout breaks a rule of the extension.
-void checkLayout(const model::Meshopt& layout, std::size_t encodedBytes) {
+void checkLayout(const Meshopt& layout, std::size_t encodedBytes) {
     const bool attributes = layout.mode == "ATTRIBUTES";
     if (attributes && layout.byteStride % 4 != 0)
         throw InputError(fmt::format("mode ATTRIBUTES needs a byteStride divisible by 4, not {}", layout.byteStride));
@@ -39,12 +46,12 @@ void checkLayout(const model::Meshopt& layout, std::size_t encodedBytes) {
 }
 
 /// The bytes that the layout says, as far as `encodedBytes` can hold them.
-std::uint64_t decodedBytes(const model::Meshopt& layout, std::size_t encodedBytes) {
+std::uint64_t decodedBytes(const Meshopt& layout, std::size_t encodedBytes) {
     return std::min<std::uint64_t>(layout.count * layout.byteStride, encodedBytes * kMaxRatio + kBlockBytes);
 }
 
 /// `layout.count` elements of `layout.byteStride` bytes. Throws InputError with the reason when the data is broken.
-std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const model::Meshopt& layout) {
+std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const Meshopt& layout) {
     checkLayout(layout, encoded.size());
     std::vector<std::byte> decoded(layout.count * layout.byteStride);
     const auto* data = reinterpret_cast<const unsigned char*>(encoded.data());
@@ -69,7 +76,7 @@ std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const m
 
 std::span<const std::byte> Buffers::buffer(int index) {
     const std::string place = fmt::format("/buffers/{}", index);
-    const model::Buffer& stored = document_.model.buffers[static_cast<std::size_t>(index)];
+    const BufferSource& stored = document_.buffers[static_cast<std::size_t>(index)];
     std::span<const std::byte> bytes;
     if (stored.uri) {
         auto found = buffers_.find(index);
@@ -101,20 +108,26 @@ std::span<const std::byte> Buffers::buffer(int index) {
     return bytes.first(stored.byteLength);
 }
 
-std::span<const std::byte> Buffers::slice(const model::Slice& slice, const std::string& place) {
-    const std::span<const std::byte> bytes = buffer(slice.buffer);
-    // Both are at most 2^53 (GltfModel), so their sum does not wrap.
-    const std::size_t end = slice.byteOffset + slice.byteLength;
+std::span<const std::byte> Buffers::slice(int index, std::size_t byteOffset, std::size_t byteLength,
+                                          const std::string& place) {
+    const std::span<const std::byte> bytes = buffer(index);
+    // Both are at most 2^53 (GltfProperties.h), so their sum does not wrap.
+    const std::size_t end = byteOffset + byteLength;
     if (end > bytes.size())
         document_.fail(place,
                        fmt::format("reads {} bytes past the end of buffer {} (byteOffset {} + byteLength {} > {})",
-                                   end - bytes.size(), slice.buffer, slice.byteOffset, slice.byteLength, bytes.size()));
-    return bytes.subspan(slice.byteOffset, slice.byteLength);
+                                   end - bytes.size(), index, byteOffset, byteLength, bytes.size()));
+    return bytes.subspan(byteOffset, byteLength);
 }
 
-std::vector<std::byte> Buffers::decompress(int bufferView, const model::Meshopt& meshopt) {
+std::vector<std::byte> Buffers::decompress(int bufferView, const tiny::Value& stored) {
+    const auto size = [&](const char* key) { return static_cast<std::size_t>(numberOf(valueAt(&stored, key), 0.0)); };
+    const tiny::Value* const filter = valueAt(&stored, "filter");
+    const Meshopt meshopt{size("count"), size("byteStride"), stringOf(valueAt(&stored, "mode")),
+                          filter != nullptr ? stringOf(filter) : "NONE"};
     const std::string place = fmt::format("/bufferViews/{}/extensions/EXT_meshopt_compression", bufferView);
-    const std::span<const std::byte> encoded = slice(meshopt.encoded, place);
+    const std::span<const std::byte> encoded =
+        slice(integerOf(valueAt(&stored, "buffer")), size("byteOffset"), size("byteLength"), place);
     document_.charge(decodedBytes(meshopt, encoded.size()), "bufferViews", bufferView);
     heldBytes_ += decodedBytes(meshopt, encoded.size());
     try {
@@ -125,11 +138,12 @@ std::vector<std::byte> Buffers::decompress(int bufferView, const model::Meshopt&
 }
 
 std::span<const std::byte> Buffers::view(int bufferView) {
-    const model::BufferView& stored = document_.model.bufferViews[static_cast<std::size_t>(bufferView)];
-    if (!stored.meshopt) return slice(stored.bytes, fmt::format("/bufferViews/{}", bufferView));
+    const tiny::BufferView& stored = document_.model.bufferViews[static_cast<std::size_t>(bufferView)];
+    const tiny::Value* const meshopt = valueAt(stored.extensions, "EXT_meshopt_compression");
+    if (meshopt == nullptr)
+        return slice(stored.buffer, stored.byteOffset, stored.byteLength, fmt::format("/bufferViews/{}", bufferView));
     auto found = decompressed_.find(bufferView);
-    if (found == decompressed_.end())
-        found = decompressed_.emplace(bufferView, decompress(bufferView, *stored.meshopt)).first;
+    if (found == decompressed_.end()) found = decompressed_.emplace(bufferView, decompress(bufferView, *meshopt)).first;
     return found->second;
 }
 

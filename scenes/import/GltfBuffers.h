@@ -22,8 +22,9 @@ public:
 
 private:
     std::span<const std::byte> buffer(int index);
-    std::span<const std::byte> slice(const model::Slice& slice, const std::string& place);
-    std::vector<std::byte> decompress(int bufferView, const model::Meshopt& meshopt);
+    std::span<const std::byte> slice(int buffer, std::size_t byteOffset, std::size_t byteLength,
+                                     const std::string& place);
+    std::vector<std::byte> decompress(int bufferView, const tiny::Value& meshopt);
 
     const Document& document_;
     std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs

@@ -20,22 +20,23 @@ std::string uniqueName(Context& context, const std::string& wanted) {
     return name;
 }
 
-void setPerspective(const Document& document, const model::Camera::Perspective& lens, const std::string& place,
+void setPerspective(const Document& document, const tiny::PerspectiveCamera& lens, const std::string& place,
                     Camera& camera) {
     if (!(lens.yfov > 0.0 && lens.yfov < std::numbers::pi))
         document.fail(place + "/perspective/yfov",
                       fmt::format("is {}; it must be between 0 and pi radians", lens.yfov));
     if (!(lens.znear > 0.0))
         document.fail(place + "/perspective/znear", fmt::format("is {}; it must be greater than 0", lens.znear));
-    if (!(lens.zfar > lens.znear))
+    const double far = lens.zfar > 0.0 ? lens.zfar : std::numeric_limits<double>::infinity();
+    if (!(far > lens.znear))
         document.fail(place + "/perspective/zfar",
-                      fmt::format("is {}; it must be greater than znear {}", lens.zfar, lens.znear));
+                      fmt::format("is {}; it must be greater than znear {}", far, lens.znear));
     camera.fovYRadians = lens.yfov;
     camera.nearMetres = lens.znear;
-    camera.farMetres = lens.zfar;
+    camera.farMetres = far;
 }
 
-void setOrthographic(const Document& document, const model::Camera::Orthographic& lens, const std::string& place,
+void setOrthographic(const Document& document, const tiny::OrthographicCamera& lens, const std::string& place,
                      Camera& camera) {
     if (lens.ymag == 0.0 || lens.xmag == 0.0) document.fail(place + "/orthographic", "xmag and ymag must not be 0");
     if (!(lens.znear >= 0.0 && lens.zfar > lens.znear))
@@ -46,8 +47,13 @@ void setOrthographic(const Document& document, const model::Camera::Orthographic
     camera.farMetres = lens.zfar;
 }
 
+LightType typeOf(const tiny::Light& light) {
+    if (light.type == "directional") return LightType::Directional;
+    return light.type == "point" ? LightType::Point : LightType::Spot;
+}
+
 /// Equal angles, which the extension forbids and Blender writes for a spot without blend, are a cone with a hard edge.
-void setCones(Context& context, const model::Light& stored, const std::string& place, Light& light) {
+void setCones(Context& context, const tiny::SpotLight& stored, const std::string& place, Light& light) {
     constexpr double kWidestRadians = std::numbers::pi / 2.0;
     // Exporters round pi/2 up to float; a millionth of a radian is more than that and less than anything visible.
     constexpr double kRoundingRadians = 1e-6;
@@ -69,10 +75,10 @@ void setCones(Context& context, const model::Light& stored, const std::string& p
 
 void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
     const Document& document = context.document;
-    const model::Node& node = document.model.nodes[static_cast<std::size_t>(nodeIndex)];
+    const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(nodeIndex)];
     if (node.camera == kNone) return;
     const std::string place = fmt::format("/cameras/{}", node.camera);
-    const model::Camera& stored = document.model.cameras[static_cast<std::size_t>(node.camera)];
+    const tiny::Camera& stored = document.model.cameras[static_cast<std::size_t>(node.camera)];
 
     Camera camera;
     camera.name = uniqueName(context, !stored.name.empty() ? stored.name : nameOr(node.name, "camera", node.camera));
@@ -82,7 +88,7 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
     if (isDegenerate)
         context.warn(fmt::format("/nodes/{}: its scale of zero leaves camera '{}' no direction; it looks along -Z",
                                  nodeIndex, camera.name));
-    camera.projection = stored.projection;
+    camera.projection = stored.type == "perspective" ? Projection::Perspective : Projection::Orthographic;
     if (camera.projection == Projection::Perspective)
         setPerspective(document, stored.perspective, place, camera);
     else
@@ -92,29 +98,31 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
 
 void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
     const Document& document = context.document;
-    const int index = document.model.nodes[static_cast<std::size_t>(nodeIndex)].light;
+    const int index = lightOf(document.model.nodes[static_cast<std::size_t>(nodeIndex)]);
     if (index == kNone) return;
+    const auto at = static_cast<std::size_t>(index);
     const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
-    const model::Light& stored = document.model.lights[static_cast<std::size_t>(index)];
+    const tiny::Light& stored = document.model.lights[at];
 
     Light light;
     light.name = nameOr(stored.name, "light", index);
     document.charge(kCopies * (sizeof(Light) + light.name.size()), "nodes", nodeIndex);
-    light.type = stored.type;
-    light.color = stored.color;
-    light.intensity = stored.intensity;
+    light.type = typeOf(stored);
+    light.color = vectorOf(stored.color, glm::vec3(1.0f));
+    light.intensity = static_cast<float>(static_cast<float>(stored.intensity) * document.wattsPerUnit[at]);
     light.falloff = Falloff::InverseSquare;
     if (!placeAtNode(light, worldFromNode) && infoOf(light.type).hasDirection)
         context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
                                  light.name));
-    if (stored.range && infoOf(light.type).hasPosition()) {
+    if (infoOf(light.type).hasPosition()) {
+        const auto values = elementsOf(valueAt(document.model.extensions, "KHR_lights_punctual/lights"));
         // three.js writes 0 for a light without an end.
-        if (*stored.range > 0.0f)
-            light.rangeMetres = *stored.range;
-        else
+        if (static_cast<float>(stored.range) > 0.0f)
+            light.rangeMetres = static_cast<float>(stored.range);
+        else if (values[at].Has("range"))
             context.repair(place + "/range", "is 0; it must be greater than 0", "; the light has no end");
     }
-    if (light.type == LightType::Spot) setCones(context, stored, place, light);
+    if (light.type == LightType::Spot) setCones(context, stored.spot, place, light);
     context.scene.lights.push_back(std::move(light));
 }
 

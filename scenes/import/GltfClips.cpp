@@ -25,10 +25,10 @@ int Rigging::restNode(int index) {
     Rig& rig = context_.scene.rig;
     const auto [entry, isNew] = nodes_.try_emplace(index, static_cast<int>(rig.nodes.size()));
     if (isNew) {
-        const model::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+        const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
         context_.document.charge(2 * sizeof(RestNode), "nodes", index);
         rig.nodes.push_back(
-            {sceneNodes_[static_cast<std::size_t>(index)], node.translation, node.rotation, node.scale});
+            {sceneNodes_[static_cast<std::size_t>(index)], translationOf(node), rotationOf(node), scaleOf(node)});
     }
     return entry->second;
 }
@@ -40,7 +40,7 @@ int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot
     return entry->second;
 }
 
-std::optional<int> Rigging::nodeWithoutTargets(const model::AnimationChannel& channel) const {
+std::optional<int> Rigging::nodeWithoutTargets(const tiny::AnimationChannel& channel) const {
     const std::optional<std::size_t> node = nodeOfWeights(channel);
     if (!node || *node >= sceneNodes_.size()) return {};
     const int mesh = context_.document.model.nodes[*node].mesh;
@@ -50,9 +50,9 @@ std::optional<int> Rigging::nodeWithoutTargets(const model::AnimationChannel& ch
 
 void Rigging::warnOfMorphless() {
     if (morphless_.empty()) return;
-    const model::Model& model = context_.document.model;
+    const tiny::Model& model = context_.document.model;
     const int first = *morphless_.begin();
-    const model::Node& node = model.nodes[static_cast<std::size_t>(first)];
+    const tiny::Node& node = model.nodes[static_cast<std::size_t>(first)];
     const auto named = [](const char* kind, const std::string& name, int index) {
         return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
     };
@@ -89,18 +89,19 @@ void Rigging::warnOfLeftOut() {
 
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
     const Document& document = context_.document;
-    const model::AnimationSampler& stored =
+    const tiny::AnimationSampler& stored =
         document.model.animations[static_cast<std::size_t>(animation)].samplers[static_cast<std::size_t>(index)];
     const std::string place = fmt::format("/animations/{}/samplers/{}", animation, index);
     AnimationSampler sampler;
-    sampler.interpolation = stored.interpolation;
+    if (stored.interpolation != "LINEAR")
+        sampler.interpolation = stored.interpolation == "STEP" ? Interpolation::Step : Interpolation::CubicSpline;
     sampler.width = static_cast<int>(animated.width);
 
     Elements times = context_.accessors.elements(stored.input);
     const auto failTimes = [&](const std::string& what) {
         document.fail(place + "/input", fmt::format("accessor {} {}", stored.input, what));
     };
-    if (times.components != 1 || times.componentType != model::ComponentType::Float)
+    if (times.components != 1 || times.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
         failTimes("holds key times, so it must be SCALAR of FLOAT");
     for (std::size_t key = 0; key < times.count; ++key) {
         if (!std::isfinite(times.values[key]))
@@ -122,7 +123,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
         failValues(fmt::format("has {} components an element; {} needs {}", values.components, info.path, components));
     // Pointers take plain integers as the numbers that they are. Source: KHR_animation_pointer, "Output Accessor
     // Component Types".
-    if (values.componentType != model::ComponentType::Float && !values.normalized && !ownsNumbers(info.owner))
+    if (values.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !values.normalized && !ownsNumbers(info.owner))
         failValues("holds integers that are not normalized");
     const std::size_t needed =
         sampler.timesSeconds.size() * sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});
@@ -151,7 +152,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
 
 Clip Rigging::clip(int index) {
     const Document& document = context_.document;
-    const model::Animation& stored = document.model.animations[static_cast<std::size_t>(index)];
+    const tiny::Animation& stored = document.model.animations[static_cast<std::size_t>(index)];
     const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);
@@ -174,23 +175,24 @@ Clip Rigging::clip(int index) {
     }
     // What one thing of the document is in the scene may be much, such as all lights that it stands for.
     for (const auto& [i, count] : counting) {
-        const model::AnimationChannel& channel = stored.channels[i];
+        const tiny::AnimationChannel& channel = stored.channels[i];
+        const std::string pointer = pointerOf(channel);
         std::optional<Animated> what = animated(channel);
         if (!what) {
             if (const std::optional<int> node = nodeWithoutTargets(channel))
                 morphless_.insert(*node);
             else
-                leaveOut(channel.pointer.empty() ? channel.path : channel.pointer, count);
+                leaveOut(pointer.empty() ? channel.target_path : pointer, count);
             continue;
         }
         if (what->targets.empty()) continue;
         const bool isStrength = what->property == AnimatedProperty::EmissiveStrength;
         if (what->property == AnimatedProperty::Emissive) {
-            std::string_view path = channel.pointer;
+            std::string_view path = pointer;
             const std::size_t material = cutIndex(path, kMaterialsPointer).value_or(0);
             const std::string strength =
                 fmt::format("{}{}/{}", kMaterialsPointer, material, infoOf(AnimatedProperty::EmissiveStrength).path);
-            if (!places.contains(strength)) what->scale = double(document.model.materials[material].emissiveStrength);
+            if (!places.contains(strength)) what->scale = double(document.materials[material].emissiveStrength);
         }
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include <fmt/format.h>
+
 #include "scenes/Scene.h"
 #include "scenes/import/GltfAccessors.h"
 #include "scenes/import/GltfDraco.h"
@@ -24,11 +26,11 @@ enum class Shading : std::uint8_t {
 };
 
 /// Whether a primitive draws points or lines.
-inline bool isThin(const model::Primitive& primitive) {
+inline bool isThin(const tiny::Primitive& primitive) {
     return primitive.mode < kTriangles;
 }
 
-inline Shading shadingOf(const model::Primitive& primitive) {
+inline Shading shadingOf(const tiny::Primitive& primitive) {
     if (!isThin(primitive)) return Shading::AsStated;
     return primitive.attributes.contains("NORMAL") ? Shading::WithoutNormalMaps : Shading::Unlit;
 }
@@ -59,16 +61,18 @@ struct Context {
     std::unordered_set<std::string> cameraNames = {};
 
     /// The document's material of a primitive in the variant that is asked for, where that changes it.
-    std::optional<int> variantMaterial(const model::Primitive& primitive) const {
+    std::optional<int> variantMaterial(const tiny::Primitive& primitive) const {
         const std::optional<std::string>& wish = document.ledger.wishes().variant;
         if (!wish) return std::nullopt;
-        for (const model::VariantMapping& mapping : primitive.variantMappings)
-            for (const int variant : mapping.variants)
-                if (document.model.variants[static_cast<std::size_t>(variant)].name == *wish) return mapping.material;
+        const auto variants = elementsOf(valueAt(document.model.extensions, "KHR_materials_variants/variants"));
+        for (const tiny::Value& mapping : elementsOf(valueAt(primitive.extensions, "KHR_materials_variants/mappings")))
+            for (const tiny::Value& variant : elementsOf(valueAt(&mapping, "variants")))
+                if (stringOf(valueAt(&variants[static_cast<std::size_t>(integerOf(&variant))], "name")) == *wish)
+                    return integerOf(valueAt(&mapping, "material"));
         return std::nullopt;
     }
     /// Called for each mesh of the scene that a primitive becomes.
-    void noteMesh(int sceneMesh, const model::Primitive& primitive) {
+    void noteMesh(int sceneMesh, const tiny::Primitive& primitive) {
         if (const std::optional<int> material = variantMaterial(primitive))
             variantMaterials[sceneMesh] = {*material, shadingOf(primitive)};
         if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;

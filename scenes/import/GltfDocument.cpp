@@ -16,8 +16,6 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-using GltfJson = nlohmann::json;
-
 // ---- Container -----------------------------------------------------------------------------------------------------
 
 /// A glTF file cut into its JSON text and, for .glb, its binary chunk.
@@ -124,11 +122,11 @@ bool isSupported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
 }
 
-GltfJson parseDocument(const std::string& text, const std::string& file) {
+nlohmann::json parseDocument(const std::string& text, const std::string& file) {
     requireJsonDepth(text, file);
     try {
-        return GltfJson::parse(text);
-    } catch (const GltfJson::exception& error) {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& error) {
         std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line ..."
         if (const std::size_t end = what.find("] "); what.starts_with('[') && end != std::string::npos)
             what.erase(0, end + 2);
@@ -138,7 +136,7 @@ GltfJson parseDocument(const std::string& text, const std::string& file) {
 }
 
 /// Refuses unreadable versions before the shape is checked, because another version has another shape.
-void checkVersion(const GltfJson& json, const std::string& file) {
+void checkVersion(const nlohmann::json& json, const std::string& file) {
     const auto asset = json.is_object() ? json.find("asset") : json.end();
     if (!json.is_object() || asset == json.end() || !asset->is_object())
         throw InputError(
@@ -181,15 +179,39 @@ void Document::charge(std::uint64_t bytes, std::string_view kind, int index) con
     ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
 }
 
+const tiny::Scene* Document::scene() const {
+    return model.scenes.empty() ? nullptr : &model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))];
+}
+
 Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
     Document document{file.string(), file.parent_path(), ledger};
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
     ledger.charge(parsedJsonBytes(container.json), [&] { return document.file + ": its JSON"; });
-    GltfJson json = parseDocument(container.json, document.file);
+    nlohmann::json json = parseDocument(container.json, document.file);
+    container.json = {};
     checkVersion(json, document.file);
-    const Source source{json, document.file, ledger};
-    Value(source, json, Place()).read(document.model);
+    nlohmann::json checked = checkedProperties(json, document.file, ledger);
+    json = nullptr;
+    if (const auto buffers = checked.find("buffers"); buffers != checked.end())
+        for (nlohmann::json& buffer : *buffers) {
+            BufferSource& source = document.buffers.emplace_back();
+            source.byteLength = buffer["byteLength"];
+            if (const auto uri = buffer.find("uri"); uri != buffer.end())
+                source.uri = std::move(uri->get_ref<std::string&>());
+        }
+    document.model = tinyModel(std::move(checked), document.file, ledger);
+    for (const tiny::Material& material : document.model.materials) document.materials.emplace_back(material);
+    document.model.materials = {};
+    document.wattsPerUnit.assign(document.model.lights.size(), 1.0);
+    for (std::size_t i = 0; i < document.model.animations.size(); ++i) {
+        const tiny::Animation& animation = document.model.animations[i];
+        for (const tiny::AnimationChannel& channel : animation.channels)
+            if (static_cast<std::size_t>(channel.sampler) >= animation.samplers.size())
+                document.fail(
+                    fmt::format("/animations/{}/channels", i),
+                    fmt::format("names sampler {}, but there are only {}", channel.sampler, animation.samplers.size()));
+    }
     checkRequiredExtensions(document);
     return document;
 }

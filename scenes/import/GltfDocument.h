@@ -11,18 +11,29 @@
 
 namespace tessera::scenes::gltf {
 
-/// A glTF file that was read and checked. Buffers and images are not loaded: what is never used is never read.
+/// A buffer, which is not loaded: what is never used is never read.
+struct BufferSource {
+    std::size_t byteLength = 0;
+    std::optional<std::string> uri;
+};
+
+/// A glTF file that was read and checked. Images are not loaded.
 struct Document {
     std::string file;             ///< as the caller named it, for messages
     std::filesystem::path folder; ///< relative URIs start here
     LoadLedger& ledger;
     std::optional<std::vector<std::byte>> binary = {}; ///< the binary chunk of a .glb
-    model::Model model = {};
+    tiny::Model model = {};                            ///< without `buffers` and `materials`
+    std::vector<BufferSource> buffers = {};
+    std::vector<StoredMaterial> materials = {};
+    std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfLightUnits.h)
 
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
     /// The same with the text of an error, which stays a MemoryRefused if it is one.
     [[noreturn]] void fail(std::string_view place, const InputError& error) const;
+    /// The default scene; null where the document has none.
+    const tiny::Scene* scene() const;
     /// Charges the ledger for what `kind` `index`, such as accessors 3, is about to take.
     void charge(std::uint64_t bytes, std::string_view kind, int index) const;
 };

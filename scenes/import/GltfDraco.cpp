@@ -47,10 +47,19 @@ std::uint64_t pointBytes(const draco::PointCloud& points) {
     return count > 0 && bytesEach > most / count ? most : count * bytesEach;
 }
 
+/// Identifiers in the stream, by attribute.
+std::map<std::string, int> attributesOf(const tiny::Primitive& primitive) {
+    return integersByName(valueAt(dracoOf(primitive), "attributes"));
+}
+
+int viewOf(const tiny::Primitive& primitive) {
+    return integerOf(valueAt(dracoOf(primitive), "bufferView"));
+}
+
 /// What of the stream is checked before the library reserves memory for it.
 class Claims {
 public:
-    Claims(const Document& document, const model::Primitive& primitive, const std::string& place)
+    Claims(const Document& document, const tiny::Primitive& primitive, const std::string& place)
         : document_(document), primitive_(primitive), place_(place) {}
 
     /// At the head of a stream's triangles. Throws InputError with what is wrong.
@@ -72,10 +81,10 @@ public:
                                          primitive_.indices, accessor(primitive_.indices).count));
     }
     void compareAttributes(const draco::PointCloud& points) const {
-        for (const auto& [name, id] : primitive_.draco->attributes) {
+        for (const auto& [name, id] : attributesOf(primitive_)) {
             const auto named = primitive_.attributes.find(name);
             if (named == primitive_.attributes.end()) continue;
-            const model::Accessor& wanted = accessor(named->second);
+            const tiny::Accessor& wanted = accessor(named->second);
             const draco::PointAttribute* stored = points.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
             if (stored == nullptr) throw InputError(fmt::format("holds no attribute {}, which {} names", id, name));
             if (!isComponentType(stored->data_type()))
@@ -83,9 +92,9 @@ public:
             if (points.num_points() != wanted.count)
                 throw InputError(fmt::format("holds {} vertices, but accessor {} of {} says {}", points.num_points(),
                                              named->second, name, wanted.count));
-            if (stored->num_components() != wanted.components)
+            if (stored->num_components() != componentsOf(wanted))
                 throw InputError(fmt::format("holds {} with {} components an element, but accessor {} says {}", name,
-                                             stored->num_components(), named->second, wanted.components));
+                                             stored->num_components(), named->second, componentsOf(wanted)));
         }
     }
 
@@ -94,12 +103,12 @@ public:
     }
 
 private:
-    const model::Accessor& accessor(int index) const {
+    const tiny::Accessor& accessor(int index) const {
         return document_.model.accessors[static_cast<std::size_t>(index)];
     }
 
     const Document& document_;
-    const model::Primitive& primitive_;
+    const tiny::Primitive& primitive_;
     const std::string& place_;
 };
 
@@ -195,30 +204,29 @@ bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueInde
     return true;
 }
 
-bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, const model::Accessor& wanted,
+bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, const tiny::Accessor& wanted,
                   std::byte* to) {
-    const auto components = static_cast<std::size_t>(wanted.components);
+    const auto components = static_cast<std::size_t>(componentsOf(wanted));
     switch (wanted.componentType) {
-    case model::ComponentType::Byte:
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
         return convertPoint<std::int8_t>(stored, value, components, to);
-    case model::ComponentType::UnsignedByte:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return convertPoint<std::uint8_t>(stored, value, components, to);
-    case model::ComponentType::Short:
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
         return convertPoint<std::int16_t>(stored, value, components, to);
-    case model::ComponentType::UnsignedShort:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
         return convertPoint<std::uint16_t>(stored, value, components, to);
-    case model::ComponentType::UnsignedInt:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
         return convertPoint<std::uint32_t>(stored, value, components, to);
-    case model::ComponentType::Float:
-        break;
+    default:
+        return convertPoint<float>(stored, value, components, to);
     }
-    return convertPoint<float>(stored, value, components, to);
 }
 
 /// The values of an attribute, which is as its accessor says (Claims::checkAttributes).
 std::vector<std::byte> packedElements(const draco::Mesh& mesh, const draco::PointAttribute& stored,
-                                      const std::string& name, const model::Accessor& wanted) {
-    const std::size_t elementBytes = bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components);
+                                      const std::string& name, const tiny::Accessor& wanted) {
+    const std::size_t elementBytes = bytesOf(wanted.componentType) * static_cast<std::size_t>(componentsOf(wanted));
     std::vector<std::byte> bytes(mesh.num_points() * elementBytes);
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
         const draco::AttributeValueIndex value = stored.mapped_index(draco::PointIndex(i));
@@ -245,15 +253,15 @@ std::vector<std::uint32_t> cornersOf(const draco::Mesh& mesh) {
 } // namespace
 
 DracoStreams::DracoStreams(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {
-    for (const model::Mesh& mesh : document.model.meshes)
-        for (const model::Primitive& primitive : mesh.primitives)
-            if (primitive.draco) ++primitives_[primitive.draco->bufferView];
+    for (const tiny::Mesh& mesh : document.model.meshes)
+        for (const tiny::Primitive& primitive : mesh.primitives)
+            if (const int view = viewOf(primitive); view != kNone) ++primitives_[view];
 }
 
-DracoGeometry DracoStreams::decode(const model::Primitive& primitive, const std::string& place,
+DracoGeometry DracoStreams::decode(const tiny::Primitive& primitive, const std::string& place,
                                    const std::string& meshName) {
     const std::string stream = place + "/extensions/KHR_draco_mesh_compression";
-    const int view = primitive.draco->bufferView;
+    const int view = viewOf(primitive);
     const std::span<const std::byte> bytes = buffers_.view(view);
     const std::uint64_t mark = document_.ledger.usedBytes();
     const Claims claims(document_, primitive, stream);
@@ -276,11 +284,11 @@ DracoGeometry DracoStreams::decode(const model::Primitive& primitive, const std:
             claims.charge(more);
             keptBytes += more;
         };
-        for (const auto& [name, id] : primitive.draco->attributes) {
+        for (const auto& [name, id] : attributesOf(primitive)) {
             const auto named = primitive.attributes.find(name);
             if (named == primitive.attributes.end()) continue;
-            const model::Accessor& wanted = document_.model.accessors[static_cast<std::size_t>(named->second)];
-            keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(wanted.components));
+            const tiny::Accessor& wanted = document_.model.accessors[static_cast<std::size_t>(named->second)];
+            keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(componentsOf(wanted)));
             const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
             geometry.attributes[name] = packedElements(mesh, stored, name, wanted);
         }

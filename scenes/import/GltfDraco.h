@@ -31,7 +31,7 @@ public:
     /// and what is kept stay charged. Throws InputError naming the file, the primitive and the mesh when the stream is
     /// broken, is no mesh, or is not what the accessors say. Source: KHR_draco_mesh_compression; Draco bitstream
     /// specification 2.2.
-    DracoGeometry decode(const model::Primitive& primitive, const std::string& place, const std::string& meshName);
+    DracoGeometry decode(const tiny::Primitive& primitive, const std::string& place, const std::string& meshName);
     /// Bytes charged to the ledger that this object keeps until its end.
     std::uint64_t heldBytes() const { return heldBytes_; }
 

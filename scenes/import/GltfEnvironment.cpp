@@ -146,16 +146,56 @@ void put(const Image& picture, std::size_t face, Image& cube) {
         }
 }
 
+/// EXT_lights_image_based.
+struct ImageLight {
+    std::string name;
+    float intensity = 1.0f;
+    glm::dvec4 rotation;                ///< x, y, z, w of a quaternion, of any length but 0
+    std::vector<glm::dvec3> irradiance; ///< by spherical harmonics up to order 2: nine
+    std::vector<int> images;            ///< of the faces +X, -X, +Y, -Y, +Z, -Z of the level that is not filtered
+    int sideTexels = 0;                 ///< of these faces
+};
+
+ImageLight readImageLight(const Document& document, int index) {
+    const tiny::Value& stored =
+        elementsOf(valueAt(document.model.extensions, "EXT_lights_image_based/lights"))[std::size_t(index)];
+    const auto fail = [&](const char* key, const std::string& what) {
+        document.fail(fmt::format("/extensions/EXT_lights_image_based/lights/{}/{}", index, key), what);
+    };
+    ImageLight light;
+    light.name = nameOr(stringOf(valueAt(&stored, "name")), "image-based light", index);
+    light.intensity = float(numberOf(valueAt(&stored, "intensity"), 1.0));
+    light.rotation = vectorOf(numbersOf(valueAt(&stored, "rotation")), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    light.sideTexels = integerOf(valueAt(&stored, "specularImageSize"));
+    if (glm::dot(light.rotation, light.rotation) == 0.0)
+        fail("rotation", "is the zero quaternion, which is no rotation");
+    for (const tiny::Value& color : elementsOf(valueAt(&stored, "irradianceCoefficients")))
+        light.irradiance.push_back(vectorOf(numbersOf(&color), glm::dvec3(0.0)));
+    constexpr std::size_t kCoefficients = 9;
+    if (light.irradiance.size() != kCoefficients)
+        fail("irradianceCoefficients",
+             fmt::format("must hold {} colours, but holds {}", kCoefficients, light.irradiance.size()));
+    const auto levels = elementsOf(valueAt(&stored, "specularImages"));
+    if (levels.empty()) fail("specularImages", "is empty; the six faces of a cube are needed");
+    for (const tiny::Value& level : levels)
+        if (level.ArrayLen() != kCube.size())
+            fail("specularImages", fmt::format("must hold {} faces of a cube in each element, but one holds {}",
+                                               kCube.size(), level.ArrayLen()));
+    for (const tiny::Value& face : elementsOf(&levels[0])) light.images.push_back(integerOf(&face));
+    return light;
+}
+
 /// Of a light's first level, as large as its largest face: what the document says of that may be anything.
-Image readCube(Context& context, const model::ImageLight& light, const std::string& name) {
+Image readCube(Context& context, const ImageLight& light) {
     const Document& document = context.document;
+    const std::string& name = light.name;
     constexpr const char* kInstead = "; its side of the environment is a checkerboard";
     const std::uint64_t mark = document.ledger.usedBytes() - context.buffers.heldBytes();
     const std::string who = document.file + ": the environment '" + name + "'";
     std::array<Image, kCube.size()> pictures;
     int side = 1;
     for (std::size_t face = 0; face < kCube.size(); ++face) {
-        const int image = light.images[0][face];
+        const int image = light.images[face];
         std::optional<Image> picture = readableImage(context, image, kInstead);
         // A line of texels would ask for a square of them, six times.
         if (picture && picture->width != picture->height) {
@@ -218,7 +258,7 @@ std::array<glm::dvec3, 9> irradianceOf(const Cube& cube) {
     return sum;
 }
 
-void noteIrradiance(Context& context, const model::ImageLight& light, const Cube& cube, const std::string& name) {
+void noteIrradiance(Context& context, const ImageLight& light, const Cube& cube) {
     const std::array<glm::dvec3, 9> own = irradianceOf(cube);
     double difference = 0.0, whole = 0.0;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -230,7 +270,7 @@ void noteIrradiance(Context& context, const model::ImageLight& light, const Cube
     context.scene.notes.push_back(fmt::format(
         "{}: the irradianceCoefficients of the environment '{}' differ from the irradiance of its faces by {:.0f} % "
         "of that, and the faces count",
-        context.document.file, name, whole > 0.0 ? 100.0 * std::sqrt(difference / whole) : 100.0));
+        context.document.file, light.name, whole > 0.0 ? 100.0 * std::sqrt(difference / whole) : 100.0));
 }
 
 /// Each texel is the mean over its solid angle.
@@ -266,18 +306,18 @@ Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::st
 } // namespace
 
 void importEnvironment(Context& context) {
-    const model::Model& model = context.document.model;
-    if (model.scenes.empty()) return;
-    const int index = model.scenes[std::size_t(model.scene)].imageLight;
+    const tiny::Scene* const scene = context.document.scene();
+    if (scene == nullptr) return;
+    const int index = integerOf(valueAt(scene->extensions, "EXT_lights_image_based/light"));
     if (index == kNone) return;
-    const model::ImageLight& light = model.imageLights[std::size_t(index)];
-    const std::string name = nameOr(light.name, "image-based light", index);
-    Image faces = readCube(context, light, name);
+    const ImageLight light = readImageLight(context.document, index);
+    const std::string& name = light.name;
+    Image faces = readCube(context, light);
     std::vector<std::string> replaced;
     warnOfReplaced(fmt::format("the environment '{}'", faces.name), replaceNoLight(faces), replaced);
     for (const std::string& warning : replaced) context.warn(warning);
     const Cube cube(faces);
-    noteIrradiance(context, light, cube, name);
+    noteIrradiance(context, light, cube);
     const int whole = 4 * cube.side(), width = std::min(whole, kMostMapWidth);
     if (width < whole) context.warn(averagedText(name, whole, whole / 2, width, width / 2));
     context.document.ledger.charge(std::uint64_t(width) * std::uint64_t(width / 2) * sizeof(glm::vec4),

@@ -17,7 +17,7 @@ namespace {
 /// specification.
 class PrimitiveReader {
 public:
-    PrimitiveReader(Context& context, const model::Primitive& primitive, std::string place, std::string meshName)
+    PrimitiveReader(Context& context, const tiny::Primitive& primitive, std::string place, std::string meshName)
         : context_(context), primitive_(primitive), attributes_(&primitive.attributes), place_(std::move(place)),
           meshName_(std::move(meshName)) {}
 
@@ -25,7 +25,7 @@ public:
 
     /// Called first. A stream of KHR_draco_mesh_compression stands for the indices and for the attributes it names.
     void decode() {
-        if (!primitive_.draco) return;
+        if (dracoOf(primitive_) == nullptr) return;
         if (primitive_.mode == kFan || isThin(primitive_))
             context_.document.fail(place_ + "/mode",
                                    fmt::format("is {}, {}; KHR_draco_mesh_compression holds lists or "
@@ -90,8 +90,8 @@ public:
                 context_.document.fail(fmt::format("{}/attributes", place_),
                                        fmt::format("has {} but no {}", jointsName, weightsName));
             const Elements joints = readVertices(jointsName, {4});
-            const bool areIntegers = joints.componentType == model::ComponentType::UnsignedByte ||
-                                     joints.componentType == model::ComponentType::UnsignedShort;
+            const bool areIntegers = joints.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                     joints.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
             if (!areIntegers || joints.normalized)
                 fail(jointsName, "names joints, so it must be of UNSIGNED_BYTE or UNSIGNED_SHORT, not normalized");
             const std::vector<glm::vec4> weights =
@@ -199,7 +199,7 @@ private:
     /// as if they were.
     Elements colors(float alpha) {
         Elements elements = readVertices("COLOR_0", {3, 4});
-        if (!elements.normalized && elements.componentType != model::ComponentType::Float) {
+        if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
             const double largest = std::exp2(8.0 * static_cast<double>(bytesOf(elements.componentType))) - 1.0;
             for (float& value : elements.values) value = static_cast<float>(value / largest);
             context_.warn(
@@ -235,7 +235,7 @@ private:
     }
 
     Context& context_;
-    const model::Primitive& primitive_;
+    const tiny::Primitive& primitive_;
     const std::map<std::string, int>* attributes_; ///< the primitive's, or a target's
     std::string inPlace_ = "attributes";
     std::string place_;
@@ -267,8 +267,8 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
 } // namespace
 
 std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
-    const model::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
-    const model::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
+    const tiny::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
+    const tiny::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
     Shape shape;
     Mesh& mesh = shape.rest;

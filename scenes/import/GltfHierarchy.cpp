@@ -1,8 +1,10 @@
 #include "scenes/import/GltfHierarchy.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "scenes/Transform.h"
 
@@ -11,7 +13,7 @@ namespace {
 
 /// Every node's parent, or -1.
 std::vector<int> parentsOf(const Document& document) {
-    const std::vector<model::Node>& nodes = document.model.nodes;
+    const std::vector<tiny::Node>& nodes = document.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
     for (std::size_t node = 0; node < nodes.size(); ++node)
         for (const int child : nodes[node].children) {
@@ -50,8 +52,8 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
             if (parents[node] < 0) roots.push_back(static_cast<int>(node));
         return roots;
     }
-    const int scene = document.model.scene;
-    roots = document.model.scenes[static_cast<std::size_t>(scene)].nodes;
+    const int scene = std::max(document.model.defaultScene, 0);
+    roots = document.scene()->nodes;
     std::vector<bool> isListed(parents.size(), false);
     for (const int root : roots) {
         if (isListed[static_cast<std::size_t>(root)])
@@ -66,16 +68,17 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
 }
 
 glm::dmat4 parentFromNodeOf(const Document& document, int index) {
-    const model::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
-    if (node.matrix) {
-        const glm::dmat4& matrix = *node.matrix;
+    const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
+    if (!node.matrix.empty()) {
+        const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
         if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
             document.fail(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1");
         return matrix;
     }
-    if (glm::dot(node.rotation, node.rotation) == 0.0)
+    const glm::dvec4 rotation = rotationOf(node);
+    if (glm::dot(rotation, rotation) == 0.0)
         document.fail(placeOf(index) + "/rotation", "is the zero quaternion, which is no rotation");
-    return transformOf(node.translation, node.rotation, node.scale);
+    return transformOf(translationOf(node), rotation, scaleOf(node));
 }
 
 bool isFinite(const glm::dmat4& matrix) {
@@ -123,7 +126,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::size_t drawn = placed.size();
     std::vector<bool> isFollowed(document.model.skins.size()); // once each
     for (std::size_t i = 0; i < drawn; ++i) {
-        const model::Node& node = document.model.nodes[static_cast<std::size_t>(placed[i].node)];
+        const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(placed[i].node)];
         if (node.skin == kNone || node.mesh == kNone || isFollowed[static_cast<std::size_t>(node.skin)]) continue;
         isFollowed[static_cast<std::size_t>(node.skin)] = true;
         for (int joint : document.model.skins[static_cast<std::size_t>(node.skin)].joints) {

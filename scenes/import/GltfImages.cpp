@@ -17,12 +17,13 @@ constexpr std::uint64_t kMostUnreadableBytes = std::uint64_t{1} << 32;
 
 Image decoded(const Context& context, int index) {
     const Document& document = context.document;
-    const auto& [name, uri, bufferView] = document.model.images[static_cast<std::size_t>(index)];
+    const tiny::Image& stored = document.model.images[static_cast<std::size_t>(index)];
+    const std::string& uri = stored.uri;
     const std::string place = fmt::format("/images/{}", index);
     Image image;
-    if (bufferView != kNone) {
-        image =
-            decodeImage(context.buffers.view(bufferView), fmt::format("{}: {}", document.file, place), document.ledger);
+    if (stored.bufferView != kNone) {
+        image = decodeImage(context.buffers.view(stored.bufferView), fmt::format("{}: {}", document.file, place),
+                            document.ledger);
     } else if (isDataUri(uri)) {
         const std::uint64_t mark = document.ledger.usedBytes();
         document.charge(2 * uri.size(), "images", index);
@@ -43,7 +44,7 @@ Image decoded(const Context& context, int index) {
     } else {
         document.fail(place, "has neither a uri nor a bufferView");
     }
-    image.name = name;
+    image.name = stored.name;
     if (image.name.empty()) image.name = uri.empty() || isDataUri(uri) ? fmt::format("image {}", index) : uri;
     return image;
 }

@@ -15,7 +15,8 @@ class InstanceReader {
 public:
     InstanceReader(Context& context, int node)
         : context_(context),
-          attributes_(*context.document.model.nodes[static_cast<std::size_t>(node)].instanceAttributes),
+          attributes_(integersByName(valueAt(context.document.model.nodes[static_cast<std::size_t>(node)].extensions,
+                                             "EXT_mesh_gpu_instancing/attributes"))),
           place_(fmt::format("/nodes/{}/extensions/EXT_mesh_gpu_instancing/attributes", node)) {
         if (attributes_.empty()) context_.document.fail(place_, "holds nothing that says how many instances there are");
         const auto& [name, accessor] = *attributes_.begin();
@@ -65,7 +66,7 @@ private:
     }
 
     Context& context_;
-    const std::map<std::string, int>& attributes_;
+    const std::map<std::string, int> attributes_;
     std::string place_;
     std::size_t count_ = 0;
 };
@@ -73,7 +74,6 @@ private:
 } // namespace
 
 std::vector<glm::dmat4> instanceTransforms(Context& context, int node) {
-    if (!context.document.model.nodes[static_cast<std::size_t>(node)].instanceAttributes) return {};
     return InstanceReader(context, node).read();
 }
 

@@ -30,16 +30,15 @@ std::optional<ExporterVersion> blenderVersion(std::string_view generator) {
 void takeLightUnits(Document& document, std::vector<std::string>& notes) {
     if (document.model.lights.empty()) return;
     const std::optional<LightUnits> wish = document.ledger.wishes().lightUnits;
-    const std::optional<ExporterVersion> blender = blenderVersion(document.model.generator);
+    const std::optional<ExporterVersion> blender = blenderVersion(document.model.asset.generator);
     if (!(wish ? wish == LightUnits::Lumen : blender.has_value())) return;
     constexpr ExporterVersion kSunsToo{3, 4};
     bool areDivided = false;
-    for (model::Light& light : document.model.lights) {
-        const bool isWatts = !wish && light.type == LightType::Directional && *blender < kSunsToo;
+    for (std::size_t i = 0; i < document.model.lights.size(); ++i) {
+        const bool isWatts = !wish && document.model.lights[i].type == "directional" && *blender < kSunsToo;
         if (isWatts) continue;
         areDivided = true;
-        light.wattsPerUnit = 1.0 / kLumensPerWatt;
-        light.intensity = static_cast<float>(light.intensity * light.wattsPerUnit);
+        document.wattsPerUnit[i] = 1.0 / kLumensPerWatt;
     }
     if (!wish && areDivided)
         notes.push_back(fmt::format("its lights are in lumens, {} for each watt, as Blender exports them, and shown in "

@@ -34,9 +34,9 @@ Material unlitOf(const Material& lit) {
     return unlit;
 }
 
-const model::TextureInfo& storedTexture(const model::Material& stored, TextureSlot slot) {
+const TextureInfo& storedTexture(const StoredMaterial& stored, TextureSlot slot) {
     std::size_t i = 0;
-    while (model::kTexturePlaces[i].slot != slot) ++i;
+    while (kTexturePlaces[i].slot != slot) ++i;
     return stored.textures[i];
 }
 
@@ -46,7 +46,7 @@ ShownMaterial Materials::distinct(ShownMaterial shown) const {
     const ShownMaterial asStated{shown.index};
     if (shown.shading == Shading::AsStated) return asStated;
     if (shown.index < 0) return shown.shading == Shading::Unlit ? shown : asStated;
-    const model::Material& stored = context_.document.model.materials[static_cast<std::size_t>(shown.index)];
+    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(shown.index)];
     if (stored.surface.model == MaterialModel::SingleColor) return asStated;
     const auto hasTexture = [&](TextureSlot slot) { return storedTexture(stored, slot).texture != kNone; };
     const bool hasNormalMap = hasTexture(TextureSlot::Normal) || hasTexture(TextureSlot::ClearcoatNormal);
@@ -70,7 +70,7 @@ int Materials::material(ShownMaterial asked) {
 
 Material Materials::convert(ShownMaterial shown) {
     const int index = shown.index;
-    const model::Material& stored = context_.document.model.materials[static_cast<std::size_t>(index)];
+    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(index)];
     const std::string place = fmt::format("/materials/{}", index);
     const std::string_view suffix = suffixOf(shown.shading);
     constexpr std::size_t kCopies = 2; // while a vector grows
@@ -81,7 +81,7 @@ Material Materials::convert(ShownMaterial shown) {
     material.name += suffix;
     const bool isUnlit = material.model == MaterialModel::SingleColor;
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
-        const auto& [path, slot] = model::kTexturePlaces[i];
+        const auto& [path, slot] = kTexturePlaces[i];
         if (isUnlit && slot != TextureSlot::BaseColor) continue;
         if (shown.shading == Shading::WithoutNormalMaps && isNormalMap(slot)) continue;
         const bool isReplaced = slot == TextureSlot::BaseColor || slot == TextureSlot::MetallicRoughness ||
@@ -95,15 +95,14 @@ Material Materials::convert(ShownMaterial shown) {
         if (shown.shading == Shading::Unlit) addEmission(stored, place, material);
         return material;
     }
-    if (stored.ior != 0.0 && stored.ior < 1.0)
+    if (material.ior != 0.0f && material.ior < 1.0f)
         context_.document.fail(place + "/extensions/KHR_materials_ior/ior",
-                               fmt::format("is {}; it must be 0 or at least 1", stored.ior));
-    material.ior = static_cast<float>(stored.ior);
+                               fmt::format("is {}; it must be 0 or at least 1", material.ior));
     if (stored.specularGlossiness) convertSpecularGlossiness(*stored.specularGlossiness, glossyPlace, material);
     return material;
 }
 
-void Materials::addEmission(const model::Material& stored, const std::string& place, Material& material) {
+void Materials::addEmission(const StoredMaterial& stored, const std::string& place, Material& material) {
     const glm::vec3& emissive = stored.surface.emissive;
     if (emissive == glm::vec3(0.0f)) return;
     const bool hasTexture = storedTexture(stored, TextureSlot::Emissive).texture != kNone ||
@@ -115,7 +114,7 @@ void Materials::addEmission(const model::Material& stored, const std::string& pl
     material.baseColor = glm::vec4(glm::min(glm::vec3(material.baseColor) + emissive, most), material.baseColor.a);
 }
 
-void Materials::takeDiffuse(const model::SpecularGlossiness& stored, const std::string& place, Material& material) {
+void Materials::takeDiffuse(const SpecularGlossiness& stored, const std::string& place, Material& material) {
     material.baseColor = stored.diffuse;
     material.texture(TextureSlot::BaseColor) =
         use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture");
@@ -124,7 +123,7 @@ void Materials::takeDiffuse(const model::SpecularGlossiness& stored, const std::
 /// With an index of refraction of 0 a dielectric reflects all light, and its tint is what the extension calls specular:
 /// both give F0, with F90 = 1, and what is reflected is taken from the diffuse part.
 /// Source: KHR_materials_ior, "Implementation": its mode for specular-glossiness materials.
-void Materials::convertSpecularGlossiness(const model::SpecularGlossiness& stored, const std::string& place,
+void Materials::convertSpecularGlossiness(const SpecularGlossiness& stored, const std::string& place,
                                           Material& material) {
     constexpr const char* kNote = "materials of specular and glossiness (KHR_materials_pbrSpecularGlossiness) are "
                                   "converted to dielectrics of roughness 1 - glossiness, tinted as their specular";
@@ -166,7 +165,7 @@ std::vector<int> Materials::imported(int index) const {
     return found;
 }
 
-TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, const std::string& place) {
+TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::string& place) {
     if (info.texture == kNone) return {};
     if (info.texCoordSet > 1) {
         context_.warn(
@@ -174,19 +173,19 @@ TextureUse Materials::use(const model::TextureInfo& info, TextureSlot slot, cons
                         place, info.texCoordSet));
         return {};
     }
-    const model::Model& model = context_.document.model;
-    const model::Texture& texture = model.textures[static_cast<std::size_t>(info.texture)];
+    const tiny::Model& model = context_.document.model;
+    const tiny::Texture& texture = model.textures[static_cast<std::size_t>(info.texture)];
+    const int webp = integerOf(valueAt(texture.extensions, "EXT_texture_webp/source")); // preferred
     int picture = kNone;
-    if (texture.webp != kNone)
-        picture = image(texture.webp,
-                        texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
+    if (webp != kNone)
+        picture = image(webp, texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
     if (picture == kNone && texture.source != kNone) picture = image(texture.source, kStandInText);
-    if (texture.source == kNone && texture.webp == kNone)
+    if (texture.source == kNone && webp == kNone)
         context_.repair(fmt::format("/textures/{}", info.texture),
                         "has no source in a supported format; store it as PNG or JPEG", kStandInText);
     if (picture == kNone && !takesStandIn(slot)) return {};
     TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
-    if (texture.sampler != kNone) use.sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
+    if (texture.sampler != kNone) use.sampler = samplerOf(model.samplers[static_cast<std::size_t>(texture.sampler)]);
     return use;
 }
 

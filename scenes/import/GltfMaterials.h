@@ -27,14 +27,13 @@ private:
     ShownMaterial distinct(ShownMaterial shown) const;
     Material convert(ShownMaterial shown);
     /// Adds the emission to the base colour of an unlit material, where no texture scales either.
-    void addEmission(const model::Material& stored, const std::string& place, Material& material);
-    void takeDiffuse(const model::SpecularGlossiness& stored, const std::string& place, Material& material);
-    void convertSpecularGlossiness(const model::SpecularGlossiness& stored, const std::string& place,
-                                   Material& material);
+    void addEmission(const StoredMaterial& stored, const std::string& place, Material& material);
+    void takeDiffuse(const SpecularGlossiness& stored, const std::string& place, Material& material);
+    void convertSpecularGlossiness(const SpecularGlossiness& stored, const std::string& place, Material& material);
     /// The scene's index of a picture whose green is the roughness 1 - `glossiness` x the alpha of another.
     int roughnessOf(int image, float glossiness);
     /// `place` names the use in messages.
-    TextureUse use(const model::TextureInfo& info, TextureSlot slot, const std::string& place);
+    TextureUse use(const TextureInfo& info, TextureSlot slot, const std::string& place);
     /// `instead` ends the warning where it cannot be read.
     int image(int index, const char* instead);
     int standIn();

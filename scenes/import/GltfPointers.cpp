@@ -50,16 +50,18 @@ std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view 
     return index;
 }
 
-std::string changedBy(const model::AnimationChannel& channel) {
-    if (channel.path != "pointer") return fmt::format("{}{}/{}", kNodesPointer, channel.node, channel.path);
+std::string changedBy(const tiny::AnimationChannel& channel) {
+    if (channel.target_path != "pointer")
+        return fmt::format("{}{}/{}", kNodesPointer, channel.target_node, channel.target_path);
+    std::string pointer = pointerOf(channel);
     for (const std::string_view array : kArrays) {
-        std::string_view path = channel.pointer;
+        std::string_view path = pointer;
         if (const auto index = cutIndex(path, array)) return fmt::format("{}{}/{}", array, *index, path);
     }
-    return channel.pointer;
+    return pointer;
 }
 
-std::optional<std::size_t> nodeOfWeights(const model::AnimationChannel& channel) {
+std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel) {
     const std::string changed = changedBy(channel);
     std::string_view path = changed;
     const std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
@@ -97,29 +99,30 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
         animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].size();
         return animated;
     }
-    if (context_.document.model.nodes[static_cast<std::size_t>(index)].matrix) return {}; // has no parts to change
+    if (!context_.document.model.nodes[static_cast<std::size_t>(index)].matrix.empty())
+        return {}; // has no parts to change
     animated.targets.push_back(restNode(index));
     return animated;
 }
 
 std::optional<Rigging::Animated> Rigging::animatedOfLight(std::size_t index, std::string_view path) {
     const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Light, path);
-    const std::vector<model::Light>& lights = context_.document.model.lights;
-    if (info == nullptr || index >= lights.size()) return {};
+    const std::vector<double>& wattsPerUnit = context_.document.wattsPerUnit;
+    if (info == nullptr || index >= wattsPerUnit.size()) return {};
     Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    if (info->property == AnimatedProperty::LightIntensity) animated.scale = lights[index].wattsPerUnit;
+    if (info->property == AnimatedProperty::LightIntensity) animated.scale = wattsPerUnit[index];
     for (const int light : lights_[static_cast<int>(index)])
         animated.targets.push_back(restNumber(info->property, light));
     return animated;
 }
 
 std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, std::string_view path) {
-    const std::vector<model::Material>& materials = context_.document.model.materials;
+    const std::vector<StoredMaterial>& materials = context_.document.materials;
     if (index >= materials.size()) return {};
     const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Material, path);
     if (info == nullptr) return animatedOfTexture(index, path);
     Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    const model::Material& stored = materials[index];
+    const StoredMaterial& stored = materials[index];
     const bool isOfEmission =
         info->property == AnimatedProperty::Emissive || info->property == AnimatedProperty::EmissiveStrength;
     const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
@@ -152,9 +155,9 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
 
 /// None where the document has no texture there, whose transform would change nothing.
 std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, std::string_view path) {
-    const model::Material& stored = context_.document.model.materials[index];
+    const StoredMaterial& stored = context_.document.materials[index];
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
-        const auto& [place, slot] = model::kTexturePlaces[i];
+        const auto& [place, slot] = kTexturePlaces[i];
         if (!path.starts_with(place) || path.size() == place.size() || path[place.size()] != '/') continue;
         const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Texture, path.substr(place.size() + 1));
         if (info == nullptr || stored.textures[i].texture == kNone) return {};
@@ -170,9 +173,9 @@ std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, s
 
 std::optional<Rigging::Animated> Rigging::animatedOfCamera(std::size_t index, std::string_view path) {
     const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Camera, path);
-    const std::vector<model::Camera>& cameras = context_.document.model.cameras;
+    const std::vector<tiny::Camera>& cameras = context_.document.model.cameras;
     if (info == nullptr || index >= cameras.size()) return {};
-    const bool isPerspective = cameras[index].projection == Projection::Perspective;
+    const bool isPerspective = cameras[index].type == "perspective";
     if (info->path.starts_with("perspective/") != isPerspective) return {};
     Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
     const bool isUpsideDown =
@@ -194,9 +197,9 @@ std::optional<Rigging::Animated> Rigging::animatedByPointer(const std::string& p
 }
 
 /// None where the scene has no such thing that can change.
-std::optional<Rigging::Animated> Rigging::animated(const model::AnimationChannel& channel) {
-    if (channel.path == "pointer") return animatedByPointer(channel.pointer);
-    return channel.node == kNone ? std::nullopt : animatedOfNode(channel.node, channel.path);
+std::optional<Rigging::Animated> Rigging::animated(const tiny::AnimationChannel& channel) {
+    if (channel.target_path == "pointer") return animatedByPointer(pointerOf(channel));
+    return channel.target_node == kNone ? std::nullopt : animatedOfNode(channel.target_node, channel.target_path);
 }
 
 } // namespace tessera::scenes::gltf

@@ -18,10 +18,10 @@ inline constexpr std::string_view kCamerasPointer = "/cameras/";
 std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view array);
 
 /// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
-std::string changedBy(const model::AnimationChannel& channel);
+std::string changedBy(const tiny::AnimationChannel& channel);
 
 /// The node whose weights a channel changes, by number of the document; none: it changes something else.
-std::optional<std::size_t> nodeOfWeights(const model::AnimationChannel& channel);
+std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel);
 
 /// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
 std::string kindOf(std::string_view pointer);

@@ -14,9 +14,9 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-bool anyMorphs(const std::vector<float>& weights, std::size_t targets) {
+bool anyMorphs(const std::vector<double>& weights, std::size_t targets) {
     const auto counted = std::span(weights).first(std::min(weights.size(), targets));
-    return std::ranges::any_of(counted, [](float weight) { return weight != 0.0f; });
+    return std::ranges::any_of(counted, [](double weight) { return static_cast<float>(weight) != 0.0f; });
 }
 
 } // namespace
@@ -24,15 +24,15 @@ bool anyMorphs(const std::vector<float>& weights, std::size_t targets) {
 Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes)
     : context_(context), materials_(materials), sceneNodes_(std::move(sceneNodes)),
       hasAnimatedWeights_(sceneNodes_.size()) {
-    const model::Model& model = context.document.model;
-    for (const model::Mesh& mesh : model.meshes) {
+    const tiny::Model& model = context.document.model;
+    for (const tiny::Mesh& mesh : model.meshes) {
         std::size_t targets = 0;
-        for (const model::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
+        for (const tiny::Primitive& primitive : mesh.primitives) targets = std::max(targets, primitive.targets.size());
         targetCounts_.push_back(targets);
         isMorphed_.push_back(anyMorphs(mesh.weights, targets));
     }
-    for (const model::Animation& animation : model.animations)
-        for (const model::AnimationChannel& channel : animation.channels)
+    for (const tiny::Animation& animation : model.animations)
+        for (const tiny::AnimationChannel& channel : animation.channels)
             if (const auto node = nodeOfWeights(channel); node && *node < hasAnimatedWeights_.size())
                 hasAnimatedWeights_[*node] = true;
 }
@@ -40,19 +40,20 @@ Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneN
 // ---- Deformed meshes -----------------------------------------------------------------------------------------------
 
 std::vector<float> Rigging::restWeights(int index) const {
-    const model::Model& model = context_.document.model;
-    const model::Node& node = model.nodes[static_cast<std::size_t>(index)];
-    const model::Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
-    const std::vector<float>& stated = node.weights.empty() ? mesh.weights : node.weights;
+    const tiny::Model& model = context_.document.model;
+    const tiny::Node& node = model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::vector<double>& stated = node.weights.empty() ? mesh.weights : node.weights;
     const std::size_t targets = targetCounts_[static_cast<std::size_t>(node.mesh)];
     std::vector<float> weights(targets, 0.0f);
-    std::copy_n(stated.begin(), std::min(stated.size(), targets), weights.begin());
+    std::transform(stated.begin(), stated.begin() + static_cast<std::ptrdiff_t>(std::min(stated.size(), targets)),
+                   weights.begin(), [](double weight) { return static_cast<float>(weight); });
     return weights;
 }
 
 /// Takes no time that grows with the mesh: all nodes of a file may show the same large one.
 Deforms Rigging::deformsOf(int index) const {
-    const model::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const bool isMorphed = node.weights.empty() ? isMorphed_[mesh] : anyMorphs(node.weights, targetCounts_[mesh]);
     const bool mayMorph = targetCounts_[mesh] > 0 && hasAnimatedWeights_[static_cast<std::size_t>(index)];
@@ -79,7 +80,7 @@ int Rigging::skinOf(int index) {
     const auto [entry, isNew] = skins_.try_emplace(index, static_cast<int>(context_.scene.rig.skins.size()));
     if (!isNew) return entry->second;
     const Document& document = context_.document;
-    const model::Skin& stored = document.model.skins[static_cast<std::size_t>(index)];
+    const tiny::Skin& stored = document.model.skins[static_cast<std::size_t>(index)];
     // A pose has a matrix for each, too.
     document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4) + sizeof(glm::dmat4x3)), "skins", index);
     Skin skin;
@@ -118,7 +119,7 @@ void Rigging::requireJoints(const Shape& shape, int mesh, int skin, std::size_t 
 
 void Rigging::addDeformed(int index) {
     const Document& document = context_.document;
-    const model::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
     Scene& scene = context_.scene;
     const Deforms deforms = deformsOf(index);
     Deformed deformed;
@@ -168,11 +169,11 @@ void Rigging::addSkinnedNodes() {
 // ---- Lights and cameras --------------------------------------------------------------------------------------------
 
 void Rigging::addCarried(int index) {
-    const model::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
     const int sceneNode = sceneNodes_[static_cast<std::size_t>(index)];
-    if (node.light != kNone) {
+    if (const int light = lightOf(node); light != kNone) {
         carriedLights_.push_back({static_cast<int>(context_.scene.lights.size()) - 1, sceneNode});
-        lights_[node.light].push_back(carriedLights_.back().element);
+        lights_[light].push_back(carriedLights_.back().element);
     }
     if (node.camera != kNone) {
         carriedCameras_.push_back({static_cast<int>(context_.scene.cameras.size()) - 1, sceneNode});

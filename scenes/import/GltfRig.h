@@ -34,7 +34,7 @@ private:
     struct Drawn {
         int shape = 0;
         int material = 0;
-        const model::Primitive* primitive = nullptr;
+        const tiny::Primitive* primitive = nullptr;
     };
     /// An instance whose node is not there yet.
     struct Standing {
@@ -58,7 +58,7 @@ private:
     void addSkinnedNodes();
 
     Clip clip(int index);
-    std::optional<Animated> animated(const model::AnimationChannel& channel);
+    std::optional<Animated> animated(const tiny::AnimationChannel& channel);
     std::optional<Animated> animatedByPointer(const std::string& pointer);
     std::optional<Animated> animatedOfNode(int node, std::string_view path);
     std::optional<Animated> animatedOfLight(std::size_t index, std::string_view path);
@@ -66,7 +66,7 @@ private:
     std::optional<Animated> animatedOfTexture(std::size_t material, std::string_view path);
     std::optional<Animated> animatedOfCamera(std::size_t index, std::string_view path);
     /// The node whose weights a channel changes though its mesh has no morph targets; none: another channel.
-    std::optional<int> nodeWithoutTargets(const model::AnimationChannel& channel) const;
+    std::optional<int> nodeWithoutTargets(const tiny::AnimationChannel& channel) const;
     void warnOfMorphless();
     int restNode(int node);
     int restNumber(AnimatedProperty property, int element, TextureSlot slot = TextureSlot::Count);

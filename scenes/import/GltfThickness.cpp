@@ -103,10 +103,10 @@ bool splitByScale(Context& context, int index, int material) {
 
 std::map<int, std::optional<double>> thicknessScales(const Context& context, const std::vector<PlacedNode>& allPlaced,
                                                      const Instancing& instancing) {
-    const model::Model& model = context.document.model;
+    const tiny::Model& model = context.document.model;
     std::map<int, SharedScale> ofMeshes, ofMaterials;
     for (const PlacedNode& placed : allPlaced) {
-        const model::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
+        const tiny::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
         if (!placed.isDrawn || node.mesh == kNone) continue;
         const auto instanced = instancing.find(placed.node);
         if (instanced == instancing.end())
@@ -117,7 +117,7 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
     }
     // Once for each mesh: all nodes of a file may show the same one, of many primitives.
     for (const auto& [mesh, scale] : ofMeshes)
-        for (const model::Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+        for (const tiny::Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
             addUse(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);
     return ofMaterials;
 }

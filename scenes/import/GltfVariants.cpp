@@ -14,11 +14,13 @@ void importVariant(Context& context, Materials& materials) {
     const std::optional<std::string>& wish = context.document.ledger.wishes().variant;
     std::vector<std::string>& names = context.scene.variants;
     std::unordered_set<std::string_view> known;
-    for (const model::Variant& variant : context.document.model.variants) {
-        if (!known.insert(variant.name).second) continue;
-        context.document.ledger.charge(2 * (sizeof(std::string) + variant.name.size()),
+    const tiny::Value* const variants = valueAt(context.document.model.extensions, "KHR_materials_variants/variants");
+    for (const tiny::Value& variant : elementsOf(variants)) {
+        const std::string& name = variant.Get("name").Get<std::string>();
+        if (!known.insert(name).second) continue;
+        context.document.ledger.charge(2 * (sizeof(std::string) + name.size()),
                                        [&] { return context.document.file + ": its variants"; });
-        names.push_back(variant.name);
+        names.push_back(name);
     }
     if (names.empty()) return;
     constexpr std::size_t kMostTold = 20;

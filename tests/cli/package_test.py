@@ -76,7 +76,8 @@ class Packages(unittest.TestCase):
         for name in set(asked) - {"Threads", "OpenGL", "OpenSSL"}:
             word = name.lower().replace("_", "-")[:6]
             self.assertTrue(any(word in library for library in libraries), f"{name} of {libraries}")
-        self.assertLessEqual({"libegl-dev", "libopengl-dev", "libimgui-dev", "libssl-dev", "libstb-dev", "libwebp-dev"}, set(libraries))
+        self.assertLessEqual({"libegl-dev", "libopengl-dev", "libimgui-dev", "libssl-dev", "libstb-dev", "libtinygltf-dev", "libwebp-dev"},
+                             set(libraries))
         self.assertIn("libgl1-mesa-dri", packagesIn(self.fields["tessera"]["Recommends"]))
 
     @unittest.skipUnless(shutil.which("apt-get"), "needs apt-get")

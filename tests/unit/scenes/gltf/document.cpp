@@ -232,6 +232,16 @@ TEST(GltfDocument, accessorWithoutDataNeverReservesGigabytes) {
     EXPECT_NE(builder.error().find("/accessors/0: has 4000000000 elements but no buffer view"), std::string::npos);
 }
 
+TEST(GltfDocument, objectsThatTinygltfRefusesAreRead) {
+    Builder builder;
+    builder.merge(R"({"images": [{}, {"uri": "nowhere.png", "bufferView": 0}]})");
+    builder.json["accessors"].push_back({{"componentType", 5121}, {"type", "SCALAR"}, {"count", 3}}); // zeros
+    builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", 1}});
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.meshes.at(1).indices.size(), 3u);
+    EXPECT_TRUE(scene.images.empty());
+}
+
 TEST(GltfDocument, sparseFaultsAreRefused) {
     Builder builder;
     const int targets = builder.addView(bytesOf(std::vector<std::uint8_t>{3}));

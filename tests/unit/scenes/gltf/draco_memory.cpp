@@ -60,7 +60,7 @@ TEST(GltfDraco, aStreamOfSeveralPrimitivesIsDecodedOnce) {
     const Document document = loadDocument(builder.folder.write("model.gltf", builder.json.dump()), ledger);
     Buffers buffers(document);
     DracoStreams streams(document, buffers);
-    const std::vector<model::Primitive>& stored = document.model.meshes[0].primitives;
+    const std::vector<tiny::Primitive>& stored = document.model.meshes[0].primitives;
     const std::uint64_t before = ledger.usedBytes() - buffers.heldBytes();
     const DracoGeometry first = streams.decode(stored[0], "/meshes/0/primitives/0", "grid");
     std::uint64_t geometryBytes = first.corners.size() * sizeof(std::uint32_t);
