@@ -11,13 +11,10 @@
 #include "scenes/import/GltfEnvironment.h"
 #include "scenes/import/GltfGeometry.h"
 #include "scenes/import/GltfHierarchy.h"
-#include "scenes/import/GltfInstances.h"
-#include "scenes/import/GltfLightUnits.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/GltfThickness.h"
 #include "scenes/import/GltfThinSolids.h"
-#include "scenes/import/GltfVariants.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
@@ -33,7 +30,7 @@ public:
     const std::vector<MeshInstance>& instancesOf(int mesh) {
         const auto [entry, isNew] = imported_.try_emplace(mesh);
         if (!isNew) return entry->second;
-        const auto& primitives = context_.document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
+        const auto& primitives = elementAt(context_.document.model.meshes, mesh).primitives;
         for (std::size_t i = 0; i < primitives.size(); ++i) {
             std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i));
             if (!imported) continue;
@@ -60,7 +57,7 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
         const int parent = sceneNodes[static_cast<std::size_t>(index)];
         const std::string name = nodes[static_cast<std::size_t>(parent)].name;
         const std::vector<MeshInstance>& drawn =
-            meshes.instancesOf(context.document.model.nodes[static_cast<std::size_t>(index)].mesh);
+            meshes.instancesOf(elementAt(context.document.model.nodes, index).mesh);
         constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
         const std::size_t bytesEach = sizeof(Node) + name.size() + kDigits + drawn.size() * sizeof(MeshInstance);
         context.document.charge(kCopies * transforms.size() * bytesEach, "nodes", index);
@@ -114,7 +111,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     Rigging rigging(context, materials, sceneNodes);
     Instancing instancing;
     for (const PlacedNode& placed : allPlaced) {
-        const tiny::Node& stored = document.model.nodes[static_cast<std::size_t>(placed.node)];
+        const tiny::Node& stored = elementAt(document.model.nodes, placed.node);
         Node node;
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;

@@ -105,8 +105,7 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
         for (std::size_t i = 0; i < accessor.count; ++i)
             copyElement({packed.data(), componentBytes * width, componentBytes}, i, i);
     } else if (accessor.bufferView != kNone) {
-        const std::size_t stride =
-            document_.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+        const std::size_t stride = elementAt(document_.model.bufferViews, accessor.bufferView).byteStride;
         const Source source = placed(index, accessor.bufferView, accessor.byteOffset, accessor.count,
                                      accessor.componentType, width, stride);
         reserve();
@@ -139,7 +138,7 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
 }
 
 const tiny::Accessor& Accessors::accessorAt(int index) const {
-    return document_.model.accessors[static_cast<std::size_t>(index)];
+    return elementAt(document_.model.accessors, index);
 }
 
 Elements Accessors::elements(int index, std::span<const std::byte> packed) {

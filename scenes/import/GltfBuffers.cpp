@@ -138,7 +138,7 @@ std::vector<std::byte> Buffers::decompress(int bufferView, const tiny::Value& st
 }
 
 std::span<const std::byte> Buffers::view(int bufferView) {
-    const tiny::BufferView& stored = document_.model.bufferViews[static_cast<std::size_t>(bufferView)];
+    const tiny::BufferView& stored = elementAt(document_.model.bufferViews, bufferView);
     const tiny::Value* const meshopt = valueAt(stored.extensions, "EXT_meshopt_compression");
     if (meshopt == nullptr)
         return slice(stored.buffer, stored.byteOffset, stored.byteLength, fmt::format("/bufferViews/{}", bufferView));

@@ -1,8 +1,11 @@
 #include "scenes/import/GltfCamerasAndLights.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -75,10 +78,10 @@ void setCones(Context& context, const tiny::SpotLight& stored, const std::string
 
 void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
     const Document& document = context.document;
-    const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(nodeIndex)];
+    const tiny::Node& node = elementAt(document.model.nodes, nodeIndex);
     if (node.camera == kNone) return;
     const std::string place = fmt::format("/cameras/{}", node.camera);
-    const tiny::Camera& stored = document.model.cameras[static_cast<std::size_t>(node.camera)];
+    const tiny::Camera& stored = elementAt(document.model.cameras, node.camera);
 
     Camera camera;
     camera.name = uniqueName(context, !stored.name.empty() ? stored.name : nameOr(node.name, "camera", node.camera));
@@ -98,7 +101,7 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
 
 void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNode) {
     const Document& document = context.document;
-    const int index = lightOf(document.model.nodes[static_cast<std::size_t>(nodeIndex)]);
+    const int index = lightOf(elementAt(document.model.nodes, nodeIndex));
     if (index == kNone) return;
     const auto at = static_cast<std::size_t>(index);
     const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
@@ -124,6 +127,47 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     }
     if (light.type == LightType::Spot) setCones(context, stored.spot, place, light);
     context.scene.lights.push_back(std::move(light));
+}
+
+// ---- Units of lights ------------------------------------------------------------------------------------------------
+
+namespace {
+
+using ExporterVersion = std::pair<int, int>; ///< major, minor
+
+/// Of Blender's exporter, where a text such as "Khronos glTF Blender I/O v4.2.57" names it; 0.0 where it says none.
+std::optional<ExporterVersion> blenderVersion(std::string_view generator) {
+    constexpr std::string_view kBlender = "glTF Blender I/O";
+    const std::size_t at = generator.find(kBlender);
+    if (at == std::string_view::npos) return std::nullopt;
+    ExporterVersion version{0, 0};
+    const std::size_t digits = generator.find_first_of("0123456789", at + kBlender.size());
+    if (digits == std::string_view::npos) return version;
+    const char* const end = generator.data() + generator.size();
+    const char* const dot = std::from_chars(generator.data() + digits, end, version.first).ptr;
+    if (dot != end && *dot == '.') std::from_chars(dot + 1, end, version.second);
+    return version;
+}
+
+} // namespace
+
+void takeLightUnits(Document& document, std::vector<std::string>& notes) {
+    if (document.model.lights.empty()) return;
+    const std::optional<LightUnits> wish = document.ledger.wishes().lightUnits;
+    const std::optional<ExporterVersion> blender = blenderVersion(document.model.asset.generator);
+    if (!(wish ? wish == LightUnits::Lumen : blender.has_value())) return;
+    constexpr ExporterVersion kSunsToo{3, 4};
+    bool areDivided = false;
+    for (std::size_t i = 0; i < document.model.lights.size(); ++i) {
+        const bool isWatts = !wish && document.model.lights[i].type == "directional" && *blender < kSunsToo;
+        if (isWatts) continue;
+        areDivided = true;
+        document.wattsPerUnit[i] = 1.0 / kLumensPerWatt;
+    }
+    if (!wish && areDivided)
+        notes.push_back(fmt::format("its lights are in lumens, {} for each watt, as Blender exports them, and shown in "
+                                    "watts; --light-units watt takes them as they are",
+                                    kLumensPerWatt));
 }
 
 } // namespace tessera::scenes::gltf

@@ -25,7 +25,7 @@ int Rigging::restNode(int index) {
     Rig& rig = context_.scene.rig;
     const auto [entry, isNew] = nodes_.try_emplace(index, static_cast<int>(rig.nodes.size()));
     if (isNew) {
-        const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+        const tiny::Node& node = elementAt(context_.document.model.nodes, index);
         context_.document.charge(2 * sizeof(RestNode), "nodes", index);
         rig.nodes.push_back(
             {sceneNodes_[static_cast<std::size_t>(index)], translationOf(node), rotationOf(node), scaleOf(node)});
@@ -52,7 +52,7 @@ void Rigging::warnOfMorphless() {
     if (morphless_.empty()) return;
     const tiny::Model& model = context_.document.model;
     const int first = *morphless_.begin();
-    const tiny::Node& node = model.nodes[static_cast<std::size_t>(first)];
+    const tiny::Node& node = elementAt(model.nodes, first);
     const auto named = [](const char* kind, const std::string& name, int index) {
         return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
     };
@@ -62,7 +62,7 @@ void Rigging::warnOfMorphless() {
     std::string why = "it has no mesh";
     if (node.mesh != kNone)
         why = fmt::format("its {} has no morph targets",
-                          named("mesh", model.meshes[static_cast<std::size_t>(node.mesh)].name, node.mesh));
+                          named("mesh", elementAt(model.meshes, node.mesh).name, node.mesh));
     context_.warn(fmt::format("/animations: weights of {} are animated, but {}; they are left out", which, why));
 }
 
@@ -90,7 +90,7 @@ void Rigging::warnOfLeftOut() {
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
     const Document& document = context_.document;
     const tiny::AnimationSampler& stored =
-        document.model.animations[static_cast<std::size_t>(animation)].samplers[static_cast<std::size_t>(index)];
+        elementAt(document.model.animations, animation).samplers[static_cast<std::size_t>(index)];
     const std::string place = fmt::format("/animations/{}/samplers/{}", animation, index);
     AnimationSampler sampler;
     if (stored.interpolation != "LINEAR")
@@ -152,7 +152,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
 
 Clip Rigging::clip(int index) {
     const Document& document = context_.document;
-    const tiny::Animation& stored = document.model.animations[static_cast<std::size_t>(index)];
+    const tiny::Animation& stored = elementAt(document.model.animations, index);
     const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);

@@ -26,7 +26,7 @@ struct Document {
     tiny::Model model = {};                            ///< without `buffers` and `materials`
     std::vector<BufferSource> buffers = {};
     std::vector<StoredMaterial> materials = {};
-    std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfLightUnits.h)
+    std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfCamerasAndLights.h)
 
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;

@@ -103,9 +103,7 @@ public:
     }
 
 private:
-    const tiny::Accessor& accessor(int index) const {
-        return document_.model.accessors[static_cast<std::size_t>(index)];
-    }
+    const tiny::Accessor& accessor(int index) const { return elementAt(document_.model.accessors, index); }
 
     const Document& document_;
     const tiny::Primitive& primitive_;

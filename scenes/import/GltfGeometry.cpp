@@ -162,7 +162,7 @@ private:
     /// The largest value of the index type.
     std::uint32_t restartIndex(int accessor) const {
         return kWidestRestart >>
-               (32 - 8 * bytesOf(context_.document.model.accessors[static_cast<std::size_t>(accessor)].componentType));
+               (32 - 8 * bytesOf(elementAt(context_.document.model.accessors, accessor).componentType));
     }
 
     std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
@@ -267,7 +267,7 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
 } // namespace
 
 std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
-    const tiny::Mesh& stored = context.document.model.meshes[static_cast<std::size_t>(meshIndex)];
+    const tiny::Mesh& stored = elementAt(context.document.model.meshes, meshIndex);
     const tiny::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
     Shape shape;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 
-#include "scenes/import/GltfDocument.h"
+#include "scenes/import/GltfContext.h"
 
 namespace tessera::scenes::gltf {
 
@@ -26,5 +26,10 @@ inline std::string placeOf(int node) {
 /// children; then, not drawn, those of the trees of other joints that skins follow. Throws InputError naming the node
 /// when the graph is not a forest or a transform is not finite.
 std::vector<PlacedNode> placeNodes(const Document& document);
+
+/// Node-from-instance of every instance of a node's mesh (EXT_mesh_gpu_instancing); none where the node has no such
+/// extension. Throws InputError naming the attribute that is of the wrong type, of another number than the others, or
+/// no transform.
+std::vector<glm::dmat4> instanceTransforms(Context& context, int node);
 
 } // namespace tessera::scenes::gltf

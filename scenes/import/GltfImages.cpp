@@ -17,7 +17,7 @@ constexpr std::uint64_t kMostUnreadableBytes = std::uint64_t{1} << 32;
 
 Image decoded(const Context& context, int index) {
     const Document& document = context.document;
-    const tiny::Image& stored = document.model.images[static_cast<std::size_t>(index)];
+    const tiny::Image& stored = elementAt(document.model.images, index);
     const std::string& uri = stored.uri;
     const std::string place = fmt::format("/images/{}", index);
     Image image;

@@ -17,6 +17,11 @@
 /// where the document has none.
 namespace tessera::scenes::gltf {
 
+template <typename Element>
+const Element& elementAt(const std::vector<Element>& elements, int index) {
+    return elements[static_cast<std::size_t>(index)];
+}
+
 // ---- Values of extensions ------------------------------------------------------------------------------------------
 
 /// The value at a path of keys; null where there is none. Objects and arrays that are empty are not there.

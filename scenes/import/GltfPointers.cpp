@@ -99,8 +99,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
         animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].size();
         return animated;
     }
-    if (!context_.document.model.nodes[static_cast<std::size_t>(index)].matrix.empty())
-        return {}; // has no parts to change
+    if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no parts to change
     animated.targets.push_back(restNode(index));
     return animated;
 }

@@ -41,8 +41,8 @@ Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneN
 
 std::vector<float> Rigging::restWeights(int index) const {
     const tiny::Model& model = context_.document.model;
-    const tiny::Node& node = model.nodes[static_cast<std::size_t>(index)];
-    const tiny::Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
+    const tiny::Node& node = elementAt(model.nodes, index);
+    const tiny::Mesh& mesh = elementAt(model.meshes, node.mesh);
     const std::vector<double>& stated = node.weights.empty() ? mesh.weights : node.weights;
     const std::size_t targets = targetCounts_[static_cast<std::size_t>(node.mesh)];
     std::vector<float> weights(targets, 0.0f);
@@ -53,7 +53,7 @@ std::vector<float> Rigging::restWeights(int index) const {
 
 /// Takes no time that grows with the mesh: all nodes of a file may show the same large one.
 Deforms Rigging::deformsOf(int index) const {
-    const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = elementAt(context_.document.model.nodes, index);
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const bool isMorphed = node.weights.empty() ? isMorphed_[mesh] : anyMorphs(node.weights, targetCounts_[mesh]);
     const bool mayMorph = targetCounts_[mesh] > 0 && hasAnimatedWeights_[static_cast<std::size_t>(index)];
@@ -63,7 +63,7 @@ Deforms Rigging::deformsOf(int index) const {
 const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms) {
     const auto [entry, isNew] = shapes_.try_emplace({mesh, deforms});
     if (!isNew) return entry->second;
-    const auto& primitives = context_.document.model.meshes[static_cast<std::size_t>(mesh)].primitives;
+    const auto& primitives = elementAt(context_.document.model.meshes, mesh).primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i), deforms);
         if (!imported) continue;
@@ -80,7 +80,7 @@ int Rigging::skinOf(int index) {
     const auto [entry, isNew] = skins_.try_emplace(index, static_cast<int>(context_.scene.rig.skins.size()));
     if (!isNew) return entry->second;
     const Document& document = context_.document;
-    const tiny::Skin& stored = document.model.skins[static_cast<std::size_t>(index)];
+    const tiny::Skin& stored = elementAt(document.model.skins, index);
     // A pose has a matrix for each, too.
     document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4) + sizeof(glm::dmat4x3)), "skins", index);
     Skin skin;
@@ -119,7 +119,7 @@ void Rigging::requireJoints(const Shape& shape, int mesh, int skin, std::size_t 
 
 void Rigging::addDeformed(int index) {
     const Document& document = context_.document;
-    const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = elementAt(document.model.nodes, index);
     Scene& scene = context_.scene;
     const Deforms deforms = deformsOf(index);
     Deformed deformed;
@@ -169,7 +169,7 @@ void Rigging::addSkinnedNodes() {
 // ---- Lights and cameras --------------------------------------------------------------------------------------------
 
 void Rigging::addCarried(int index) {
-    const tiny::Node& node = context_.document.model.nodes[static_cast<std::size_t>(index)];
+    const tiny::Node& node = elementAt(context_.document.model.nodes, index);
     const int sceneNode = sceneNodes_[static_cast<std::size_t>(index)];
     if (const int light = lightOf(node); light != kNone) {
         carriedLights_.push_back({static_cast<int>(context_.scene.lights.size()) - 1, sceneNode});

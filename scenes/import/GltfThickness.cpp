@@ -106,7 +106,7 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
     const tiny::Model& model = context.document.model;
     std::map<int, SharedScale> ofMeshes, ofMaterials;
     for (const PlacedNode& placed : allPlaced) {
-        const tiny::Node& node = model.nodes[static_cast<std::size_t>(placed.node)];
+        const tiny::Node& node = elementAt(model.nodes, placed.node);
         if (!placed.isDrawn || node.mesh == kNone) continue;
         const auto instanced = instancing.find(placed.node);
         if (instanced == instancing.end())
@@ -117,7 +117,7 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
     }
     // Once for each mesh: all nodes of a file may show the same one, of many primitives.
     for (const auto& [mesh, scale] : ofMeshes)
-        for (const tiny::Primitive& primitive : model.meshes[static_cast<std::size_t>(mesh)].primitives)
+        for (const tiny::Primitive& primitive : elementAt(model.meshes, mesh).primitives)
             addUse(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);
     return ofMaterials;
 }
