@@ -241,7 +241,10 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     const bool wraps = surface.wrap != glm::dvec3(0.0);
     const OwnPlane ownPlane = terminatorLift > 0.0 ? OwnPlane(surface.normal, kNormalRounding) : ownTriangle;
     const OwnPlane* const own = wraps ? nullptr : &ownPlane;
-    const Hit* const start = lift > 0.0 || terminatorLift > 0.0 ? nullptr : &hit;
+    // A lifted point may be hidden by its own triangle, but only from what lies behind it.
+    const bool isBeforeOwn = glm::dot(ownTriangle.normal, toLight) >
+                             ownTriangle.leewayRadians * distance + radius + 2.0 * casters.leewayMetres(fromRWS);
+    const Hit* const start = lift > 0.0 || (terminatorLift > 0.0 && !isBeforeOwn) ? nullptr : &hit;
     // A lifted point also moves aside, as the triangle's normal is off.
     const double asideMetres =
         terminatorLift > 0.0 ? 0.5 * kStoredFacetRadians * terminatorLift + 2.0 * hit.roundingMetres : 0.0;
