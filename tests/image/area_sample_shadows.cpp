@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-constexpr int kSide = 64;
+constexpr int kShadowPixels = 64;
 constexpr int kFewSamples = 4; ///< of each kind, so that both have much noise
 
 class AreaSampleShadows : public test::ShadowTest {
@@ -41,7 +41,7 @@ protected:
     }
     static std::vector<double> redOf(engine::Renderer& renderer, scenes::ShadowRequest shadows) {
         frame::FrameSettings settings;
-        settings.sizePixels = {kSide, kSide};
+        settings.sizePixels = {kShadowPixels, kShadowPixels};
         settings.area = {frame::AreaLights::Sampled, kFewSamples};
         settings.shadows = shadows;
         settings.shadowFilter = frame::ShadowFilter::Traced;
@@ -76,7 +76,7 @@ TEST_F(AreaSampleShadows, takeRandomNumbersThatTheLightDoesNot) {
                meanVisible, shadowNoise, correlation);
     EXPECT_GT(lightNoise, 0.01 * meanLight);
     EXPECT_GT(shadowNoise, 0.05);
-    EXPECT_LE(std::abs(correlation), 4.0 / kSide) << "four standard errors of independent pixels";
+    EXPECT_LE(std::abs(correlation), 4.0 / kShadowPixels) << "four standard errors of independent pixels";
 }
 
 } // namespace
