@@ -184,7 +184,7 @@ TEST(GBufferLayout, everyFeatureSetTakesExactlyItsBytes) {
     EXPECT_EQ(with([](scenes::Material& m) { m.ior = 1.4f; }), (Bytes{64, 16, 12}));
     EXPECT_EQ(with([](scenes::Material& m) { m.emissive.r = 1.0f; }), (Bytes{48, 16, 12}));
     EXPECT_EQ(with([](scenes::Material& m) { m.anisotropyStrength = 0.5f; }), (Bytes{48, 16, 12}));
-    EXPECT_EQ(with([](scenes::Material& m) { m.clearcoat = 0.5f; }), (Bytes{48, 16, 12}));
+    EXPECT_EQ(with([](scenes::Material& m) { m.clearcoat = 0.5f; }), (Bytes{48, 20, 16}));
     EXPECT_EQ(with([](scenes::Material& m) { m.sheenColor.g = 0.5f; }), (Bytes{48, 16, 12}));
     EXPECT_EQ(bytesOf(allFeatures()), (Bytes{128, 32, 24}));
 }
