@@ -174,7 +174,8 @@ TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {
         if (line.cause == "arithmetic") arithmetic = line.relMse.value();
         for (const EnvironmentLight method : methods)
             if (line.what.find(infoOf(method).name) != std::string::npos)
-                (line.cause == validation::kWholeCause ? wholes : sums)[std::string(infoOf(method).name)] += line.relMse.value();
+                (line.cause == validation::kWholeCause ? wholes : sums)[std::string(infoOf(method).name)] +=
+                    line.relMse.value();
     }
     ASSERT_EQ(wholes.size(), methods.size());
     for (const auto& [name, whole] : wholes) EXPECT_NEAR(sums[name] + arithmetic, whole, 0.1 * whole) << name;

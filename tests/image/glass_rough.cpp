@@ -337,8 +337,8 @@ void GlassRough::expectSpreadAsWalters(std::vector<double> iors, int side, int s
             }
 }
 
-/// A sky that is bright around the ray, as far as half of its lobe reaches: 1 % of the lobe's width changes the image by
-/// 0.4 %. It is 5 % too bright; with two turns added as squares 14 %, with their sum 14 % too dark.
+/// A sky that is bright around the ray, as far as half of its lobe reaches: 1 % of the lobe's width changes the image
+/// by 0.4 %. It is 5 % too bright; with two turns added as squares 14 %, with their sum 14 % too dark.
 TEST_F(GlassRough, ofTwoSidesSpreadsAsFarAsWaltersIntegral) {
     struct Case {
         double ior, roughness, radians;

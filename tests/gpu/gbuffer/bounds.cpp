@@ -231,7 +231,10 @@ TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsTheValue) {
                 const double bias = std::abs(mean[v] - wanted[v]) / std::max(1.0, std::abs(wanted[v]));
                 worst = std::max(worst, bias);
                 // Parts of a unit vector are linear in its code but for the second order of a step.
-                EXPECT_LE(bias, 1e-4) << "value " << v << " is " << wanted[v] << ", in the mean " << mean[v];
+                // F90 has one bit in `slim`: the thresholds of so many pixels are even to 1.3e-4 of that step.
+                const bool isOneBit = v == 20 && encoding == frame::Encoding::Slim && !isMicrofacet(surface);
+                EXPECT_LE(bias, isOneBit ? 2e-4 : 1e-4)
+                    << "value " << v << " is " << wanted[v] << ", in the mean " << mean[v];
             }
         }
         fmt::print("{}: means are off by {:.2g} at most, errors correlate by {:.2g} at most\n",
