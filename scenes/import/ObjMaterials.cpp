@@ -52,7 +52,7 @@ int MaterialConverter::add(const MtlMaterial* mtl, bool isUnlit) {
     Material material;
     if (mtl != nullptr && !mtl->file.empty()) {
         for (const auto& [line, text, repair] : mtl->flaws)
-            repairs_.note(mtl->file, line, repair, [&] { return text; });
+            repairs_.note(mtl->file, line, repair, [&text = text] { return text; });
         unsupported_[mtl->file].insert(mtl->unsupported.begin(), mtl->unsupported.end());
         warnOfNothingShown(*mtl);
         material = converted(*mtl);
