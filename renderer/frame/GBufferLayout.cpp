@@ -7,11 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "shaders/shared/facet.h"
 #include "shaders/shared/material.h"
 #include "shaders/shared/normals.h"
-#include "shaders/shared/occlusion.h"
-#include "shaders/shared/subsurface.h"
 
 namespace tessera::frame {
 
@@ -19,168 +16,14 @@ namespace {
 
 using graph::Format;
 
-// The first five channels hold every isotropic surface; their widths add up to 128 and 96 bits.
-constexpr ChannelInfo kChannels[] = {
-    {Channel::Albedo,
-     "albedo",
-     "ALBEDO",
-     "k_d or base colour",
-     "square roots of red, green, blue",
-     {10, 10, 10},
-     {8, 8, 8},
-     "scenes with a lit model",
-     true,
-     false,
-     [](const FeatureSet& f, bool) { return f.litModels(); }},
-    {Channel::Normal,
-     "normal",
-     "NORMAL",
-     "unit normal, lighting space",
-     "octahedral, two coordinates",
-     {15, 15},
-     {10, 10},
-     "scenes with a lit model",
-     false,
-     true,
-     [](const FeatureSet& f, bool) { return f.litModels(); }},
-    {Channel::Microsurface,
-     "microsurface",
-     "MICROSURFACE",
-     "alpha, model, ior or F90, metallic; exponent; masking",
-     "model and masking, fourth root of alpha, F90, metallic; (ior-1)/(ior+1) in the last two; exponent as a float in "
-     "the last three",
-     {4, 11, 3, 8},
-     {4, 8, 1, 6},
-     "scenes with several models, another ior, or no room beside albedo and normal",
-     true,
-     false,
-     [](const FeatureSet& f, bool) { return f.microsurfaces() || !f.soleModel; }},
-    {Channel::Specular,
-     "specular",
-     "SPECULAR",
-     "k_s or dielectric F0",
-     "square roots of red, green, blue",
-     {6, 6, 6},
-     {4, 4, 4},
-     "scenes that change k_s or the dielectric F0",
-     true,
-     false,
-     [](const FeatureSet& f, bool) { return f.glossyModels() && f[Feature::Specular]; }},
-    {Channel::Emission,
-     "emission",
-     "EMISSION",
-     "radiance without lights",
-     "shared exponent; red, green, blue",
-     {6, 6, 6, 6},
-     {6, 5, 5, 5},
-     "scenes with emissive or unlit materials",
-     true,
-     false,
-     [](const FeatureSet& f, bool) { return f[Feature::Emission]; }},
-    {Channel::Tangent,
-     "tangent",
-     "TANGENT",
-     "unit tangent, lighting space; alpha along the bitangent",
-     "axis, point on half a diamond, fourth root of alpha",
-     {2, 13, 11},
-     {2, 9, 8},
-     "scenes with anisotropic materials",
-     false,
-     true,
-     [](const FeatureSet& f, bool normalTexel) { return f.tangentFrame() && !normalTexel; }},
-    {Channel::Clearcoat,
-     "clearcoat",
-     "CLEARCOAT",
-     "the coat's normal, octahedral; share; alpha",
-     "octahedral, two coordinates; share, fourth root of alpha",
-     {12, 12, 8, 11},
-     {10, 10, 6, 8},
-     "scenes with coated materials",
-     false,
-     true,
-     [](const FeatureSet& f, bool normalTexel) { return f[Feature::Clearcoat] && !normalTexel; }},
-    {Channel::Sheen,
-     "sheen",
-     "SHEEN",
-     "the sheen's colour and alpha",
-     "square roots of red, green, blue; fourth root of alpha",
-     {8, 8, 8, 8},
-     {6, 6, 6, 6},
-     "scenes with cloth",
-     true,
-     false,
-     [](const FeatureSet& f, bool normalTexel) { return f[Feature::Sheen] && !normalTexel; }},
-    {Channel::NormalTexel,
-     "normal_texel",
-     "NORMAL_TEXEL",
-     "normal map as stored",
-     "red, green, blue",
-     {8, 8, 8},
-     {8, 8, 8},
-     "the view that shows it",
-     false,
-     false,
-     [](const FeatureSet&, bool normalTexel) { return normalTexel; }},
-};
-static_assert(std::size(kChannels) == kChannelCount);
-
-constexpr MarkInfo kMarks[] = {
-    {Mark::Facets, "facets", "FACETS", "the triangle's own normal, octahedral", 2 * FACET_BITS, Channel::Specular,
-     "scenes with shadows in view", false, [](const FeatureSet& f) { return f[Feature::Shadows]; }},
-    {Mark::Lift, "lift", "LIFT", "height above the triangle at which shadow rays start", LIFT_BITS, Channel::Normal,
-     "scenes with shadows in view whose terminators are softened", false,
-     [](const FeatureSet& f) { return f[Feature::ShadowLift]; }},
-    {Mark::Subsurface, "subsurface", "SUBSURFACE", "row of the subsurface's constants", SUBSURFACE_BITS,
-     Channel::Emission, "scenes whose surfaces wrap light or let it through", true,
-     [](const FeatureSet& f) { return f.subsurfaceRows(); }},
-    {Mark::Occlusion, "occlusion", "OCCLUSION", "share of the environment's light that arrives", OPEN_BITS,
-     Channel::Albedo, "scenes with occlusion textures that an environment lights", true,
-     [](const FeatureSet& f) { return f[scenes::TextureSlot::Occlusion] && f[Feature::Environment]; }},
-};
-static_assert(std::size(kMarks) == kMarkCount);
-// fp32 holds the whole numbers of so many bits.
-static_assert(std::ranges::all_of(kMarks, [](const MarkInfo& row) { return row.bits > 0 && row.bits <= 24; }));
-
 /// Attachments that OpenGL guarantees to draw into at once.
 constexpr std::size_t kMostAttachments = 8;
 
-/// Bits of the words up to the end of the normal.
-constexpr int bitsUpToNormal(FieldWidths ChannelInfo::*widths) {
-    int bits = 0;
-    for (const ChannelInfo& row : kChannels) {
-        for (const int width : row.*widths) bits += width;
-        if (row.channel == Channel::Normal) break;
-    }
-    return bits;
-}
-// Light culling reads normals back from the first texture of words: of one, if there are no more, of two, or of four.
-static_assert(std::max(bitsUpToNormal(&ChannelInfo::packed), bitsUpToNormal(&ChannelInfo::slim)) <= 64);
-
-// One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
-static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
-    const auto isGood = [](const FieldWidths& widths) {
-        return widths[0] <= 7 && widths[1] == widths[2] && widths[1] == widths[3];
-    };
-    return row.channel != Channel::Emission || (isGood(row.packed) && isGood(row.slim));
-}));
-
-// The field of model and masking holds the models, then each of those that mask once more for each other masking
-// (shaders/lib/gbuffer/gbuffer_encodings.glsl).
-constexpr std::size_t kKindCodes = [] {
-    std::size_t codes = scenes::kMaterialModelCount;
-    for (const scenes::MaterialModelInfo& model : scenes::materialModels())
-        if (model.isMicrofacet()) codes += std::size_t(scenes::Masking::Count) - 1;
-    return codes;
-}();
-static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
-    return row.channel != Channel::Microsurface || kKindCodes <= std::size_t(1) << std::min(row.packed[0], row.slim[0]);
-}));
-
 const ChannelInfo& infoOf(Channel channel) {
-    return kChannels[static_cast<std::size_t>(channel)];
+    return channelTable()[static_cast<std::size_t>(channel)];
 }
 const MarkInfo& infoOf(Mark mark) {
-    return kMarks[static_cast<std::size_t>(mark)];
+    return markTable()[static_cast<std::size_t>(mark)];
 }
 
 /// The first bit of each mark, one after the other but within a word, and behind them the end of the last.
@@ -205,29 +48,6 @@ std::string capitalised(std::string_view name) {
     }
     return words;
 }
-
-constexpr GBufferLayout uniformLayout(Encoding encoding) {
-    GBufferLayout layout;
-    layout.encoding.fill(encoding);
-    return layout;
-}
-
-// By Encoding. 99.9 % of the pixels: the coarsest step, relative to the value, is that of k_s, where it reflects 4 %,
-// of which 1/60 or 1/15 in the root is 2/(60 x 0.2) or 2/(15 x 0.2). Bias: every field is right in the mean, so what is
-// left is of second order in the steps of alpha: a highlight's peak goes with 1/alpha^2, of which half the second
-// derivative is 3/alpha^4, and the variance of a dithered value is at most a quarter of the step's square. At alpha
-// 0.01.
-constexpr LayoutInfo kLayouts[] = {
-    {"exact", "what forward lights, to the last bit", uniformLayout(Encoding::Exact), {0.0, 0.0, 0.0}},
-    {"packed",
-     "8 to 16 bytes a pixel and depth for isotropic scenes; relMse below 1e-4",
-     uniformLayout(Encoding::Packed),
-     {1e-4, 1.0 / 6.0, 1.9e-5}},
-    {"slim",
-     "8 to 12 bytes a pixel and depth for isotropic scenes; relMse below 5e-4",
-     uniformLayout(Encoding::Slim),
-     {5e-4, 2.0 / 3.0, 1.25e-3}},
-};
 
 bool haveSpareComponents(const GBufferLayout& layout) {
     return layout[Channel::Albedo] == Encoding::Exact && layout[Channel::Normal] == Encoding::Exact;
@@ -283,7 +103,7 @@ Places placesOf(const GBufferLayout& layout, std::span<const Channel> channels) 
 
 bool canHoldMaterialNumber(const GBufferLayout& layout) {
     return layout[Channel::Normal] == Encoding::Exact &&
-           std::all_of(std::begin(kChannels), std::end(kChannels), [&](const ChannelInfo& info) {
+           std::ranges::all_of(channelTable(), [&](const ChannelInfo& info) {
                return !info.ofMaterial || layout[info.channel] == Encoding::Exact;
            });
 }
@@ -297,7 +117,7 @@ std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBuffe
     const bool spare =
         alphaAndMetallicOnly && haveSpareComponents(layout) && layout[Channel::Microsurface] == Encoding::Exact;
     std::vector<Channel> channels;
-    for (const ChannelInfo& row : kChannels) {
+    for (const ChannelInfo& row : channelTable()) {
         if (row.channel == Channel::Microsurface && spare) continue;
         if (row.isNeeded(features, normalTexel)) channels.push_back(row.channel);
     }
@@ -306,23 +126,13 @@ std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBuffe
 
 } // namespace
 
-std::span<const ChannelInfo> channelTable() {
-    return kChannels;
-}
-std::span<const MarkInfo> markTable() {
-    return kMarks;
-}
-std::span<const LayoutInfo> layoutTable() {
-    return kLayouts;
-}
-
 const LayoutInfo& exactLayout() {
     return layoutTable().front();
 }
 
 const LayoutPromise& promiseOf(const GBufferLayout& layout) {
     const Encoding coarsest = *std::max_element(layout.encoding.begin(), layout.encoding.end());
-    return kLayouts[static_cast<std::size_t>(coarsest)].promise;
+    return layoutTable()[static_cast<std::size_t>(coarsest)].promise;
 }
 
 const FieldWidths& GBufferLayout::widths(Channel channel) const {
@@ -383,7 +193,7 @@ std::vector<Mark> neededMarks(const FeatureSet& features, const GBufferLayout& l
                               std::span<const Channel> channels) {
     const bool haveMaterials = !channels.empty() && !holdMaterialNumber(layout, channels);
     std::vector<Mark> marks;
-    for (const MarkInfo& row : kMarks)
+    for (const MarkInfo& row : markTable())
         if (row.isNeeded(features) && (!row.ofMaterial || haveMaterials)) marks.push_back(row.mark);
     return marks;
 }

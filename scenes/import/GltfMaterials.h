@@ -45,8 +45,8 @@ private:
     std::map<std::pair<int, float>, int> roughness_; ///< scene image by what roughnessOf() takes
 };
 
-/// Tells which variants there are, and imports the materials of the one that is asked for. Called after all others are
-/// imported, so that these keep their numbers, by which scene files name them.
+/// Reports the variants, and imports the materials of the requested one. Called after all other materials, which keep
+/// their numbers: scene files name materials by number.
 void importVariant(Context& context, Materials& materials);
 
 /// Gives these materials to what shows them. Called when all instances are there.

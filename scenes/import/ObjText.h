@@ -42,7 +42,7 @@ struct ObjFile {
     std::vector<glm::vec3> colors;      ///< linear, one a position; may be empty
     std::vector<glm::vec2> texCoords;   ///< v points up from the bottom-left corner
     std::vector<glm::vec3> normalsOS;   ///< of any length but 0 where an element uses them
-    std::vector<Group> groups;          ///< those with elements, of which there is one at least
+    std::vector<Group> groups;          ///< those with elements; at least one
     std::vector<std::string> libraries; ///< texts behind mtllib, as written
     std::vector<std::string> materials; ///< texts behind usemtl, each once
     std::vector<std::string> warnings;

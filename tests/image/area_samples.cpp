@@ -106,7 +106,7 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
         SCOPED_TRACE(what);
         SampledMean shown = seen(scene, renderer, light);
         // Of far lights few samples of the cosine hit the light, each by a part of `factor`, and each of these hits
-        // adds the same. Their number is a Poisson variable, of which the pixels tell nothing where there is none.
+        // adds the same. Their number is a Poisson variable; pixels without any do not show its variance.
         constexpr double kSamples = 256.0 * 16.0;
         shown.standardError = std::max(shown.standardError, pi * factor * std::sqrt(factor / kSamples));
         expectWithinThree(shown, pi * factor, rounding);

@@ -80,53 +80,54 @@ BentByFacet bentByFacet(double alpha, double ior, const glm::dvec3& normal, cons
     return {*bent, passedByFacet(ior, cosine) * maskedGgx(alpha, -glm::dot(*bent, normal))};
 }
 
-/// The mean light that rays of the viewer, which come along -z, find through the front of a ball around the origin, or
-/// through front and back. In double precision, over facets that are spread evenly.
-double throughBall(const glm::dvec2& place, double ior, double alpha, bool isClosed, int samples,
-                   const LightAlongRay& light) {
-    const double height = std::sqrt(kBallMetres * kBallMetres - glm::dot(place, place));
-    const glm::dvec3 entry(place, height), toViewer(0.0, 0.0, 1.0);
+/// Where the viewer's ray ends by two facets: the fraction of it that goes there, and the radiance that it meets.
+struct Path {
+    double weight = 0.0, radiance = 0.0;
+};
+
+/// The mean radiance of the paths of evenly spread numbers, four per path, in double precision.
+template <typename PathOf>
+double meanOfPaths(int samples, double begin, const PathOf& pathOf) {
+    const auto golden = [&](int i, double step) { return std::fmod(i * step + begin, 1.0); };
     double sum = 0.0, weights = 0.0;
-    const auto golden = [](int i, double step, double begin) { return std::fmod(i * step + begin, 1.0); };
     for (int i = 0; i < samples; ++i) {
-        const double begin = std::fmod(std::abs(17.3 * place.x + 31.7 * place.y), 1.0);
-        const BentByFacet inside = bentByFacet(alpha, ior, entry / kBallMetres, toViewer, (i + 0.5) / samples,
-                                               golden(i, 0.6180339887498949, begin));
-        if (!(inside.weight > 0.0)) continue;
-        if (!isClosed) {
-            sum += inside.weight * light(entry, inside.direction);
-            weights += inside.weight;
-            continue;
-        }
-        const glm::dvec3 exit = entry - 2.0 * glm::dot(entry, inside.direction) * inside.direction;
-        const BentByFacet outside =
-            bentByFacet(alpha, 1.0 / ior, -exit / kBallMetres, -inside.direction, golden(i, 0.7548776662466927, begin),
-                        golden(i, 0.5698402909980532, begin));
-        const double weight = inside.weight * outside.weight;
-        if (!(weight > 0.0)) continue;
-        sum += weight * light(exit, outside.direction);
-        weights += weight;
+        const Path path = pathOf(glm::dvec4((i + 0.5) / samples, golden(i, 0.6180339887498949),
+                                            golden(i, 0.7548776662466927), golden(i, 0.5698402909980532)));
+        if (!(path.weight > 0.0)) continue;
+        sum += path.weight * path.radiance;
+        weights += path.weight;
     }
     return sum / weights;
 }
 
-/// The same through the two sides of a slab across the view.
+constexpr glm::dvec3 kToViewer(0.0, 0.0, 1.0);
+
+/// Through the front of a ball around the origin, or through front and back.
+double throughBall(const glm::dvec2& place, double ior, double alpha, bool isClosed, int samples,
+                   const LightAlongRay& light) {
+    const glm::dvec3 entry(place, std::sqrt(kBallMetres * kBallMetres - glm::dot(place, place)));
+    const double begin = std::fmod(std::abs(17.3 * place.x + 31.7 * place.y), 1.0);
+    return meanOfPaths(samples, begin, [&](const glm::dvec4& random) -> Path {
+        const BentByFacet inside = bentByFacet(alpha, ior, entry / kBallMetres, kToViewer, random.x, random.y);
+        if (!(inside.weight > 0.0)) return {};
+        if (!isClosed) return {inside.weight, light(entry, inside.direction)};
+        const glm::dvec3 exit = entry - 2.0 * glm::dot(entry, inside.direction) * inside.direction;
+        const BentByFacet outside =
+            bentByFacet(alpha, 1.0 / ior, -exit / kBallMetres, -inside.direction, random.z, random.w);
+        if (!(outside.weight > 0.0)) return {};
+        return {inside.weight * outside.weight, light(exit, outside.direction)};
+    });
+}
+
+/// Through the two sides of a slab across the view.
 double throughSlab(double ior, double alpha, int samples, const LightAlongRay& light) {
-    const glm::dvec3 toViewer(0.0, 0.0, 1.0);
-    double sum = 0.0, weights = 0.0;
-    const auto golden = [](int i, double step) { return std::fmod(i * step, 1.0); };
-    for (int i = 0; i < samples; ++i) {
-        const BentByFacet inside =
-            bentByFacet(alpha, ior, toViewer, toViewer, (i + 0.5) / samples, golden(i, 0.6180339887498949));
-        if (!(inside.weight > 0.0)) continue;
-        const BentByFacet outside = bentByFacet(alpha, 1.0 / ior, toViewer, -inside.direction,
-                                                golden(i, 0.7548776662466927), golden(i, 0.5698402909980532));
-        const double weight = inside.weight * outside.weight;
-        if (!(weight > 0.0)) continue;
-        sum += weight * light({}, outside.direction);
-        weights += weight;
-    }
-    return sum / weights;
+    return meanOfPaths(samples, 0.0, [&](const glm::dvec4& random) -> Path {
+        const BentByFacet inside = bentByFacet(alpha, ior, kToViewer, kToViewer, random.x, random.y);
+        if (!(inside.weight > 0.0)) return {};
+        const BentByFacet outside = bentByFacet(alpha, 1.0 / ior, kToViewer, -inside.direction, random.z, random.w);
+        if (!(outside.weight > 0.0)) return {};
+        return {inside.weight * outside.weight, light({}, outside.direction)};
+    });
 }
 
 /// A mirror direction of `toViewer` by a facet of a rough side.
@@ -143,19 +144,12 @@ BentByFacet mirroredByFacet(double alpha, const glm::dvec3& normal, const glm::d
 
 /// Through the front of a wedge and off its back, of that inward normal, where it leaves unbent.
 double offTheBackOfAWedge(double ior, double alpha, const glm::dvec3& inward, int samples, const LightAlongRay& light) {
-    const glm::dvec3 toViewer(0.0, 0.0, 1.0);
-    double sum = 0.0, weights = 0.0;
-    const auto golden = [](int i, double step) { return std::fmod(i * step, 1.0); };
-    for (int i = 0; i < samples; ++i) {
-        const BentByFacet inside =
-            bentByFacet(alpha, ior, toViewer, toViewer, (i + 0.5) / samples, golden(i, 0.6180339887498949));
-        if (!(inside.weight > 0.0)) continue;
-        const BentByFacet back = mirroredByFacet(alpha, inward, -inside.direction, golden(i, 0.7548776662466927),
-                                                 golden(i, 0.5698402909980532));
-        sum += inside.weight * back.weight * light({}, back.direction);
-        weights += inside.weight * back.weight;
-    }
-    return sum / weights;
+    return meanOfPaths(samples, 0.0, [&](const glm::dvec4& random) -> Path {
+        const BentByFacet inside = bentByFacet(alpha, ior, kToViewer, kToViewer, random.x, random.y);
+        if (!(inside.weight > 0.0)) return {};
+        const BentByFacet back = mirroredByFacet(alpha, inward, -inside.direction, random.z, random.w);
+        return {inside.weight * back.weight, light({}, back.direction)};
+    });
 }
 
 constexpr int kCapTexels = 512; ///< of a sky that is bright around one direction, 0.7 degrees each
