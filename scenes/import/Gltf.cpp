@@ -35,10 +35,10 @@ public:
             std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i));
             if (!imported) continue;
             const int sceneMesh = static_cast<int>(context_.scene.meshes.size());
+            const ShownMaterial shown = materials_.shownBy(primitives[i], imported->rest);
             context_.scene.meshes.push_back(std::move(imported->rest));
-            context_.noteMesh(sceneMesh, primitives[i]);
-            entry->second.push_back(
-                {sceneMesh, materials_.material({primitives[i].material, shadingOf(primitives[i])})});
+            context_.noteMesh(sceneMesh, primitives[i], shown.lostSets);
+            entry->second.push_back({sceneMesh, materials_.material(shown)});
         }
         return entry->second;
     }
@@ -88,7 +88,8 @@ void warnOfIgnoredFeatures(Context& context) {
 
 Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
-    Document document = loadDocument(file, ledger);
+    Repairs repairs(ledger.wishes().isStrict);
+    Document document = loadDocument(file, ledger, repairs);
     Scene scene;
     takeLightUnits(document, scene.notes);
     scene.name = file.stem().string();
@@ -110,31 +111,40 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         sceneNodes[static_cast<std::size_t>(allPlaced[i].node)] = static_cast<int>(i);
     Rigging rigging(context, materials, sceneNodes);
     Instancing instancing;
+    bool hasMeshes = false;
     for (const PlacedNode& placed : allPlaced) {
         const tiny::Node& stored = elementAt(document.model.nodes, placed.node);
         Node node;
         node.name = nameOr(stored.name, "node", placed.node);
         node.parent = placed.parent;
         node.parentFromNode = placed.parentFromNode;
-        const bool isDeformed = placed.isDrawn && stored.mesh != kNone && rigging.deformsOf(placed.node) != Deforms();
-        const bool isInstanced =
-            placed.isDrawn && stored.mesh != kNone && stored.extensions.contains("EXT_mesh_gpu_instancing");
+        const bool isDrawn = placed.isDrawn && placed.isVisible;
+        const bool isMesh = isDrawn && stored.mesh != kNone;
+        hasMeshes = hasMeshes || isMesh;
+        const bool isDeformed = isMesh && rigging.deformsOf(placed.node) != Deforms();
+        const bool isInstanced = isMesh && stored.extensions.contains("EXT_mesh_gpu_instancing");
         if (isInstanced && isDeformed)
             context.warn(fmt::format("{}: its mesh is skinned or has morph targets that are used, so it is drawn once, "
                                      "and its instances are left out",
                                      placeOf(placed.node)));
-        if (isInstanced && !isDeformed) instancing[placed.node] = instanceTransforms(context, placed.node);
-        if (placed.isDrawn && stored.mesh != kNone && !isDeformed && !isInstanced) {
+        const bool isRepeated = isInstanced && !isDeformed && repairs.attempt("it is drawn once", [&] {
+            instancing[placed.node] = instanceTransforms(context, placed.node);
+        });
+        if (isMesh && !isDeformed && !isRepeated) {
             const std::vector<MeshInstance>& instances = meshes.instancesOf(stored.mesh);
             document.charge(instances.size() * sizeof(MeshInstance), "nodes", placed.node);
             node.instances = instances;
         }
         scene.nodes.push_back(std::move(node));
-        if (!placed.isDrawn) continue;
         if (isDeformed) rigging.addDeformed(placed.node);
-        importCamera(context, placed.node, placed.worldFromNode);
-        importLight(context, placed.node, placed.worldFromNode);
-        rigging.addCarried(placed.node);
+        if (placed.isDrawn && stored.camera != kNone) {
+            importCamera(context, placed.node, placed.worldFromNode);
+            rigging.addCamera(placed.node);
+        }
+        if (isDrawn && lightOf(stored) != kNone) {
+            importLight(context, placed.node, placed.worldFromNode);
+            rigging.addLight(placed.node);
+        }
     }
     addInstances(context, meshes, instancing, sceneNodes);
     importVariant(context, materials);
@@ -143,7 +153,10 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     bindVariant(context, materials);
     placeThicknesses(context, materials);
     sizeThinSolids(scene, context.thinModes);
-    importEnvironment(context);
+    repairs.attempt("its scene has no environment", [&] { importEnvironment(context); });
+    const bool isEmpty = scene.lights.empty() && scene.cameras.empty();
+    if (scene.meshes.empty() && (hasMeshes || isEmpty) && !repairs.first().empty()) throw InputError(repairs.first());
+    for (const std::string& warning : repairs.warnings()) context.scene.warnings.push_back(warning);
     ledger.settle(mark, bytesOf(scene));
     return scene;
 }
@@ -151,7 +164,8 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
 Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger& ledger,
                                   std::vector<std::string>& warnings) {
     const std::uint64_t mark = ledger.usedBytes();
-    Document document = loadDocument(file, ledger);
+    Repairs repairs(ledger.wishes().isStrict);
+    Document document = loadDocument(file, ledger, repairs);
     Scene scene;
     Buffers buffers(document);
     Accessors accessors(document, buffers);
@@ -162,8 +176,8 @@ Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger&
         throw InputError(fmt::format("{}: its scene has no light of EXT_lights_image_based; name a picture, or a model "
                                      "that has one",
                                      document.file));
-    for (std::vector<std::string>* const told : {&scene.warnings, &scene.notes})
-        warnings.insert(warnings.end(), told->begin(), told->end());
+    for (const std::vector<std::string>& told : {repairs.warnings(), scene.warnings, scene.notes})
+        warnings.insert(warnings.end(), told.begin(), told.end());
     ledger.settle(mark, scene.environment->map.texels.size());
     return std::move(*scene.environment);
 }

@@ -120,6 +120,7 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
 
     const auto& [sparseCount, isSparse, targetsAt, replacementsAt] = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparseCount);
+    if (count == 0) return values;
     if (count > accessor.count)
         document_.fail(place, fmt::format("replaces {} elements, but has only {}", count, accessor.count));
     const Source targets = placed(index, targetsAt.bufferView, static_cast<std::size_t>(targetsAt.byteOffset), count,

@@ -85,11 +85,10 @@ std::span<const std::byte> Buffers::buffer(int index) {
             const std::string& uri = *stored.uri;
             const bool isData = isDataUri(uri);
             if (isData) document_.charge(2 * uri.size(), "buffers", index);
+            const std::filesystem::path file = isData ? std::filesystem::path() : document_.fileAt(place, uri);
             try {
-                found = buffers_
-                            .emplace(index, isData ? decodeDataUri(uri)
-                                                   : readFileBytes(fileOfUri(uri, document_.folder), document_.ledger))
-                            .first;
+                std::vector<std::byte> read = isData ? decodeDataUri(uri) : readFileBytes(file, document_.ledger);
+                found = buffers_.emplace(index, std::move(read)).first;
             } catch (const InputError& error) {
                 document_.fail(place, error);
             }
@@ -104,8 +103,9 @@ std::span<const std::byte> Buffers::buffer(int index) {
     }
     // The binary chunk and exporters' files may be padded at the end (glTF 2.0 section 4.4.3.3).
     if (bytes.size() < stored.byteLength)
-        document_.fail(place, fmt::format("says {} bytes, but its data has only {}", stored.byteLength, bytes.size()));
-    return bytes.first(stored.byteLength);
+        document_.repair(place, fmt::format("says {} bytes, but its data has only {}", stored.byteLength, bytes.size()),
+                         "what lies beyond is left out");
+    return bytes.first(std::min(stored.byteLength, bytes.size()));
 }
 
 std::span<const std::byte> Buffers::slice(int index, std::size_t byteOffset, std::size_t byteLength,

@@ -23,31 +23,38 @@ std::string uniqueName(Context& context, const std::string& wanted) {
     return name;
 }
 
+/// `least` is the smallest near plane.
+void setRange(const Document& document, double nearMetres, double farMetres, double least, const std::string& place,
+              Camera& camera) {
+    if (nearMetres >= least && farMetres > nearMetres) {
+        camera.nearMetres = nearMetres;
+        camera.farMetres = farMetres;
+    } else {
+        document.repair(place,
+                        fmt::format("has znear {} and zfar {}; znear must be {} 0 and less than zfar", nearMetres,
+                                    farMetres, least > 0.0 ? "more than" : "at least"),
+                        "what it sees has no end");
+    }
+}
+
 void setPerspective(const Document& document, const tiny::PerspectiveCamera& lens, const std::string& place,
                     Camera& camera) {
-    if (!(lens.yfov > 0.0 && lens.yfov < std::numbers::pi))
-        document.fail(place + "/perspective/yfov",
-                      fmt::format("is {}; it must be between 0 and pi radians", lens.yfov));
-    if (!(lens.znear > 0.0))
-        document.fail(place + "/perspective/znear", fmt::format("is {}; it must be greater than 0", lens.znear));
+    if (lens.yfov > 0.0 && lens.yfov < std::numbers::pi)
+        camera.fovYRadians = lens.yfov;
+    else
+        document.repair(place + "/perspective/yfov",
+                        fmt::format("is {}; it must be between 0 and pi radians", lens.yfov), "pi/4 is taken");
     const double far = lens.zfar > 0.0 ? lens.zfar : std::numeric_limits<double>::infinity();
-    if (!(far > lens.znear))
-        document.fail(place + "/perspective/zfar",
-                      fmt::format("is {}; it must be greater than znear {}", far, lens.znear));
-    camera.fovYRadians = lens.yfov;
-    camera.nearMetres = lens.znear;
-    camera.farMetres = far;
+    setRange(document, lens.znear, far, std::numeric_limits<double>::denorm_min(), place + "/perspective", camera);
 }
 
 void setOrthographic(const Document& document, const tiny::OrthographicCamera& lens, const std::string& place,
                      Camera& camera) {
-    if (lens.ymag == 0.0 || lens.xmag == 0.0) document.fail(place + "/orthographic", "xmag and ymag must not be 0");
-    if (!(lens.znear >= 0.0 && lens.zfar > lens.znear))
-        document.fail(place + "/orthographic",
-                      fmt::format("has znear {} and zfar {}; needed is 0 <= znear < zfar", lens.znear, lens.zfar));
-    camera.halfHeightMetres = std::abs(lens.ymag);
-    camera.nearMetres = lens.znear;
-    camera.farMetres = lens.zfar;
+    if (lens.ymag != 0.0)
+        camera.halfHeightMetres = std::abs(lens.ymag);
+    else
+        document.repair(place + "/orthographic/ymag", "is 0", "1 is taken");
+    setRange(document, lens.znear, lens.zfar, 0.0, place + "/orthographic", camera);
 }
 
 LightType typeOf(const tiny::Light& light) {
@@ -56,20 +63,20 @@ LightType typeOf(const tiny::Light& light) {
 }
 
 /// Equal angles, which the extension forbids and Blender writes for a spot without blend, are a cone with a hard edge.
-void setCones(Context& context, const tiny::SpotLight& stored, const std::string& place, Light& light) {
+void setCones(const Document& document, const tiny::SpotLight& stored, const std::string& place, Light& light) {
     constexpr double kWidestRadians = std::numbers::pi / 2.0;
     // Exporters round pi/2 up to float; a millionth of a radian is more than that and less than anything visible.
     constexpr double kRoundingRadians = 1e-6;
     double outer = stored.outerConeAngle;
     if (outer > kWidestRadians + kRoundingRadians) {
-        context.repair(place + "/spot/outerConeAngle",
-                       fmt::format("is {}; it must be at most pi/2 radians", stored.outerConeAngle), "; pi/2 is taken");
+        document.repair(place + "/spot/outerConeAngle",
+                        fmt::format("is {}; it must be at most pi/2 radians", stored.outerConeAngle), "pi/2 is taken");
         outer = kWidestRadians;
     }
     if (stored.innerConeAngle > outer)
-        context.repair(place + "/spot/innerConeAngle",
-                       fmt::format("is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer),
-                       "; the outer angle is taken");
+        document.repair(place + "/spot/innerConeAngle",
+                        fmt::format("is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer),
+                        "the outer angle is taken");
     light.innerConeRadians = static_cast<float>(std::min(stored.innerConeAngle, outer));
     light.outerConeRadians = static_cast<float>(outer);
 }
@@ -123,9 +130,9 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
         if (static_cast<float>(stored.range) > 0.0f)
             light.rangeMetres = static_cast<float>(stored.range);
         else if (values[at].Has("range"))
-            context.repair(place + "/range", "is 0; it must be greater than 0", "; the light has no end");
+            document.repair(place + "/range", "is 0; it must be greater than 0", "the light has no end");
     }
-    if (light.type == LightType::Spot) setCones(context, stored.spot, place, light);
+    if (light.type == LightType::Spot) setCones(document, stored.spot, place, light);
     context.scene.lights.push_back(std::move(light));
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/GltfHierarchy.h"
 #include "scenes/import/GltfPointers.h"
 
 namespace tessera::scenes::gltf {
@@ -89,9 +90,11 @@ void Rigging::warnOfLeftOut() {
 
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
     const Document& document = context_.document;
-    const tiny::AnimationSampler& stored =
-        elementAt(document.model.animations, animation).samplers[static_cast<std::size_t>(index)];
+    const std::vector<tiny::AnimationSampler>& samplers = elementAt(document.model.animations, animation).samplers;
     const std::string place = fmt::format("/animations/{}/samplers/{}", animation, index);
+    const tiny::AnimationSampler stored =
+        static_cast<std::size_t>(index) < samplers.size() ? elementAt(samplers, index) : tiny::AnimationSampler();
+    if (stored.input == kNone || stored.output == kNone) document.fail(place, "is not there, or left out");
     AnimationSampler sampler;
     if (stored.interpolation != "LINEAR")
         sampler.interpolation = stored.interpolation == "STEP" ? Interpolation::Step : Interpolation::CubicSpline;
@@ -103,12 +106,19 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     };
     if (times.components != 1 || times.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
         failTimes("holds key times, so it must be SCALAR of FLOAT");
+    float before = 0.0f; // time of the last key, as it is stored
     for (std::size_t key = 0; key < times.count; ++key) {
         if (!std::isfinite(times.values[key]))
             failTimes(fmt::format("has key {} at {} s; key times must be finite", key, times.values[key]));
-        if (key > 0 && !(times.values[key] > times.values[key - 1]))
-            failTimes(fmt::format("has key {} at {} s and key {} at {} s; key times must ascend", key - 1,
-                                  times.values[key - 1], key, times.values[key]));
+        const float time = times.values[key];
+        if (key > 0 && !(time > times.values[key - 1])) {
+            const std::string what =
+                fmt::format("has key {} at {} s and key {} at {} s; key times must ascend", key - 1, before, key, time);
+            if (time < before) failTimes(what);
+            document.repair(place + "/input", what, "the clip jumps from one to the other");
+            times.values[key] = std::nextafter(times.values[key - 1], std::numeric_limits<float>::max());
+        }
+        before = time;
     }
     sampler.timesSeconds = std::move(times.values);
 
@@ -127,9 +137,16 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
         failValues("holds integers that are not normalized");
     const std::size_t needed =
         sampler.timesSeconds.size() * sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});
-    if (values.count != needed)
-        failValues(fmt::format("has {} elements, but {} keys of {} need {}", values.count, sampler.timesSeconds.size(),
-                               info.path, needed));
+    if (values.count != needed) {
+        const std::string what = fmt::format("has {} elements, but {} keys of {} need {}", values.count,
+                                             sampler.timesSeconds.size(), info.path, needed);
+        const std::size_t keys =
+            std::min(values.count / (needed / sampler.timesSeconds.size()), sampler.timesSeconds.size());
+        if (keys == 0) failValues(what);
+        document.repair(place + "/output", what, "what has no partner is left out");
+        sampler.timesSeconds.resize(keys);
+        values.values.resize(keys * (needed / sampler.timesSeconds.size()) * static_cast<std::size_t>(components));
+    }
     for (std::size_t i = 0; i < values.values.size(); ++i)
         if (!std::isfinite(values.values[i]))
             failValues(fmt::format("holds {} in element {}; every value must be finite", values.values[i],
@@ -144,8 +161,9 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
             const std::size_t first =
                 (key * sampler.valuesPerKey() + (sampler.valuesPerKey() > 1 ? 1 : 0)) * animated.width;
             const auto numbers = std::span(sampler.values).subspan(first, animated.width);
-            if (std::ranges::all_of(numbers, [](float number) { return number == 0.0f; }))
-                failValues(fmt::format("has the zero quaternion at key {}, which is no rotation", key));
+            if (std::ranges::any_of(numbers, [](float number) { return number != 0.0f; })) continue;
+            document.repair(place + "/output", fmt::format("key {} {}", key, kZeroQuaternion), kNotRotated);
+            numbers.back() = 1.0f;
         }
     return sampler;
 }
@@ -196,15 +214,23 @@ Clip Rigging::clip(int index) {
         }
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
-        const auto [entry, isNew] =
-            samplers.try_emplace({channel.sampler, what->scale}, static_cast<int>(clip.samplers.size()));
-        if (isNew) clip.samplers.push_back(sampler(index, channel.sampler, *what));
-        if (static_cast<std::size_t>(clip.samplers[static_cast<std::size_t>(entry->second)].width) != what->width)
-            document.fail(
-                fmt::format("/animations/{}/channels/{}", index, i),
-                fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
-                            what->width, channel.sampler,
-                            clip.samplers[static_cast<std::size_t>(entry->second)].width));
+        auto entry = samplers.find({channel.sampler, what->scale});
+        const bool isGood = document.repairs.attempt("the channel is left out", [&] {
+            if (entry == samplers.end()) {
+                clip.samplers.push_back(sampler(index, channel.sampler, *what));
+                entry =
+                    samplers
+                        .emplace(std::pair(channel.sampler, what->scale), static_cast<int>(clip.samplers.size()) - 1)
+                        .first;
+            }
+            const int width = clip.samplers[static_cast<std::size_t>(entry->second)].width;
+            if (static_cast<std::size_t>(width) != what->width)
+                document.fail(
+                    fmt::format("/animations/{}/channels/{}", index, i),
+                    fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
+                                what->width, channel.sampler, width));
+        });
+        if (!isGood) continue;
         // Things of the document may be one of the scene's.
         for (const int target : what->targets) {
             const AnimatedProperty changes = isStrength ? AnimatedProperty::Emissive : what->property;

@@ -35,10 +35,13 @@ inline Shading shadingOf(const tiny::Primitive& primitive) {
     return primitive.attributes.contains("NORMAL") ? Shading::WithoutNormalMaps : Shading::Unlit;
 }
 
+inline constexpr int kTexCoordSets = std::tuple_size_v<decltype(Mesh::texCoords)>;
+
 /// A material of the document, as primitives show it.
 struct ShownMaterial {
     int index = kNone;
     Shading shading = Shading::AsStated;
+    unsigned lostSets = 0; ///< bit N: the mesh has no texture coordinates N; none has those from kTexCoordSets
     auto operator<=>(const ShownMaterial&) const = default;
 };
 
@@ -72,9 +75,9 @@ struct Context {
         return std::nullopt;
     }
     /// Called for each mesh of the scene that a primitive becomes.
-    void noteMesh(int sceneMesh, const tiny::Primitive& primitive) {
+    void noteMesh(int sceneMesh, const tiny::Primitive& primitive, unsigned lostSets) {
         if (const std::optional<int> material = variantMaterial(primitive))
-            variantMaterials[sceneMesh] = {*material, shadingOf(primitive)};
+            variantMaterials[sceneMesh] = {*material, shadingOf(primitive), lostSets};
         if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;
     }
 

@@ -7,10 +7,10 @@
 #include <unordered_set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/Error.h"
 #include "scenes/import/FileBytes.h"
+#include "scenes/import/GltfUri.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::scenes::gltf {
@@ -86,7 +86,8 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     if (bytes.size() >= 4 && wordAt(bytes, 0) == kMagic) return readBinary(bytes, name);
     Container container{textOf(bytes), std::nullopt};
     const std::size_t first = container.json.find_first_not_of(" \t\r\n");
-    if (first == std::string::npos || container.json[first] != '{')
+    constexpr std::string_view kBeginnings = "{/"; // of comments, which are repaired
+    if (first == std::string::npos || kBeginnings.find(container.json[first]) == kBeginnings.npos)
         throw InputError(fmt::format("{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF')", name));
     return container;
 }
@@ -115,6 +116,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 };
 
@@ -122,11 +124,19 @@ bool isSupported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
 }
 
-nlohmann::json parseDocument(const std::string& text, const std::string& file) {
+/// Words of no JSON value, comments and commas too many are repaired.
+nlohmann::json parseDocument(const std::string& text, const std::string& file, Repairs& repairs) {
     requireJsonDepth(text, file);
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {
+        const MendedJson mended = mendedJson(text);
+        nlohmann::json parsed = nlohmann::json::parse(mended.text, nullptr, false);
+        if (mended.line != 0 && !parsed.is_discarded()) {
+            repairs.note(file, mended.line, "words of no JSON value are null, and the rest is left out",
+                         [&] { return mended.flaw; });
+            return parsed;
+        }
         std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line ..."
         if (const std::size_t end = what.find("] "); what.starts_with('[') && end != std::string::npos)
             what.erase(0, end + 2);
@@ -154,13 +164,14 @@ void checkVersion(const nlohmann::json& json, const std::string& file) {
 }
 
 void checkRequiredExtensions(const Document& document) {
-    std::vector<std::string> missing;
-    for (const std::string& extension : document.model.extensionsRequired)
-        if (!isSupported(extension)) missing.push_back(extension);
-    if (!missing.empty())
-        document.fail("/extensionsRequired",
-                      fmt::format("the model requires {}, which {} not supported; export it without",
-                                  fmt::join(missing, ", "), missing.size() == 1 ? "is" : "are"));
+    for (const std::string& extension : document.model.extensionsRequired) {
+        if (isSupported(extension)) continue;
+        const std::string what =
+            fmt::format("the model requires {}, which is not supported; export it without", extension);
+        // Its data cannot be read; others' can, and most change how a surface shines.
+        if (extension.find("compression") != extension.npos) document.fail("/extensionsRequired", what);
+        document.repair("/extensionsRequired", what, "it is drawn without");
+    }
 }
 
 } // namespace
@@ -175,6 +186,20 @@ void Document::fail(std::string_view place, const InputError& error) const {
     fail(place, std::string_view(error.what()));
 }
 
+std::filesystem::path Document::fileAt(std::string_view place, const std::string& uri) const {
+    NamedFile named;
+    try {
+        named = fileOfUri(uri, folder);
+    } catch (const InputError& error) {
+        fail(place, error);
+    }
+    if (!named.isAsNamed)
+        repair(place,
+               fmt::format("names '{}', which is there as '{}'", uri, named.path.lexically_relative(folder).string()),
+               "that one is read");
+    return named.path;
+}
+
 void Document::charge(std::uint64_t bytes, std::string_view kind, int index) const {
     ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
 }
@@ -183,15 +208,15 @@ const tiny::Scene* Document::scene() const {
     return model.scenes.empty() ? nullptr : &model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))];
 }
 
-Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
-    Document document{file.string(), file.parent_path(), ledger};
+Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs) {
+    Document document{file.string(), file.parent_path(), ledger, repairs};
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
     ledger.charge(parsedJsonBytes(container.json), [&] { return document.file + ": its JSON"; });
-    nlohmann::json json = parseDocument(container.json, document.file);
+    nlohmann::json json = parseDocument(container.json, document.file, repairs);
     container.json = {};
     checkVersion(json, document.file);
-    nlohmann::json checked = checkedProperties(json, document.file, ledger);
+    nlohmann::json checked = checkedProperties(json, document.file, ledger, repairs);
     json = nullptr;
     if (const auto buffers = checked.find("buffers"); buffers != checked.end())
         for (nlohmann::json& buffer : *buffers) {
@@ -204,14 +229,6 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger) {
     for (const tiny::Material& material : document.model.materials) document.materials.emplace_back(material);
     document.model.materials = {};
     document.wattsPerUnit.assign(document.model.lights.size(), 1.0);
-    for (std::size_t i = 0; i < document.model.animations.size(); ++i) {
-        const tiny::Animation& animation = document.model.animations[i];
-        for (const tiny::AnimationChannel& channel : animation.channels)
-            if (static_cast<std::size_t>(channel.sampler) >= animation.samplers.size())
-                document.fail(
-                    fmt::format("/animations/{}/channels", i),
-                    fmt::format("names sampler {}, but there are only {}", channel.sampler, animation.samplers.size()));
-    }
     checkRequiredExtensions(document);
     return document;
 }

@@ -8,6 +8,7 @@
 
 #include "scenes/LoadLedger.h"
 #include "scenes/import/GltfModel.h"
+#include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::gltf {
 
@@ -22,12 +23,19 @@ struct Document {
     std::string file;             ///< as the caller named it, for messages
     std::filesystem::path folder; ///< relative URIs start here
     LoadLedger& ledger;
+    Repairs& repairs;
     std::optional<std::vector<std::byte>> binary = {}; ///< the binary chunk of a .glb
     tiny::Model model = {};                            ///< without `buffers` and `materials`
     std::vector<BufferSource> buffers = {};
     std::vector<StoredMaterial> materials = {};
     std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfCamerasAndLights.h)
 
+    /// Warns of a flaw at a place, as Repairs::note() does.
+    void repair(std::string_view place, std::string_view what, std::string_view repair) const {
+        repairs.note(file, place, repair, [&] { return what; });
+    }
+    /// The file that the URI at a place names. Throws InputError as fileOfUri() does.
+    std::filesystem::path fileAt(std::string_view place, const std::string& uri) const;
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
     /// The same with the text of an error, which stays a MemoryRefused if it is one.
@@ -39,8 +47,8 @@ struct Document {
 };
 
 /// Reads a .gltf or .glb; which one it is follows from its first bytes, not from its name. Throws InputError when the
-/// file is missing, broken, of another glTF version or requires an extension that is not supported.
-Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger);
+/// file is missing, broken, of another glTF version or requires a compression that is not supported.
+Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs);
 
 /// The optional extensions that the document uses and the importer leaves out.
 std::vector<std::string> ignoredExtensions(const Document& document);

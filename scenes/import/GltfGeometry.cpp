@@ -40,14 +40,12 @@ public:
     void fillVertices(Mesh& mesh) {
         const Elements positions = read("POSITION", {3});
         vertexCount_ = positions.count;
-        mesh.positionsOS = vectors<glm::vec3>("POSITION", positions, true);
-        if (has("NORMAL")) mesh.normalsOS = vectors<glm::vec3>("NORMAL", readVertices("NORMAL", {3}), false);
-        if (has("TANGENT")) mesh.tangentsOS = vectors<glm::vec4>("TANGENT", readVertices("TANGENT", {4}), false);
-        for (std::size_t set = 0; set < mesh.texCoords.size(); ++set) {
-            const std::string name = fmt::format("TEXCOORD_{}", set);
-            if (has(name)) mesh.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
-        }
-        if (has("COLOR_0")) mesh.colors = vectors<glm::vec4>("COLOR_0", colors(1.0f), true);
+        mesh.positionsOS = vectors<glm::vec3>("POSITION", positions, false);
+        findLost(mesh.positionsOS);
+        take("NORMAL", mesh.normalsOS, false);
+        take("TANGENT", mesh.tangentsOS, false);
+        takeTexCoords(mesh.texCoords);
+        takeColors(mesh.colors, 1.0f);
         // Source: glTF 2.0 specification, 3.7.2.1: each component must be clamped to [0, 1].
         for (glm::vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
     }
@@ -59,25 +57,104 @@ public:
             attributes_ = &primitive_.targets[i];
             inPlace_ = fmt::format("targets/{}", i);
             MorphTarget& target = targets.emplace_back();
-            if (has("POSITION"))
-                target.positionsOS = vectors<glm::vec3>("POSITION", readVertices("POSITION", {3}), true);
-            if (has("NORMAL")) target.normalsOS = vectors<glm::vec3>("NORMAL", readVertices("NORMAL", {3}), true);
-            if (has("TANGENT")) target.tangentsOS = vectors<glm::vec3>("TANGENT", readVertices("TANGENT", {3}), true);
-            for (std::size_t set = 0; set < target.texCoords.size(); ++set) {
-                const std::string name = fmt::format("TEXCOORD_{}", set);
-                if (has(name)) target.texCoords[set] = vectors<glm::vec2>(name, readVertices(name, {2}), true);
-            }
-            if (has("COLOR_0")) target.colors = vectors<glm::vec4>("COLOR_0", colors(0.0f), true);
+            take("POSITION", target.positionsOS, true);
+            take("NORMAL", target.normalsOS, true);
+            take("TANGENT", target.tangentsOS, true);
+            takeTexCoords(target.texCoords);
+            takeColors(target.colors, 0.0f);
         }
         attributes_ = &primitive_.attributes;
         inPlace_ = "attributes";
     }
 
-    /// Joints and weights of both sets. Weights that are negative count as 0, and joints without weight as joint 0:
-    /// some files have nonsense there.
     void fillInfluences(Shape& shape) {
+        if (context_.document.repairs.attempt("its skin is left out", [&] { readInfluences(shape); })) return;
+        shape.influences = 0;
+        shape.joints.clear();
+        shape.weights.clear();
+    }
+
+    /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without. Some may name no vertex.
+    std::vector<std::uint32_t> corners() {
+        if (decoded_) return std::move(decoded_->corners);
+        if (primitive_.indices >= 0) return context_.accessors.indices(primitive_.indices);
+        if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
+            fail("POSITION", "has more vertices than 32-bit indices can name");
+        context_.document.ledger.charge(vertexCount_ * sizeof(std::uint32_t), [&] { return placeInFile(); });
+        std::vector<std::uint32_t> all(vertexCount_);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+
+    /// Takes out the elements, of `each` corners, of which one names no vertex that has a position. 0: elements that
+    /// share corners; throws InputError then.
+    void leaveOutLost(std::vector<std::uint32_t>& corners, std::size_t each) const {
+        const auto isLost = [&](std::uint32_t corner) { return this->isLost(corner); };
+        const auto first = std::ranges::find_if(corners, isLost);
+        if (first == corners.end()) return;
+        const std::string what =
+            *first < vertexCount_
+                ? fmt::format("vertex {} of mesh '{}' has a position that is not finite", *first, meshName_)
+                : fmt::format("index {} of mesh '{}' is no vertex; there are {}", *first, meshName_, vertexCount_);
+        if (each == 0) context_.document.fail(place_, what);
+        context_.document.repair(place_, what, "what it would be a corner of is left out");
+        std::size_t kept = 0;
+        for (std::size_t element = 0; element + each <= corners.size(); element += each) {
+            const auto begin = corners.begin() + static_cast<std::ptrdiff_t>(element),
+                       end = begin + static_cast<std::ptrdiff_t>(each);
+            if (std::any_of(begin, end, isLost)) continue;
+            std::copy(begin, end, corners.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += each;
+        }
+        corners.resize(kept);
+    }
+
+    void warnOfUnused() {
+        for (const auto& [name, accessor] : primitive_.attributes) {
+            const bool isExtraSet = (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1") ||
+                                    (name.starts_with("COLOR_") && name != "COLOR_0");
+            if (isExtraSet)
+                context_.warn(fmt::format("vertex attribute {} is left out (only TEXCOORD_0, TEXCOORD_1 and "
+                                          "COLOR_0 are supported)",
+                                          name));
+        }
+    }
+
+private:
+    template <typename Vector>
+    void take(const std::string& attribute, std::vector<Vector>& values, bool mustBeFinite) {
+        if (!has(attribute)) return;
+        context_.document.repairs.attempt(kAttributeLeftOut, [&] {
+            values = vectors<Vector>(attribute, readVertices(attribute, {Vector::length()}), mustBeFinite);
+        });
+    }
+    void takeTexCoords(auto& texCoords) {
+        for (std::size_t set = 0; set < texCoords.size(); ++set)
+            take(fmt::format("TEXCOORD_{}", set), texCoords[set], true);
+    }
+    void takeColors(std::vector<glm::vec4>& values, float alpha) {
+        if (!has("COLOR_0")) return;
+        context_.document.repairs.attempt(kAttributeLeftOut,
+                                          [&] { values = vectors<glm::vec4>("COLOR_0", colors(alpha), true); });
+    }
+
+    bool isLost(std::uint32_t corner) const { return corner >= vertexCount_ || (!isLost_.empty() && isLost_[corner]); }
+
+    void findLost(std::vector<glm::vec3>& positions) {
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            if (glm::all(glm::lessThan(glm::abs(positions[i]), glm::vec3(std::numeric_limits<float>::infinity()))))
+                continue;
+            isLost_.resize(positions.size());
+            isLost_[i] = true;
+            positions[i] = glm::vec3(0.0f);
+        }
+    }
+
+    /// Joints and weights of both sets. Weights that are negative or not finite count as 0, and joints without weight
+    /// as joint 0: some files have nonsense there.
+    void readInfluences(Shape& shape) {
         constexpr std::size_t kSet = 4;
-        bool hasNegative = false;
+        bool hasNonsense = false;
         const std::size_t sets = has("JOINTS_0") ? (has("JOINTS_1") ? 2 : 1) : 0;
         shape.influences = kSet * sets;
         context_.document.ledger.charge(vertexCount_ * shape.influences * (sizeof(std::uint32_t) + sizeof(float)),
@@ -95,75 +172,25 @@ public:
             if (!areIntegers || joints.normalized)
                 fail(jointsName, "names joints, so it must be of UNSIGNED_BYTE or UNSIGNED_SHORT, not normalized");
             const std::vector<glm::vec4> weights =
-                vectors<glm::vec4>(weightsName, readVertices(weightsName, {4}), true);
+                vectors<glm::vec4>(weightsName, readVertices(weightsName, {4}), false);
             for (std::size_t v = 0; v < vertexCount_; ++v)
                 for (std::size_t i = 0; i < kSet; ++i) {
                     const float weight = weights[v][static_cast<glm::length_t>(i)];
-                    hasNegative = hasNegative || weight < 0.0f;
+                    const bool counts = weight >= 0.0f && std::isfinite(weight);
+                    hasNonsense = hasNonsense || !counts;
                     const std::size_t at = v * shape.influences + set * kSet + i;
-                    shape.weights[at] = std::max(weight, 0.0f);
-                    if (weight > 0.0f) shape.joints[at] = static_cast<std::uint32_t>(joints.values[v * kSet + i]);
+                    if (!counts || weight == 0.0f) continue;
+                    shape.weights[at] = weight;
+                    shape.joints[at] = static_cast<std::uint32_t>(joints.values[v * kSet + i]);
                 }
         }
-        if (hasNegative) context_.warn(fmt::format("{}: weights of joints that are negative count as 0", place_));
+        if (hasNonsense)
+            context_.warn(fmt::format("{}: weights of joints that are negative or not finite count as 0", place_));
         if (has("JOINTS_2"))
             context_.warn(fmt::format("{}: JOINTS_2 and further are left out; a vertex follows 8 joints", place_));
     }
 
-    /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without.
-    std::vector<std::uint32_t> corners() {
-        if (decoded_) {
-            for (const std::uint32_t corner : decoded_->corners)
-                if (corner >= vertexCount_)
-                    context_.document.fail(place_, fmt::format("a triangle of mesh '{}' names vertex {}, but there are "
-                                                               "only {} positions",
-                                                               meshName_, corner, vertexCount_));
-            return std::move(decoded_->corners);
-        }
-        if (primitive_.indices < 0) {
-            if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
-                fail("POSITION", "has more vertices than 32-bit indices can name");
-            context_.document.ledger.charge(vertexCount_ * sizeof(std::uint32_t), [&] { return placeInFile(); });
-            std::vector<std::uint32_t> all(vertexCount_);
-            std::iota(all.begin(), all.end(), 0u);
-            return all;
-        }
-        std::vector<std::uint32_t> indices = context_.accessors.indices(primitive_.indices);
-        const std::uint32_t restart = restartIndex(primitive_.indices);
-        for (std::size_t i = 0; i < indices.size(); ++i) {
-            if (indices[i] < vertexCount_ && indices[i] != restart) continue;
-            const std::string what =
-                indices[i] == restart
-                    ? fmt::format("index {} of mesh '{}' ({}) is {}, which restarts a primitive and so names no vertex "
-                                  "(glTF 2.0 section 3.7.2.1); {}",
-                                  i, meshName_, place_, restart,
-                                  restart < kWidestRestart ? "use a wider index type" : "split the mesh")
-                    : fmt::format("index {} is {}, but mesh '{}' ({}) has only {} vertices", i, indices[i], meshName_,
-                                  place_, vertexCount_);
-            context_.document.fail(fmt::format("/accessors/{}", primitive_.indices), what);
-        }
-        return indices;
-    }
-
-    void warnOfUnused() {
-        for (const auto& [name, accessor] : primitive_.attributes) {
-            const bool isExtraSet = (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1") ||
-                                    (name.starts_with("COLOR_") && name != "COLOR_0");
-            if (isExtraSet)
-                context_.warn(fmt::format("vertex attribute {} is left out (only TEXCOORD_0, TEXCOORD_1 and "
-                                          "COLOR_0 are supported)",
-                                          name));
-        }
-    }
-
-private:
-    static constexpr std::uint32_t kWidestRestart = std::numeric_limits<std::uint32_t>::max();
-
-    /// The largest value of the index type.
-    std::uint32_t restartIndex(int accessor) const {
-        return kWidestRestart >>
-               (32 - 8 * bytesOf(elementAt(context_.document.model.accessors, accessor).componentType));
-    }
+    static constexpr std::string_view kAttributeLeftOut = "the attribute is left out";
 
     std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
 
@@ -241,6 +268,7 @@ private:
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
+    std::vector<bool> isLost_; ///< by vertex whose position is not finite; empty where all are
     std::optional<DracoGeometry> decoded_;
 };
 
@@ -266,7 +294,9 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
 
 } // namespace
 
-std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
+namespace {
+
+std::optional<Shape> readPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
     const tiny::Mesh& stored = elementAt(context.document.model.meshes, meshIndex);
     const tiny::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
@@ -293,12 +323,14 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
         context.warn(fmt::format("{}: mesh '{}' has {} corners, which is no multiple of {}; the last {} is left out",
                                  place, mesh.name, corners.size(), each, each == 3 ? "triangle" : "line"));
     if (isThin(primitive)) {
+        reader.leaveOutLost(corners, each == 1 && primitive.mode != kPoints ? 0 : each);
         makeThin(context, place, primitive.mode, std::move(corners), deforms, mesh);
     } else {
         if (reader.mode() != kTriangles) // three corners for every one after the second
             ledger.charge(2 * 3 * corners.size() * sizeof(std::uint32_t),
                           [&] { return fmt::format("{}: {}", context.document.file, place); });
         mesh.indices = trianglesOf(reader.mode(), std::move(corners));
+        reader.leaveOutLost(mesh.indices, 3);
     }
     reader.warnOfUnused();
     finishNormals(context, place, shape);
@@ -310,6 +342,15 @@ std::optional<Shape> importPrimitive(Context& context, int meshIndex, int primit
                                                              : "line of any length"));
         return std::nullopt;
     }
+    return shape;
+}
+
+} // namespace
+
+std::optional<Shape> importPrimitive(Context& context, int mesh, int primitive, Deforms deforms) {
+    std::optional<Shape> shape;
+    context.document.repairs.attempt("the primitive is left out",
+                                     [&] { shape = readPrimitive(context, mesh, primitive, deforms); });
     return shape;
 }
 

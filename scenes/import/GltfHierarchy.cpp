@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scenes/Transform.h"
@@ -12,74 +14,50 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// Every node's parent, or -1.
+/// A parent of every node, or -1.
 std::vector<int> parentsOf(const Document& document) {
     const std::vector<tiny::Node>& nodes = document.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
     for (std::size_t node = 0; node < nodes.size(); ++node)
-        for (const int child : nodes[node].children) {
-            int& parent = parents[static_cast<std::size_t>(child)];
-            if (parent >= 0)
-                document.fail(
-                    placeOf(child),
-                    fmt::format("is a child of both node {} and node {}; a node may have one parent", parent, node));
-            parent = static_cast<int>(node);
-        }
+        for (const int child : nodes[node].children) parents[static_cast<std::size_t>(child)] = static_cast<int>(node);
     return parents;
 }
 
-/// With one parent each, a cycle is where climbing never ends.
-void refuseCycles(const Document& document, const std::vector<int>& parents) {
-    enum class Mark : char { New, Climbing, Rooted };
-    std::vector<Mark> marks(parents.size(), Mark::New);
-    for (std::size_t start = 0; start < parents.size(); ++start) {
-        std::vector<int> climbed;
-        int node = static_cast<int>(start);
-        while (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::New) {
-            marks[static_cast<std::size_t>(node)] = Mark::Climbing;
-            climbed.push_back(node);
-            node = parents[static_cast<std::size_t>(node)];
-        }
-        if (node >= 0 && marks[static_cast<std::size_t>(node)] == Mark::Climbing)
-            document.fail(placeOf(node), "is its own ancestor; the node graph must not have cycles");
-        for (const int done : climbed) marks[static_cast<std::size_t>(done)] = Mark::Rooted;
-    }
-}
-
+/// Children that a scene lists too come last: they stand below their parents if these are drawn.
 std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
-    std::vector<int> roots;
-    if (document.model.scenes.empty()) {
-        for (std::size_t node = 0; node < parents.size(); ++node)
-            if (parents[node] < 0) roots.push_back(static_cast<int>(node));
-        return roots;
-    }
-    const int scene = std::max(document.model.defaultScene, 0);
-    roots = document.scene()->nodes;
-    std::vector<bool> isListed(parents.size(), false);
-    for (const int root : roots) {
-        if (isListed[static_cast<std::size_t>(root)])
-            document.fail(fmt::format("/scenes/{}/nodes", scene), fmt::format("lists node {} twice", root));
-        if (parents[static_cast<std::size_t>(root)] >= 0)
-            document.fail(fmt::format("/scenes/{}/nodes", scene),
-                          fmt::format("lists node {}, which is no root but a child of node {}", root,
-                                      parents[static_cast<std::size_t>(root)]));
-        isListed[static_cast<std::size_t>(root)] = true;
-    }
+    std::vector<int> roots(parents.size());
+    std::iota(roots.begin(), roots.end(), 0);
+    const auto isRoot = [&](int node) { return parents[static_cast<std::size_t>(node)] < 0; };
+    if (document.scene() == nullptr)
+        std::erase_if(roots, [&](int node) { return !isRoot(node); });
+    else
+        roots = document.scene()->nodes;
+    std::ranges::stable_partition(roots, isRoot);
     return roots;
 }
 
 glm::dmat4 parentFromNodeOf(const Document& document, int index) {
     const tiny::Node& node = elementAt(document.model.nodes, index);
     if (!node.matrix.empty()) {
-        const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-        if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
-            document.fail(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1");
-        return matrix;
+        glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
+        const glm::dvec4 last = glm::row(matrix, 3), affine(0.0, 0.0, 0.0, 1.0);
+        if (last == affine) return matrix;
+        document.repair(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1",
+                        "it is divided by its last number, and the row is taken so");
+        return glm::row(last.w == 0.0 ? matrix : matrix / last.w, 3, affine);
     }
-    const glm::dvec4 rotation = rotationOf(node);
-    if (glm::dot(rotation, rotation) == 0.0)
-        document.fail(placeOf(index) + "/rotation", "is the zero quaternion, which is no rotation");
+    glm::dvec4 rotation = rotationOf(node);
+    if (glm::dot(rotation, rotation) == 0.0) {
+        document.repair(placeOf(index) + "/rotation", kZeroQuaternion, kNotRotated);
+        rotation = kNoRotation;
+    }
     return transformOf(translationOf(node), rotation, scaleOf(node));
+}
+
+/// Source: KHR_node_visibility.
+bool isVisible(const tiny::Node& node) {
+    const tiny::Value* const visible = valueAt(node.extensions, "KHR_node_visibility/visible");
+    return visible == nullptr || visible->Get<bool>();
 }
 
 bool isFinite(const glm::dmat4& matrix) {
@@ -93,33 +71,43 @@ bool isFinite(const glm::dmat4& matrix) {
 
 std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::vector<int> parents = parentsOf(document);
-    refuseCycles(document, parents);
     std::vector<PlacedNode> placed;
     std::vector<PlacedNode> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
-    const auto wait = [&](const std::vector<int>& nodes, int parent) {
+    const auto wait = [&](const std::vector<int>& nodes, PlacedNode next) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            PlacedNode next;
             next.node = *node;
-            next.parent = parent;
             waiting.push_back(next);
         }
     };
     std::vector<bool> isPlaced(parents.size());
     const auto placeTrees = [&](const std::vector<int>& roots, bool isDrawn) {
-        wait(roots, -1);
+        PlacedNode root;
+        root.isDrawn = isDrawn;
+        wait(roots, root);
         while (!waiting.empty()) {
             PlacedNode next = waiting.back();
             waiting.pop_back();
-            next.isDrawn = isDrawn;
+            if (isPlaced[static_cast<std::size_t>(next.node)]) {
+                document.repair(placeOf(next.node), "has several parents, or is a root as well",
+                                "the first place counts");
+                continue;
+            }
             isPlaced[static_cast<std::size_t>(next.node)] = true;
+            next.isVisible = next.isVisible && isVisible(elementAt(document.model.nodes, next.node));
             next.parentFromNode = parentFromNodeOf(document, next.node);
-            next.worldFromNode = next.parentFromNode;
-            if (next.parent >= 0)
-                next.worldFromNode = placed[static_cast<std::size_t>(next.parent)].worldFromNode * next.parentFromNode;
-            if (!isFinite(next.worldFromNode))
-                document.fail(placeOf(next.node), "its transform, with its ancestors', is not finite");
+            const glm::dmat4 worldFromParent =
+                next.parent >= 0 ? placed[static_cast<std::size_t>(next.parent)].worldFromNode : glm::dmat4(1.0);
+            next.worldFromNode = worldFromParent * next.parentFromNode;
+            if (!isFinite(next.worldFromNode)) {
+                document.repair(placeOf(next.node), "its transform, with its ancestors', is not finite",
+                                "it is hidden with all below it");
+                next.isVisible = false;
+                next.parentFromNode = glm::dmat4(1.0);
+                next.worldFromNode = worldFromParent;
+            }
             placed.push_back(next);
-            wait(elementAt(document.model.nodes, next.node).children, static_cast<int>(placed.size()) - 1);
+            next.parent = static_cast<int>(placed.size()) - 1;
+            wait(elementAt(document.model.nodes, next.node).children, next);
         }
     };
     placeTrees(rootsOf(document, parents), true);
@@ -131,7 +119,12 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
         isFollowed[static_cast<std::size_t>(node.skin)] = true;
         for (int joint : elementAt(document.model.skins, node.skin).joints) {
             if (isPlaced[static_cast<std::size_t>(joint)]) continue;
-            while (parents[static_cast<std::size_t>(joint)] >= 0) joint = parents[static_cast<std::size_t>(joint)];
+            const auto isAbove = [&](int parent) { return parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)]; };
+            for (std::size_t steps = 0; steps < parents.size(); ++steps) // a cycle has no end
+                if (const int parent = parents[static_cast<std::size_t>(joint)]; isAbove(parent))
+                    joint = parent;
+                else
+                    break;
             placeTrees({joint}, false);
         }
     }
@@ -167,12 +160,14 @@ public:
                 return stored ? glm::dvec3(stored->values[3 * i], stored->values[3 * i + 1], stored->values[3 * i + 2])
                               : otherwise;
             };
-            glm::dvec4 rotation(0.0, 0.0, 0.0, 1.0);
+            glm::dvec4 rotation = kNoRotation;
             for (glm::length_t c = 0; rotations && c < 4; ++c)
                 rotation[c] = rotations->values[4 * i + static_cast<std::size_t>(c)];
-            if (glm::dot(rotation, rotation) == 0.0)
-                context_.document.fail(place_ + "/ROTATION",
-                                       fmt::format("element {} is the zero quaternion, which is no rotation", i));
+            if (glm::dot(rotation, rotation) == 0.0) {
+                context_.document.repair(place_ + "/ROTATION", fmt::format("element {} {}", i, kZeroQuaternion),
+                                         kNotRotated);
+                rotation = kNoRotation;
+            }
             transforms.push_back(
                 transformOf(vector(translations, glm::dvec3(0.0)), rotation, vector(scales, glm::dvec3(1.0))));
             for (glm::length_t entry = 0; entry < 16; ++entry)

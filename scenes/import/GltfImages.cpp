@@ -36,8 +36,9 @@ Image decoded(const Context& context, int index) {
         image = decodeImage(bytes, fmt::format("{}: {}", document.file, place), document.ledger);
         document.ledger.settle(mark, image.texels.size());
     } else if (!uri.empty()) {
+        const std::filesystem::path file = document.fileAt(place, uri);
         try {
-            image = readImage(fileOfUri(uri, document.folder), document.ledger);
+            image = readImage(file, document.ledger);
         } catch (const InputError& error) {
             document.fail(place, error);
         }

@@ -1,6 +1,7 @@
 #include "scenes/import/GltfMaterials.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <unordered_set>
@@ -16,9 +17,32 @@ namespace tessera::scenes::gltf {
 namespace {
 
 /// Behind the names of materials whose shading is not the stated one.
-std::string_view suffixOf(Shading shading) {
-    if (shading == Shading::AsStated) return "";
-    return shading == Shading::Unlit ? ", unlit" : ", without normal maps";
+std::string suffixOf(const ShownMaterial& shown) {
+    std::string suffix = shown.lostSets != 0 ? ", without texture coordinates" : "";
+    if (shown.shading == Shading::AsStated) return suffix;
+    return suffix += shown.shading == Shading::Unlit ? ", unlit" : ", without normal maps";
+}
+
+unsigned bitOf(int texCoordSet) {
+    return 1u << std::min(texCoordSet, kTexCoordSets);
+}
+
+/// The place of each vertex in the mesh's bounds, seen along the axis that its normal is nearest to.
+std::vector<glm::vec2> boxCoordinates(const Mesh& mesh) {
+    glm::vec3 least(std::numeric_limits<float>::infinity()), most(-least);
+    for (const glm::vec3& position : mesh.positionsOS) {
+        least = glm::min(least, position);
+        most = glm::max(most, position);
+    }
+    const glm::vec3 sides = most - least;
+    const float longest = std::max({sides.x, sides.y, sides.z, std::numeric_limits<float>::min()});
+    std::vector<glm::vec2> coordinates;
+    for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
+        const glm::vec3 place = (mesh.positionsOS[i] - least) / longest, normal = glm::abs(mesh.normalsOS[i]);
+        const bool isAlongX = normal.x > std::max(normal.y, normal.z), isAlongY = !isAlongX && normal.y > normal.z;
+        coordinates.emplace_back(isAlongX ? place.z : place.x, isAlongY ? place.z : place.y);
+    }
+    return coordinates;
 }
 
 bool isNormalMap(TextureSlot slot) {
@@ -45,8 +69,42 @@ const TextureInfo& storedTexture(const StoredMaterial& stored, TextureSlot slot)
 
 } // namespace
 
+unsigned Materials::neededSets(const ShownMaterial& shown) const {
+    if (shown.index < 0) return 0;
+    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(shown.index)];
+    unsigned needed = 0;
+    const auto add = [&](const TextureInfo& info) {
+        if (info.texture != kNone) needed |= bitOf(info.texCoordSet);
+    };
+    for (std::size_t i = 0; i < stored.textures.size(); ++i) {
+        const TextureSlot slot = kTexturePlaces[i].slot;
+        const bool isShown = shown.shading == Shading::Unlit ? slot == TextureSlot::BaseColor
+                                                             : shown.shading == Shading::AsStated || !isNormalMap(slot);
+        if (isShown) add(stored.textures[i]);
+    }
+    if (stored.specularGlossiness) {
+        add(stored.specularGlossiness->diffuseTexture);
+        add(stored.specularGlossiness->specularGlossinessTexture);
+    }
+    return needed;
+}
+
+ShownMaterial Materials::shownBy(const tiny::Primitive& primitive, Mesh& mesh) const {
+    ShownMaterial shown{primitive.material, shadingOf(primitive), bitOf(kTexCoordSets)};
+    for (int set = 0; set < kTexCoordSets; ++set)
+        if (mesh.texCoords[static_cast<std::size_t>(set)].empty()) shown.lostSets |= bitOf(set);
+    const ShownMaterial ofVariant{context_.variantMaterial(primitive).value_or(kNone), shown.shading};
+    const unsigned needed = neededSets(shown) | neededSets(ofVariant);
+    if (shown.lostSets == 2 * bitOf(kTexCoordSets) - 1 && needed != 0) {
+        context_.document.ledger.charge(mesh.positionsOS.size() * sizeof(glm::vec2), [&] { return mesh.name; });
+        mesh.texCoords[0] = boxCoordinates(mesh);
+    }
+    return shown;
+}
+
 ShownMaterial Materials::distinct(ShownMaterial shown) const {
-    const ShownMaterial asStated{shown.index};
+    shown.lostSets &= neededSets(shown);
+    const ShownMaterial asStated{shown.index, Shading::AsStated, shown.lostSets};
     if (shown.shading == Shading::AsStated) return asStated;
     if (shown.index < 0) return shown.shading == Shading::Unlit ? shown : asStated;
     const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(shown.index)];
@@ -64,7 +122,7 @@ int Materials::material(ShownMaterial asked) {
         material = convert(shown);
     } else {
         material.name = "default";
-        material.name += suffixOf(shown.shading);
+        material.name += suffixOf(shown);
         if (shown.shading == Shading::Unlit) material = unlitOf(material);
     }
     context_.scene.materials.push_back(std::move(material));
@@ -75,7 +133,7 @@ Material Materials::convert(ShownMaterial shown) {
     const int index = shown.index;
     const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(index)];
     const std::string place = fmt::format("/materials/{}", index);
-    const std::string_view suffix = suffixOf(shown.shading);
+    const std::string suffix = suffixOf(shown);
     constexpr std::size_t kCopies = 2; // while a vector grows
     context_.document.charge(kCopies * (sizeof(Material) + stored.surface.name.size() + suffix.size()), "materials",
                              index);
@@ -90,18 +148,21 @@ Material Materials::convert(ShownMaterial shown) {
         const bool isReplaced = slot == TextureSlot::BaseColor || slot == TextureSlot::MetallicRoughness ||
                                 slot == TextureSlot::SpecularColor || slot == TextureSlot::SpecularFactor;
         if (stored.specularGlossiness && isReplaced) continue;
-        material.texture(slot) = use(stored.textures[i], slot, fmt::format("{}/{}", place, path));
+        material.texture(slot) = use(stored.textures[i], slot, fmt::format("{}/{}", place, path), shown.lostSets);
     }
     const std::string glossyPlace = place + "/extensions/KHR_materials_pbrSpecularGlossiness";
     if (isUnlit) {
-        if (stored.specularGlossiness) takeDiffuse(*stored.specularGlossiness, glossyPlace, material);
+        if (stored.specularGlossiness) takeDiffuse(*stored.specularGlossiness, glossyPlace, shown.lostSets, material);
         if (shown.shading == Shading::Unlit) addEmission(stored, place, material);
         return material;
     }
-    if (material.ior != 0.0f && material.ior < 1.0f)
-        context_.document.fail(place + "/extensions/KHR_materials_ior/ior",
-                               fmt::format("is {}; it must be 0 or at least 1", material.ior));
-    if (stored.specularGlossiness) convertSpecularGlossiness(*stored.specularGlossiness, glossyPlace, material);
+    if (material.ior != 0.0f && material.ior < 1.0f) {
+        context_.document.repair(place + "/extensions/KHR_materials_ior/ior",
+                                 fmt::format("is {}; it must be 0 or at least 1", material.ior), "1 is taken");
+        material.ior = 1.0f;
+    }
+    if (stored.specularGlossiness)
+        convertSpecularGlossiness(*stored.specularGlossiness, glossyPlace, shown.lostSets, material);
     return material;
 }
 
@@ -117,29 +178,30 @@ void Materials::addEmission(const StoredMaterial& stored, const std::string& pla
     material.baseColor = glm::vec4(glm::min(glm::vec3(material.baseColor) + emissive, most), material.baseColor.a);
 }
 
-void Materials::takeDiffuse(const SpecularGlossiness& stored, const std::string& place, Material& material) {
+void Materials::takeDiffuse(const SpecularGlossiness& stored, const std::string& place, unsigned lostSets,
+                            Material& material) {
     material.baseColor = stored.diffuse;
     material.texture(TextureSlot::BaseColor) =
-        use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture");
+        use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture", lostSets);
 }
 
 /// With an index of refraction of 0 a dielectric reflects all light, and its tint is what the extension calls specular:
 /// both give F0, with F90 = 1, and what is reflected is taken from the diffuse part.
 /// Source: KHR_materials_ior, "Implementation": its mode for specular-glossiness materials.
-void Materials::convertSpecularGlossiness(const SpecularGlossiness& stored, const std::string& place,
+void Materials::convertSpecularGlossiness(const SpecularGlossiness& stored, const std::string& place, unsigned lostSets,
                                           Material& material) {
     constexpr const char* kNote = "materials of specular and glossiness (KHR_materials_pbrSpecularGlossiness) are "
                                   "converted to dielectrics of roughness 1 - glossiness, tinted as their specular";
     std::vector<std::string>& notes = context_.scene.notes;
     if (std::ranges::find(notes, kNote) == notes.end()) notes.emplace_back(kNote);
-    takeDiffuse(stored, place, material);
+    takeDiffuse(stored, place, lostSets, material);
     material.ior = 0.0f;
     material.metallic = 0.0f;
     material.specularFactor = 1.0f;
     material.specularColor = stored.specular;
     material.perceptualRoughness = 1.0f - stored.glossiness;
-    const TextureUse both =
-        use(stored.specularGlossinessTexture, TextureSlot::SpecularColor, place + "/specularGlossinessTexture");
+    const TextureUse both = use(stored.specularGlossinessTexture, TextureSlot::SpecularColor,
+                                place + "/specularGlossinessTexture", lostSets);
     material.texture(TextureSlot::SpecularColor) = both;
     if (both.image == kNone || both.image == standIn_) return;
     material.perceptualRoughness = 1.0f;
@@ -168,13 +230,17 @@ std::vector<int> Materials::imported(int index) const {
     return found;
 }
 
-TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::string& place) {
+TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::string& place, unsigned lostSets) {
     if (info.texture == kNone) return {};
-    if (info.texCoordSet > 1) {
-        context_.warn(
-            fmt::format("{}: uses texture coordinate set {}; only 0 and 1 are supported, so the texture is left out",
-                        place, info.texCoordSet));
-        return {};
+    if (lostSets & bitOf(info.texCoordSet)) {
+        context_.repair(
+            place,
+            info.texCoordSet < kTexCoordSets
+                ? fmt::format("needs TEXCOORD_{}, which a mesh lacks", info.texCoordSet)
+                : fmt::format("uses texture coordinate set {}; only 0 and 1 are supported", info.texCoordSet),
+            kStandInText);
+        if (!takesStandIn(slot)) return {};
+        return {standIn(), {}, (lostSets & 3u) == 1u ? 1 : 0, {}};
     }
     const tiny::Model& model = context_.document.model;
     const tiny::Texture& texture = elementAt(model.textures, info.texture);

@@ -54,6 +54,7 @@ void addMissingNodes(Json& document) {
 
 tiny::Model tinyModel(Json document, const std::string& file, LoadLedger& ledger) {
     taken(document, "buffers");
+    document["asset"]["version"] = "2.0"; // whatever 2.x it says
     const Json images = taken(document, "images");
     const bool hasExtraView = addMissingView(document);
     addMissingNodes(document);

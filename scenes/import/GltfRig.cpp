@@ -68,12 +68,40 @@ const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms) 
         std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i), deforms);
         if (!imported) continue;
         std::vector<Shape>& shapes = context_.scene.rig.shapes;
+        const ShownMaterial shown = materials_.shownBy(primitives[i], imported->rest);
         shapes.push_back(std::move(*imported));
-        entry->second.push_back({static_cast<int>(shapes.size()) - 1,
-                                 materials_.material({primitives[i].material, shadingOf(primitives[i])}),
-                                 &primitives[i]});
+        entry->second.push_back(
+            {static_cast<int>(shapes.size()) - 1, materials_.material(shown), &primitives[i], shown.lostSets});
     }
     return entry->second;
+}
+
+namespace {
+constexpr std::string_view kIdentity = "what is not there counts as the identity";
+}
+
+void Rigging::readMatrices(int accessor, int skin, std::vector<glm::dmat4>& jointFromBind) const {
+    const Document& document = context_.document;
+    const std::string place = fmt::format("/skins/{}/inverseBindMatrices", skin);
+    const Elements matrices = context_.accessors.elements(accessor);
+    constexpr std::size_t kEntries = 16;
+    if (matrices.components != kEntries) document.fail(place, fmt::format("accessor {} must be of MAT4", accessor));
+    if (matrices.count < jointFromBind.size())
+        document.repair(
+            place,
+            fmt::format("accessor {} has {} matrices for {} joints", accessor, matrices.count, jointFromBind.size()),
+            kIdentity);
+    for (std::size_t joint = 0; joint < std::min(jointFromBind.size(), matrices.count); ++joint) {
+        const auto numbers = std::span(matrices.values).subspan(joint * kEntries, kEntries);
+        if (!std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); })) {
+            document.repair(place, fmt::format("the matrix of joint {} is not finite", joint), kIdentity);
+            continue;
+        }
+        for (std::size_t i = 0; i < kEntries; ++i) {
+            const auto column = static_cast<glm::length_t>(i / 4), row = static_cast<glm::length_t>(i % 4);
+            if (row < 3) jointFromBind[joint][column][row] = numbers[i];
+        }
+    }
 }
 
 int Rigging::skinOf(int index) {
@@ -87,34 +115,31 @@ int Rigging::skinOf(int index) {
     skin.name = nameOr(stored.name, "skin", index);
     for (const int joint : stored.joints) skin.joints.push_back(sceneNodes_[static_cast<std::size_t>(joint)]);
     skin.jointFromBind.assign(skin.joints.size(), glm::dmat4(1.0));
-    if (stored.inverseBindMatrices != kNone) {
-        const std::string place = fmt::format("/skins/{}/inverseBindMatrices", index);
-        const Elements matrices = context_.accessors.elements(stored.inverseBindMatrices);
-        constexpr std::size_t kEntries = 16;
-        if (matrices.components != kEntries)
-            document.fail(place, fmt::format("accessor {} must be of MAT4", stored.inverseBindMatrices));
-        if (matrices.count < skin.joints.size())
-            document.fail(place, fmt::format("accessor {} has {} matrices for {} joints", stored.inverseBindMatrices,
-                                             matrices.count, skin.joints.size()));
-        for (std::size_t joint = 0; joint < skin.joints.size(); ++joint)
-            for (std::size_t i = 0; i < kEntries; ++i) {
-                const float number = matrices.values[joint * kEntries + i];
-                if (!std::isfinite(number))
-                    document.fail(place, fmt::format("the matrix of joint {} is not finite", joint));
-                const auto column = static_cast<glm::length_t>(i / 4), row = static_cast<glm::length_t>(i % 4);
-                if (row < 3) skin.jointFromBind[joint][column][row] = number;
-            }
-    }
+    if (stored.inverseBindMatrices != kNone)
+        document.repairs.attempt(kIdentity,
+                                 [&] { readMatrices(stored.inverseBindMatrices, index, skin.jointFromBind); });
     context_.scene.rig.skins.push_back(std::move(skin));
     return entry->second;
 }
 
-void Rigging::requireJoints(const Shape& shape, int mesh, int skin, std::size_t joints) const {
-    for (std::size_t i = 0; i < shape.joints.size(); ++i)
-        if (shape.weights[i] > 0.0f && shape.joints[i] >= joints)
-            context_.document.fail(fmt::format("/meshes/{}", mesh),
-                                   fmt::format("vertex {} of mesh '{}' follows joint {}, but /skins/{} has only {}",
-                                               i / shape.influences, shape.rest.name, shape.joints[i], skin, joints));
+void Rigging::mendInfluences(Shape& shape, int mesh, int skin, std::size_t joints) const {
+    for (std::size_t first = 0; first < shape.joints.size(); first += shape.influences) {
+        float sum = 0.0f;
+        for (std::size_t i = first; i < first + shape.influences; ++i) {
+            if (shape.weights[i] > 0.0f && shape.joints[i] >= joints) {
+                context_.document.repair(
+                    fmt::format("/meshes/{}", mesh),
+                    fmt::format("vertex {} of mesh '{}' follows joint {}, but /skins/{} has only {}",
+                                first / shape.influences, shape.rest.name, shape.joints[i], skin, joints),
+                    "its weight counts as 0");
+                shape.weights[i] = 0.0f;
+            }
+            sum += shape.weights[i];
+        }
+        if (sum > 0.0f) continue;
+        shape.joints[first] = 0;
+        shape.weights[first] = 1.0f;
+    }
 }
 
 void Rigging::addDeformed(int index) {
@@ -133,14 +158,14 @@ void Rigging::addDeformed(int index) {
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
     for (const Drawn& drawn : shapesOf(node.mesh, deforms)) {
-        const Shape& shape = scene.rig.shapes[static_cast<std::size_t>(drawn.shape)];
+        Shape& shape = scene.rig.shapes[static_cast<std::size_t>(drawn.shape)];
         document.charge(bytesOf(shape.rest) + 2 * (sizeof(Deformed) + sizeof(Standing) + sizeof(Node)), "nodes", index);
         if (deformed.skin != kNone)
-            requireJoints(shape, node.mesh, node.skin,
-                          scene.rig.skins[static_cast<std::size_t>(deformed.skin)].joints.size());
+            mendInfluences(shape, node.mesh, node.skin,
+                           scene.rig.skins[static_cast<std::size_t>(deformed.skin)].joints.size());
         deformed.shape = drawn.shape;
         deformed.mesh = static_cast<int>(scene.meshes.size());
-        context_.noteMesh(deformed.mesh, *drawn.primitive);
+        context_.noteMesh(deformed.mesh, *drawn.primitive, drawn.lostSets);
         scene.meshes.push_back(shape.rest);
         MeshInstance instance;
         instance.mesh = deformed.mesh;
@@ -168,17 +193,16 @@ void Rigging::addSkinnedNodes() {
 
 // ---- Lights and cameras --------------------------------------------------------------------------------------------
 
-void Rigging::addCarried(int index) {
-    const tiny::Node& node = elementAt(context_.document.model.nodes, index);
-    const int sceneNode = sceneNodes_[static_cast<std::size_t>(index)];
-    if (const int light = lightOf(node); light != kNone) {
-        carriedLights_.push_back({static_cast<int>(context_.scene.lights.size()) - 1, sceneNode});
-        lights_[light].push_back(carriedLights_.back().element);
-    }
-    if (node.camera != kNone) {
-        carriedCameras_.push_back({static_cast<int>(context_.scene.cameras.size()) - 1, sceneNode});
-        cameras_[node.camera].push_back(carriedCameras_.back().element);
-    }
+void Rigging::addLight(int index) {
+    const int element = static_cast<int>(context_.scene.lights.size()) - 1;
+    carriedLights_.push_back({element, sceneNodes_[static_cast<std::size_t>(index)]});
+    lights_[lightOf(elementAt(context_.document.model.nodes, index))].push_back(element);
+}
+
+void Rigging::addCamera(int index) {
+    const int element = static_cast<int>(context_.scene.cameras.size()) - 1;
+    carriedCameras_.push_back({element, sceneNodes_[static_cast<std::size_t>(index)]});
+    cameras_[elementAt(context_.document.model.nodes, index).camera].push_back(element);
 }
 
 /// Keeps those that a clip may move.

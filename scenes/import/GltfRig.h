@@ -25,8 +25,9 @@ public:
     Deforms deformsOf(int node) const;
     /// Gives a node instances of its own of its mesh deformed.
     void addDeformed(int node);
-    /// Called when a node's camera and light were imported.
-    void addCarried(int node);
+    /// Called when a node's camera or light was imported.
+    void addCamera(int node);
+    void addLight(int node);
     /// Called when all nodes are in the scene: adds those that skinned meshes stand at, and clips.
     void finish();
 
@@ -35,6 +36,7 @@ private:
         int shape = 0;
         int material = 0;
         const tiny::Primitive* primitive = nullptr;
+        unsigned lostSets = 0; ///< as ShownMaterial::lostSets
     };
     /// An instance whose node is not there yet.
     struct Standing {
@@ -54,7 +56,9 @@ private:
     const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms);
     std::vector<float> restWeights(int node) const;
     int skinOf(int index);
-    void requireJoints(const Shape& shape, int mesh, int skin, std::size_t joints) const;
+    void readMatrices(int accessor, int skin, std::vector<glm::dmat4>& jointFromBind) const;
+    /// Vertices without weight follow joint 0. Source: glTF repository, issue 1929; three.js does so.
+    void mendInfluences(Shape& shape, int mesh, int skin, std::size_t joints) const;
     void addSkinnedNodes();
 
     Clip clip(int index);

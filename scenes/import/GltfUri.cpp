@@ -1,5 +1,6 @@
 #include "scenes/import/GltfUri.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <system_error>
@@ -73,8 +74,11 @@ std::vector<std::byte> base64Decoded(std::string_view text) {
     return bytes;
 }
 
-std::filesystem::path pathOfUtf8(const std::string& text) {
-    return std::filesystem::path(std::u8string(text.begin(), text.end()));
+/// In any case of letters.
+bool startsWith(std::string_view text, std::string_view lowerCase) {
+    const auto isSame = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+    return text.size() >= lowerCase.size() &&
+           std::equal(lowerCase.begin(), lowerCase.end(), text.begin(), [&](char b, char a) { return isSame(a, b); });
 }
 
 /// RFC 3986: a letter, then letters, digits, '+', '-' or '.', then ':'. One letter alone is a Windows drive.
@@ -89,34 +93,37 @@ bool hasScheme(std::string_view uri) {
 } // namespace
 
 bool isDataUri(std::string_view uri) {
-    return uri.starts_with("data:");
+    return startsWith(uri, "data:");
 }
 
 std::vector<std::byte> decodeDataUri(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     if (!isDataUri(uri) || comma == std::string_view::npos)
         throw InputError("its data URI has no comma before the data");
-    const std::string_view header = uri.substr(0, comma);
+    std::string header(uri.substr(0, comma));
+    std::erase(header, ' ');
     const std::string data = percentDecoded(uri.substr(comma + 1));
-    if (header.ends_with(";base64")) return base64Decoded(data);
+    constexpr std::string_view kBase64 = ";base64";
+    if (header.size() >= kBase64.size() &&
+        startsWith(std::string_view(header).substr(header.size() - kBase64.size()), kBase64))
+        return base64Decoded(data);
     const auto* first = reinterpret_cast<const std::byte*>(data.data());
     return {first, first + data.size()};
 }
 
-std::filesystem::path fileOfUri(std::string_view uri, const std::filesystem::path& folder) {
+NamedFile fileOfUri(std::string_view uri, const std::filesystem::path& folder) {
+    constexpr std::string_view kFile = "file:";
+    if (startsWith(uri, kFile)) uri.remove_prefix(kFile.size());
     if (uri.empty()) throw InputError("its uri is empty");
-    if (uri.starts_with("//") || hasScheme(uri))
+    if ((uri.starts_with("//") && !uri.starts_with("///")) || hasScheme(uri))
         throw InputError(
             fmt::format("its uri '{}' is not a relative path; put the file beside the model", uri.substr(0, 80)));
     const std::string decoded = percentDecoded(uri);
     if (decoded.find('\0') != std::string::npos) throw InputError("its uri holds a zero character");
-    const std::filesystem::path file = folder / pathOfUtf8(decoded);
-    std::error_code error;
-    if (!std::filesystem::exists(file, error) && uri.find('\0') == std::string_view::npos) {
-        const std::filesystem::path literal = folder / pathOfUtf8(std::string(uri));
-        if (std::filesystem::exists(literal, error)) return literal;
-    }
-    return file;
+    const NamedFile file = fileNamed(folder, decoded);
+    if (file.isFound && file.isAsNamed) return file;
+    const NamedFile literal = fileNamed(folder, std::string(uri));
+    return literal.isFound && (literal.isAsNamed || !file.isFound) ? literal : file;
 }
 
 } // namespace tessera::scenes::gltf

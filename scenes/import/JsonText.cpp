@@ -112,6 +112,50 @@ void requireJsonDepth(std::string_view text, const std::filesystem::path& file) 
     });
 }
 
+MendedJson mendedJson(std::string_view text) {
+    MendedJson mended;
+    mended.text.reserve(text.size());
+    std::size_t comma = text.npos; // in the mended text, with blanks alone behind it
+    const auto replace = [&](std::size_t at, std::string_view flaw, std::string_view by) {
+        if (mended.line == 0) {
+            mended.line =
+                1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            constexpr std::size_t kMostShown = 40;
+            mended.flaw = fmt::format("'{}' is not JSON", flaw.substr(0, kMostShown));
+        }
+        mended.text += by;
+    };
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at + 1;
+        if (text[at] == '"') {
+            while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+            end = std::min(end + 1, text.size());
+        } else if (text.substr(at).starts_with("//") || text.substr(at).starts_with("/*")) {
+            const bool isLine = text[at + 1] == '/';
+            end = std::min(text.find(isLine ? "\n" : "*/", at + 2), text.size());
+            if (!isLine) end = std::min(end + 2, text.size());
+            replace(at, text.substr(at, end - at), " ");
+            at = end;
+            continue;
+        } else if (constexpr std::string_view kSyntax = ",:[]{}\" \t\r\n/"; kSyntax.find(text[at]) == kSyntax.npos) {
+            end = std::min(text.find_first_of(kSyntax, at), text.size());
+        }
+        const std::string_view part = text.substr(at, end - at);
+        const bool isBlank = part.find_first_not_of(" \t\r\n") == part.npos;
+        if ((part == "]" || part == "}") && comma != text.npos) {
+            mended.text[comma] = ' ';
+            replace(at, fmt::format(",{}", part), part);
+        } else if (part.size() > 1 && part.front() != '"' && !json::accept(part)) {
+            replace(at, part, "null");
+        } else {
+            mended.text += part;
+        }
+        if (!isBlank) comma = part == "," ? mended.text.size() - 1 : text.npos;
+        at = end;
+    }
+    return mended;
+}
+
 std::uint64_t parsedJsonBytes(std::string_view text) {
     // One value stands after each of these, three times over while an array that doubles is copied; arrays, objects and
     // strings lie on the heap, strings with their letters on it once more, and members of objects are nodes of a tree.

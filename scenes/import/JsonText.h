@@ -22,6 +22,15 @@ inline constexpr int kMaxJsonDepth = 64;
 /// for each value, looks through all of an array for every element.
 void requireJsonDepth(std::string_view text, const std::filesystem::path& file);
 
+struct MendedJson {
+    std::string text;
+    int line = 0; ///< of the first flaw; 0: none was found
+    std::string flaw;
+};
+/// Replaces what programs write although JSON does not have it: words and numbers that are none of its values, such as
+/// NaN, -inf and 1.#IND, by null; comments, and commas before a closing bracket, by blanks.
+MendedJson mendedJson(std::string_view text);
+
 /// Upper bound of the memory of a parsed document of this text.
 std::uint64_t parsedJsonBytes(std::string_view text);
 

@@ -23,15 +23,29 @@ public:
     /// InputError "file:line: flaw" when strict.
     template <typename Flaw>
     void note(const std::string& file, int line, std::string_view repair, Flaw&& flaw) {
-        const auto known =
-            std::ranges::find_if(kinds_, [&](const Kind& kind) { return kind.repair == repair && kind.file == file; });
-        if (known != kinds_.end()) {
-            ++known->count;
-            return;
+        add(file, repair,
+            [&] { return fmt::format("{}{}: {}", file, line == 0 ? "" : fmt::format(":{}", line), flaw()); });
+    }
+    /// The same at a place in the file: "file: place: flaw".
+    template <typename Flaw>
+    void note(const std::string& file, std::string_view place, std::string_view repair, Flaw&& flaw) {
+        add(file, repair, [&] { return fmt::format("{}: {}: {}", file, place, flaw()); });
+    }
+
+    /// Calls `read`. A flaw that it throws is noted, unless the load is strict or memory does not suffice. Returns
+    /// whether there was none. Memory that was charged stays so: flawed parts take no more time than good ones.
+    template <typename Read>
+    bool attempt(std::string_view repair, Read&& read) {
+        try {
+            read();
+            return true;
+        } catch (const MemoryRefused&) {
+            throw;
+        } catch (const InputError& error) {
+            if (isStrict_) throw;
+            add({}, repair, [&] { return std::string(error.what()); });
+            return false;
         }
-        std::string text = fmt::format("{}{}: {}", file, line == 0 ? "" : fmt::format(":{}", line), flaw());
-        if (isStrict_) throw InputError(text);
-        kinds_.push_back({file, std::string(repair), std::move(text)});
     }
 
     /// The first flaw, "file:line: flaw"; empty where there is none.
@@ -46,6 +60,18 @@ public:
     }
 
 private:
+    template <typename Text>
+    void add(const std::string& file, std::string_view repair, Text&& text) {
+        const auto known =
+            std::ranges::find_if(kinds_, [&](const Kind& kind) { return kind.repair == repair && kind.file == file; });
+        if (known != kinds_.end()) {
+            ++known->count;
+            return;
+        }
+        if (isStrict_) throw InputError(text());
+        kinds_.push_back({file, std::string(repair), text()});
+    }
+
     struct Kind {
         std::string file, repair, text;
         std::size_t count = 1;

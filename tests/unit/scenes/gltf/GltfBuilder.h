@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -117,26 +118,44 @@ public:
         return json["materials"][0];
     }
 
-    /// Adds texture 0 of an embedded picture.
+    /// Adds texture 0 of an embedded picture, and texture coordinates.
     void addTexture(const Bytes& picture = pngRedBlue()) {
+        Json& attributes = primitive()["attributes"];
+        if (!attributes.contains("TEXCOORD_0"))
+            attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] =
+                add(std::vector<float>{0, 0, 1, 0, 0, 1}, 5126, "VEC2", 3);
         json["images"] = Json::array({Json::object({{"uri", "data:image/png;base64," + base64(picture)}})});
         json["textures"] = Json::parse(R"([{"source": 0}])");
     }
 
     Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, wishes); }
 
-    /// What the import refuses the document with, or "" when it does not.
+    /// What a strict import refuses the document with, or "" when it does not.
     std::string error(std::optional<std::uint64_t> limitBytes = {}) const {
         return errorOf(folder.write("model.gltf", json.dump()), wishes, limitBytes);
     }
-    static std::string errorOf(const std::filesystem::path& file, const ImportWishes& asked = {},
+    static std::string errorOf(const std::filesystem::path& file, ImportWishes asked = {},
                                std::optional<std::uint64_t> limitBytes = {}) {
+        asked.isStrict = true;
         try {
             underLedger(importGltf, file, limitBytes, asked);
         } catch (const InputError& error) {
+            expectTold(error.what(), file, asked, limitBytes);
             return error.what();
         }
         return "";
+    }
+
+    /// An import that is not strict warns of the same, or refuses it too.
+    static void expectTold(const std::string& flaw, const std::filesystem::path& file, ImportWishes asked,
+                           std::optional<std::uint64_t> limitBytes) {
+        asked.isStrict = false;
+        try {
+            const Scene scene = underLedger(importGltf, file, limitBytes, asked);
+            EXPECT_THAT(scene.warnings, testing::Contains(testing::StartsWith(flaw)));
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.what(), flaw);
+        }
     }
 
     void merge(const char* patch) { json.merge_patch(Json::parse(patch)); }
@@ -146,12 +165,17 @@ public:
     Folder folder;
 };
 
-/// The material of the triangle, as it is imported with what a patch adds to it. The patch may use texture 0.
-inline Material importedMaterial(const char* patch) {
+/// The triangle with a material to which a patch adds. The patch may use texture 0.
+inline Builder withMaterial(const char* patch) {
     Builder builder;
     builder.material().merge_patch(Json::parse(patch));
     builder.addTexture();
-    const Scene scene = builder.import();
+    return builder;
+}
+
+/// That material as it is imported.
+inline Material importedMaterial(const char* patch) {
+    const Scene scene = withMaterial(patch).import();
     return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
 }
 

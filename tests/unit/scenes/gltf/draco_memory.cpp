@@ -57,7 +57,8 @@ TEST(GltfDraco, aStreamOfSeveralPrimitivesIsDecodedOnce) {
     second["extensions"]["KHR_draco_mesh_compression"]["attributes"].erase("COLOR_0");
     primitives.push_back(second);
     LoadLedger ledger(64 * kMiB);
-    const Document document = loadDocument(builder.folder.write("model.gltf", builder.json.dump()), ledger);
+    Repairs repairs(false);
+    const Document document = loadDocument(builder.folder.write("model.gltf", builder.json.dump()), ledger, repairs);
     Buffers buffers(document);
     DracoStreams streams(document, buffers);
     const std::vector<tiny::Primitive>& stored = document.model.meshes[0].primitives;

@@ -235,7 +235,6 @@ TEST(GltfMaterials, iorIsImportedExactly) {
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {}}})").ior, 1.5f);
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 4294967296}}})").ior, 4294967296.0f);
     EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").ior, 0.0f);
-    EXPECT_THROW(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0.5}}})"), InputError);
 }
 
 TEST(GltfMaterials, specularFactorsAreImportedExactly) {
@@ -281,7 +280,7 @@ TEST(GltfMaterials, layersOutOfRangeAreRefused) {
                               R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 2]}}})",
                               R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0]}}})",
                               R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 9}}}})"})
-        EXPECT_THROW(importedMaterial(patch), InputError) << patch;
+        EXPECT_NE(withMaterial(patch).error(), "") << patch;
 }
 
 TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {

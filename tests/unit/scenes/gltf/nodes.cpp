@@ -74,18 +74,11 @@ TEST(GltfNodes, everyPrimitiveIsExactlyOneMesh) {
 }
 
 TEST(GltfNodes, graphThatIsNoForestIsRefused) {
-    EXPECT_NE(withNodes(R"([{"children": [1]}, {"children": [2]}, {"children": [1]}])")
-                  .error()
-                  .find("is a child of both node"),
-              std::string::npos);
-    EXPECT_NE(withNodes(R"([{}, {"children": [2]}, {"children": [1]}])").error().find("is its own ancestor"),
-              std::string::npos);
-    EXPECT_NE(withNodes(R"([{"children": [0]}])").error().find("/nodes/0: is its own ancestor"), std::string::npos);
-    EXPECT_NE(withNodes(R"([{"children": [1]}, {}])", "[0, 1]")
-                  .error()
-                  .find("lists node 1, which is no root but a child of node 0"),
-              std::string::npos);
-    EXPECT_NE(withNodes(R"([{}])", "[0, 0]").error().find("/scenes/0/nodes: lists node 0 twice"), std::string::npos);
+    EXPECT_EQ(withNodes(R"([{"children": [1]}, {}])", "[0]").error(), "");
+    for (const Builder& builder :
+         {withNodes(R"([{"children": [1, 2]}, {"children": [2]}, {}])"), withNodes(R"([{"children": [0]}])"),
+          withNodes(R"([{"children": [1]}, {}])", "[0, 1]"), withNodes("[{}]", "[0, 0]")})
+        EXPECT_NE(builder.error().find("has several parents, or is a root as well"), std::string::npos);
 }
 
 TEST(GltfNodes, unusableTransformIsRefused) {
@@ -165,16 +158,16 @@ TEST(GltfCameras, impossibleLensIsRefused) {
                   .find("/cameras/0/perspective/yfov: is 4"),
               std::string::npos);
     EXPECT_NE(errorOf(R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 0}})")
-                  .find("znear: is 0; it must be greater"),
+                  .find("/perspective: has znear 0 and zfar inf; znear must be more than 0"),
               std::string::npos);
     EXPECT_NE(errorOf(R"({"type": "perspective", "perspective": {"yfov": 1, "znear": 2, "zfar": 1}})")
-                  .find("zfar: is 1; it must be "),
+                  .find("/perspective: has znear 2 and zfar 1; znear must be more than 0 and less"),
               std::string::npos);
     EXPECT_NE(
         errorOf(R"({"type": "orthographic"})").find("/cameras/0: the required property 'orthographic' is missing"),
         std::string::npos);
     EXPECT_NE(errorOf(R"({"type": "orthographic", "orthographic": {"xmag": 0, "ymag": 0, "znear": 0, "zfar": 1}})")
-                  .find("must not be 0"),
+                  .find("/orthographic/ymag: is 0"),
               std::string::npos);
 }
 

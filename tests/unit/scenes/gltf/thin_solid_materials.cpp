@@ -73,7 +73,7 @@ TEST(GltfThinSolidMaterials, withNormalsTheyAreLitByThoseOfTheirFacesWithoutNorm
     builder.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
     builder.addTexture();
     const Scene mapped = builder.import();
-    EXPECT_EQ(materialOf(mapped).name, "paint, without normal maps");
+    EXPECT_EQ(materialOf(mapped).name, "paint, without texture coordinates, without normal maps");
     EXPECT_EQ(materialOf(mapped).texture(TextureSlot::Normal).image, kNone);
     EXPECT_NE(materialOf(mapped).texture(TextureSlot::Emissive).image, kNone);
 }

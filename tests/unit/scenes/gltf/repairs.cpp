@@ -1,0 +1,207 @@
+#include <cmath>
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/scenes/gltf/GltfBuilder.h"
+
+/// What is drawn of files with flaws. What is said of them and refused strictly is tested with each kind of content.
+namespace tessera::scenes::gltf::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+struct Repaired {
+    const char* pointer;
+    const char* value;
+    const char* warning; ///< part of the only one; null: none
+    std::function<bool(const Scene&)> isRight;
+};
+
+const Material& paintOf(const Scene& scene) {
+    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
+}
+
+std::function<bool(const Scene&)> has(auto Material::*member, auto value) {
+    return [=](const Scene& scene) { return paintOf(scene).*member == value; };
+}
+
+const Repaired kRepaired[] = {
+    {"/materials/0/pbrMetallicRoughness", R"({"roughnessFactor": 1.5})",
+     "is 1.5; it must be at most 1; the nearest bound", has(&Material::perceptualRoughness, 1.0f)},
+    {"/materials/0/pbrMetallicRoughness", R"({"roughnessFactor": null, "metallicFactor": -1})",
+     "but is null; it is left out", has(&Material::metallic, 0.0f)},
+    {"/materials/0/pbrMetallicRoughness", R"({"baseColorFactor": [0.5, 0.25, 0]})", "its alpha is 1",
+     has(&Material::baseColor, glm::vec4(0.5f, 0.25f, 0.0f, 1.0f))},
+    {"/materials/0/emissiveFactor", "[1, 2, 3, 4]", "the numbers beyond are left out",
+     has(&Material::emissive, glm::vec3(1.0f, 2.0f, 3.0f))},
+    {"/materials/0/doubleSided", "1", "1 is taken as true", has(&Material::doubleSided, true)},
+    {"/materials/0/alphaMode", R"("CUTOUT")", "it is left out", has(&Material::alphaMode, AlphaMode::Opaque)},
+    {"/materials/0/extensions/KHR_materials_ior", R"({"ior": 0.47})", "1 is taken", has(&Material::ior, 1.0f)},
+    {"/materials/0/extensions/KHR_materials_volume", R"({"attenuationDistance": 0})",
+     "more than 0 is needed; it is left out",
+     has(&Material::attenuationDistanceMetres, Material().attenuationDistanceMetres)},
+    {"/materials/0/name", "7", nullptr, has(&Material::name, std::string("material 0"))},
+    {"/materials/1", R"({"alphaMode": "CUTOUT"})", nullptr, has(&Material::name, std::string("paint"))},
+    {"/meshes/1", "{}", nullptr, [](const Scene& scene) { return scene.meshes.size() == 1; }},
+    {"/nodes/0/camera", "-1", "it is left out", [](const Scene& scene) { return scene.meshes.size() == 1; }},
+    {"/nodes/0/matrix", "[1,0,0,0, 0,1,0,0, 0,0,1,0, 4,0,0,2]", "it is divided by its last number",
+     [](const Scene& scene) { return scene.nodes[0].parentFromNode[3] == glm::dvec4(2.0, 0.0, 0.0, 1.0); }},
+    {"/nodes/0/rotation", "[0, 0, 0, 0]", "nothing is rotated",
+     [](const Scene& scene) { return scene.nodes[0].parentFromNode == glm::dmat4(1.0); }},
+    {"/nodes/0/scale", "[2, null, 2]", "it is left out",
+     [](const Scene& scene) { return scene.nodes[0].parentFromNode == glm::dmat4(1.0); }},
+};
+
+TEST(GltfRepairs, drawWhatTheSceneNeeds) {
+    for (const Repaired& row : kRepaired) {
+        Builder builder;
+        builder.material();
+        builder.json[Json::json_pointer(row.pointer)] = Json::parse(row.value);
+        SCOPED_TRACE(row.pointer);
+        const Scene scene = builder.import();
+        EXPECT_TRUE(row.isRight(scene)) << row.value;
+        if (row.warning == nullptr)
+            EXPECT_THAT(scene.warnings, IsEmpty());
+        else
+            EXPECT_TRUE(hasWarning(scene, row.warning)) << row.value << testing::PrintToString(scene.warnings);
+    }
+}
+
+TEST(GltfRepairs, whatCannotBeReadTakesOnlyItsOwnPrimitiveAlong) {
+    Builder builder;
+    const int empty = builder.add(std::vector<float>{0, 0, 0}, 5126, "VEC3", 0);
+    builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", empty}}}});
+    builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"indices", empty}});
+    const Scene scene = builder.import();
+    EXPECT_THAT(scene.nodes.at(0).instances, SizeIs(1));
+    EXPECT_TRUE(hasWarning(scene, "/accessors/1/count: is 0; it must be at least 1; it is left out (and 1 more)"));
+}
+
+TEST(GltfRepairs, anAttributeThatCannotBeReadIsLeftOutAlone) {
+    Builder builder;
+    builder.primitive()["attributes"]["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 1}, 5126, "VEC2", 2);
+    builder.primitive()["attributes"]["COLOR_0"] =
+        builder.add(std::vector<float>{1, 1, 1, 0, 0, 0, NAN, 0, 0}, 5126, "VEC3", 3);
+    const Mesh mesh = builder.import().meshes.at(0);
+    EXPECT_THAT(mesh.positionsOS, SizeIs(3));
+    EXPECT_THAT(mesh.texCoords[0], IsEmpty());
+    EXPECT_THAT(mesh.colors, IsEmpty());
+}
+
+/// Two triangles, one of which names a vertex that there is not, or one without a place.
+TEST(GltfRepairs, trianglesWithLostCornersAreLeftOut) {
+    for (const std::uint16_t lost : {std::uint16_t{4}, std::uint16_t{3}, std::uint16_t{0xffff}}) {
+        Builder builder;
+        builder.primitive()["attributes"]["POSITION"] =
+            builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, INFINITY, 0, 0}, 5126, "VEC3", 4);
+        builder.primitive()["indices"] =
+            builder.add(std::vector<std::uint16_t>{0, 1, lost, 0, 1, 2}, 5123, "SCALAR", 6);
+        const Scene scene = builder.import();
+        EXPECT_THAT(scene.meshes.at(0).indices, SizeIs(3)) << lost;
+        EXPECT_TRUE(hasWarning(scene, "what it would be a corner of is left out"));
+    }
+}
+
+/// Two primitives of one material, the second with texture coordinates.
+TEST(GltfRepairs, whereTextureCoordinatesAreMissingColoursAreTheStandIn) {
+    Builder builder =
+        withMaterial(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 0}})");
+    builder.json["meshes"][0]["primitives"].push_back(builder.primitive());
+    builder.primitive()["attributes"] = {{"POSITION", 0}};
+    const Scene scene = builder.import();
+    const auto materialOf = [&](std::size_t instance) {
+        return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(instance).material));
+    };
+    const auto picture = [&](std::size_t instance, TextureSlot slot) {
+        return materialOf(instance).texture(slot).image;
+    };
+    EXPECT_NE(picture(0, TextureSlot::BaseColor), picture(1, TextureSlot::BaseColor));
+    EXPECT_EQ(materialOf(0).name, "paint, without texture coordinates");
+    EXPECT_EQ(picture(0, TextureSlot::Normal), kNone);
+    EXPECT_NE(picture(1, TextureSlot::Normal), kNone);
+    EXPECT_EQ(scene.meshes.at(0).texCoords[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_TRUE(
+        hasWarning(scene, "/materials/0/pbrMetallicRoughness/baseColorTexture: needs TEXCOORD_0, which a mesh lacks"));
+}
+
+TEST(GltfRepairs, urisAreReadInAnySpelling) {
+    Builder builder;
+    const std::string uri = builder.json["buffers"][0]["uri"], data = uri.substr(uri.find(','));
+    builder.folder.write("data/Corners 1.bin", Bytes(36));
+    builder.folder.write("Other.bin", Bytes(36));
+    for (const std::string& spelled :
+         {"DATA:application/octet-stream;BASE64" + data, "data:; base64" + data, std::string("data/corners%201.BIN"),
+          std::string(R"(data\Corners 1.bin?v=3)"), std::string("file:///home/somebody/other.bin")}) {
+        builder.json["buffers"][0]["uri"] = spelled;
+        EXPECT_EQ(builder.import().meshes.size(), 1u) << spelled;
+    }
+    EXPECT_NE(
+        builder.error().find("/buffers/0: names 'file:///home/somebody/other.bin', which is there as 'Other.bin'"),
+        std::string::npos);
+}
+
+TEST(GltfRepairs, aModelOfWhichNothingIsLeftIsRefused) {
+    Builder builder;
+    builder.json["buffers"][0]["uri"] = "gone.bin";
+    EXPECT_THROW(builder.import(), InputError);
+}
+
+/// A node with two parents, one of them itself, and a child that the scene lists as a root.
+TEST(GltfRepairs, everyNodeIsDrawnOnce) {
+    Builder builder;
+    builder.merge(R"({"scenes": [{"nodes": [1, 0, 2, 7]}],
+                      "nodes": [{"children": [1, 0]}, {"mesh": 0, "children": [2]}, {"children": [1], "mesh": 0}]})");
+    const Scene scene = builder.import();
+    ASSERT_THAT(scene.nodes, SizeIs(3));
+    EXPECT_TRUE(hasWarning(scene, "has several parents, or is a root as well; the first place counts"));
+}
+
+TEST(GltfRepairs, whatJsonDoesNotHaveIsNull) {
+    Builder builder;
+    builder.material()["alphaCutoff"] = 0.75;
+    std::string text = builder.json.dump();
+    const auto replace = [&](std::string_view part, std::string_view by) {
+        text.replace(text.find(part), part.size(), by);
+    };
+    replace("0.75", "-1.#IND /* \"half\" */");
+    replace("\"asset\":{", "// of a converter, {\n\"asset\": {");
+    replace("\"nodes\":[0]", "\"nodes\":[0, ]");
+    const Scene scene = underLedger(importGltf, builder.folder.write("model.gltf", text));
+    EXPECT_EQ(paintOf(scene).alphaCutoff, Material().alphaCutoff);
+    EXPECT_TRUE(hasWarning(scene, "model.gltf:"));
+    EXPECT_NE(Builder::errorOf(builder.folder.write("model.gltf", text)).find("is not JSON"), std::string::npos);
+}
+
+// ---- KHR_node_visibility
+// ---------------------------------------------------------------------------------------------
+
+TEST(GltfVisibility, whatIsHiddenHidesMeshesAndLightsBelowButNoCamera) {
+    Builder builder;
+    builder.merge(R"({"extensionsRequired": ["KHR_node_visibility"],
+                      "nodes": [{"mesh": 0, "children": [1]},
+                                {"extensions": {"KHR_node_visibility": {"visible": false}}, "children": [2, 3]},
+                                {"mesh": 0, "camera": 0}, {"extensions": {"KHR_lights_punctual": {"light": 0},
+                                                                          "KHR_node_visibility": {"visible": true}}}],
+                      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
+    Scene scene = builder.import();
+    const auto instances = [&] {
+        std::vector<std::size_t> sizes;
+        for (const Node& node : scene.nodes) sizes.push_back(node.instances.size());
+        return sizes;
+    };
+    EXPECT_THAT(instances(), ElementsAre(1, 0, 0, 0));
+    EXPECT_THAT(scene.lights, IsEmpty());
+    EXPECT_THAT(scene.cameras, SizeIs(1));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    builder.json["nodes"][1].erase("extensions");
+    scene = builder.import();
+    EXPECT_THAT(instances(), ElementsAre(1, 0, 1, 0));
+    EXPECT_THAT(scene.lights, SizeIs(1));
+}
+
+} // namespace
+} // namespace tessera::scenes::gltf::test
