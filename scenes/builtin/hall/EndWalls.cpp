@@ -100,7 +100,7 @@ Mesh endTrim() {
 
 Mesh apse() {
     Mesh part;
-    appendAlcove(part, kApseRadius, 0.0, kApseSpringY, 40, 16);
+    appendAlcove(part, kApseRadius, 0.0, kApseSpringY, 40);
     Mesh mesh;
     appendMesh(mesh, part, farEnd());
     return mesh;

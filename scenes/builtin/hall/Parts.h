@@ -30,6 +30,7 @@ Mesh vase();     ///< on the origin, 1.15 m high
 Mesh pedestal(); ///< on the origin, 0.45 m high, 0.6 m wide
 
 /// The hollow behind an arched wall: half a cylinder with half a dome and a floor, open towards +Z, its axis X = Z = 0.
-void appendAlcove(Mesh& mesh, double radius, double floorY, double springY, int slices, int stacks);
+/// Its edge fits an ArchedWall of `slices` steps, an even number.
+void appendAlcove(Mesh& mesh, double radius, double floorY, double springY, int slices);
 
 } // namespace tessera::scenes::builtin::hall

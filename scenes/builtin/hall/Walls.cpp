@@ -47,14 +47,14 @@ Profile corniceProfile() {
 
 } // namespace
 
-void appendAlcove(Mesh& mesh, double radius, double floorY, double springY, int slices, int stacks) {
+void appendAlcove(Mesh& mesh, double radius, double floorY, double springY, int slices) {
     const auto out = [](double u) { return glm::dvec3(std::cos(pi * u), 0.0, -std::sin(pi * u)); };
     appendPatch(mesh, slices, 1, [&](double u, double v) {
         return SurfacePoint{radius * out(u) + glm::dvec3(0.0, glm::mix(floorY, springY, v), 0.0),
                             -out(u),
                             {pi * radius * u, glm::mix(springY, floorY, v)}};
     });
-    appendPatch(mesh, slices, stacks, [&](double u, double v) {
+    appendPatch(mesh, slices, slices / 2, [&](double u, double v) {
         const double rise = 0.5 * pi * v;
         const glm::dvec3 direction = std::cos(rise) * out(u) + glm::dvec3(0.0, std::sin(rise), 0.0);
         return SurfacePoint{
@@ -109,7 +109,7 @@ Mesh bayWalls() {
     outer.archSteps = 20;
     part = Mesh();
     appendArchedWall(part, outer);
-    appendAlcove(part, kNicheRadius, kNicheSillY, kNicheSpringY, 20, 8);
+    appendAlcove(part, kNicheRadius, kNicheSillY, kNicheSpringY, 20);
     appendMesh(mesh, part, facingRight(-kAisleOuterX));
 
     // Barrel vault of the aisle, seen from below.

@@ -1,9 +1,12 @@
 // What each built-in scene shows and is lit by, as the documents say of it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,6 +14,8 @@
 #include "scenes/AreaLight.h"
 #include "scenes/builtin/Builtin.h"
 #include "scenes/builtin/hall/Lights.h"
+#include "scenes/builtin/hall/Parts.h"
+#include "scenes/builtin/hall/Plan.h"
 #include "scenes/builtin/lamps/Lights.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/GeneratedScenes.h"
@@ -57,6 +62,40 @@ TEST(Hall, hasItsStatedSizeAndLights) {
         EXPECT_LE(light.rangeMetres, 5.0f);
         expectWithin(boundsWS, light);
     }
+}
+
+/// How many edges of triangles lie on a round head, by their ends, to a tenth of a millimetre.
+std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int>
+edgesOfHead(const std::vector<Mesh>& meshes, int axis, double plane, const glm::dvec3& middle, double radius) {
+    std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int> edges;
+    for (const Mesh& mesh : meshes) {
+        const auto isOnHead = [&](std::uint32_t vertex) {
+            const glm::dvec3 place(mesh.positionsOS[vertex]);
+            return std::abs(place[axis] - plane) < 1e-4 && place.y > middle.y - 1e-4 &&
+                   std::abs(glm::distance(place, middle) - radius) < 1e-4;
+        };
+        const auto rounded = [&](std::uint32_t vertex) {
+            const glm::dvec3 place(mesh.positionsOS[vertex]);
+            return std::array{std::lround(1e4 * place.x), std::lround(1e4 * place.y), std::lround(1e4 * place.z)};
+        };
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+            const std::uint32_t from = mesh.indices[i], to = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+            if (isOnHead(from) && isOnHead(to)) ++edges[std::minmax(rounded(from), rounded(to))];
+        }
+    }
+    return edges;
+}
+
+// The sun shone through gaps between them, in dots.
+TEST(Hall, alcovesMeetTheWallsBeforeThem) {
+    using namespace builtin::hall;
+    const auto expectShared = [](const auto& edges, std::size_t count) {
+        EXPECT_EQ(edges.size(), count);
+        for (const auto& [edge, triangles] : edges) EXPECT_EQ(triangles, 2);
+    };
+    expectShared(edgesOfHead({bayWalls()}, 0, -kAisleOuterX, {-kAisleOuterX, kNicheSpringY, 0.0}, kNicheRadius), 20);
+    expectShared(edgesOfHead({endWalls(), apse()}, 2, -kHalfLength, {0.0, kApseSpringY, -kHalfLength}, kApseRadius),
+                 40);
 }
 
 TEST(Hall, brightnessNeverDependsOnTheNumberOfLights) {
