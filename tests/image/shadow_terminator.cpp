@@ -40,8 +40,9 @@ protected:
     std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         return renderer.render(Technique::Deferred, settings).radiance;
     }
-    /// Expects that points of a square whose normals lean outwards, in radians, are lifted, and by how much.
-    void expectLifted(double lean);
+    /// Expects that points of a square of so many rows, whose normals lean outwards, in radians, are lifted, and by how
+    /// much, seen by parallel rays at an angle to the vertical, with a floor twice `eyeMetres` below.
+    void expectLifted(double lean, int rows, int samples, double eyeMetres, double eyeRadians);
     /// Expects that softened terminators change no bit of the picture, and shadows do.
     void expectExactToTheLastBit(const scenes::Scene& scene) {
         engine::Renderer renderer(context(), scene);
@@ -142,48 +143,71 @@ TEST_F(ShadowTerminators, ofBoxesWithAveragedNormalsAreExactToTheLastBit) {
 // / 2, so the blend is (1 - x^2) sin a, over the length of the normals' blend. From there the edge of a plate 1 m above
 // throws its shadow that much less far. Normals that lean towards the middle, as in a gutter, lift points as high.
 TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) {
-    expectLifted(0.15);
-    expectLifted(-0.15);
+    expectLifted(0.15, 1, 1, 5.0, 0.0);
+    expectLifted(-0.15, 1, 1, 5.0, 0.0);
 }
-void ShadowTerminators::expectLifted(double lean) {
+// Fragments that cover a part of their pixel are lifted where they are lit. The origin of lighting space is far aside
+// here, so that from there to the pixel's middle the planes through corners rise by centimetres.
+TEST_F(ShadowTerminators, pointsOfPartsOfPixelsAreLiftedToThatBlendToo) {
+    expectLifted(0.15, 50, 4, 200.0, 0.7);
+}
+void ShadowTerminators::expectLifted(double lean, int rows, int samples, double eyeMetres, double eyeRadians) {
     constexpr double kPlateMetres = 1.0, kPlateEdge = -1.6, kSlope = 0.6; // of the sun
     scenes::Scene scene = coarseBall();
     scenes::Mesh& square = scene.meshes[0] = {};
-    for (const glm::vec2 place : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
-        square.positionsOS.emplace_back(place.x, 0.0f, place.y);
-        square.normalsOS.emplace_back(place.x * std::sin(lean), std::cos(lean), 0.0);
-        square.texCoords[0].push_back(place);
+    for (int row = 0; row <= rows; ++row) {
+        for (const float x : {-1.0f, 1.0f}) {
+            square.positionsOS.emplace_back(x, 0.0f, 2.0f * float(row) / float(rows) - 1.0f);
+            square.normalsOS.emplace_back(x * std::sin(lean), std::cos(lean), 0.0);
+            square.texCoords[0].emplace_back(x, float(row));
+        }
+        const auto first = std::uint32_t(2 * row);
+        if (row < rows)
+            for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) square.indices.push_back(first + corner);
     }
-    square.indices = {0, 2, 1, 1, 2, 3};
     scene.meshes[1] = {};
     scenes::builtin::appendFloor(scene.meshes[1], {0.0, kPlateMetres, kPlateEdge - 2.0}, {8.0, 4.0}, {1, 1});
+    const glm::dvec3 toEye(std::sin(eyeRadians), std::cos(eyeRadians), 0.0);
+    // Below all, so that the origin of lighting space, which is in the middle of what is seen, lies far from the
+    // square.
+    scenes::builtin::appendFloor(scene.meshes[1], -2.0 * eyeMetres * toEye, {8.0, 8.0}, {1, 1});
     scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.0, -kSlope, 1.0));
     scenes::Camera& camera = scene.cameras[0];
     camera.projection = scenes::Projection::Orthographic;
     camera.halfHeightMetres = 1.0;
     camera.nearMetres = 0.1;
-    camera.worldFromCamera = {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 5, 0, 1}};
+    camera.farMetres = 4.0 * eyeMetres;
+    camera.worldFromCamera = {
+        {toEye.y, -toEye.x, 0, 0}, {0, 0, -1, 0}, glm::dvec4(toEye, 0.0), glm::dvec4(eyeMetres * toEye, 1.0)};
     engine::Renderer renderer(context(), scene);
     for (const ShadowTerminator terminator : {ShadowTerminator::Exact, ShadowTerminator::Softened}) {
         frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, terminator);
         settings.sizePixels = {128, 128};
+        settings.samples = samples;
         settings.view = frame::DebugView::Shadow;
-        const std::vector<float> seen = picture(renderer, settings);
+        const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
         const reference::CameraRays rays(camera, settings.sizePixels);
         int dark = 0, wrong = 0, straightIsWrong = 0;
         for (int y = 0; y < 128; ++y) {
             for (int x = 0; x < 128; ++x) {
-                const glm::dvec3 placeWS = rays.eyeWS() + rays.through(x, y).originRWS;
-                const double across = placeWS.x, blend = std::hypot(std::cos(lean), across * std::sin(lean));
+                const glm::dvec3 originWS = rays.eyeWS() + rays.through(x, y).originRWS;
+                const glm::dvec3 placeWS = originWS - originWS.y / toEye.y * toEye;
+                const double across = placeWS.x;
+                if (std::abs(across) > (samples > 1 ? 0.97 : 1.0)) continue; // pixels of nothing, and of the rim
+                const double blend = std::hypot(std::cos(lean), across * std::sin(lean));
                 const bool isLifted = terminator == ShadowTerminator::Softened;
                 const double lift = isLifted ? (1.0 - across * across) * std::abs(std::sin(lean)) / blend : 0.0;
                 const double behindEdge = kPlateEdge + (kPlateMetres - lift) / kSlope - placeWS.z;
                 const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
                 // Heights are stored in steps of a twelfth at most; rounding loses up to half a step.
-                const double leeway = 1e-3 + 0.045 * lift / kSlope;
-                const bool isDark = seen[4 * std::size_t(128 * y + x)] == 0.0f;
+                double leeway = 1e-3 + 0.045 * lift / kSlope;
+                // A fragment is lit up to 3/8 of a pixel from its pixel's middle.
+                if (samples > 1)
+                    leeway += 0.375 * (2.0 / 128.0) * (1.0 + 2.0 * std::abs(std::sin(lean)) / kSlope / toEye.y);
+                const float shown = seen[4 * std::size_t(128 * y + x)];
+                const bool isDark = shown == 0.0f;
                 dark += isDark;
-                wrong += std::abs(behindEdge) > leeway && isDark != (behindEdge > 0.0);
+                wrong += std::abs(behindEdge) > leeway && shown != (behindEdge > 0.0 ? 0.0f : 1.0f);
                 straightIsWrong += isDark != (behindStraight > 0.0);
             }
         }
