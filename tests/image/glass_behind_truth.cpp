@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/image/GlassBehindTest.h"
 
@@ -254,6 +255,44 @@ TEST_F(GlassBehindTruth, raysPassBehindTheEdgeOfWhatLeans) {
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(at(shown, x, y)[c], wanted[c], 2e-3) << "at " << x << ", " << y;
         }
     EXPECT_GE(passing, kBehindPixels);
+}
+
+/// A bar between glass and wall, whose edge moves aside by a pixel every six rows. Rays that run down and to the left
+/// come to these steps from the side, far behind: they go on to the wall.
+TEST_F(GlassBehindTruth, raysPassBehindTheStepsOfAnEdge) {
+    constexpr double kIor = 2.4, kBarMetres = 0.06, kBarZ = -0.3, kLean = 1.0 / 6.0; // half its width
+    const glm::dvec2 towards(-std::cos(0.9), -std::sin(0.9)); // a little more down than to the left
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    // Four pixels, and as far as a ray goes back over another one.
+    const double allowedMetres = (4.0 - 1.0 / (bend * towards.x)) * kBehindPixelMetres;
+    const Scene wall = rampWall();
+    Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
+    glm::dmat4& glass = covered.nodes[1].parentFromNode;
+    glass = glm::rotate(glm::dmat4(1.0), 0.9, glm::dvec3(0.0, 0.0, 1.0)) * glass;
+    covered.materials.push_back(unlit());
+    scenes::Node& bar = covered.nodes.emplace_back(covered.nodes[0]);
+    bar.instances[0].material = 2;
+    placeQuad(bar, kBarZ, kBarMetres);
+    bar.parentFromNode[1] = glm::dvec4(4.0 * kLean, 4.0, 0.0, 0.0);
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+    int passing = 0;
+    for (int y = 0; y < kBehindPixels; ++y)
+        for (int x = 0; x < kBehindPixels; ++x) {
+            const glm::dvec2 begin(metresOf(x), -metresOf(y));
+            const double beginZ = glm::dot(begin, towards) * std::tan(kBehindTiltRadians);
+            const double deep = kBehindWallMetres + beginZ;
+            const glm::dvec2 place = begin + bend * deep * towards;
+            const double from = begin.x - kLean * begin.y, to = place.x - kLean * place.y; // the bar's middle
+            const double atEdgeZ = beginZ - deep * (from - kBarMetres) / (from - to);
+            const double clear = kBarMetres + 1.5 * kBehindPixelMetres;
+            if (from < clear || to > -clear || atEdgeZ > kBarZ - allowedMetres) continue;
+            if (std::min(place.x, place.y) < kBehindPixelMetres - 1.0) continue;
+            ++passing;
+            const glm::dvec3 wanted = evenlyAt(plain, place.x, y);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(at(shown, x, y)[c], wanted[c], 2e-3) << "at " << x << ", " << y;
+        }
+    EXPECT_GE(passing, 8);
 }
 
 /// Wide levels end where the picture does, within their texels: an even wall shows as it is up to the rim.

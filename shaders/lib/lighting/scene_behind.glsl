@@ -122,10 +122,11 @@ bool isMet(int layer, ScreenRay ray, vec3 before, vec3 after)
     precise float gap = aheadOf(max(after.z, 0.0)) - ahead;
     bool isWide = abs(ray.way.x) >= abs(ray.way.y);
     ivec2 next = isWide ? ivec2(ray.way.x < 0.0 ? -1 : 1, 0) : ivec2(0, ray.way.y < 0.0 ? -1 : 1);
-    // A surface that goes on leans the same way on both sides; a thing that is a pixel wide does not.
+    // A surface that goes on leans the same way on both sides; a thing that is a pixel wide does not. At an edge one step
+    // leads off the surface.
     float nextDepth = depthBehind(layer, pixel + next), lastDepth = depthBehind(layer, pixel - next);
     bool goesOn = nextDepth > 0.0 && (nextDepth > depth) == (depth > lastDepth);
-    precise float slope = goesOn ? abs(aheadOf(nextDepth) - ahead) : 0.0;
+    precise float slope = goesOn ? abs(stepOnSurface(aheadOf(lastDepth), ahead, aheadOf(nextDepth))) : 0.0;
     vec2 spread = raySpread();
     precise float pixelMetres = (spread.x + spread.y * ahead) * length(view.rayDxLS.xyz);
     return gap <= kBehindPixels * pixelMetres + kBehindSlopes * slope;
