@@ -58,6 +58,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     hash.add(casterRevision);
     scenes::visitFields(kDiffusionFields, [&](const auto& field) { hash.add(settings.diffusion.*field.member); });
     hash.add(std::uint8_t(settings.shadowFilter));
+    hash.add(std::uint8_t(settings.shadowTerminator));
     hash.add(settings.shadowSamples);
     hash.add(settings.shadowMaps.widthTexels);
     hash.add(settings.shadowMaps.cascades);
