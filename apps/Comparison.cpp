@@ -47,9 +47,12 @@ validation::Truth truthNamed(const std::string& name) {
 
 /// What the scene holds is in use already: one limit for all that a command reads.
 Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
-    scenes::LoadLedger ledger(loadOptionsOf(options).memoryLimitBytes);
+    const scenes::LoadOptions load = loadOptionsOf(options);
+    scenes::LoadLedger ledger(load.memoryLimitBytes, load.import);
     ledger.charge(scenes::bytesOf(scene), [&] { return options.scene; });
-    return validation::readPicture(path, ledger);
+    Picture picture = validation::readPicture(path, ledger);
+    for (const std::string& warning : ledger.takeWarnings()) spdlog::warn("{}", oneLine(warning));
+    return picture;
 }
 
 /// Those asked for; else all but the truth that take the settings, the others to `leftOut`.

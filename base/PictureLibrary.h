@@ -21,8 +21,10 @@ struct PictureHeader {
     std::vector<std::string> channelNames;
     int alphaChannel = -1;     ///< -1: none
     bool isAssociated = false; ///< colours are multiplied by alpha
-    bool isCropped = false;    ///< the texels are not all that the picture shows, or more
-    int orientation = 1;       ///< of Exif
+    /// The texels' place within the displayed image, and its size; 0: the texels alone are displayed.
+    std::int64_t left = 0, top = 0;
+    int displayedWidth = 0, displayedHeight = 0;
+    int orientation = 1; ///< of Exif
     std::string software, colorSpace;
 };
 

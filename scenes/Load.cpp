@@ -219,6 +219,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     OwnEnvironment own = ownEnvironmentOf(scene);
     if (options.background) scene.background = glm::vec3(*options.background);
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
+    const std::vector<std::string> ofPictures = ledger.takeWarnings();
+    scene.warnings.insert(scene.warnings.end(), ofPictures.begin(), ofPictures.end());
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     requireVariant(scene, nameOrPath, options.import);

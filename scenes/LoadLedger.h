@@ -65,6 +65,10 @@ public:
     void tellEnvironment(std::function<void(double)> told) { environmentTold_ = std::move(told); }
     const std::function<void(double)>& environmentTold() const { return environmentTold_; }
 
+    /// Flaws of pictures that are repaired, "file: flaw; repair".
+    void warn(std::string text) { warnings_.push_back(std::move(text)); }
+    std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
+
     void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }
     const std::vector<std::string>& files() const { return files_; }
 
@@ -74,7 +78,7 @@ private:
     std::uint64_t limitBytes_;
     ImportWishes wishes_;
     std::uint64_t usedBytes_ = 0; ///< at most limitBytes_
-    std::vector<std::string> files_;
+    std::vector<std::string> files_, warnings_;
     std::function<void(double)> environmentTold_;
 };
 

@@ -56,8 +56,6 @@ PictureHeader headerOf(const OIIO::ImageSpec& spec) {
     header.alphaChannel = spec.alpha_channel;
     // Readers that hand over colours without alpha, as open() asks for, state that they did.
     header.isAssociated = spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
-    header.isCropped = spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-                       spec.height != spec.full_height;
     header.orientation = spec.get_int_attribute("Orientation", 1);
     header.software = spec.get_string_attribute("Software");
     header.colorSpace = spec.get_string_attribute("oiio:ColorSpace");
@@ -87,6 +85,13 @@ public:
         config.attribute("oiio:UnassociatedAlpha", 1);
         if (!input_->open(fmt::format("picture.{}", format_), spec, config)) return false;
         header = headerOf(spec);
+        // Positions in TIFF files count inches or centimetres, and OpenImageIO returns them as texels.
+        if (format_ == "openexr") {
+            header.left = std::int64_t{spec.x} - spec.full_x;
+            header.top = std::int64_t{spec.y} - spec.full_y;
+            header.displayedWidth = spec.full_width;
+            header.displayedHeight = spec.full_height;
+        }
         return true;
     }
     bool read(int channels, std::uint8_t* samples) override { return read(channels, OIIO::TypeDesc::UINT8, samples); }

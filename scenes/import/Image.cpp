@@ -72,6 +72,13 @@ DecodedPicture decodePicture(std::span<const std::byte> bytes, const std::string
     return decoded;
 }
 
+DecodedPicture readStored(const std::filesystem::path& file, LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    DecodedPicture decoded = decodePicture(readFileBytes(file, ledger), file.string(), ledger);
+    ledger.settle(mark, decoded.image.texels.size());
+    return decoded;
+}
+
 template <typename T>
 void divideByAlpha(Image& image) {
     constexpr bool kIsInteger = std::is_integral_v<T>;
@@ -108,14 +115,16 @@ Image textureOf(DecodedPicture picture) {
 } // namespace
 
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger) {
+    DecodedPicture decoded = readStored(file, ledger);
     const std::uint64_t mark = ledger.usedBytes();
-    DecodedPicture decoded = decodePicture(readFileBytes(file, ledger), file.string(), ledger);
-    ledger.settle(mark, decoded.image.texels.size());
+    turnUpright(decoded.image, decoded.tags.orientation, ledger);
+    ledger.settle(mark, 0);
+    decoded.tags.orientation = 1;
     return decoded;
 }
 
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger) {
-    return textureOf(readPicture(file, ledger));
+    return textureOf(readStored(file, ledger));
 }
 
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger) {

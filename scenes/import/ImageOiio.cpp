@@ -87,7 +87,6 @@ PictureTags tagsOf(const PictureHeader& header) {
     PictureTags tags;
     tags.software = header.software;
     tags.isLinear = header.isFloatingPoint || isSameWord(header.colorSpace, "linear");
-    tags.isCropped = header.isCropped;
     tags.orientation = header.orientation;
     tags.isAssociated = header.isAssociated;
     return tags;
@@ -122,6 +121,23 @@ DecodedPicture decode(PictureInput& input, std::span<const std::byte> bytes, con
     if (!readTexels(input, channelsOf(header), image))
         throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, format.name,
                                      reasonOf(input.error())));
+    const DisplayWindow window{header.left, header.top, header.displayedWidth, header.displayedHeight};
+    const bool isPlaced =
+        window.left != 0 || window.top != 0 || window.width != image.width || window.height != image.height;
+    if (window.width > 0 && window.height > 0 && isPlaced) {
+        PictureFormat blank = format;
+        blank.maxTexelsAByte = 0; // black around the texels takes no byte of the file
+        try {
+            requirePictureSize({window.width, window.height, texelBytes(image.format)}, bytes, name, blank, ledger);
+            image = placedInWindow(image, window, header.alphaChannel >= 0);
+        } catch (const MemoryRefused&) {
+            throw;
+        } catch (const InputError&) {
+            noteRepair(
+                name, fmt::format("its display window of {}x{} texels is too large", window.width, window.height),
+                fmt::format("the {}x{} texels of its data window are taken alone", image.width, image.height), ledger);
+        }
+    }
     return decoded;
 }
 

@@ -15,12 +15,17 @@ namespace {
 /// The bytes that libpng reads, and what it says is wrong with them.
 struct Source {
     std::span<const std::byte> bytes;
+    bool isBroken = false; ///< so everything that can be read is wanted
     std::size_t at = 0;
     std::string problem;
+    std::size_t rows = 0; ///< read so far, in all passes of interlacing
 };
 
 void readBytes(png_structp png, png_bytep target, std::size_t count) {
     auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+    // libpng asks for kilobytes of compressed texels, and drops them where fewer are left.
+    constexpr std::size_t kLastBytes = 65536;
+    if (source.isBroken && source.bytes.size() - source.at < kLastBytes) png_set_compression_buffer_size(png, 1);
     if (count > source.bytes.size() - source.at) png_error(png, "the file ends early");
     std::memcpy(target, source.bytes.data() + source.at, count);
     source.at += count;
@@ -35,7 +40,8 @@ void onWarning(png_structp, png_const_charp) {}
 
 class Reader {
 public:
-    explicit Reader(std::span<const std::byte> bytes) : source_{bytes, 0, {}} {
+    /// `isBroken`: reads past wrong check sums, up to where nothing more can be read.
+    Reader(std::span<const std::byte> bytes, bool isBroken) : source_{bytes, isBroken, 0, {}, 0} {
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, onError, onWarning);
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
         if (info_ == nullptr) throw std::bad_alloc();
@@ -44,6 +50,9 @@ public:
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_AS_DEFAULT, reinterpret_cast<png_const_bytep>("gAMA\0sRGB"),
                                     2);
+        if (!isBroken) return;
+        png_set_crc_action(png_, PNG_CRC_WARN_USE, PNG_CRC_WARN_USE);
+        png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
     }
     ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
     Reader(const Reader&) = delete;
@@ -58,14 +67,19 @@ public:
         png_set_gray_to_rgb(png_);
         png_set_add_alpha(png_, 0xffff, PNG_FILLER_AFTER);
         png_set_swap(png_); // stored big-endian
-        png_set_interlace_handling(png_);
+        passes_ = png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
         return true;
     }
 
     bool readRows(std::span<png_bytep> rows) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_read_image(png_, rows.data());
+        // Rows of early passes fill those that a file cut short lacks.
+        for (int pass = 0; pass < passes_; ++pass)
+            for (png_bytep& row : rows) {
+                png_read_rows(png_, nullptr, &row, 1);
+                ++source_.rows;
+            }
         png_read_end(png_, nullptr);
         return true;
     }
@@ -83,25 +97,30 @@ public:
     bool has16Bits() const { return png_get_bit_depth(png_, info_) == 16; }
     std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
     const std::string& problem() const { return source_.problem; }
+    std::size_t rowsRead() const { return source_.rows; }
 
 private:
     Source source_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
+    int passes_ = 1;
 };
 
-} // namespace
+struct PngResult {
+    DecodedPicture picture;
+    std::size_t rows = 0; ///< read, in all passes
+    std::string problem;  ///< empty: none
+};
 
-DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                         LoadLedger& ledger) {
-    Reader reader(bytes);
-    const auto require = [&](bool good) {
-        if (!good)
-            throw InputError(
-                fmt::format("{}: the png picture is broken or cut short ({}); save it again", name, reader.problem()));
-    };
-    require(reader.readHeader());
-    DecodedPicture decoded;
+PngResult readPng(std::span<const std::byte> bytes, bool isBroken, const std::string& name, const PictureFormat& format,
+                  LoadLedger& ledger) {
+    Reader reader(bytes, isBroken);
+    PngResult result;
+    if (!reader.readHeader()) {
+        result.problem = reader.problem();
+        return result;
+    }
+    DecodedPicture& decoded = result.picture;
     decoded.tags.isLinear = reader.isLinear();
     Image& image = decoded.image;
     image.name = name;
@@ -113,8 +132,25 @@ DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& na
     std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
     for (std::size_t row = 0; row < rows.size(); ++row)
         rows[row] = reinterpret_cast<png_bytep>(image.texels.data() + row * reader.rowBytes());
-    require(reader.readRows(rows));
-    return decoded;
+    if (!reader.readRows(rows)) result.problem = reader.problem();
+    result.rows = reader.rowsRead();
+    return result;
+}
+
+} // namespace
+
+DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
+                         LoadLedger& ledger) {
+    const std::uint64_t mark = ledger.usedBytes();
+    PngResult result = readPng(bytes, false, name, format, ledger);
+    if (result.problem.empty()) return std::move(result.picture);
+    const std::string flaw = fmt::format("the png picture is broken or cut short ({})", result.problem);
+    result = {};
+    ledger.settle(mark, 0);
+    if (!ledger.wishes().isStrict) result = readPng(bytes, true, name, format, ledger);
+    if (result.rows == 0) throw InputError(fmt::format("{}: {}; save it again", name, flaw));
+    noteRepair(name, flaw, "drawn as far as it can be read", ledger);
+    return std::move(result.picture);
 }
 
 } // namespace tessera::scenes

@@ -27,7 +27,6 @@ Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 struct PictureTags {
     std::string software;      ///< that wrote it; empty where the format's decoder does not tell
     bool isLinear = false;     ///< its numbers are light itself: floating point, or declared linear
-    bool isCropped = false;    ///< its data window is not its display window
     int orientation = 1;       ///< TIFF's tag; 1 is upright
     bool isAssociated = false; ///< colours are multiplied by alpha
 };
@@ -36,12 +35,13 @@ struct DecodedPicture {
     PictureTags tags;
 };
 
-/// Decodes a picture file, or bytes of one (`name` then serves error messages). Which format it is in follows from its
-/// first bytes, regardless of the name; TGA, which has no signature, is recognised by the extension .tga. No format is
-/// read but those of pictureFormats() (PictureCodecs.h).
+/// Decodes a picture file, or bytes of one (`name` then serves error messages), and turns it upright. Which format it is
+/// in follows from its first bytes, regardless of the name; TGA, which has no signature, is recognised by the extension
+/// .tga. No format is read but those of pictureFormats() (PictureCodecs.h). Flaws that are repaired become warnings of
+/// the ledger.
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
-/// The same as textures: colours that are multiplied by alpha, as in OpenEXR files, are divided by it where it is above
-/// 0. Source: glTF 2.0, section 3.9.4.
+/// The same as textures: not turned by Exif's or TIFF's tag, and colours that are multiplied by alpha, as in OpenEXR
+/// files, are divided by it where it is above 0. Source: glTF 2.0, sections 3.8.2 and 3.9.4.
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger);
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 

@@ -56,7 +56,8 @@ PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes);
 
-void takeOutMetadataOfJpeg(std::span<std::byte> bytes);
+/// Of the Exif segment; 1, upright, where there is none.
+int orientationOfJpeg(std::span<const std::byte> bytes);
 void takeOutMetadataOfTiff(std::span<std::byte> bytes);
 
 /// Leaves of a TIFF's directories the first, and of that the first entry of each of these tags. False, and nothing is
@@ -66,8 +67,26 @@ bool keepTiffTags(std::span<std::byte> tiff, std::span<const std::uint16_t> tags
 /// The tag Orientation; 1, upright, where there is none that can be read.
 int orientationOfTiff(std::span<const std::byte> tiff);
 
+/// Turns an image as stored with this Exif orientation, 1 to 8, upright. Charges the ledger for the copy.
+void turnUpright(Image& image, int orientation, LoadLedger& ledger);
+
+/// Where an image's texels lie within the displayed one.
+struct DisplayWindow {
+    std::int64_t left, top; ///< of the first texel, which may lie outside
+    int width, height;
+};
+/// The displayed image: black where the texels do not reach, and transparent there if `hasAlpha`.
+Image placedInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha);
+
+/// Makes a warning of the ledger of a flawed picture that is drawn. Throws InputError where the load is strict.
+void noteRepair(const std::string& name, const std::string& flaw, const std::string& repair, LoadLedger& ledger);
+
 /// By OpenImageIO's reader of that format, and no other.
 DecodePicture decodeByOiio;
+/// Radiance HDR by OpenImageIO, which confuses two orientations and knows neither EXPOSURE lines nor XYZ.
+DecodePicture decodeHdr;
+/// JPEG by libjpeg itself: OpenImageIO discards what precedes a fault.
+DecodePicture decodeJpeg;
 /// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong.
 DecodePicture decodePng;
 /// WebP by libwebp itself: OpenImageIO multiplies colours by alpha.

@@ -16,15 +16,9 @@ std::span<const PictureFormat> pictureFormats() {
     using namespace std::string_view_literals;
     static constexpr std::array kFormats = {
         PictureFormat{"png", {{"\x89PNG\r\n\x1a\n"sv}}, {"png"}, decodePng, kMaxTexelsAByte},
-        PictureFormat{"jpeg",
-                      {{"\xff\xd8\xff"sv}},
-                      {"jpg", "jpeg"},
-                      decodeByOiio,
-                      kMaxTexelsAByte,
-                      claimedSizeOfJpeg,
-                      takeOutMetadataOfJpeg},
+        PictureFormat{"jpeg", {{"\xff\xd8\xff"sv}}, {"jpg", "jpeg"}, decodeJpeg, kMaxTexelsAByte, claimedSizeOfJpeg},
         PictureFormat{"openexr", {{"\x76\x2f\x31\x01"sv}}, {"exr"}, decodeByOiio, kMaxTexelsAByte, claimedSizeOfExr},
-        PictureFormat{"hdr", {{"#?"sv}}, {"hdr"}, decodeByOiio, kMaxTexelsAByte},
+        PictureFormat{"hdr", {{"#?"sv}}, {"hdr"}, decodeHdr, kMaxTexelsAByte},
         PictureFormat{"pfm", {{"PF\n"sv}, {"Pf\n"sv}}, {"pfm"}, decodePfm, kMaxTexelsAByte},
         PictureFormat{"tiff",
                       {{"II*\0"sv}, {"MM\0*"sv}},

@@ -10,11 +10,9 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr int kMaxSide = 32768;                            ///< the largest side of a texture on current hardware
+constexpr int kMaxSide = 1 << 20;                          ///< libpng stops a little earlier
 constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28; ///< 16384 x 16384
-/// What is needed of Exif, which is a TIFF without a picture: Orientation and Software.
-constexpr std::uint16_t kExifTags[] = {274, 305};
-constexpr std::string_view kExifBegin("Exif\0\0", 6);
+constexpr std::string_view kExifBegin("Exif\0\0", 6);      ///< a TIFF without a picture follows
 
 /// 0 beyond the end.
 std::uint32_t byteAt(std::span<const std::byte> bytes, std::size_t at) {
@@ -81,26 +79,18 @@ PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes) {
     return size;
 }
 
-/// Leaves the first Exif segment, with what is needed of it. OpenImageIO reads descriptions (XMP) by recursion, which
-/// tens of thousands of levels end.
-void takeOutMetadataOfJpeg(std::span<std::byte> bytes) {
-    // APP1: Exif and XMP, APP2: profiles, APP13: Photoshop's, COM: comments. Nothing reads APP15.
-    constexpr std::uint32_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed, kComment = 0xfe;
-    constexpr std::byte kApp15{0xef};
-    bool hasExif = false;
-    const auto keepsExif = [&](std::size_t at) {
-        constexpr std::size_t kTiff = 2 + kExifBegin.size(); // after the length
-        const std::size_t length = std::min<std::size_t>(bigEndian16(bytes, at), bytes.size() - at);
-        return length >= kTiff && std::memcmp(bytes.data() + at + 2, kExifBegin.data(), kExifBegin.size()) == 0 &&
-               keepTiffTags(bytes.subspan(at + kTiff, length - kTiff), kExifTags);
-    };
+int orientationOfJpeg(std::span<const std::byte> bytes) {
+    constexpr std::uint32_t kApp1 = 0xe1;
+    int orientation = 0; // of no segment yet
     forEachSegment(bytes, [&](std::uint32_t marker, std::size_t at) {
-        if (marker != kApp1 && marker != kApp2 && marker != kApp13 && marker != kComment) return;
-        if (marker == kApp1 && !hasExif && keepsExif(at))
-            hasExif = true;
-        else
-            bytes[at - 1] = kApp15;
+        if (marker != kApp1 || orientation != 0 || at + 2 > bytes.size()) return;
+        const std::size_t length = std::min<std::size_t>(bigEndian16(bytes, at), bytes.size() - at);
+        const std::span<const std::byte> segment = bytes.subspan(at + 2, length - std::min<std::size_t>(length, 2));
+        if (segment.size() > kExifBegin.size() &&
+            std::memcmp(segment.data(), kExifBegin.data(), kExifBegin.size()) == 0)
+            orientation = orientationOfTiff(segment.subspan(kExifBegin.size()));
     });
+    return std::max(orientation, 1);
 }
 
 void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,

@@ -10,6 +10,12 @@ namespace tessera::scenes {
 
 inline constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
+inline ImportWishes strictly() {
+    ImportWishes wishes;
+    wishes.isStrict = true;
+    return wishes;
+}
+
 /// What `read` makes of `input` under a ledger of its own: for tests that look at one file.
 template <typename Read, typename Input>
 auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {},

@@ -14,13 +14,6 @@
 namespace tessera::validation {
 namespace {
 
-void refuseWhatCannotBeCompared(const std::string& path, const scenes::PictureTags& tags) {
-    if (tags.isCropped)
-        throw InputError(fmt::format("{}: its data window is not its display window; save it uncropped", path));
-    if (tags.orientation != 1)
-        throw InputError(fmt::format("{}: its Orientation tag is {}; save it upright, with 1", path, tags.orientation));
-}
-
 /// A texel's four numbers: 0..1 where they are integers.
 glm::vec4 texelAt(const scenes::Image& image, std::size_t index) {
     const auto numbers = [&]<typename T>(T one) {
@@ -44,8 +37,6 @@ glm::vec4 texelAt(const scenes::Image& image, std::size_t index) {
 Picture readPicture(const std::string& path, scenes::LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     const scenes::DecodedPicture decoded = scenes::readPicture(path, ledger);
-    refuseWhatCannotBeCompared(path, decoded.tags);
-
     Picture picture;
     picture.width = decoded.image.width;
     picture.height = decoded.image.height;

@@ -47,8 +47,8 @@ TEST(HostilePicture, aProgressiveJpegIsChargedBeforeItsReaderReservesIt) {
 TEST(HostilePicture, theCopyThatAReaderHoldsIsChargedWithTheTexels) {
     std::string jpeg = bytesOfSeed("picture/progressive.jpg");
     jpeg.resize(4096);
-    // 6 bytes per texel are coefficients, 3 are handed over, 4 are kept.
-    EXPECT_THAT(refusalOf(jpeg, "a", 128 * kMiB), HasSubstr("asks for 106.8 MiB of memory, and 91.6 MiB are in use"));
+    // 6 bytes per texel are coefficients, 4 are kept.
+    EXPECT_THAT(refusalOf(jpeg, "a", 128 * kMiB), HasSubstr("asks for 61.0 MiB of memory, and 91.6 MiB are in use"));
 }
 
 TEST(HostilePicture, scansOfAJpegAreBounded) {

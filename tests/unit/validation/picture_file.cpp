@@ -150,7 +150,7 @@ TEST(PictureFile, picturesAreChargedBeforeTheyAreDecoded) {
                 HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
 }
 
-TEST(PictureFile, picturesThatCannotBeOverlaidAreRefusedWithTheRemedy) {
+TEST(PictureFile, aPictureWithADataWindowIsComparedAsDisplayed) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), greyPicture(2, 2, 1.f));
     std::string cropped = readText(folder.file("a.exr"));
@@ -158,7 +158,12 @@ TEST(PictureFile, picturesThatCannotBeOverlaidAreRefusedWithTheRemedy) {
     const std::size_t at = cropped.find(window);
     ASSERT_NE(at, std::string::npos);
     cropped.replace(at + window.size(), 4, 4, '\xff'); // its left edge is -1
-    EXPECT_EQ(refusalOf(folder, "b.exr", cropped), "its data window is not its display window; save it uncropped");
+    writeText(folder.file("b.exr"), cropped);
+    const Picture picture = underLedger(readPicture, folder.file("b.exr"));
+    EXPECT_EQ(picture.width, 3);
+    EXPECT_THAT(picture.covered, ElementsAre(0, 1, 1, 0, 1, 1));
+    EXPECT_EQ(picture.pixel(0)[0], 0.f);
+    EXPECT_EQ(picture.pixel(4)[0], 1.f);
 }
 
 TEST(PictureFile, anUnwritableOutputIsARuntimeErrorAndNeverAnInputError) {

@@ -26,12 +26,6 @@ inline Scene painted(const TempFolder& folder, const std::string& mtl, const Imp
     return importText(folder, "mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
 }
 
-inline ImportWishes strictly() {
-    ImportWishes wishes;
-    wishes.isStrict = true;
-    return wishes;
-}
-
 /// The scene's only warning, without the folder; a strict load refuses it with the part before the last ';'.
 inline std::string onlyWarning(const TempFolder& folder, const Scene& scene) {
     EXPECT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);

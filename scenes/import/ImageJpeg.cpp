@@ -1,0 +1,135 @@
+#include <csetjmp>
+#include <cstdio> // jpeglib.h needs it first
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <jpeglib.h>
+
+#include "base/Error.h"
+#include "base/OneLine.h"
+#include "scenes/import/PictureCodecs.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// libjpeg's first complaint, and the place to return to from one that ends decoding.
+struct JpegComplaint : jpeg_error_mgr {
+    std::jmp_buf place;
+    char text[JMSG_LENGTH_MAX] = {};
+
+    void note(j_common_ptr jpeg) {
+        if (text[0] == '\0') format_message(jpeg, text);
+    }
+};
+
+[[noreturn]] void onJpegError(j_common_ptr jpeg) {
+    auto& complaint = *static_cast<JpegComplaint*>(jpeg->err);
+    complaint.note(jpeg);
+    std::longjmp(complaint.place, 1);
+}
+
+void onJpegMessage(j_common_ptr jpeg, int level) {
+    constexpr int kWarning = -1;
+    if (level == kWarning) static_cast<JpegComplaint*>(jpeg->err)->note(jpeg);
+}
+
+/// Ends the bytes as libjpeg's own source does, but silently: where only the end is missing, every texel is there.
+boolean endFile(j_decompress_ptr jpeg) {
+    static constexpr JOCTET kEnd[] = {0xff, JPEG_EOI};
+    jpeg->src->next_input_byte = kEnd;
+    jpeg->src->bytes_in_buffer = sizeof kEnd;
+    return TRUE;
+}
+
+class JpegReader {
+public:
+    explicit JpegReader(std::span<const std::byte> bytes) : bytes_(bytes) {
+        jpeg_.err = jpeg_std_error(&complaint_);
+        complaint_.error_exit = onJpegError;
+        complaint_.emit_message = onJpegMessage;
+    }
+    ~JpegReader() { jpeg_destroy_decompress(&jpeg_); }
+    JpegReader(const JpegReader&) = delete;
+    JpegReader& operator=(const JpegReader&) = delete;
+
+    // libjpeg leaves the two functions below by longjmp(), past no object that has a destructor.
+
+    bool readHeader() {
+        if (setjmp(complaint_.place) != 0) return false;
+        jpeg_create_decompress(&jpeg_);
+        jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
+        jpeg_.src->fill_input_buffer = endFile;
+        jpeg_read_header(&jpeg_, TRUE);
+        hasInks_ = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
+        jpeg_.out_color_space = hasInks_ ? JCS_CMYK : JCS_EXT_RGBA;
+        return true;
+    }
+
+    /// The number of rows read: fewer than all where libjpeg cannot go on. It draws grey what a file cut short lacks.
+    std::size_t readRows(Image& image) {
+        if (setjmp(complaint_.place) != 0) return jpeg_.output_scanline;
+        jpeg_start_decompress(&jpeg_);
+        const std::size_t rowBytes = std::size_t{4} * jpeg_.output_width;
+        while (jpeg_.output_scanline < jpeg_.output_height) {
+            auto* row = reinterpret_cast<JSAMPLE*>(image.texels.data() + jpeg_.output_scanline * rowBytes);
+            jpeg_read_scanlines(&jpeg_, &row, 1);
+        }
+        return jpeg_.output_scanline;
+    }
+
+    int width() const { return static_cast<int>(jpeg_.image_width); }
+    int height() const { return static_cast<int>(jpeg_.image_height); }
+    bool hasInks() const { return hasInks_; }
+    std::string complaint() const { return oneLine(complaint_.text); }
+
+private:
+    std::span<const std::byte> bytes_;
+    JpegComplaint complaint_{};
+    jpeg_decompress_struct jpeg_{};
+    bool hasInks_ = false; ///< cyan, magenta, yellow and black
+};
+
+/// Writers store how little ink there is, as Adobe does.
+void mixInks(Image& image) {
+    for (std::size_t at = 0; at < image.texels.size(); at += 4) {
+        const int black = std::to_integer<int>(image.texels[at + 3]);
+        for (std::size_t c = at; c < at + 3; ++c)
+            image.texels[c] = std::byte((std::to_integer<int>(image.texels[c]) * black + 127) / 255);
+        image.texels[at + 3] = std::byte{0xff};
+    }
+}
+
+} // namespace
+
+DecodedPicture decodeJpeg(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
+                          LoadLedger& ledger) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(fmt::format("{}: the jpeg picture is broken or cut short ({}); save it again", name, why));
+    };
+    try {
+        const PictureSize claimed = claimedSizeOfJpeg(bytes);
+        if (claimed.width != 0 || claimed.height != 0) requirePictureSize(claimed, bytes, name, format, ledger);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw InputError(fmt::format("{}: the jpeg picture cannot be decoded ({}); save it again", name, error.what()));
+    }
+    JpegReader reader(bytes);
+    if (!reader.readHeader()) refuse(reader.complaint());
+    DecodedPicture decoded;
+    decoded.tags.orientation = orientationOfJpeg(bytes);
+    Image& image = decoded.image;
+    image.name = name;
+    image.width = reader.width();
+    image.height = reader.height();
+    requirePictureSize({image.width, image.height, texelBytes(image.format)}, bytes, name, format, ledger);
+    image.texels.resize(std::size_t(image.width) * std::size_t(image.height) * texelBytes(image.format));
+    if (reader.readRows(image) == 0) refuse(reader.complaint());
+    if (!reader.complaint().empty())
+        noteRepair(name, fmt::format("the jpeg picture is broken or cut short ({})", reader.complaint()),
+                   "drawn as far as it can be read", ledger);
+    if (reader.hasInks()) mixInks(image);
+    return decoded;
+}
+
+} // namespace tessera::scenes
