@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include <glm/glm.hpp>
 #include <tbb/parallel_for.h>
+
+#include "base/Srgb.h"
 
 namespace tessera::scenes {
 namespace {
@@ -33,7 +36,77 @@ std::vector<Overlap> overlaps(int size, int count, const Measure& measure) {
     return parts;
 }
 
+/// Texels as numbers that may be averaged, and back.
+template <typename Texel>
+class Coding {
+public:
+    explicit Coding(bool isSrgb) {
+        if constexpr (kIsInteger)
+            for (std::size_t code = 0; isSrgb && code <= std::size_t(kOne); ++code)
+                linear_.push_back(linearFromSrgb(double(code) / kOne));
+    }
+    double decoded(Texel code, int channel) const {
+        return isEncoded(channel) ? linear_[std::size_t(code)] : double(code) / kOne;
+    }
+    Texel encoded(double value, int channel) const {
+        const double code = isEncoded(channel) ? srgbFromLinear(std::clamp(value, 0.0, 1.0)) : value;
+        return kIsInteger ? Texel(std::lround(code * kOne)) : Texel(code);
+    }
+
+private:
+    static constexpr bool kIsInteger = std::numeric_limits<Texel>::is_integer;
+    static constexpr double kOne = kIsInteger ? double(std::numeric_limits<Texel>::max()) : 1.0;
+
+    bool isEncoded(int channel) const { return !linear_.empty() && channel < 3; }
+
+    std::vector<double> linear_; ///< by code; empty: codes are linear
+};
+
+template <typename Texel>
+void average(const Image& from, Image& to, bool isSrgb) {
+    const Coding<Texel> coding(isSrgb);
+    const auto length = [](double x) { return x; };
+    const auto columns = overlaps(from.width, to.width, length), rows = overlaps(from.height, to.height, length);
+    const auto* texels = reinterpret_cast<const Texel*>(from.texels.data());
+    auto* averages = reinterpret_cast<Texel*>(to.texels.data());
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+        for (std::size_t x = 0; x < columns.size(); ++x)
+            for (int channel = 0; channel < 4; ++channel) {
+                double sum = 0.0;
+                for (std::size_t j = 0; j < rows[y].shares.size(); ++j)
+                    for (std::size_t i = 0; i < columns[x].shares.size(); ++i) {
+                        const std::size_t at = (std::size_t(rows[y].first) + j) * std::size_t(from.width) +
+                                               std::size_t(columns[x].first) + i;
+                        sum += rows[y].shares[j] * columns[x].shares[i] *
+                               coding.decoded(texels[4 * at + std::size_t(channel)], channel);
+                    }
+                averages[4 * (y * columns.size() + x) + std::size_t(channel)] = coding.encoded(sum, channel);
+            }
+    });
+}
+
 } // namespace
+
+Image averagedPicture(const Image& picture, int width, int height, bool isSrgb) {
+    Image coarse;
+    coarse.name = picture.name;
+    coarse.format = picture.format;
+    coarse.width = width;
+    coarse.height = height;
+    coarse.texels.resize(std::size_t(width) * std::size_t(height) * texelBytes(picture.format));
+    switch (picture.format) {
+    case TexelFormat::Rgba8Unorm:
+        average<std::uint8_t>(picture, coarse, isSrgb);
+        break;
+    case TexelFormat::Rgba16Unorm:
+        average<std::uint16_t>(picture, coarse, isSrgb);
+        break;
+    case TexelFormat::Rgba32Float:
+        average<float>(picture, coarse, isSrgb);
+        break;
+    }
+    return coarse;
+}
 
 Image averagedMap(const Image& map, int mostWidth, int mostHeight) {
     Image coarse;

@@ -122,8 +122,6 @@ Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::
         return importGltfEnvironment(file, ledger, warnings);
     environment.source = file.string();
     RadianceMap map = readRadianceMap(file, ledger);
-    const std::vector<std::string> repairs = ledger.takeWarnings();
-    warnings.insert(warnings.end(), repairs.begin(), repairs.end());
     warnOfMap(map, warnings);
     environment.map = std::move(map.image);
     averageIfLarge(environment.map, ledger, warnings);

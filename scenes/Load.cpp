@@ -22,6 +22,7 @@
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "scenes/RigLinks.h"
+#include "scenes/TextureLimits.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {
@@ -84,6 +85,11 @@ Scene importFile(const std::string& path, LoadLedger& ledger) {
         throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file");
     }
     return format->import(file, ledger);
+}
+
+void takeWarnings(LoadLedger& ledger, std::vector<std::string>& warnings) {
+    const std::vector<std::string> ofPictures = ledger.takeWarnings();
+    warnings.insert(warnings.end(), ofPictures.begin(), ofPictures.end());
 }
 
 /// A file may cause a warning in every line, and nobody reads thousands.
@@ -175,6 +181,7 @@ std::optional<Environment> environmentCalled(const std::string& name, LoadLedger
     if (name == kNoEnvironment) return {};
     const auto checked = [&](const std::string& source) {
         Environment environment = loadEnvironment(source, ledger, warnings);
+        takeWarnings(ledger, warnings);
         Scene bare;
         bare.name = name;
         checkEnvironment(bare, environment);
@@ -219,8 +226,8 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     OwnEnvironment own = ownEnvironmentOf(scene);
     if (options.background) scene.background = glm::vec3(*options.background);
     if (options.environment) scene.environment = environmentCalled(*options.environment, ledger, scene.warnings);
-    const std::vector<std::string> ofPictures = ledger.takeWarnings();
-    scene.warnings.insert(scene.warnings.end(), ofPictures.begin(), ofPictures.end());
+    keepTextureLimits(scene, nameOrPath, ledger);
+    takeWarnings(ledger, scene.warnings);
     if (options.files != nullptr)
         options.files->insert(options.files->end(), ledger.files().begin(), ledger.files().end());
     requireVariant(scene, nameOrPath, options.import);

@@ -31,6 +31,9 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
+/// The most of a texture coordinate and of an animated offset or scale: products stay finite in single precision.
+inline constexpr double kMostTextureNumber = double(std::uint64_t{1} << 55);
+
 /// Applied to a texture coordinate as offset + rotation(scale * uv), after KHR_texture_transform (v points down, the
 /// origin is the picture's top-left corner, a positive angle turns the coordinates counter-clockwise in that
 /// convention).

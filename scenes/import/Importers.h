@@ -35,10 +35,10 @@ struct DecodedPicture {
     PictureTags tags;
 };
 
-/// Decodes a picture file, or bytes of one (`name` then serves error messages), and turns it upright. Which format it is
-/// in follows from its first bytes, regardless of the name; TGA, which has no signature, is recognised by the extension
-/// .tga. No format is read but those of pictureFormats() (PictureCodecs.h). Flaws that are repaired become warnings of
-/// the ledger.
+/// Decodes a picture file, or bytes of one (`name` then serves error messages), and turns it upright. Which format it
+/// is in follows from its first bytes, regardless of the name; TGA, which has no signature, is recognised by the
+/// extension .tga. No format is read but those of pictureFormats() (PictureCodecs.h). Flaws that are repaired become
+/// warnings of the ledger.
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
 /// The same as textures: not turned by Exif's or TIFF's tag, and colours that are multiplied by alpha, as in OpenEXR
 /// files, are divided by it where it is above 0. Source: glTF 2.0, sections 3.8.2 and 3.9.4.
