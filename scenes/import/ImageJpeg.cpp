@@ -12,7 +12,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// libjpeg's first complaint, and the place to return to from one that ends decoding.
+/// The error that ends decoding, else libjpeg's first warning; and the place to return to from the former.
 struct JpegComplaint : jpeg_error_mgr {
     std::jmp_buf place;
     char text[JMSG_LENGTH_MAX] = {};
@@ -24,7 +24,7 @@ struct JpegComplaint : jpeg_error_mgr {
 
 [[noreturn]] void onJpegError(j_common_ptr jpeg) {
     auto& complaint = *static_cast<JpegComplaint*>(jpeg->err);
-    complaint.note(jpeg);
+    complaint.format_message(jpeg, complaint.text);
     std::longjmp(complaint.place, 1);
 }
 
