@@ -59,6 +59,17 @@ bool isAllUnlit(const Scene& scene) {
                                              [](const Material* material) { return !infoOf(material->model).isLit; });
 }
 
+void addStudio(Scene& scene, LoadLedger& ledger) {
+    scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
+    scene.environment->rotationDegrees = degreesAroundCamera(scene);
+    scene.options.wishes.try_emplace("backdrop", "blurred");
+    scene.supplied.light = true;
+}
+
+double ownLuminance(const Scene& scene, bool areMatte) {
+    return estimatedLuminance(scene, viewedCamera(scene), aspectWished(scene), areMatte).value_or(0.0);
+}
+
 } // namespace
 
 void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
@@ -80,11 +91,18 @@ void leaveOutCameras(Scene& scene) {
 }
 
 void addDefaultLight(Scene& scene, LoadLedger& ledger) {
-    if (!scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
-    scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
-    scene.environment->rotationDegrees = degreesAroundCamera(scene);
-    scene.options.wishes.try_emplace("backdrop", "blurred");
-    scene.supplied.light = true;
+    if (scene.lights.empty() && !scene.environment && !isAllUnlit(scene)) addStudio(scene, ledger);
+}
+
+void addFillLight(Scene& scene, LoadLedger& ledger) {
+    if (scene.lights.empty() || scene.environment || isAllUnlit(scene)) return;
+    constexpr double kOwnLightsLead = 0.25;
+    const double exposure = std::exp2(scene.supplied.exposureEV);
+    const double own = exposure * ownLuminance(scene, false);
+    const double share = std::max(kOwnLightsLead * own, kBrightLuminance - own) / kBrightLuminance;
+    addStudio(scene, ledger);
+    scene.environment->intensity = static_cast<float>(share / exposure);
+    scene.supplied.fillShare = share;
 }
 
 OwnEnvironment ownEnvironmentOf(const Scene& scene) {
@@ -115,28 +133,29 @@ void layAs(const OwnEnvironment& own, Environment& chosen) {
 
 void addDefaultExposure(Scene& scene) {
     if (scene.environment || scene.lights.empty()) return;
-    const int stops =
-        fittingExposureEV(estimatedLuminance(scene, viewedCamera(scene), aspectWished(scene)).value_or(0.0));
+    const int stops = fittingExposureEV(ownLuminance(scene, true));
     if (stops == 0 || !scene.options.wishes.try_emplace("exposureEV", double(stops)).second) return;
     scene.supplied.exposureEV = stops;
 }
 
 std::string suppliedText(const Scene& scene, Advice advice) {
     const bool isOptions = advice == Advice::Options;
-    const auto& [camera, light, replacesCameras, exposureEV] = scene.supplied;
+    const auto& [camera, light, fillShare, replacesCameras, exposureEV] = scene.supplied;
     std::string lacks, given;
     if (light) {
-        lacks = "no light";
+        if (fillShare == 0.0) lacks = "no light";
         const auto backdrop = scene.options.wishes.find("backdrop");
         const bool isBlurred = backdrop != scene.options.wishes.end() && backdrop->second == Wish("blurred");
-        given = fmt::format("lit by the built-in environment '{}', turned to the camera{} ({})", kDefaultEnvironment,
-                            isBlurred ? ", before a blurred backdrop" : "",
+        const std::string besides =
+            fillShare == 0.0 ? "" : fmt::format(" at {:.0f} % beside its own lights", 100.0 * fillShare);
+        given = fmt::format("lit by the built-in environment '{}'{}, turned to the camera{} ({})", kDefaultEnvironment,
+                            besides, isBlurred ? ", before a blurred backdrop" : "",
                             isOptions ? "--environment chooses another, --backdrop what is seen of it, "
                                         "--no-default-light leaves it dark"
                                       : "the panel Environment chooses another or none, and what is seen of it");
     }
     if (camera) {
-        if (!replacesCameras) lacks += light ? " and no camera" : "no camera";
+        if (!replacesCameras) lacks += lacks.empty() ? "no camera" : " and no camera";
         const bool isEmpty = triangleCount(scene) == 0;
         given += fmt::format("{}{} by the supplied camera '{}'{}{}", light ? ", " : "",
                              isEmpty ? "seen around the origin" : "seen whole", kDefaultName,
@@ -145,12 +164,9 @@ std::string suppliedText(const Scene& scene, Advice advice) {
     }
     std::string text = lacks.empty() ? given : fmt::format("{} in it: {}", lacks, given);
     if (exposureEV != 0)
-        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV ({} chooses another{})",
+        text += fmt::format("{}its lights are too {} for a display: exposed by {:+} EV ({} chooses another)",
                             text.empty() ? "" : "; ", exposureEV > 0 ? "dim" : "bright", exposureEV,
-                            isOptions ? "--exposure" : "the panel View",
-                            exposureEV <= 0 ? ""
-                            : isOptions     ? ", --environment studio adds light from all around"
-                                            : ", a map of the panel Environment adds light from all around");
+                            isOptions ? "--exposure" : "the panel View");
     return text;
 }
 

@@ -27,6 +27,10 @@ void leaveOutCameras(Scene& scene);
 /// that of addDefaultCamera().
 void addDefaultLight(Scene& scene, LoadLedger& ledger);
 
+/// A model with lights of its own gets that studio too: metals and glass show what is around them. Its light is a
+/// quarter of its own lights', or what these lack of a bright picture. Called after addDefaultExposure().
+void addFillLight(Scene& scene, LoadLedger& ledger);
+
 /// What is kept of a scene's own environment where another map takes its place.
 struct OwnEnvironment {
     std::string source;         ///< as Environment::source; empty: there is none of its own, or one was supplied

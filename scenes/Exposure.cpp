@@ -14,9 +14,9 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr double kBright = 0.4;
 constexpr double kLeewayEV = 2.0;
-constexpr double kBelow = 0.9; ///< share of what is seen that stays below an estimate
+constexpr double kMostStops = 120.0; ///< of the option --exposure
+constexpr double kBelow = 0.9;       ///< share of what is seen that stays below an estimate
 /// Of a place and a light: what an estimate looks at in all.
 constexpr double kMostPairs = 5e5;
 
@@ -41,13 +41,13 @@ double channelOf(const Image& image, std::size_t at) {
     return double(read(float()));
 }
 
-/// The mean of a colour texture, by some thousand of its texels.
-glm::dvec3 meanColor(const Image& image) {
+/// The mean of a texture, by some thousand of its texels.
+glm::dvec3 meanColor(const Image& image, bool isSrgb) {
     constexpr std::size_t kMostTexels = 4096;
     const std::size_t count = std::size_t(image.width) * std::size_t(image.height);
     // An odd step, so that it does not stay in a column.
     const std::size_t step = count <= kMostTexels ? 1 : count / kMostTexels | 1;
-    const bool isEncoded = image.format != TexelFormat::Rgba32Float;
+    const bool isEncoded = isSrgb && image.format != TexelFormat::Rgba32Float;
     glm::dvec3 sum(0.0);
     double texels = 0.0;
     for (std::size_t texel = 0; texel < count; texel += step, texels += 1.0)
@@ -63,15 +63,22 @@ struct Shown {
     double albedo = 0.0, emission = 0.0;
 };
 
-Shown shownOf(const Scene& scene, const Material& material) {
+Shown shownOf(const Scene& scene, const Material& material, bool isMatte) {
     const auto mean = [&](TextureSlot slot) {
         const int image = material.texture(slot).image;
-        return image == kNone ? glm::dvec3(1.0) : meanColor(scene.images[std::size_t(image)]);
+        return image == kNone ? glm::dvec3(1.0) : meanColor(scene.images[std::size_t(image)], infoOf(slot).isSrgb);
     };
-    const double color = luminanceOf(glm::dvec3(material.baseColor) * mean(TextureSlot::BaseColor));
+    const MaterialModelInfo& model = infoOf(material.model);
+    double color = luminanceOf(glm::dvec3(material.baseColor) * mean(TextureSlot::BaseColor));
+    if (model.hasLayers && !isMatte) {
+        const glm::dvec3 roughMetal = mean(TextureSlot::MetallicRoughness);
+        const double metallic = double(material.metallic) * roughMetal.z;
+        const double roughness = double(material.perceptualRoughness) * roughMetal.y;
+        const double passes = double(material.transmission) * mean(TextureSlot::Transmission).x;
+        color *= metallic * roughness * roughness + (1.0 - metallic) * (1.0 - passes);
+    }
     Shown shown;
     shown.emission = luminanceOf(glm::dvec3(material.emissive) * mean(TextureSlot::Emissive));
-    const MaterialModelInfo& model = infoOf(material.model);
     (model.isLit ? shown.albedo : shown.emission) += color;
     if (model.highlight != Highlight::None) shown.albedo += kOfHighlight;
     if (model.hasLayers) shown.albedo += kOfSheen * luminanceOf(material.sheenColor);
@@ -119,7 +126,7 @@ double illuminanceOn(const std::vector<const Light*>& lights, const glm::dvec3& 
 
 } // namespace
 
-std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camera, double aspect) {
+std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camera, double aspect, bool areMatte) {
     std::vector<const Light*> lights;
     for (const Light& light : scene.lights)
         if (light.enabled) lights.push_back(&light);
@@ -142,7 +149,7 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             const Material& material = scene.materials[std::size_t(instance.material)];
             std::optional<Shown>& own = shown[std::size_t(instance.material)];
-            if (!own) own = shownOf(scene, material);
+            if (!own) own = shownOf(scene, material, areMatte);
             for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3 * step) {
                 glm::dvec3 corners[3];
                 for (std::size_t i = 0; i < 3; ++i)
@@ -172,8 +179,8 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
 
 int fittingExposureEV(double luminance) {
     if (!(luminance > 0.0) || !std::isfinite(luminance)) return 0;
-    const double stops = std::log2(kBright / luminance);
-    return std::abs(stops) <= kLeewayEV ? 0 : int(std::lround(stops));
+    const double stops = std::log2(kBrightLuminance / luminance);
+    return std::abs(stops) <= kLeewayEV ? 0 : int(std::lround(std::clamp(stops, -kMostStops, kMostStops)));
 }
 
 } // namespace tessera::scenes

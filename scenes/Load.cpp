@@ -259,7 +259,9 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
         !options.environment)
         addDefaultLight(scene, ledger);
-    if (isModel(nameOrPath)) addDefaultExposure(scene);
+    if (!isModel(nameOrPath)) return scene;
+    addDefaultExposure(scene);
+    if (options.defaultLight && !options.lights && !options.environment) addFillLight(scene, ledger);
     return scene;
 }
 

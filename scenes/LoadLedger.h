@@ -66,7 +66,10 @@ public:
     const std::function<void(double)>& environmentTold() const { return environmentTold_; }
 
     /// Flaws of pictures that are repaired, "file: flaw; repair".
-    void warn(std::string text) { warnings_.push_back(std::move(text)); }
+    void warn(std::string text) {
+        constexpr std::size_t kMost = 100;
+        if (warnings_.size() < kMost) warnings_.push_back(std::move(text));
+    }
     std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
     void addFile(const std::filesystem::path& file) { files_.push_back(file.string()); }

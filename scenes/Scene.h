@@ -93,6 +93,7 @@ struct SceneOptions {
 /// What a scene is given that its file lacks, or that was asked for in the place of its own (scenes/Defaults.h).
 struct Supplied {
     bool camera = false, light = false;
+    double fillShare = 0.0;       ///< of the supplied light's brightness, beside lights of the scene's own
     bool replacesCameras = false; ///< the camera stands in the place of the scene's own
     int exposureEV = 0;           ///< whole stops, where its lights are much too bright or too dim for a display
     bool operator==(const Supplied&) const = default;

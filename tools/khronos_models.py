@@ -52,6 +52,7 @@ EXTENSIONS = {
     "EXT_texture_webp": (RIGHT, ""),
     "FAKE_materials_quantumRendering": (RIGHT, "no such extension: left out, and said"),
     "KHR_animation_pointer": (RIGHT, ""),
+    "KHR_node_visibility": (RIGHT, "clips of it are left out, and said"),
     "KHR_draco_mesh_compression": (RIGHT, ""),
     "KHR_lights_punctual": (RIGHT, ""),
     "KHR_materials_anisotropy": (APPROXIMATE, "stretched highlights of the environment are sums of sixteen look-ups"),

@@ -84,13 +84,18 @@ std::span<const std::byte> Buffers::buffer(int index) {
             const std::uint64_t mark = document_.ledger.usedBytes();
             const std::string& uri = *stored.uri;
             const bool isData = isDataUri(uri);
+            if (const auto broken = broken_.find(index); broken != broken_.end()) throw InputError(broken->second);
             if (isData) document_.charge(2 * uri.size(), "buffers", index);
             const std::filesystem::path file = isData ? std::filesystem::path() : document_.fileAt(place, uri);
             try {
                 std::vector<std::byte> read = isData ? decodeDataUri(uri) : readFileBytes(file, document_.ledger);
                 found = buffers_.emplace(index, std::move(read)).first;
-            } catch (const InputError& error) {
+            } catch (const MemoryRefused& error) {
                 document_.fail(place, error);
+            } catch (const InputError& error) {
+                document_.charge(std::string_view(error.what()).size(), "buffers", index);
+                broken_[index] = fmt::format("{}: {}: {}", document_.file, place, error.what());
+                throw InputError(broken_[index]);
             }
             document_.ledger.settle(mark, found->second.size());
             heldBytes_ += found->second.size();
@@ -129,9 +134,10 @@ std::vector<std::byte> Buffers::decompress(int bufferView, const tiny::Value& st
     const std::span<const std::byte> encoded =
         slice(integerOf(valueAt(&stored, "buffer")), size("byteOffset"), size("byteLength"), place);
     document_.charge(decodedBytes(meshopt, encoded.size()), "bufferViews", bufferView);
-    heldBytes_ += decodedBytes(meshopt, encoded.size());
     try {
-        return decodeMeshopt(encoded, meshopt);
+        std::vector<std::byte> decoded = decodeMeshopt(encoded, meshopt);
+        heldBytes_ += decodedBytes(meshopt, encoded.size());
+        return decoded;
     } catch (const InputError& error) {
         document_.fail(place, error);
     }

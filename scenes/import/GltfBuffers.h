@@ -28,6 +28,7 @@ private:
 
     const Document& document_;
     std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs
+    std::map<int, std::string> broken_;                  ///< why others cannot be read
     std::map<int, std::vector<std::byte>> decompressed_; ///< by buffer view
     std::uint64_t heldBytes_ = 0;
 };

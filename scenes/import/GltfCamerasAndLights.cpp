@@ -26,7 +26,7 @@ std::string uniqueName(Context& context, const std::string& wanted) {
 /// `least` is the smallest near plane.
 void setRange(const Document& document, double nearMetres, double farMetres, double least, const std::string& place,
               Camera& camera) {
-    if (nearMetres >= least && farMetres > nearMetres) {
+    if (nearMetres >= least && nearMetres <= kFarthestMetres && farMetres > nearMetres) {
         camera.nearMetres = nearMetres;
         camera.farMetres = farMetres;
     } else {
@@ -45,15 +45,15 @@ void setPerspective(const Document& document, const tiny::PerspectiveCamera& len
         document.repair(place + "/perspective/yfov",
                         fmt::format("is {}; it must be between 0 and pi radians", lens.yfov), "pi/4 is taken");
     const double far = lens.zfar > 0.0 ? lens.zfar : std::numeric_limits<double>::infinity();
-    setRange(document, lens.znear, far, std::numeric_limits<double>::denorm_min(), place + "/perspective", camera);
+    setRange(document, lens.znear, far, kNearestPlaneMetres, place + "/perspective", camera);
 }
 
 void setOrthographic(const Document& document, const tiny::OrthographicCamera& lens, const std::string& place,
                      Camera& camera) {
-    if (lens.ymag != 0.0)
+    if (lens.ymag != 0.0 && std::abs(lens.ymag) <= kFarthestMetres)
         camera.halfHeightMetres = std::abs(lens.ymag);
     else
-        document.repair(place + "/orthographic/ymag", "is 0", "1 is taken");
+        document.repair(place + "/orthographic/ymag", fmt::format("is {}", lens.ymag), "1 is taken");
     setRange(document, lens.znear, lens.zfar, 0.0, place + "/orthographic", camera);
 }
 

@@ -1,9 +1,11 @@
 #include "scenes/import/GltfRig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 
 #include <fmt/format.h>
@@ -116,7 +118,8 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
                 fmt::format("has key {} at {} s and key {} at {} s; key times must ascend", key - 1, before, key, time);
             if (time < before) failTimes(what);
             document.repair(place + "/input", what, "the clip jumps from one to the other");
-            times.values[key] = std::nextafter(times.values[key - 1], std::numeric_limits<float>::max());
+            times.values[key] = std::nextafter(times.values[key - 1], std::numeric_limits<float>::infinity());
+            if (!std::isfinite(times.values[key])) failTimes(what);
         }
         before = time;
     }
@@ -135,17 +138,16 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     // Component Types".
     if (values.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !values.normalized && !ownsNumbers(info.owner))
         failValues("holds integers that are not normalized");
-    const std::size_t needed =
-        sampler.timesSeconds.size() * sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});
+    const std::size_t each = sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});
+    const std::size_t needed = sampler.timesSeconds.size() * each;
     if (values.count != needed) {
         const std::string what = fmt::format("has {} elements, but {} keys of {} need {}", values.count,
                                              sampler.timesSeconds.size(), info.path, needed);
-        const std::size_t keys =
-            std::min(values.count / (needed / sampler.timesSeconds.size()), sampler.timesSeconds.size());
-        if (keys == 0) failValues(what);
+        if (each == 0 || values.count < each) failValues(what);
+        const std::size_t keys = std::min(values.count / each, sampler.timesSeconds.size());
         document.repair(place + "/output", what, "what has no partner is left out");
         sampler.timesSeconds.resize(keys);
-        values.values.resize(keys * (needed / sampler.timesSeconds.size()) * static_cast<std::size_t>(components));
+        values.values.resize(keys * each * static_cast<std::size_t>(components));
     }
     for (std::size_t i = 0; i < values.values.size(); ++i)
         if (!std::isfinite(values.values[i]))
@@ -176,6 +178,7 @@ Clip Rigging::clip(int index) {
     clip.name = nameOr(stored.name, "animation", index);
     std::map<std::pair<int, double>, int> samplers; // of the clip, by those of the document and their scale
     std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // of the clip, by what they change
+    std::set<std::array<int, 4>> failed;                              // what was read in vain
     constexpr std::size_t kEntryBytes = 96;                           // of a map
     std::vector<Rivals> counting;                                     // by what they change, in document order
     std::map<std::string, std::size_t> places;                        // in it
@@ -214,6 +217,10 @@ Clip Rigging::clip(int index) {
         }
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
+        const std::size_t number = i; // clang captures no structured binding
+        const std::array<int, 4> read{index, channel.sampler, static_cast<int>(what->property),
+                                      static_cast<int>(what->width)};
+        if (failed.contains(read)) continue;
         auto entry = samplers.find({channel.sampler, what->scale});
         const bool isGood = document.repairs.attempt("the channel is left out", [&] {
             if (entry == samplers.end()) {
@@ -226,11 +233,14 @@ Clip Rigging::clip(int index) {
             const int width = clip.samplers[static_cast<std::size_t>(entry->second)].width;
             if (static_cast<std::size_t>(width) != what->width)
                 document.fail(
-                    fmt::format("/animations/{}/channels/{}", index, i),
+                    fmt::format("/animations/{}/channels/{}", index, number),
                     fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
                                 what->width, channel.sampler, width));
         });
-        if (!isGood) continue;
+        if (!isGood) {
+            failed.insert(read);
+            continue;
+        }
         // Things of the document may be one of the scene's.
         for (const int target : what->targets) {
             const AnimatedProperty changes = isStrength ? AnimatedProperty::Emissive : what->property;

@@ -70,7 +70,8 @@ struct Context {
         const auto variants = elementsOf(valueAt(document.model.extensions, "KHR_materials_variants/variants"));
         for (const tiny::Value& mapping : elementsOf(valueAt(primitive.extensions, "KHR_materials_variants/mappings")))
             for (const tiny::Value& variant : elementsOf(valueAt(&mapping, "variants")))
-                if (stringOf(valueAt(&variants[static_cast<std::size_t>(integerOf(&variant))], "name")) == *wish)
+                if (const auto index = static_cast<std::size_t>(integerOf(&variant));
+                    index < variants.size() && stringOf(valueAt(&variants[index], "name")) == *wish)
                     return integerOf(valueAt(&mapping, "material"));
         return std::nullopt;
     }

@@ -125,12 +125,14 @@ bool isSupported(std::string_view extension) {
 }
 
 /// Words of no JSON value, comments and commas too many are repaired.
-nlohmann::json parseDocument(const std::string& text, const std::string& file, Repairs& repairs) {
+nlohmann::json parseDocument(const std::string& text, const std::string& file, LoadLedger& ledger, Repairs& repairs) {
     requireJsonDepth(text, file);
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {
         const MendedJson mended = mendedJson(text);
+        requireJsonDepth(mended.text, file); // a quote in a comment hid it
+        ledger.charge(parsedJsonBytes(mended.text), [&] { return file + ": its JSON"; });
         nlohmann::json parsed = nlohmann::json::parse(mended.text, nullptr, false);
         if (mended.line != 0 && !parsed.is_discarded()) {
             repairs.note(file, mended.line, "words of no JSON value are null, and the rest is left out",
@@ -155,7 +157,9 @@ void checkVersion(const nlohmann::json& json, const std::string& file) {
         const auto version = asset->find(key);
         if (version == asset->end()) continue;
         // glTF 1.0 files write a number here.
-        const std::string text = version->is_string() ? version->get<std::string>() : version->dump();
+        const std::string text = version->is_string()   ? version->get<std::string>()
+                                 : version->is_number() ? version->dump()
+                                                        : version->type_name();
         const bool good = std::string_view(key) == "version" ? text == "2" || text.starts_with("2.") : text == "2.0";
         if (!good)
             throw InputError(fmt::format(
@@ -213,7 +217,7 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Rep
     Container container = readContainer(file, ledger);
     document.binary = std::move(container.binary);
     ledger.charge(parsedJsonBytes(container.json), [&] { return document.file + ": its JSON"; });
-    nlohmann::json json = parseDocument(container.json, document.file, repairs);
+    nlohmann::json json = parseDocument(container.json, document.file, ledger, repairs);
     container.json = {};
     checkVersion(json, document.file);
     nlohmann::json checked = checkedProperties(json, document.file, ledger, repairs);

@@ -207,19 +207,22 @@ private:
         return found == decoded_->attributes.end() ? std::span<const std::byte>() : found->second;
     }
 
-    Elements read(const std::string& attribute, std::initializer_list<int> components) {
-        Elements elements = context_.accessors.elements(attributes_->at(attribute), decoded(attribute));
-        if (std::ranges::find(components, elements.components) == components.end())
-            fail(attribute, fmt::format("has {} components an element; {} needs {}", elements.components, attribute,
+    /// Checked before it is read, because many may be flawed. `count`: of its elements, where it is known.
+    Elements read(const std::string& attribute, std::initializer_list<int> components,
+                  std::optional<std::size_t> count = {}) {
+        const int index = attributes_->at(attribute);
+        const tiny::Accessor& accessor = elementAt(context_.document.model.accessors, index);
+        const int width = componentsOf(accessor);
+        if (width != 0 && std::ranges::find(components, width) == components.end())
+            fail(attribute, fmt::format("has {} components an element; {} needs {}", width, attribute,
                                         components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4"));
-        return elements;
+        if (count && accessor.count != *count)
+            fail(attribute, fmt::format("has {} elements, but there are {} positions", accessor.count, *count));
+        return context_.accessors.elements(index, decoded(attribute));
     }
 
     Elements readVertices(const std::string& attribute, std::initializer_list<int> components) {
-        Elements elements = read(attribute, components);
-        if (elements.count != vertexCount_)
-            fail(attribute, fmt::format("has {} elements, but there are {} positions", elements.count, vertexCount_));
-        return elements;
+        return read(attribute, components, vertexCount_);
     }
 
     /// RGB gets the alpha given. Integers that were not marked normalised cannot be meant as 0..255, so they are read

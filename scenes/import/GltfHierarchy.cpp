@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_access.hpp>
@@ -32,7 +33,7 @@ std::vector<int> rootsOf(const Document& document, const std::vector<int>& paren
         std::erase_if(roots, [&](int node) { return !isRoot(node); });
     else
         roots = document.scene()->nodes;
-    std::ranges::stable_partition(roots, isRoot);
+    std::stable_partition(roots.begin(), roots.end(), isRoot);
     return roots;
 }
 
@@ -72,20 +73,25 @@ bool isFinite(const glm::dmat4& matrix) {
 std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::vector<int> parents = parentsOf(document);
     std::vector<PlacedNode> placed;
-    std::vector<PlacedNode> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
-    const auto wait = [&](const std::vector<int>& nodes, PlacedNode next) {
-        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-            next.node = *node;
-            waiting.push_back(next);
-        }
+    struct Waiting {
+        int node, parent; // as PlacedNode's
+        bool isVisible;
+    };
+    std::vector<Waiting> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
+    const auto wait = [&](const std::vector<int>& nodes, int parent, bool isVisible) {
+        constexpr std::size_t kCopies = 3; // while it grows; any number of entries may be of one node
+        document.ledger.charge(kCopies * nodes.size() * sizeof(Waiting), [&] { return document.file + ": /nodes"; });
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.push_back({*node, parent, isVisible});
     };
     std::vector<bool> isPlaced(parents.size());
     const auto placeTrees = [&](const std::vector<int>& roots, bool isDrawn) {
-        PlacedNode root;
-        root.isDrawn = isDrawn;
-        wait(roots, root);
+        wait(roots, -1, true);
         while (!waiting.empty()) {
-            PlacedNode next = waiting.back();
+            PlacedNode next;
+            next.node = waiting.back().node;
+            next.parent = waiting.back().parent;
+            next.isDrawn = isDrawn;
+            next.isVisible = waiting.back().isVisible;
             waiting.pop_back();
             if (isPlaced[static_cast<std::size_t>(next.node)]) {
                 document.repair(placeOf(next.node), "has several parents, or is a root as well",
@@ -106,25 +112,28 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
                 next.worldFromNode = worldFromParent;
             }
             placed.push_back(next);
-            next.parent = static_cast<int>(placed.size()) - 1;
-            wait(elementAt(document.model.nodes, next.node).children, next);
+            wait(elementAt(document.model.nodes, next.node).children, static_cast<int>(placed.size()) - 1,
+                 next.isVisible);
         }
     };
     placeTrees(rootsOf(document, parents), true);
     const std::size_t drawn = placed.size();
     std::vector<bool> isFollowed(document.model.skins.size()); // once each
+    std::vector<int> climbedFrom(parents.size(), kNone);
     for (std::size_t i = 0; i < drawn; ++i) {
         const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(placed[i].node)];
         if (node.skin == kNone || node.mesh == kNone || isFollowed[static_cast<std::size_t>(node.skin)]) continue;
         isFollowed[static_cast<std::size_t>(node.skin)] = true;
         for (int joint : elementAt(document.model.skins, node.skin).joints) {
             if (isPlaced[static_cast<std::size_t>(joint)]) continue;
-            const auto isAbove = [&](int parent) { return parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)]; };
-            for (std::size_t steps = 0; steps < parents.size(); ++steps) // a cycle has no end
-                if (const int parent = parents[static_cast<std::size_t>(joint)]; isAbove(parent))
-                    joint = parent;
-                else
-                    break;
+            const int start = joint;
+            climbedFrom[static_cast<std::size_t>(joint)] = start;
+            for (int parent = parents[static_cast<std::size_t>(joint)];
+                 parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)];
+                 parent = parents[static_cast<std::size_t>(joint)]) {
+                if (std::exchange(climbedFrom[static_cast<std::size_t>(parent)], start) == start) break; // a cycle
+                joint = parent;
+            }
             placeTrees({joint}, false);
         }
     }

@@ -29,16 +29,17 @@ unsigned bitOf(int texCoordSet) {
 
 /// The place of each vertex in the mesh's bounds, seen along the axis that its normal is nearest to.
 std::vector<glm::vec2> boxCoordinates(const Mesh& mesh) {
-    glm::vec3 least(std::numeric_limits<float>::infinity()), most(-least);
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
     for (const glm::vec3& position : mesh.positionsOS) {
-        least = glm::min(least, position);
-        most = glm::max(most, position);
+        least = glm::min(least, glm::dvec3(position));
+        most = glm::max(most, glm::dvec3(position));
     }
-    const glm::vec3 sides = most - least;
-    const float longest = std::max({sides.x, sides.y, sides.z, std::numeric_limits<float>::min()});
+    const glm::dvec3 sides = most - least;
+    const double longest = std::max({sides.x, sides.y, sides.z, double(std::numeric_limits<float>::min())});
     std::vector<glm::vec2> coordinates;
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
-        const glm::vec3 place = (mesh.positionsOS[i] - least) / longest, normal = glm::abs(mesh.normalsOS[i]);
+        const glm::dvec3 place = (glm::dvec3(mesh.positionsOS[i]) - least) / longest,
+                         normal = glm::abs(mesh.normalsOS[i]);
         const bool isAlongX = normal.x > std::max(normal.y, normal.z), isAlongY = !isAlongX && normal.y > normal.z;
         coordinates.emplace_back(isAlongX ? place.z : place.x, isAlongY ? place.z : place.y);
     }
@@ -285,7 +286,7 @@ void importVariant(Context& context, Materials& materials) {
     const tiny::Value* const variants = valueAt(context.document.model.extensions, "KHR_materials_variants/variants");
     for (const tiny::Value& variant : elementsOf(variants)) {
         const std::string& name = variant.Get("name").Get<std::string>();
-        if (!known.insert(name).second) continue;
+        if (name.empty() || !known.insert(name).second) continue;
         context.document.ledger.charge(2 * (sizeof(std::string) + name.size()),
                                        [&] { return context.document.file + ": its variants"; });
         names.push_back(name);

@@ -173,7 +173,8 @@ StoredMaterial::StoredMaterial(const tiny::Material& stored) {
         surface.model = MaterialModel::SingleColor;
         return;
     }
-    surface.emissive = emissiveFactor * emissiveStrength;
+    const double mostEmission = fieldOf(kMaterialFields, &Material::emissive).most;
+    surface.emissive = glm::min(glm::dvec3(emissiveFactor) * double(emissiveStrength), mostEmission);
     readExtensions(stored.extensions, surface);
     if (const tiny::Value* const glossy = valueAt(stored.extensions, "KHR_materials_pbrSpecularGlossiness"))
         specularGlossiness = specularGlossinessOf(glossy);

@@ -20,7 +20,7 @@ Document
  extensions/KHR_materials_variants/variants Variant[]; scene index:scenes; scenes Scene[]; nodes Node[]; meshes Mesh[]
  accessors Accessor[]; bufferViews BufferView[]; buffers Buffer[]; images Image[]; textures Texture[]
  samplers Sampler[]; materials Material[]; cameras Camera[]; skins Skin[]; animations Animation[~]
-Variant
+Variant {"name": ""}
  name! text
 Scene
  name label; nodes index[~]:nodes
@@ -70,14 +70,14 @@ TextureTransform
 Material
  name label; pbrMetallicRoughness MetallicRoughness; normalTexture TextureInfo; normalTexture/scale number
  occlusionTexture TextureInfo; occlusionTexture/strength number:0..1; alphaMode choice:OPAQUE|MASK|BLEND
- alphaCutoff number:0..; doubleSided flag; emissiveTexture TextureInfo; emissiveFactor number[3]:0..
+ alphaCutoff number:0..; doubleSided flag; emissiveTexture TextureInfo; emissiveFactor number[3]:0..1e30
  extensions MaterialExtensions
 MetallicRoughness
- baseColorFactor number[4]:0..; metallicFactor number:0..1; roughnessFactor number:0..1
+ baseColorFactor number[4]:0..1e6; metallicFactor number:0..1; roughnessFactor number:0..1
  baseColorTexture TextureInfo; metallicRoughnessTexture TextureInfo
 MaterialExtensions
  KHR_materials_unlit object; KHR_materials_pbrSpecularGlossiness SpecularGlossiness
- KHR_materials_emissive_strength/emissiveStrength number:0..; KHR_materials_ior/ior number:0..
+ KHR_materials_emissive_strength/emissiveStrength number:0..1e30; KHR_materials_ior/ior number:0..1e6
  KHR_materials_specular Specular; KHR_materials_anisotropy Anisotropy; KHR_materials_clearcoat Clearcoat
  KHR_materials_sheen Sheen; KHR_materials_iridescence Iridescence; KHR_materials_transmission Transmission
  KHR_materials_volume Volume; KHR_materials_dispersion/dispersion number:0..
@@ -85,7 +85,7 @@ SpecularGlossiness
  diffuseFactor number[4]:0..1; specularFactor number[3]:0..1; glossinessFactor number:0..1
  diffuseTexture TextureInfo; specularGlossinessTexture TextureInfo
 Specular
- specularFactor number:0..1; specularColorFactor number[3]:0..
+ specularFactor number:0..1; specularColorFactor number[3]:0..1e6
  specularTexture TextureInfo; specularColorTexture TextureInfo
 Anisotropy
  anisotropyStrength number:0..1; anisotropyRotation number; anisotropyTexture TextureInfo
@@ -96,7 +96,7 @@ Sheen
  sheenColorFactor number[3]:0..1; sheenRoughnessFactor number:0..1
  sheenColorTexture TextureInfo; sheenRoughnessTexture TextureInfo
 Iridescence
- iridescenceFactor number:0..1; iridescenceIor number:1..; iridescenceThicknessMinimum number:0..
+ iridescenceFactor number:0..1; iridescenceIor number:1..1e6; iridescenceThicknessMinimum number:0..
  iridescenceThicknessMaximum number:0..; iridescenceTexture TextureInfo; iridescenceThicknessTexture TextureInfo
 Transmission
  transmissionFactor number:0..1; transmissionTexture TextureInfo

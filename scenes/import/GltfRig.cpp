@@ -60,8 +60,8 @@ Deforms Rigging::deformsOf(int index) const {
     return {isMorphed || mayMorph, node.skin != kNone};
 }
 
-const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms) {
-    const auto [entry, isNew] = shapes_.try_emplace({mesh, deforms});
+const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms, std::size_t joints) {
+    const auto [entry, isNew] = shapes_.try_emplace({mesh, deforms, joints});
     if (!isNew) return entry->second;
     const auto& primitives = elementAt(context_.document.model.meshes, mesh).primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -123,6 +123,11 @@ int Rigging::skinOf(int index) {
 }
 
 void Rigging::mendInfluences(Shape& shape, int mesh, int skin, std::size_t joints) const {
+    if (joints == 0) {
+        shape.influences = 0;
+        shape.joints.clear();
+        shape.weights.clear();
+    }
     for (std::size_t first = 0; first < shape.joints.size(); first += shape.influences) {
         float sum = 0.0f;
         for (std::size_t i = first; i < first + shape.influences; ++i) {
@@ -157,12 +162,11 @@ void Rigging::addDeformed(int index) {
         scene.rig.weights.push_back(std::move(rest));
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
-    for (const Drawn& drawn : shapesOf(node.mesh, deforms)) {
+    const std::size_t joints = deformed.skin == kNone ? 0 : scene.rig.skins[std::size_t(deformed.skin)].joints.size();
+    for (const Drawn& drawn : shapesOf(node.mesh, deforms, joints)) {
         Shape& shape = scene.rig.shapes[static_cast<std::size_t>(drawn.shape)];
         document.charge(bytesOf(shape.rest) + 2 * (sizeof(Deformed) + sizeof(Standing) + sizeof(Node)), "nodes", index);
-        if (deformed.skin != kNone)
-            mendInfluences(shape, node.mesh, node.skin,
-                           scene.rig.skins[static_cast<std::size_t>(deformed.skin)].joints.size());
+        if (deformed.skin != kNone) mendInfluences(shape, node.mesh, node.skin, joints);
         deformed.shape = drawn.shape;
         deformed.mesh = static_cast<int>(scene.meshes.size());
         context_.noteMesh(deformed.mesh, *drawn.primitive, drawn.lostSets);

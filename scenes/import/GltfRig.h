@@ -53,7 +53,7 @@ private:
         glm::vec3 emissiveFactor{0.0f};
     };
 
-    const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms);
+    const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms, std::size_t joints);
     std::vector<float> restWeights(int node) const;
     int skinOf(int index);
     void readMatrices(int accessor, int skin, std::vector<glm::dmat4>& jointFromBind) const;
@@ -83,10 +83,10 @@ private:
     Context& context_;
     Materials& materials_;
     std::vector<int> sceneNodes_;
-    std::vector<bool> hasAnimatedWeights_;                                  ///< by node of the document
-    std::vector<std::size_t> targetCounts_;                                 ///< by mesh of the document
-    std::vector<bool> isMorphed_;                                           ///< the same: by its own weights
-    std::map<std::pair<int, Deforms>, std::vector<Drawn>> shapes_;          ///< by mesh of the document
+    std::vector<bool> hasAnimatedWeights_;                                       ///< by node of the document
+    std::vector<std::size_t> targetCounts_;                                      ///< by mesh of the document
+    std::vector<bool> isMorphed_;                                                ///< the same: by its own weights
+    std::map<std::tuple<int, Deforms, std::size_t>, std::vector<Drawn>> shapes_; ///< by mesh and number of joints
     std::map<int, int> skins_;                                              ///< of the rig, by those of the document
     std::map<int, int> weights_, nodes_;                                    ///< of the rig, by nodes of the document
     std::map<std::tuple<AnimatedProperty, int, TextureSlot>, int> numbers_; ///< of the rig

@@ -57,6 +57,8 @@ std::u32string charactersOf(std::string_view text) {
 std::optional<fs::path> entryLike(const fs::path& folder, const std::string& name) {
     std::optional<fs::path> found;
     std::error_code failure;
+    constexpr std::size_t kMostBytes = 4 * 255; // no file system has longer names
+    if (name.size() > kMostBytes) return std::nullopt;
     for (fs::directory_iterator entry(folder.empty() ? "." : folder, failure), end; !failure && entry != end;
          entry.increment(failure)) {
         const fs::path own = entry->path().filename();

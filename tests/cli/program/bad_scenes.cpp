@@ -69,31 +69,31 @@ TEST_F(BadScenes, gltfDataOutOfRangeIsRefusedByName) {
     expectRefused(accessor, {"/accessors/0", "past the end"});
     Builder index;
     index.primitive()["indices"] = index.add(std::vector<std::uint8_t>{0, 1, 3}, kUnsignedByte, "SCALAR", 3);
-    expectRefused(index, {"/accessors/1", "index 2 is 3", "only 3 vertices"});
-    Builder restart;
-    restart.primitive()["indices"] = restart.add(std::vector<std::uint8_t>{0, 1, 255}, kUnsignedByte, "SCALAR", 3);
-    expectRefused(restart, {"/accessors/1", "255, which restarts"});
+    expectRefused(index, {"/meshes/0/primitives/0", "index 3", "there are 3"});
     Builder positions;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     positions.primitive()["attributes"]["POSITION"] =
         positions.add(std::vector<float>{0, 0, 0, 1, nan, 0, 0, 1, 0}, kFloat, "VEC3", 3);
-    expectRefused(positions, {"POSITION", "nan in element 1"});
+    expectRefused(positions, {"/meshes/0/primitives/0", "vertex 1", "not finite"});
     Builder texture;
     texture.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
     texture.json["textures"] = Json::parse(R"([{"source": 0}])");
     texture.json["images"] = Json::parse(R"([{"uri": "nix.png"}])");
+    texture.primitive()["attributes"]["TEXCOORD_0"] =
+        texture.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloat, "VEC2", 3);
     folder_.write("m.gltf", texture.json.dump());
     expectError(kBadInput, {"render", "m.gltf", "--strict", "-o", "a.png"}, {"m.gltf: /images/0: ", "nix.png"});
     Builder cycle;
     cycle.json["nodes"] = Json::parse(R"([{"mesh": 0, "children": [1]}, {"children": [0]}])");
-    expectRefused(cycle, {"/nodes"});
+    folder_.write("m.gltf", cycle.json.dump());
+    expectError(kBadInput, {"render", "m.gltf", "--strict", "-o", "a.png"}, {"m.gltf: /nodes/0: has several parents"});
     Builder extension;
-    extension.json["extensionsUsed"] = extension.json["extensionsRequired"] = {"KHR_gaussian_splatting"};
-    expectRefused(extension, {"KHR_gaussian_splatting"});
+    extension.json["extensionsRequired"] = {"EXT_some_compression"};
+    expectRefused(extension, {"EXT_some_compression"});
 }
 
 TEST_F(BadScenes, filesThatAreNoGltfAreRefused) {
-    for (const char* text : {"{", "[]", "{\"asset\": {}}", "glTF"}) {
+    for (const char* text : {"{", "[]", "{\"asset\": 1}", "glTF"}) {
         folder_.write("m.gltf", text);
         expectRefused("m.gltf", {});
         folder_.write("m.glb", text);

@@ -142,43 +142,76 @@ TEST(Exposure, stopsBringToADisplaysBrightHalfWhatIsMoreThanTwoOfThemAway) {
     EXPECT_EQ(fittingExposureEV(0.4 * 1024.0), -10);
 }
 
-TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
-    const test::TempFolder folder;
+/// A triangle that faces a sun.
+std::string litModel(const test::TempFolder& folder, double lux, double roughness = 1.0) {
     constexpr const char* kTriangle = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"; // (0 0 0), (1 0 0), (0 1 0)
-    const auto write = [&](double lux) {
-        return folder
-            .write("lit.gltf",
-                   fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"],
+    return folder
+        .write("lit.gltf", fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"],
                 "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "directional", "intensity": {}}}]}}}},
                 "buffers": [{{"byteLength": 36, "uri": "data:application/octet-stream;base64,{}"}}],
                 "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
                 "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
                                 "min": [0, 0, 0], "max": [1, 1, 0]}}],
-                "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+                "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "material": 0}}]}}],
+                "materials": [{{"pbrMetallicRoughness": {{"roughnessFactor": {}}}}}],
                 "nodes": [{{"mesh": 0}}, {{"extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
                 "scene": 0, "scenes": [{{"nodes": [0, 1]}}]}})",
-                               lux, kTriangle))
-            .string();
+                                       lux, kTriangle, roughness))
+        .string();
+}
+
+TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
+    const test::TempFolder folder;
+    const auto write = [&](double lux) { return litModel(folder, lux); };
+    const auto isTold = [](const Scene& scene, const char* part, Advice advice = Advice::Options) {
+        return suppliedText(scene, advice).find(part) != std::string::npos;
     };
     const Scene bright = loadScene(write(1e5)); // the sun's, 1e5 / pi of a white card
     EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-16.0));
-    EXPECT_EQ(suppliedText(bright), "no camera in it: seen whole by the supplied camera 'default'; its lights are too "
-                                    "bright for a display: exposed by -16 EV (--exposure chooses another)");
+    EXPECT_TRUE(isTold(bright, "too bright for a display: exposed by -16 EV (--exposure chooses another)"));
     EXPECT_FALSE(loadScene(write(1.0)).options.wishes.contains("exposureEV"));
     const Scene dim = loadScene(write(0.01));
     EXPECT_EQ(dim.options.wishes.at("exposureEV"), Wish(7.0));
-    EXPECT_NE(
-        suppliedText(dim).find("too dim for a display: exposed by +7 EV (--exposure chooses another, --environment "
-                               "studio adds light from all around)"),
-        std::string::npos);
-    EXPECT_NE(suppliedText(dim, Advice::Panels)
-                  .find("(the panel View chooses another, a map of the panel Environment adds light from all around)"),
-              std::string::npos);
+    EXPECT_TRUE(isTold(dim, "too dim for a display: exposed by +7 EV (--exposure chooses another)"));
+    EXPECT_TRUE(isTold(dim, "(the panel View chooses another)", Advice::Panels));
     const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
     EXPECT_FALSE(loadScene(own).options.wishes.contains("exposureEV")) << "who writes a scene says how it is shown";
     LoadOptions options;
     options.lights = 0;
     EXPECT_FALSE(loadScene(write(0.01), options).options.wishes.contains("exposureEV"));
+}
+
+/// The studio's share of a bright picture, whatever the exposure.
+double fillOf(const Scene& scene) {
+    const auto wish = scene.options.wishes.find("exposureEV");
+    const double stops = wish == scene.options.wishes.end() ? 0.0 : std::get<double>(wish->second);
+    return scene.environment ? double(scene.environment->intensity) * std::exp2(stops) : 0.0;
+}
+
+TEST(FillLight, isAQuarterOfAModelsOwnLightOrWhatThatLacks) {
+    const test::TempFolder folder;
+    constexpr double kBrightLux = kBrightLuminance * std::numbers::pi;
+    EXPECT_NEAR(fillOf(loadScene(litModel(folder, kBrightLux))), 0.25, 0.02);
+    EXPECT_NEAR(fillOf(loadScene(litModel(folder, 1e5))), 0.25, 0.1) << "exposed";
+    EXPECT_NEAR(fillOf(loadScene(litModel(folder, 0.5 * kBrightLux))), 0.5, 0.03);
+    EXPECT_EQ(fillOf(loadScene(litModel(folder, 0.0))), 1.0);
+    const Scene mirror = loadScene(litModel(folder, kBrightLux, 0.05));
+    EXPECT_GT(fillOf(mirror), 0.9) << "smooth metal shows what is around it";
+    EXPECT_NE(suppliedText(mirror).find("lit by the built-in environment 'studio' at "), std::string::npos);
+    EXPECT_NE(suppliedText(mirror).find(" % beside its own lights, turned to the camera"), std::string::npos);
+}
+
+TEST(FillLight, isLeftOutWhereItWasNotAskedFor) {
+    const test::TempFolder folder;
+    const std::string model = litModel(folder, 1.0);
+    LoadOptions dark;
+    dark.defaultLight = false;
+    EXPECT_FALSE(loadScene(model, dark).environment);
+    LoadOptions few;
+    few.lights = 1;
+    EXPECT_FALSE(loadScene(model, few).environment) << "its lights are what is measured";
+    const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
+    EXPECT_FALSE(loadScene(own).environment);
 }
 
 } // namespace

@@ -76,7 +76,7 @@ TEST(Framing, aFlatSceneIsSeenFaceOnFromTheSideThatItIsTurnedTo) {
     expect(forward(triangle({0, 0, 0}, {0, 4, 0}, {2, 0, 0})), {0, 0, 1});
     expect(forward(triangle({0, 0, 0}, {0, 2, 0}, {0, 0, 4})), {-1, 0, 0});
     expect(forward(triangle({0, 0, 0}, {0, 0, 4}, {2, 0.01f, 0})), {0, -1, 0});
-    expect(forward(triangle({0, 0, 0}, {2, 0, 0}, {0, 4, 1})), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0)));
+    expect(forward(triangle({0, 0, 0}, {2, 0, 0}, {0, 4, 2})), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0)));
     // A line is flat in two directions, so in none.
     expect(forward(triangle({0, 0, 0}, {0, 4, 0}, {0, 9, 0})), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0)));
 }
@@ -104,6 +104,18 @@ TEST(Framing, whatAClipMovesStaysInThePicture) {
         reach(scene, framing, 1.0, reached);
         EXPECT_LT(std::max({reached.left, reached.right, reached.top, reached.bottom}), 1.0) << seconds;
     }
+}
+
+TEST(Framing, whatHasLittleDepthIsSeenFromTheFront) {
+    const auto towardsEye = [](double depth) {
+        Scene scene = triangle({0, 0, 0}, {2, 0, depth}, {0, 1, 0});
+        const Framing framing = framingOf(scene, kFovY, 1.0);
+        return glm::normalize(framing.eyeWS - framing.targetWS);
+    };
+    const glm::dvec3 panel = towardsEye(0.6), body = towardsEye(0.8);
+    EXPECT_NEAR(panel.x, 0.0, 1e-9);
+    EXPECT_NEAR(glm::degrees(std::asin(panel.y)), 7.4, 0.1);
+    EXPECT_NEAR(body.x, body.z, 1e-9);
 }
 
 TEST(Framing, theCameraThatIsSuppliedFitsTheAspectOfThePicture) {

@@ -159,6 +159,45 @@ TEST(GltfRepairs, everyNodeIsDrawnOnce) {
     EXPECT_TRUE(hasWarning(scene, "has several parents, or is a root as well; the first place counts"));
 }
 
+/// Elements are left out of extensions' arrays, too, and indices mean those of the file.
+TEST(GltfRepairs, aFlawedVariantMovesNoOther) {
+    Builder builder;
+    builder.json["materials"] = Json::parse(R"([{"name": "a"}, {"name": "b"}])");
+    builder.primitive()["material"] = 0;
+    builder.primitive()["extensions"] =
+        Json::parse(R"({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}})");
+    builder.json["extensions"] =
+        Json::parse(R"({"KHR_materials_variants": {"variants": [{"name": 5}, {"name": "b"}]}})");
+    builder.wishes.variant = "b";
+    const Scene scene = builder.import();
+    EXPECT_EQ(paintOf(scene).name, "b");
+    EXPECT_THAT(scene.variants, ElementsAre("b"));
+}
+
+TEST(GltfRepairs, keysAndValuesWithoutPartnersAreLeftOut) {
+    for (const std::size_t values : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
+        Builder builder;
+        const int times = builder.add(std::vector<float>{0, 1, 2, 3}, 5126, "SCALAR", 4);
+        const int moves = builder.add(std::vector<float>(3 * values, 1.0f), 5126, "VEC3", values);
+        builder.json["animations"] = Json::array(
+            {Json::object({{"samplers", {{{"input", times}, {"output", moves}}}},
+                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}})});
+        const AnimationSampler sampler = builder.import().rig.clips.at(0).samplers.at(0);
+        EXPECT_EQ(sampler.timesSeconds.size(), std::min(values, std::size_t{4}));
+        EXPECT_EQ(sampler.values.size(), 3 * sampler.timesSeconds.size());
+    }
+}
+
+TEST(GltfRepairs, aQuoteInACommentHidesNoDepthAndNoMemory) {
+    const Folder folder;
+    const std::string deep = "/*\"*/{\"asset\": {\"version\": \"2.0\"}, \"extras\": " + std::string(200'000, '[') +
+                             std::string(200'000, ']') + "}";
+    EXPECT_NE(Builder::errorOf(folder.write("deep.gltf", deep)).find("nests deeper than 64"), std::string::npos);
+    std::string many = "/*\"*/{\"asset\": {\"version\": \"2.0\"}, \"extras\": [{}";
+    for (int i = 0; i < 300'000; ++i) many += ",{}";
+    EXPECT_THROW(underLedger(importGltf, folder.write("many.gltf", many + "]}"), 16 * kMiB), MemoryRefused);
+}
+
 TEST(GltfRepairs, whatJsonDoesNotHaveIsNull) {
     Builder builder;
     builder.material()["alphaCutoff"] = 0.75;
