@@ -45,7 +45,7 @@ std::vector<std::string> wrapText(const std::string& text, std::size_t width) {
             continue;
         }
         if (!line.empty()) lines.push_back(std::move(line));
-        while (length(word) > width) lines.push_back(takeFront(word, width));
+        for (std::size_t left = length(word); left > width; left -= width) lines.push_back(takeFront(word, width));
         line = std::move(word);
     }
     if (!line.empty() || lines.empty()) lines.push_back(std::move(line));

@@ -173,7 +173,8 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
 Clip Rigging::clip(int index) {
     const Document& document = context_.document;
     const tiny::Animation& stored = elementAt(document.model.animations, index);
-    const std::uint64_t mark = document.ledger.usedBytes() - context_.buffers.heldBytes();
+    const auto used = [&] { return document.ledger.usedBytes() - context_.buffers.heldBytes(); };
+    std::uint64_t mark = used();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);
     std::map<std::pair<int, double>, int> samplers; // of the clip, by those of the document and their scale
@@ -222,6 +223,7 @@ Clip Rigging::clip(int index) {
                                       static_cast<int>(what->width)};
         if (failed.contains(read)) continue;
         auto entry = samplers.find({channel.sampler, what->scale});
+        const std::uint64_t usedBefore = used();
         const bool isGood = document.repairs.attempt("the channel is left out", [&] {
             if (entry == samplers.end()) {
                 clip.samplers.push_back(sampler(index, channel.sampler, *what));
@@ -239,6 +241,7 @@ Clip Rigging::clip(int index) {
         });
         if (!isGood) {
             failed.insert(read);
+            mark += used() - usedBefore; // stays charged, so that flawed samplers take no more time than good ones
             continue;
         }
         // Things of the document may be one of the scene's.
