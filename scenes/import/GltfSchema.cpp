@@ -46,7 +46,8 @@ struct Property {
     std::string_view path;
     std::vector<std::string_view> keys;
     bool isRequired = false;
-    bool isWhole = false;                     ///< a flaw in it is one of the object
+    bool isWhole = false; ///< a flaw in it is one of the object
+    bool isExtension = false;
     std::string_view conditionKey, condition; ///< where it is required, too
     Type type;
 };
@@ -132,7 +133,8 @@ private:
         property.path = cut(text, "!?+ ");
         property.keys = split(property.path, "/");
         property.isRequired = text.front() == '!';
-        property.isWhole = text.front() == '+' || (text.front() != ' ' && property.keys.front() != "extensions");
+        property.isExtension = property.keys.front() == "extensions";
+        property.isWhole = text.front() == '+' || (text.front() != ' ' && !property.isExtension);
         const std::string_view condition = cut(text, " ");
         if (condition.starts_with('?')) {
             const std::size_t equals = condition.find('=');
@@ -314,12 +316,14 @@ private:
     Json object(Json& value, const Struct& object, const Place& place) {
         require(value.is_object(), "an object", value, place);
         Json checked = Json::object();
+        const bool hasExtensions = value.contains("extensions");
         for (const Property& property : object.properties) {
+            if (property.isExtension && !hasExtensions) continue;
             if (&object == &schema().document() && arrays_.contains(property.path)) continue;
             const auto take = [&] {
                 Json* const found = find(value, property, checked, place);
                 if (found == nullptr) return;
-                const bool isValue = object.isValue || property.keys.front() == "extensions";
+                const bool isValue = object.isValue || property.isExtension;
                 if (isValue) charge(kMemberBytes * property.keys.size(), place, 1);
                 Json taken =
                     arrays(*found, property.type, property.type.arrays.size(), isValue, Place(place, property.path));
