@@ -86,7 +86,7 @@ public:
         return all;
     }
 
-    /// Takes out the elements, of `each` corners, of which one names no vertex that has a position. 0: elements that
+    /// Removes elements of `each` corners where a corner has no vertex with a finite position. 0: elements that
     /// share corners; throws InputError then.
     void leaveOutLost(std::vector<std::uint32_t>& corners, std::size_t each) const {
         const auto isLost = [&](std::uint32_t corner) { return this->isLost(corner); };
