@@ -45,16 +45,6 @@ void settleForReference(const FrameOptions& options, frame::FrameSettings& setti
     validation::requireReferenceTakes(settings);
 }
 
-void requireReferenceShows(const frame::FrameSettings& settings) {
-    if (settings.toneMap != frame::ToneMap::None)
-        throw InputError("--technique reference has no tone maps; give --tonemap none, or write .exr");
-}
-
-DisplayImage shownReference(Picture picture, const frame::FrameSettings& settings) {
-    for (float& value : picture.rgba) value *= std::exp2(settings.exposureEV);
-    return toDisplayImage(picture);
-}
-
 namespace {
 
 /// Of a setting that was said: why the reference has no use of it; empty: it may change its picture.

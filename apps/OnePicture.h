@@ -17,10 +17,6 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
 /// Settings as the reference takes them where no filter is asked for: the exact one. Throws InputError where it takes
 /// them not.
 void settleForReference(const FrameOptions& options, frame::FrameSettings& settings);
-/// Throws InputError where shownReference() cannot be: it has exposure and sRGB alone.
-void requireReferenceShows(const frame::FrameSettings& settings);
-/// A picture of the reference as a display shows it.
-DisplayImage shownReference(Picture picture, const frame::FrameSettings& settings);
 /// Which settings were said and change nothing of the reference's pictures: a sentence or two each.
 std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request);
 

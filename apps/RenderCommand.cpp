@@ -107,12 +107,11 @@ void tellOfCameras(const FrameOptions& options, const Request& request, bool isQ
     if (const std::string text = camerasText(options, request); !text.empty() && !isQuiet) fmt::print("{}\n", text);
 }
 
-/// Without a context, unless the scene's hook needs one to run: the display picture has exposure and sRGB alone.
+/// Without a context, unless the scene's hook needs one to run.
 void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
     frame::FrameSettings& settings = job.request.settings;
     settleForReference(options.frame, settings);
     const bool isLinear = extensionOf(options.output) == ".exr";
-    if (!isLinear) requireReferenceShows(settings);
     job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
@@ -137,7 +136,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
             renderer ? validation::referencePicture(*renderer, one, rowDone, validation::Leeway::None).picture
                      : validation::referencePicture(job.request.scene, one, rowDone, validation::Leeway::None).picture;
         warnOfPicture(path, faultOf(job.request.scene, one.view, picture.rgba, ""), hasWarned);
-        return isLinear ? encodeExr(picture) : encodePng(shownReference(std::move(picture), settings)).bytes;
+        return isLinear ? encodeExr(picture) : encodePng(engine::toDisplayImage(picture, settings)).bytes;
     });
 }
 

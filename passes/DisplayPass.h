@@ -7,7 +7,7 @@ namespace tessera::passes {
 /// Turns radiance into display code values: exposure, tone map, sRGB transfer function.
 /// Reads   radiance RGBA32F, linear
 /// Writes  display RGBA8, sRGB code values
-/// Source  shaders/lib/tonemap.glsl names that of each curve
+/// Source  shaders/shared/tonemap.h names that of each curve
 struct DisplayPass {
     struct Inputs {
         graph::TextureHandle radiance;

@@ -42,24 +42,16 @@ py::array channelsOf(const py::object& self, int first, int channels) {
     return viewOf(self, picture.rgba.data() + first, std::move(shape), std::move(strides));
 }
 
-const DisplayImage& shownOf(const Rendered& rendered) {
-    if (!rendered.shown)
-        throw InputError("the reference has no tone maps, so this picture is not as a display shows it; render it with "
-                         "tonemap='none'");
-    return *rendered.shown;
-}
-
 py::array displayOf(const py::object& self) {
-    const DisplayImage& image = shownOf(self.cast<const Rendered&>());
+    const DisplayImage& image = self.cast<const Rendered&>().shown;
     return viewOf(self, image.rgb.data(), {image.height, image.width, 3}, {3 * image.width, 3, 1});
 }
 
 py::bytes pngOf(const Rendered& rendered) {
     std::vector<std::uint8_t> bytes;
     {
-        const DisplayImage& image = shownOf(rendered);
         const py::gil_scoped_release unlocked;
-        bytes = encodePng(image).bytes;
+        bytes = encodePng(rendered.shown).bytes;
     }
     return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
@@ -70,10 +62,9 @@ void savePicture(const Rendered& rendered, const py::handle& to) {
     if (extension != ".exr" && extension != ".png")
         throw InputError(
             fmt::format("{}: pictures end in .exr (linear, 32 bit) or .png (as a display shows it)", path));
-    const DisplayImage* const image = extension == ".png" ? &shownOf(rendered) : nullptr;
     const py::gil_scoped_release unlocked;
-    if (image != nullptr)
-        writePng(path, *image);
+    if (extension == ".png")
+        writePng(path, rendered.shown);
     else
         writeExr(path, rendered.picture);
 }
@@ -105,8 +96,7 @@ picture as a display does.)")
                                "uint8, height x width x 3: as a display shows it, with exposure and tone map. Views "
                                "with a legend are larger than the picture.")
         .def("png", &pngOf, "The display picture as the bytes of a PNG file.")
-        .def("_repr_png_",
-             [](const Rendered& self) { return self.shown ? py::object(pngOf(self)) : py::object(py::none()); })
+        .def("_repr_png_", &pngOf)
         .def("save", &savePicture, py::arg("path"),
              "Writes the picture whole or not at all: .exr is linear, 32 bits a channel, .png as a display shows it.")
         .def(

@@ -60,8 +60,7 @@ Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, 
                   .picture
             : validation::referencePicture(request.scene, request.settings, rowDone, kNone).picture;
     warnAbout(request.scene.name, app::faultOf(request.scene, request.settings.view, rendered.picture.rgba, ""));
-    if (request.settings.toneMap == frame::ToneMap::None)
-        rendered.shown = app::shownReference(rendered.picture, request.settings);
+    rendered.shown = engine::toDisplayImage(rendered.picture, request.settings);
     rendered.technique = app::kReferenceName;
     return rendered;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ namespace tessera::python {
 /// A rendered picture.
 struct Rendered {
     Picture picture;                   ///< linear
-    std::optional<DisplayImage> shown; ///< as a display shows it; none where the reference has no such tone map
+    DisplayImage shown; ///< as a display shows it
     std::string scene, technique, view;
 };
 

@@ -1,7 +1,7 @@
 // How much two pictures differ, amplified, as display code values; magenta where one of them holds no number.
 #include "shared/slots.h"
 #include "shared/display.h"
-#include "lib/tonemap.glsl"
+#include "shared/tonemap.h"
 
 layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock
 {

@@ -5,7 +5,7 @@
 #include "shared/face_colors.h"
 #include "shared/faults.h"
 #include "shared/heat.h"
-#include "lib/tonemap.glsl"
+#include "shared/tonemap.h"
 
 layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock
 {

@@ -10,12 +10,16 @@ namespace tessera::shared {
 using glm::abs;
 using glm::clamp;
 using glm::dot;
+using glm::exp2;
+using glm::inverse;
 using glm::length;
+using glm::lessThanEqual;
 using glm::log2;
 using glm::mat3;
 using glm::mat4;
 using glm::max;
 using glm::min;
+using glm::mix;
 using glm::pow;
 using glm::sqrt;
 using glm::uintBitsToFloat;

@@ -40,12 +40,6 @@ std::uint64_t hashOf(const Picture& picture) {
     return hash;
 }
 
-DisplayImage shown(Picture picture, float exposureEV) {
-    const float scale = std::exp2(exposureEV);
-    for (float& value : picture.rgba) value *= scale;
-    return toDisplayImage(picture);
-}
-
 /// One group being measured.
 class Measurement {
 public:
@@ -74,8 +68,7 @@ public:
                                [] {});
         options_.progress(kStepsOfTheTruth);
         if (planned_.keepsPictures && options_.keepPicture && group_.pictures.empty())
-            group_.pictures.push_back(
-                {group_.truth, {}, options_.keepPicture("truth", shown(truth.picture(), settings.exposureEV)), "", 0});
+            group_.pictures.push_back({group_.truth, {}, options_.keepPicture("truth", shown(truth)), "", 0});
         for (std::size_t i = group_.results.size(); i < planned_.points.size(); ++i) {
             group_.results.push_back(resultOf(i, truth));
             options_.progress(kStepsOfAPoint);
@@ -150,6 +143,18 @@ private:
         return result;
     }
 
+    /// The truth as a display shows it. The reference draws no blurred backdrop: it stands before that of forward, so
+    /// that what differs in the pictures is what is compared.
+    DisplayImage shown(const GroupTruth& truth) const {
+        Picture picture = truth.picture();
+        if (group_.truth == "reference" && planned_.settings.environment.backdrop == frame::Backdrop::Blurred) {
+            const Picture forward = truth.pictureOf(engine::Technique::Forward, planned_.settings);
+            for (std::size_t i = 0; i < picture.covered.size(); ++i)
+                if (!picture.covered[i]) std::copy_n(forward.pixel(i), 3, &picture.rgba[4 * i]);
+        }
+        return engine::toDisplayImage(picture, planned_.settings);
+    }
+
     void compareWithLowerBound(BenchResult& result) const {
         const auto compare = [&](std::optional<std::uint64_t> evaluations, const char* evaluationsName,
                                  std::optional<double>& floorMs, const char* lowerBoundName,
@@ -178,14 +183,14 @@ private:
             return;
         }
         const std::string number = fmt::format("{:03}", index);
+        const Picture right = truth.pictureFor(picture);
+        std::string map;
+        if (!showsNoError(radianceFigures(picture, right, truth.excluded())))
+            map = options_.keepPicture(
+                number + "-error",
+                errorHeatMap(picture, right, fmt::format("{} vs {}", name, group_.truth), truth.excluded()));
         group_.pictures.push_back(
-            {name,
-             {name},
-             options_.keepPicture(number, shown(picture, point.settings.exposureEV)),
-             options_.keepPicture(number + "-error",
-                                  errorHeatMap(picture, truth.pictureFor(picture),
-                                               fmt::format("{} vs {}", name, group_.truth), truth.excluded())),
-             hash});
+            {name, {name}, options_.keepPicture(number, engine::toDisplayImage(picture, point.settings)), map, hash});
     }
 
     gpu::Context& context_;

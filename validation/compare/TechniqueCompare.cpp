@@ -75,7 +75,7 @@ TruthPicture referenceTruth(engine::Renderer& renderer, const frame::FrameSettin
     TruthPicture truth;
     truth.reference = referencePicture(renderer, settings, rowDone);
     truth.triangles = shownTriangles(renderer, settings, truth.reference->ids);
-    truth.own = {"reference", truth.reference->picture, toDisplayImage(truth.reference->picture)};
+    truth.own = {"reference", truth.reference->picture, engine::toDisplayImage(truth.reference->picture, settings)};
     return truth;
 }
 
@@ -209,10 +209,10 @@ void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl
     verdict.ok = verdict.missed.empty();
 }
 
-/// As the user sees the pair. Exposure and tone map are the renderer's: files and the reference have none.
-ShownPair shownPair(const CompareRequest& request, const NamedPicture& a, const NamedPicture& truth) {
-    const bool haveDisplay = std::holds_alternative<Technique>(request.against) && request.settings.display;
-    return haveDisplay ? ShownPair{&a.display, &truth.display} : ShownPair{};
+/// Both with the exposure and tone map of the settings. Of a file nothing says which it had: both go without.
+ShownPair shownPair(const CompareRequest& request, const DisplayImage& a, const DisplayImage& truth) {
+    const bool haveDisplay = !std::holds_alternative<PictureTruth>(request.against) && request.settings.display;
+    return haveDisplay ? ShownPair{&a, &truth} : ShownPair{};
 }
 
 /// Hardware filtering beside the exact one, which all other pairs use.
@@ -230,7 +230,9 @@ void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request
     const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);
     PairTruth truth = reference.of(picture.picture);
     result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
-                                              referenceTolerance(renderer.scene(), settings), truth.excluded));
+                                              referenceTolerance(renderer.scene(), settings), truth.excluded,
+                                              shownPair(request, picture.display,
+                                                        engine::toDisplayImage(truth.picture, settings))));
     ComparePair& pair = result.record.pairs.back();
     pair.verdict = reference.verdictOf(picture.picture, pair.tolerance);
     missLostGeometry(pair.verdict, reference.triangles.lost);
@@ -367,8 +369,10 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
                                   : toleranceOf(renderer, gl, request, asked.technique, asked.settings.layout);
         tolerance.isSigned = showsSigned(request);
         PairTruth own = truth.of(picture.picture);
+        const DisplayImage nearest =
+            truth.reference ? engine::toDisplayImage(own.picture, asked.settings) : truth.own.display;
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
-                                       own.excluded, shownPair(request, picture, truth.own));
+                                       own.excluded, shownPair(request, picture.display, nearest));
         pair.culling = culling;
         if (truth.reference && !request.tolerance && !isPacked(packingOf(asked.technique, asked.settings.layout)))
             pair.verdict = truth.verdictOf(picture.picture, tolerance);

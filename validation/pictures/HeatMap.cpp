@@ -231,6 +231,10 @@ std::vector<std::string> titleLines(const std::string& title, std::size_t most) 
     return lines;
 }
 
+bool showsNoError(const RadianceFigures& figures) {
+    return figures.compared > 0 && scalePosition(figures.maxRel) == 0.0 && figures.bad.sum() == 0;
+}
+
 DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string& title,
                           std::span<const std::uint8_t> excluded) {
     const PixelErrors errors = pixelErrors(a, b, excluded);

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "base/Picture.h"
+#include "validation/figures/ErrorFigures.h"
 #include "validation/pictures/BitmapFont.h"
 
 namespace tessera::validation {
@@ -53,6 +54,9 @@ HeatMapLayout paintedMapLayout(int pictureWidth, int pictureHeight, std::span<co
 /// A title in lines of so many characters, broken between words where they have room; two at most, and what is left
 /// over is replaced by dots.
 std::vector<std::string> titleLines(const std::string& title, std::size_t most);
+
+/// Whether the map of an error is black in every pixel that it compares.
+bool showsNoError(const RadianceFigures& figures);
 
 /// The relative error (PixelErrors::rel) of picture a against the truth b as colours on a logarithmic scale from 1e-7
 /// to 1, with the title above and the legend below. Pixels that are not finite are magenta, uncovered ones dark grey,

@@ -1,6 +1,6 @@
 // Tone maps and the transfer function of displays. In: linear radiance, TONEMAP_*. Out: linear display values; their codes
 // without a tone map.
-#include "lib/tonemap.glsl"
+#include "shared/tonemap.h"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };

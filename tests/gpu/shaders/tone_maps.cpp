@@ -219,7 +219,7 @@ std::vector<std::pair<std::size_t, std::size_t>> constantsIn(const std::string& 
 }
 
 TEST_F(ToneMaps, everyConstantThatIsOffByOnePercentIsNoticed) {
-    std::ifstream stream(test::shaderFolder() / "lib/tonemap.glsl");
+    std::ifstream stream(test::shaderFolder() / "shared/tonemap.h");
     std::stringstream text;
     text << stream.rdbuf();
     const std::string code = text.str();
@@ -230,7 +230,7 @@ TEST_F(ToneMaps, everyConstantThatIsOffByOnePercentIsNoticed) {
         std::string changed = code;
         changed.replace(at, length, fmt::format("{:.15f}", 1.01 * std::stod(number)));
         test::ShaderBench bench(
-            [&](const std::filesystem::path& sources) { std::ofstream(sources / "lib/tonemap.glsl") << changed; });
+            [&](const std::filesystem::path& sources) { std::ofstream(sources / "shared/tonemap.h") << changed; });
         EXPECT_GT(worst(bench), 1.0) << number << " in line "
                                      << std::count(code.begin(), code.begin() + long(at), '\n') + 1;
     }
