@@ -58,7 +58,7 @@ protected:
             point.key.layout = settings.layout == frame::exactLayout().layout ? "exact" : "packed";
             point.key.rangeTolerance = settings.rangeTolerance;
             const frame::PackedLights lights = engine::prepareView(scene, technique, point.settings).lights;
-            point.key.shadow = validation::shadowKeyOf(lights, settings);
+            if (lights.shadowed != 0) point.key.shadow = validation::shadowKeyOf(lights, settings);
             point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
             if (scene.environment) point.key.environment = validation::environmentKeyOf(point.settings);
         }
@@ -154,6 +154,9 @@ void Attribution::expectSwitched(std::span<const Switch> switches) {
 
 TEST_F(Attribution, fp32ArithmeticIsNotTheErrorOfTheEnvironment) {
     expectSwitched(std::array{Switch{"environment", &Switches::environment}});
+}
+TEST_F(Attribution, subsurfaceScatteringIsMeasuredBesideALightThatScattersNowhere) {
+    expectSwitched(std::array{Switch{"subsurface", &Switches::skin}});
 }
 /// Glass shows the environment by the point's method, so each method has its row of glass; their sums are the wholes.
 TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {

@@ -221,13 +221,19 @@ private:
         return in;
     }
 
-    /// The truth's settings with a point's methods for a part and, if it alters the light of others, for these too.
-    frame::FrameSettings settingsOf(const Part& part, const frame::FrameSettings& own,
-                                    frame::FrameSettings usual) const {
+    /// Settings with a point's methods for the light that a part alters.
+    frame::FrameSettings settingsBefore(const Part& part, const frame::FrameSettings& own,
+                                        frame::FrameSettings usual) const {
         for (const Part* before : in_)
             if (!part.addsLight && before < &part) before->take(usual, own);
-        part.take(usual, own);
         return usual;
+    }
+    /// The same with the point's method for the part.
+    frame::FrameSettings settingsOf(const Part& part, const frame::FrameSettings& own,
+                                    const frame::FrameSettings& usual) const {
+        frame::FrameSettings settings = settingsBefore(part, own, usual);
+        part.take(settings, own);
+        return settings;
     }
 
     /// Names the method of a part, and those of the light that it alters where the points differ in them. Empty: none.
@@ -264,10 +270,11 @@ private:
                 const std::string text = textOf(*own, point.settings);
                 if (text.empty() || !done.insert(text).second) continue;
                 if (truthName_ != "reference" && text == textOf(*own, whole_.settings)) continue;
-                const auto shown = [&](const Stage& stage) {
-                    return differenceOn(stage, settingsOf(*own, point.settings, stage.ground.settings));
-                };
-                addPart(own->cause, text, shown(*with) - (without ? shown(*without) : arithmetic));
+                const Difference before =
+                    without ? differenceOn(*without, settingsBefore(*own, point.settings, without->ground.settings))
+                            : arithmetic;
+                addPart(own->cause, text,
+                        differenceOn(*with, settingsOf(*own, point.settings, with->ground.settings)) - before);
             }
         }
     }
