@@ -217,6 +217,8 @@ std::string picturesHtml(const BenchGroup& group, std::size_t number, const Pict
                             "<figcaption>Its relative error against {}, logarithmic: black agrees to fp32 rounding, "
                             "pale yellow is off by as much as it shows.</figcaption>\n</figure>\n",
                             escapedHtml(picture.name), pngDataUri(bytes(picture.heatMapFile)), group.truth);
+        else if (!picture.points.empty())
+            html += fmt::format("<p>It agrees with {} to fp32 rounding in every pixel.</p>\n", group.truth);
         html += "</div>\n";
     }
     return html + "</div>\n</article>\n";

@@ -1,6 +1,7 @@
 #include "validation/bench/BenchReport.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,8 @@ namespace {
 std::string titleOf(const BenchRecord& record, const BenchGroup& headline) {
     const bool isOneScene = std::all_of(record.groups.begin(), record.groups.end(),
                                         [&](const BenchGroup& group) { return group.scene == headline.scene; });
-    if (isOneScene) return fmt::format("Which technique for {}?", headline.scene);
+    if (isOneScene)
+        return fmt::format("Which technique for {}?", std::filesystem::path(headline.scene).filename().string());
     return "Which technique for which scene?";
 }
 

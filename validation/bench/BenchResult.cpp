@@ -1,5 +1,7 @@
 #include "validation/bench/BenchResult.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include "renderer/frame/LightBuffer.h"
@@ -20,8 +22,8 @@ std::string pointName(const PointKey& key) {
 }
 
 std::string groupName(const BenchGroup& group) {
-    return fmt::format("{} with {} at {}x{}", group.scene, frame::lightsText(std::size_t(group.lights)),
-                       group.sizePixels.x, group.sizePixels.y);
+    return fmt::format("{} with {} at {}x{}", std::filesystem::path(group.scene).filename().string(),
+                       frame::lightsText(std::size_t(group.lights)), group.sizePixels.x, group.sizePixels.y);
 }
 
 } // namespace tessera::validation

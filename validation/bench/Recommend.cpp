@@ -141,7 +141,16 @@ std::string recommendationText(const BenchGroup& group) {
     const std::optional<Recommendation> choice = recommendFor(group);
     if (!choice) return "";
     const BenchResult& best = *choice->best;
-    std::string text = fmt::format("For {} take {}: ", groupName(group), pointName(best.key));
+    const bool isBusy = isDisturbed(best) || (choice->baseline && isDisturbed(*choice->baseline));
+    std::string text;
+    if (isBusy)
+        text = fmt::format("The machine was too busy to tell which technique is best for {}: some frames took more than "
+                           "twice the median. Measure again. So far {} leads: ",
+                           groupName(group), pointName(best.key));
+    else if (group.lights == 0)
+        text = fmt::format("In {} there is nothing to cull. Ahead is {}: ", groupName(group), pointName(best.key));
+    else
+        text = fmt::format("For {} take {}: ", groupName(group), pointName(best.key));
     if (choice->baseline == &best)
         text += choice->asFast ? "as fast as any" : "the fastest here";
     else if (choice->speedup)
@@ -166,8 +175,6 @@ std::string recommendationText(const BenchGroup& group) {
     }
     if (best.ratioToFloor && *best.ratioToFloor < 1.0)
         text += " No frame can be faster than its lower bound: something disturbed the times; measure again.";
-    else if (isDisturbed(best) || (choice->baseline && isDisturbed(*choice->baseline)))
-        text += " Some frames took more than twice the median: the machine was busy; measure again.";
     return text;
 }
 

@@ -17,8 +17,8 @@ std::string figureHtml(double value) {
     const int exponent = std::stoi(text.substr(e + 1));
     const std::string mantissa = (isNegative ? "&minus;" : "") + text.substr(isNegative, e - isNegative);
     if (exponent == 0) return mantissa;
-    return fmt::format("{}&#8239;&times;&#8239;10<sup>{}{}</sup>", mantissa, exponent < 0 ? "&minus;" : "",
-                       std::abs(exponent));
+    return fmt::format("<span class=\"whole\">{}&#8239;&times;&#8239;10<sup>{}{}</sup></span>", mantissa,
+                       exponent < 0 ? "&minus;" : "", std::abs(exponent));
 }
 
 std::string figureHtml(const std::optional<double>& value) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "validation/figures/FigureText.h"
+#include "validation/pictures/HeatMap.h"
 #include "validation/report/FigureHtml.h"
 #include "validation/report/Html.h"
 
@@ -90,6 +91,14 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
         found->image.width, found->image.height, nameHtml(pair), pngDataUri(found->image.bytes));
 }
 
+/// One line in place of a slider between equal pictures and a black map.
+std::string viewsHtml(const Report& report, const ComparePair& pair) {
+    if (pair.figures.bitEqual == 1.0)
+        return "<p>Both pictures have the same bits in every pixel.</p>\n";
+    if (showsNoError(pair.figures)) return "<p>No pixel differs by more than fp32 rounds.</p>\n";
+    return sliderHtml(report, pair) + heatMapHtml(report, pair);
+}
+
 std::string channelsHtml(const ComparePair& pair) {
     if (pair.channels.empty()) return "";
     std::string shares;
@@ -155,7 +164,7 @@ std::string pairHtml(const Report& report, std::size_t index) {
         html += "</ul>\n";
     }
     html += channelsHtml(pair);
-    const std::string views = sliderHtml(report, pair) + heatMapHtml(report, pair);
+    const std::string views = viewsHtml(report, pair);
     if (!views.empty()) html += fmt::format("<div class=\"views\">\n{}</div>\n", views);
     return html + fmt::format("<details><summary>All figures</summary>\n{}</details>\n</article>\n",
                               allFiguresHtml(pair.figures));
