@@ -10,12 +10,13 @@ namespace {
 /// Tiles and clusters answer input several times sooner than looping over all lights does.
 constexpr engine::Technique kFirstTechnique = engine::Technique::ClusteredDeferred;
 
-/// The options, with remembered values where neither they nor the scene set one.
-FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered,
-                            const scenes::SceneOptions& wish) {
+/// The options, with remembered values where neither they nor the scene's file set one.
+FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& remembered, const scenes::Scene& scene) {
     for (const engine::Setting& setting : engine::settingTable()) {
         const auto known = remembered.settings.find(setting.key);
-        const bool isAsked = options.said(setting.key) || wish.wishes.contains(setting.key);
+        const std::string key(setting.key);
+        const bool isOfFile = scene.options.wishes.contains(key) && !scene.supplied.wishes.contains(key);
+        const bool isAsked = options.said(setting.key) || isOfFile;
         if (!setting.isRemembered || isAsked || known == remembered.settings.end()) continue;
         try {
             engine::ViewRequest tried;
@@ -32,7 +33,7 @@ FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& rem
 
 viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences& remembered, const scenes::Scene& scene,
                             const std::string& source) {
-    FrameOptions options = withRemembered(said, remembered, scene.options);
+    FrameOptions options = withRemembered(said, remembered, scene);
     options.scene = source;
     Request request = resolveWithoutScene(options);
     request.scene.name = scene.name;

@@ -59,10 +59,17 @@ bool isAllUnlit(const Scene& scene) {
                                              [](const Material* material) { return !infoOf(material->model).isLit; });
 }
 
+/// False where a file asks for something else.
+bool supplyWish(Scene& scene, const char* key, Wish value) {
+    const bool isSupplied = scene.options.wishes.try_emplace(key, std::move(value)).second;
+    if (isSupplied) scene.supplied.wishes.insert(key);
+    return isSupplied;
+}
+
 void addStudio(Scene& scene, LoadLedger& ledger) {
     scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
     scene.environment->rotationDegrees = degreesAroundCamera(scene);
-    scene.options.wishes.try_emplace("backdrop", "blurred");
+    supplyWish(scene, "backdrop", "blurred");
     scene.supplied.light = true;
 }
 
@@ -134,18 +141,20 @@ void layAs(const OwnEnvironment& own, Environment& chosen) {
 void addDefaultExposure(Scene& scene) {
     if (scene.environment || scene.lights.empty()) return;
     const int stops = fittingExposureEV(ownLuminance(scene, true));
-    if (stops == 0 || !scene.options.wishes.try_emplace("exposureEV", double(stops)).second) return;
-    scene.supplied.exposureEV = stops;
+    if (stops != 0 && supplyWish(scene, "exposureEV", double(stops))) scene.supplied.exposureEV = stops;
+}
+
+void addDefaultToneMap(Scene& scene) {
+    if (!isAllUnlit(scene)) supplyWish(scene, "toneMap", "khronos_neutral");
 }
 
 std::string suppliedText(const Scene& scene, Advice advice) {
     const bool isOptions = advice == Advice::Options;
-    const auto& [camera, light, fillShare, replacesCameras, exposureEV] = scene.supplied;
+    const auto& [camera, light, fillShare, replacesCameras, exposureEV, wishes] = scene.supplied;
     std::string lacks, given;
     if (light) {
         if (fillShare == 0.0) lacks = "no light";
-        const auto backdrop = scene.options.wishes.find("backdrop");
-        const bool isBlurred = backdrop != scene.options.wishes.end() && backdrop->second == Wish("blurred");
+        const bool isBlurred = wishes.contains("backdrop");
         const std::string besides =
             fillShare == 0.0 ? "" : fmt::format(" at {:.0f} % beside its own lights", 100.0 * fillShare);
         given = fmt::format("lit by the built-in environment '{}'{}, turned to the camera{} ({})", kDefaultEnvironment,

@@ -51,6 +51,10 @@ void layAs(const OwnEnvironment& own, Environment& chosen);
 /// needed (Exposure.h): its format has none, and what writes it may count in any unit.
 void addDefaultExposure(Scene& scene);
 
+/// A lit model gets the tone map khronos_neutral: its format asks for none, and highlights would burn out. Colours of a
+/// model that is unlit throughout are shown as they are.
+void addDefaultToneMap(Scene& scene);
+
 /// What chooses others than those that a scene was given: options of the command line, or the viewer's panels.
 enum class Advice : std::uint8_t { Options, Panels };
 

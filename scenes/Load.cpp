@@ -260,6 +260,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         !options.environment)
         addDefaultLight(scene, ledger);
     if (!isModel(nameOrPath)) return scene;
+    addDefaultToneMap(scene);
     addDefaultExposure(scene);
     if (options.defaultLight && !options.lights && !options.environment) addFillLight(scene, ledger);
     return scene;

@@ -45,12 +45,13 @@ glm::dvec3 boxRadiance(const Box& box, const glm::dvec3& direction) {
 
 glm::dvec3 studioRadiance(const glm::dvec3& direction) {
     const double up = direction.y;
-    // Walls, a floor that is lit by them, and between them a sweep without a corner: darker than what is lit by the
-    // boxes, so that a model stands out.
+    // Walls, a floor and between them a sweep without a corner: darker than what is lit by the boxes, so that a model
+    // stands out. Straight below the floor is as bright as one of albedo 0.2 under the boxes, so that metal is not black
+    // where it faces down.
     const glm::dvec3 wall =
         glm::mix(glm::dvec3(0.11, 0.11, 0.113), glm::dvec3(0.055, 0.055, 0.058), smoothStep(0.0, 1.0, up));
     const glm::dvec3 floor =
-        glm::mix(glm::dvec3(0.105, 0.103, 0.101), glm::dvec3(0.066, 0.064, 0.062), smoothStep(0.0, 1.0, -up));
+        glm::mix(glm::dvec3(0.105, 0.103, 0.101), glm::dvec3(0.219, 0.211, 0.204), smoothStep(0.0, 1.0, -up));
     glm::dvec3 radiance = glm::mix(floor, wall, smoothStep(-0.12, 0.12, up));
     for (const Box& box : kBoxes) radiance += boxRadiance(box, direction);
     return radiance;

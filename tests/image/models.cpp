@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "engine/Rendering.h"
+#include "engine/Settings.h"
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "tests/support/AnimatedModels.h"
@@ -144,6 +145,34 @@ private:
 };
 
 using ModelsSlow = Models;
+
+/// Share of the covered pixels of a model's first picture that a display shows as black: codes below 0.02.
+double blackShare(gpu::Context& context, const scenes::LoadOptions& options) {
+    const scenes::Scene scene = scenes::loadScene((test::ownModelsFolder() / "three_metals.gltf").string(), options);
+    engine::ViewRequest request;
+    engine::takeWishes(scene, scene.name, request, [](const engine::Setting&) { return false; });
+    request.settings.sizePixels = {160, 90};
+    request.settings.display = true;
+    engine::Renderer renderer(context, scene);
+    const engine::RenderedFrame frame = renderer.render(Technique::Forward, request.settings);
+    std::size_t covered = 0, black = 0;
+    for (std::size_t at = 0; at < frame.radiance.size(); at += 4) {
+        if (frame.radiance[at + 3] == 0.0f) continue;
+        ++covered;
+        black += std::max({frame.display[at], frame.display[at + 1], frame.display[at + 2]}) <= 5;
+    }
+    EXPECT_GT(covered, 1000u);
+    return double(black) / double(covered);
+}
+
+TEST_F(Models, metalsAndFilmsUnderOneLampOfTheirOwnAreNotBlack) {
+    scenes::LoadOptions alone;
+    alone.defaultLight = false;
+    const double lit = blackShare(context(), {}), unlit = blackShare(context(), alone);
+    fmt::print("black: {:.1f} % beside the studio, {:.1f} % without it\n", 100.0 * lit, 100.0 * unlit);
+    EXPECT_LE(lit, 0.05);
+    EXPECT_GE(unlit, 0.5);
+}
 
 constexpr const char* kPackagedModels = "/usr/share/assimp/models"; ///< Debian's assimp-testmodels
 

@@ -58,6 +58,15 @@ TEST(FirstLook, theScenesOptionsOverridePreferences) {
     EXPECT_EQ(viewer::asked(look).settings.culling.tilePixels, 32);
 }
 
+TEST(FirstLook, preferencesOverrideWhatTheSceneWasGivenByDefault) {
+    scenes::SceneOptions wish;
+    wish.wishes["toneMap"] = "khronos_neutral";
+    scenes::Scene scene = wishing(wish);
+    scene.supplied.wishes = {"toneMap"};
+    EXPECT_EQ(firstLook({}, remembered(), scene, "x.glb").look.settings.toneMap, frame::ToneMap::Agx);
+    EXPECT_EQ(firstLook({}, {}, scene, "x.glb").look.settings.toneMap, frame::ToneMap::KhronosNeutral);
+}
+
 TEST(FirstLook, theCommandLineOverridesSceneAndPreferences) {
     scenes::SceneOptions wish;
     wish.wishes["technique"] = "forward";

@@ -127,6 +127,22 @@ TEST(DefaultLight, standsAroundAnyCameraAsAroundTheDefaultOne) {
     EXPECT_EQ(turnedFor("2"), 0.0f);
 }
 
+TEST(DefaultToneMap, isNeutralUnlessAFileAsksForAnotherOrEverythingInUseIsUnlit) {
+    Scene lit = tinyScene();
+    addDefaultToneMap(lit);
+    EXPECT_EQ(lit.options.wishes.at("toneMap"), Wish("khronos_neutral"));
+    EXPECT_EQ(lit.supplied.wishes, std::set<std::string>{"toneMap"});
+    Scene wished = tinyScene();
+    wished.options.wishes["toneMap"] = "aces";
+    addDefaultToneMap(wished);
+    EXPECT_EQ(wished.options.wishes.at("toneMap"), Wish("aces"));
+    EXPECT_TRUE(wished.supplied.wishes.empty());
+    Scene unlit = tinyScene();
+    unlit.materials[0].model = MaterialModel::SingleColor;
+    addDefaultToneMap(unlit);
+    EXPECT_FALSE(unlit.options.wishes.contains("toneMap"));
+}
+
 TEST(DefaultLight, shinesUnlessThereIsLightOrEverythingInUseIsUnlit) {
     const auto isGiven = [](const Scene& scene) { return litByDefault(scene).environment.has_value(); };
     Scene lit = tinyScene();
