@@ -22,11 +22,18 @@ bool isDrawn(const Scene& scene, const MeshInstance& instance) {
 
 InUse inUse(const Scene& scene) {
     InUse used{std::vector<bool>(scene.materials.size()), std::vector<bool>(scene.meshes.size())};
+    // Asked often, of scenes that have far more nodes than materials and meshes.
+    std::size_t unused = used.materials.size() + used.meshes.size();
+    const auto mark = [&unused](std::vector<bool>::reference isUsed) {
+        unused -= isUsed ? 0 : 1;
+        isUsed = true;
+    };
     for (const Node& node : scene.nodes) {
+        if (unused == 0) break;
         for (const MeshInstance& instance : node.instances) {
             if (!isDrawn(scene, instance)) continue;
-            used.materials[static_cast<std::size_t>(instance.material)] = true;
-            used.meshes[static_cast<std::size_t>(instance.mesh)] = true;
+            mark(used.materials[static_cast<std::size_t>(instance.material)]);
+            mark(used.meshes[static_cast<std::size_t>(instance.mesh)]);
         }
     }
     return used;
