@@ -10,15 +10,16 @@ and from what the model brings. How the supplied camera frames it is judged of e
 looked at by --default-camera too. One that moves is shown at its begin, and looked at over the length of its first
 clip. OUTPUT receives
 
-  sheet.png    all pictures with their names, clipped at white
+  sheet.png    all pictures with their names, by the tone map khronos_neutral
   table.md     model, status (right, approximate, refused, crashed or nothing to draw), figures and why
-  models.csv   the figures: mean luminance of the covered pixels in the picture that is shown; share of the width or
-               height, whichever is more, that they span in the supplied camera's; whether they touch its edge; whose
-               camera the shown one is by; seconds; warnings
+  models.csv   the figures: mean luminance of the covered pixels in the picture that is shown, and the shares of them
+               that are black and burnt; share of the width or height, whichever is more, that they span in the supplied
+               camera's; whether they touch its edge; whose camera the shown one is by; seconds; warnings
 
 With --document the table, and below it the totals, replace what stands between the two markers of that file. A model's
 status follows from the extensions it uses, by EXTENSIONS below, and from what the program says. Ends with exit code 1
-where a model crashes, is black or covers nothing, or is too small or cut off in the supplied camera, and with --expect
+where a model crashes, is black or covers nothing, is black or burnt in more than half of its pixels, or is too small or
+cut off in the supplied camera, and with --expect
 where one is no longer drawn that the table of that file says is. Only Python's own library is needed.
 """
 import argparse
@@ -81,6 +82,9 @@ NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
 MOST_SECONDS = 900  # that a picture may take
 BLACK = 0.02  # mean luminance after the exposure that the program chooses: a fifth of the studio's brightest walls
+# Radiance of the brightest and of the darkest channel that khronos_neutral shows as 0.02 and 0.98 of the code values.
+DARK, BURNT = 0.0157, 1.87
+MOST_LOST = 0.5  # of the covered pixels that are either
 LEAST_SPAN = 0.55  # of the picture's width or height, by what the supplied camera is to frame
 MOMENTS = 4  # after the first, at which a model that moves is looked at
 BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"
@@ -172,8 +176,8 @@ def status_of(extensions, code, lines):
 
 # Of what a model covers: mean luminance in the picture that is shown; in those by the supplied camera, over all
 # moments, the larger share of the picture's sides that it spans, and whether it touches the edge; and whether the one
-# that is shown is by the supplied camera.
-Figures = collections.namedtuple("Figures", "luminance span is_cut is_supplied")
+# that is shown is by the supplied camera; shares of the covered pixels that are black and burnt in what is shown.
+Figures = collections.namedtuple("Figures", "luminance span is_cut is_supplied dark burnt", defaults=(0.0, 0.0))
 # figures is None where there is no picture; whether it is known that there is one.
 Row = collections.namedtuple("Row", "name status why figures is_expected", defaults=(False,))
 
@@ -186,19 +190,21 @@ def figures_of(shown, framed, is_supplied):
     """Of the picture of one model at its begin, and those by the supplied camera at some moments."""
     boxes = [box for box in (picture.box() for picture in framed) if box]
     if not boxes:
-        return Figures(shown.luminance(), 0.0, False, is_supplied)
+        return Figures(shown.luminance(), 0.0, False, is_supplied, *shown.lost())
     width, height = framed[0].width, framed[0].height
     left, top = (min(box[side] for box in boxes) for side in (0, 1))
     right, bottom = (max(box[side] for box in boxes) for side in (2, 3))
     span = max((right - left + 1) / width, (bottom - top + 1) / height)
     is_cut = left == 0 or top == 0 or right == width - 1 or bottom == height - 1
-    return Figures(shown.luminance(), span, is_cut, is_supplied)
+    return Figures(shown.luminance(), span, is_cut, is_supplied, *shown.lost())
 
 
 # Why a model fails, by the name in the totals.
 FAULTS = {
     "crashed": lambda row: row.status == CRASHED,
     "black": lambda row: is_drawn(row) and not row.figures.luminance >= BLACK,
+    "over half black": lambda row: is_drawn(row) and row.figures.dark > MOST_LOST,
+    "over half burnt": lambda row: is_drawn(row) and row.figures.burnt > MOST_LOST,
     f"framed under {percent(LEAST_SPAN)}": lambda row: is_judged(row) and row.figures.span < LEAST_SPAN,
     "cut off": lambda row: is_judged(row) and row.figures.is_cut,
     "no longer drawn": lambda row: row.is_expected and row.status in (REFUSED, NOTHING),
@@ -232,12 +238,13 @@ def table_of(rows):
 
     def cells(row):
         if not is_drawn(row):
-            return ["", "", "", ""]
+            return [""] * 6
         figures = row.figures
         camera = "supplied" if figures.is_supplied else "its own"
-        return [f"{figures.luminance:.2g}", f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
+        shares = [percent(share) for share in (figures.dark, figures.burnt)]
+        return [f"{figures.luminance:.2g}", *shares, f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
 
-    names = ["model", "status", "luminance", "share", "edge", "camera", "why"]
+    names = ["model", "status", "luminance", "black", "burnt", "share", "edge", "camera", "why"]
     lines = ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
     lines += ["| " + " | ".join([cell(row.name), row.status, *cells(row), cell(row.why)]) + " |" for row in rows]
     return "\n".join(lines) + "\n"
@@ -285,6 +292,13 @@ class Picture:
         r, g, b = (self.planes[c] for c in "RGB")
         return sum(0.2126 * r[i] + 0.7152 * g[i] + 0.0722 * b[i] for i in covered) / len(covered)
 
+    def lost(self):
+        """Shares of the covered pixels that a display shows as black and as burnt: (black, burnt)."""
+        covered = self.covered()
+        values = [[self.planes[channel][i] for channel in "RGB"] for i in covered]
+        pixels = max(len(covered), 1)
+        return sum(max(rgb) < DARK for rgb in values) / pixels, sum(min(rgb) > BURNT for rgb in values) / pixels
+
     def box(self):
         """First and last covered pixel: left, top, right, bottom; None without any."""
         covered = self.covered()
@@ -294,16 +308,24 @@ class Picture:
         return min(columns), covered[0] // self.width, max(columns), covered[-1] // self.width
 
     def bytes(self):
-        """RGB of 8 bits, sRGB, clipped."""
+        """RGB of 8 bits, sRGB, by the tone map of models. Source: Khronos 2024, "PBR Neutral Tone Mapper"."""
 
         def code(value):
-            value = min(max(value, 0.0), 1.0) if value == value else 0.0
             return round(255.0 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055))
 
-        out = bytearray(3 * self.width * self.height)
-        for i, channel in enumerate("RGB"):
-            out[i::3] = bytes(map(code, self.planes[channel]))
-        return out
+        def codes(rgb):
+            rgb = [min(max(value, 0.0), 1e9) if value == value else 0.0 for value in rgb]
+            darkest = min(rgb)
+            toe = darkest - 6.25 * darkest * darkest if darkest < 0.08 else 0.04
+            rgb = [value - toe for value in rgb]
+            peak = max(rgb)
+            if peak >= 0.76:
+                bent = 1.0 - 0.24 * 0.24 / (peak + 0.24 - 0.76)
+                white = 1.0 - 1.0 / (0.15 * (peak - bent) + 1.0)
+                rgb = [value * bent / peak * (1.0 - white) + bent * white for value in rgb]
+            return map(code, rgb)
+
+        return bytearray(itertools.chain.from_iterable(map(codes, zip(*(self.planes[channel] for channel in "RGB")))))
 
 
 def read_exr(data):
@@ -508,9 +530,10 @@ def main(arguments):
             row, rgb, said = look_at(name, options.program, path, pathlib.Path(own) / "model.exr", options.size)
             row = row._replace(is_expected=name in expected)
             seconds = time.monotonic() - start
-            figures = ["", "", "", ""]
+            figures = [""] * 6
             if row.figures:
-                figures = [f"{row.figures.luminance:.4f}", f"{row.figures.span:.3f}", int(row.figures.is_cut)]
+                figures = [f"{row.figures.luminance:.4f}", f"{row.figures.dark:.3f}", f"{row.figures.burnt:.3f}"]
+                figures += [f"{row.figures.span:.3f}", int(row.figures.is_cut)]
                 figures.append("supplied" if row.figures.is_supplied else "its own")
             rows.append(row)
             records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
@@ -521,7 +544,7 @@ def main(arguments):
     totals = totals_of(rows)
     table = table_of(rows)
     write(options.output / "table.md", table)
-    names = ("model", "status", "mean luminance", "span", "cut", "camera", "seconds", "warnings")
+    names = ("model", "status", "mean luminance", "black", "burnt", "span", "cut", "camera", "seconds", "warnings")
     write(options.output / "models.csv", csv_of([names, *records]))
     if options.document:
         below = totals.replace("; ", ";\n")

@@ -166,7 +166,7 @@ class KhronosModels(unittest.TestCase):
         table = tool.table_of([tool.Row("A", "right", "", figures), tool.Row("B", "refused", "a | b", None)])
         self.assertEqual(
             table.splitlines()[2:],
-            ["| A | right | 0.12 | 88 % | cut | its own |  |", "| B | refused |  |  |  |  | a \\| b |"],
+            ["| A | right | 0.12 | 0 % | 0 % | 88 % | cut | its own |  |", "| B | refused |  |  |  |  |  |  | a \\| b |"],
         )
         old = f"# Title\n{tool.BEGIN}\nold\n{tool.END}\nrest\n"
         new = tool.with_table(old, table)
@@ -199,8 +199,16 @@ class KhronosModels(unittest.TestCase):
         picture = tool.read_exr(exr(20, 10, value, 3))
         self.assertAlmostEqual(picture.luminance(), 0.2126 * 0.1 + 0.7152 * 0.2 + 0.0722 * 0.4, 6)
         self.assertEqual(picture.box(), (2, 1, 4, 7))
+        self.assertEqual(picture.lost(), (0.0, 0.0))
         nothing = tool.read_exr(exr(2, 2, lambda *_: 0.0, 3))
-        self.assertEqual((nothing.luminance(), nothing.box()), (0.0, None))
+        self.assertEqual((nothing.luminance(), nothing.box(), nothing.lost()), (0.0, None, (0.0, 0.0)))
+
+    def test_what_a_display_shows_as_black_or_white_is_counted(self):
+        columns = [(0.01, 0.01, 0.02), (0.0, 0.015, 0.0), (1.8, 3.0, 3.0), (1.9, 3.0, 3.0)]
+        picture = tool.read_exr(exr(4, 1, lambda channel, x, y: 1.0 if channel == "A" else columns[x]["RGB".index(channel)], 3))
+        self.assertEqual(picture.lost(), (0.25, 0.25))
+        grey = tool.read_exr(exr(2, 1, lambda channel, x, y: tool.DARK if x == 0 else tool.BURNT, 3)).bytes()
+        self.assertEqual([round(code / 255, 2) for code in grey[::3]], [0.02, 0.98])
 
     def covering(self, left, top, right, bottom, value=0.5):
         """A picture of 20 x 10 in which these pixels are covered."""
@@ -214,17 +222,17 @@ class KhronosModels(unittest.TestCase):
         first, second = self.covering(8, 4, 9, 5, 0.25), self.covering(3, 4, 3, 5, 0.75)
         figures = tool.figures_of(first, [first, second], True)
         self.assertAlmostEqual(figures.luminance, 0.25, 6)
-        self.assertEqual(figures[1:], (7 / 20, False, True))
+        self.assertEqual(figures[1:4], (7 / 20, False, True))
         self.assertEqual(tool.figures_of(first, [self.covering(3, 2, 3, 8)], True).span, 0.7, "of the height")
         for box in ((0, 4, 5, 5), (8, 0, 9, 5), (8, 4, 19, 5), (8, 4, 9, 9)):
             self.assertTrue(tool.figures_of(first, [first, self.covering(*box)], True).is_cut, box)
         nothing = self.covering(1, 1, 0, 0)
-        self.assertEqual(tool.figures_of(nothing, [nothing], True), (0.0, 0.0, False, True))
+        self.assertEqual(tool.figures_of(nothing, [nothing], True)[:4], (0.0, 0.0, False, True))
 
     def test_a_model_with_cameras_is_framed_by_the_supplied_one_and_as_bright_as_by_its_own(self):
         own, framed = self.covering(0, 0, 0, 0, 0.75), self.covering(4, 4, 15, 5, 0.25)
         nothing = self.covering(1, 1, 0, 0)
-        self.assertEqual(tool.figures_of(own, [framed], False)[1:], (12 / 20, False, False))
+        self.assertEqual(tool.figures_of(own, [framed], False)[1:4], (12 / 20, False, False))
         for shown in (framed, nothing):
             self.assertAlmostEqual(tool.figures_of(own, [shown], False).luminance, 0.75, 6)
         self.assertEqual(tool.figures_of(own, [nothing], False).span, 0.0)
@@ -236,6 +244,8 @@ class KhronosModels(unittest.TestCase):
         self.assertEqual(faults(0.02, 0.55, False), [])
         self.assertEqual(faults(0.0199, 0.55, False), ["black"])
         self.assertEqual(faults(float("nan"), 0.55, False), ["black"])
+        for lost, names in (((0.51, 0.49), ["over half black"]), ((0.5, 0.51), ["over half burnt"])):
+            self.assertEqual(tool.faults_of(tool.Row("A", "right", "", tool.Figures(0.5, 0.9, False, True, *lost))), names)
         self.assertEqual(faults(0.02, 0.549, False), ["framed under 55 %"])
         self.assertEqual(faults(0.02, 1.0, True), ["cut off"])
         self.assertEqual(faults(0.01, 0.5, True, is_supplied=False), ["black", "framed under 55 %", "cut off"])
@@ -255,7 +265,7 @@ class KhronosModels(unittest.TestCase):
         self.assertEqual(
             tool.totals_of(rows),
             "3 models: 1 right, 1 approximate, 0 refused, 0 nothing to draw; "
-            "1 crashed, 1 black, 1 framed under 55 %, 1 cut off, 0 no longer drawn",
+            "1 crashed, 1 black, 0 over half black, 0 over half burnt, 1 framed under 55 %, 1 cut off, 0 no longer drawn",
         )
 
     def test_the_sheet_shows_pictures_above_their_names(self):
@@ -336,9 +346,9 @@ esac
         self.assertRegex(log[0], r"^render .*/Box\.gltf -o .*/model\.exr --size 8x4$")
         self.assertEqual(log[1], f"{log[0]} --default-camera")
         table = (self.folder / "out/table.md").read_text()
-        self.assertIn("| Box | approximate | 0.5 | 75 % | free | its own | bodies show", table)
+        self.assertIn("| Box | approximate | 0.5 | 0 % | 0 % | 75 % | free | its own | bodies show", table)
         self.assertIn("; something is left out |", table)
-        self.assertIn("| Old | refused |  |  |  |  | is glTF 1.0 |", table)
+        self.assertIn("| Old | refused |  |  |  |  |  |  | is glTF 1.0 |", table)
         self.assertIn(f"{table}\n2 models: 0 right, 1 approximate, 1 refused, ", document.read_text())
         rows = self.rows()
         self.assertEqual((rows[0]["mean luminance"], rows[0]["span"], rows[0]["cut"]), ("0.5000", "0.750", "0"))
@@ -400,7 +410,7 @@ esac
         self.picture("black", 0.01, 1)
         self.picture("small", 0.5, 4)
         self.picture("large", 0.5)
-        black = "Box: black: luminance 0.0100, spans 0.750\n"
+        black = "Box: black, over half black: luminance 0.0100, spans 0.750\n"
         small = "Box: framed under 55 %: luminance 0.5000, spans 0.500\n"
         cut_off = "Box: cut off: luminance 0.5000, spans 1.000\n"
         cases = [
