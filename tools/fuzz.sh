@@ -12,6 +12,25 @@ shift
 ensurePackages build test fuzz
 buildPreset fuzz fuzz
 
+# What inputs are made of: the words of tables and the string literals of sources, as they are and as strings of JSON.
+words() {
+    local table=$1
+    shift
+    (cd "$root" && { grep -ohE '[A-Za-z0-9_]{2,40}' "$table" || true; grep -ohE '"[A-Za-z0-9_.:/-]{1,40}"' "$@" | tr -d '"'
+        printf '%s\n' -1 1e39 1e308 2147483648 4294967296 9007199254740992 18446744073709551615 null true false; }) |
+        sort -u | sed 's/.*/"&"\n"\\"&\\""/'
+}
+dictionaryOf() {
+    case $1 in
+    gltf | glb | posed) words scenes/import/GltfProperties.h scenes/import/Gltf*.cpp ;;
+    mtl) words /dev/null scenes/import/Mtl* scenes/import/ObjMaterials.cpp ;;
+    scene) words scenes/schema/scene.schema.json scenes/import/SceneJson* engine/*.cpp renderer/frame/FrameSettings.cpp ;;
+    bench | matrix) words /dev/null validation/bench/*.cpp engine/*.cpp renderer/frame/FrameSettings.cpp ;;
+    settings) words /dev/null viewer/session/Preferences.cpp engine/*.cpp renderer/frame/FrameSettings.cpp ;;
+    *) cat "$root/tests/fuzz/dictionaries/$1.txt" 2>/dev/null || true ;;
+    esac
+}
+
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
     mapfile -t targets < <(sed -n 's/^TARGET(\([a-z0-9_]*\),.*/\1/p' "$root/tests/fuzz/Targets.inc")
@@ -23,8 +42,9 @@ for target in "${targets[@]}"; do
     kept=$root/build/fuzz/corpus/$target findings=$root/build/fuzz/findings/$target log=$root/build/fuzz/$target.log
     mkdir -p "$kept" "$findings"
     options=("-artifact_prefix=$findings/" -max_total_time="$each" -rss_limit_mb=2048 -timeout=10 -max_len=65536)
-    dictionary=$root/tests/fuzz/dictionaries/$target.txt
-    [ ! -e "$dictionary" ] || options+=("-dict=$dictionary")
+    dictionary=$root/build/fuzz/$target.dict
+    dictionaryOf "$target" >"$dictionary"
+    [ ! -s "$dictionary" ] || options+=("-dict=$dictionary")
     # An allocation that is too large is a finding, not a null pointer.
     if ! ASAN_OPTIONS=allocator_may_return_null=0:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1 \
         "$program" "${options[@]}" "$kept" "$root/tests/fuzz/corpus/$target" >"$log" 2>&1 </dev/null; then
