@@ -267,8 +267,9 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
 }
 
 /// Roughness blurs what glass transmits by its index of refraction: not at all at 1. The reference integrates Walter's
-/// lobe; the closed form ignores that lobes lean aside at grazing angles, which darkens bodies of index 2 and roughness
-/// 0.6 by 4.1 %, sheets by 5.0 % (docs/glass.md).
+/// lobe; the closed form ignores that lobes lean aside at grazing angles. Of roughness 0.6 that darkens bodies of index 2
+/// by 4.0 % and sheets by 4.5 %, brightens bodies of index 1.25 by 2.3 %, and puts single pixels at grazing angles off
+/// by 0.17 in bodies and 0.51 in sheets, before a sky of 0.1 to 1.9 (docs/glass.md).
 void GlassTruth::expectRoughAsTheReference() {
     struct Case {
         double ior;
@@ -316,8 +317,8 @@ void GlassTruth::expectRoughAsTheReference() {
             // At index 0 all pixels look one way, so that the rounding of the filtered map's texels there, 3.3 %, does
             // not average out.
             const bool isFar = isSheet || ior == 0.0 || (ior == 2.0 && roughness == 0.6);
-            EXPECT_NEAR(own, other, (isFar ? 0.05 : 0.02) * other) << infoOf(light).name;
-            EXPECT_LE(worst, isSheet ? 0.45 : 0.15) << infoOf(light).name; // noise of both; levels between alphas
+            EXPECT_NEAR(own, other, (isFar ? 0.05 : 0.025) * other) << infoOf(light).name;
+            EXPECT_LE(worst, isSheet ? 0.52 : 0.17) << infoOf(light).name; // noise of both; levels between alphas
         }
     }
 }
