@@ -86,7 +86,9 @@ void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string
 
 void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addSettings(command, options, "Frame");
-    command.add_flag("--no-default-light", options.noDefaultLight, "Leaves a scene without lights dark")
+    command
+        .add_flag("--no-default-light", options.noDefaultLight,
+                  "Supplies no studio: without lights a scene is dark, else its own light it alone")
         ->group("Frame");
     command
         .add_option("--environment", options.environment,

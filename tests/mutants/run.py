@@ -8,7 +8,8 @@ change nothing that a program could see, left out.
 Shaders are read from a folder (TESSERA_SHADERS), so only faults in C++ are compiled, in a copy below build/mutants.
 
 build/mutants/results.json keeps what every fault met, written as soon as it is known: a run that was stopped goes on with
---resume, and the test that saw a fault last time is tried first the next time, so that later runs take a fraction of the time.
+--resume. killers.txt holds the test that saw each fault, which is tried first, so that a run takes a fraction of the time
+of the first; --remember adds what a run has found.
 """
 
 import argparse
@@ -28,6 +29,7 @@ import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+KILLERS = HERE / "killers.txt"
 MOST_SURVIVORS = 0.01
 SECONDS_A_SUITE = 240  # a fault may make a loop endless
 SECONDS_A_SLOW_SUITE = 1200
@@ -290,6 +292,7 @@ class Results:
         self.path = root / "build/mutants/results.json"
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.known = json.loads(self.path.read_text()) if self.path.exists() else {}
+        self.killers = dict(line.rsplit(" | ", 1) for line in KILLERS.read_text().splitlines() if not line.startswith("#"))
         files = subprocess.run(["git", "ls-files", "-z"], cwd=root, check=True, text=True, stdout=subprocess.PIPE).stdout.split("\0")
         digest = hashlib.sha256()
         for name in filter(None, files):
@@ -306,8 +309,16 @@ class Results:
 
     def lastKiller(self, mutant):
         """["program:test"] that saw the mutant last time."""
-        killer = (self.known.get(mutant.name) or {}).get("killedBy") or ""
+        killer = (self.known.get(mutant.name) or {}).get("killedBy") or self.killers.get(mutant.name, "")
         return [killer.split(" ")[0]] if ":" in killer else []
+
+    def remember(self, mutants):
+        """Adds the tests that saw these mutants to killers.txt; of mutants that are gone the rows go."""
+        found = {name: result["killedBy"].split(" ")[0] for name, result in self.known.items() if ":" in (result["killedBy"] or "")}
+        names = {mutant.name for mutant in mutants}
+        rows = sorted(f"{name} | {killer}" for name, killer in {**self.killers, **found}.items() if name in names)
+        head = [line for line in KILLERS.read_text().splitlines() if line.startswith("#")]
+        KILLERS.write_text("\n".join([*head, *rows]) + "\n")
 
     def add(self, mutant, killer):
         self.known[mutant.name] = {"killedBy": killer, "sources": self.sources}
@@ -333,6 +344,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="leave the slow suites out")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at a time (one a processor)")
     parser.add_argument("--resume", action="store_true", help="keep what earlier runs found of the same sources and tests")
+    parser.add_argument("--remember", action="store_true", help="write the tests that saw faults to tests/mutants/killers.txt")
     parser.add_argument("--again", action="store_true", help="keep the faults that any earlier run saw killed: judge survivors again")
     options = parser.parse_args()
     root = options.root.resolve()
@@ -419,6 +431,8 @@ def main():
         for future in [pool.submit(work) for _ in range(options.jobs)]:
             future.result()
 
+    if options.remember:
+        known.remember(mutants)
     results = [(candidates[place], found[place]) for place in sorted(found)]
     survivors = [mutant for mutant, killer in results if killer is None]
     judged = sum(killer != "equivalent" for _, killer in results)
