@@ -21,6 +21,7 @@ constexpr double kKeepSeconds = 3.0; ///< at rest, after which edits are kept in
 /// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
 constexpr double kKeepShare = 20.0;
 constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
+constexpr double kSettingsSeconds = 2.0;    ///< after which settings are looked at again
 
 /// Beside the settings.
 std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
@@ -283,6 +284,13 @@ void Document::keepEdits() {
     recovery_.keep(*state_.open);
     const double ended = Window::nowSeconds();
     nextKeepAt_ = ended + kKeepShare * (ended - started);
+}
+
+void Document::keepSettings() {
+    const double now = Window::nowSeconds();
+    if (now < std::max(pulse_.restAt, nextSettingsAt_)) return;
+    nextSettingsAt_ = now + kSettingsSeconds;
+    scenes_.remember(window_.sizeScreen());
 }
 
 void Document::endWithEdits() {

@@ -83,6 +83,8 @@ public:
     std::optional<double> keepAt() const;
     /// Keeps them for the case that the program ends unasked; while nobody waits for a picture, and not too often.
     void keepEdits();
+    /// The same of settings and recent files.
+    void keepSettings();
 
     // ---- The end ----
     /// Whether the window closes. May ask instead.
@@ -112,7 +114,7 @@ private:
     std::function<void(const std::string&)> fail_;
     std::string title_;
     std::string recovering_; ///< the file of edits that is being opened
-    double nextKeepAt_ = 0.0;
+    double nextKeepAt_ = 0.0, nextSettingsAt_ = 0.0;
     bool isDiscarding_ = false;                 ///< the window closes without another question
     std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
     std::optional<std::string> loadingVariant_; ///< of load()

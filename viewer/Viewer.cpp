@@ -74,6 +74,7 @@ public:
                 attempt([this] { watchShaders(); });
                 if (isDue()) frame();
                 attempt([this] { document_.keepEdits(); });
+                document_.keepSettings();
             }
         } catch (...) {
             document_.endWithEdits();

@@ -75,6 +75,18 @@ TEST_F(ViewerWindow, settingsAndRecentFilesAreKeptWhereASignalEndsAViewerWithout
     for (const std::string& line : viewer.lines()) EXPECT_FALSE(line.starts_with("edits were left")) << line;
 }
 
+TEST_F(ViewerWindow, settingsOfAViewerThatIsKilledAreThoseOfAFewSecondsBefore) {
+    DrivenViewer viewer = open({"room"});
+    viewer.waitForWhole(0);
+    const std::size_t mark = viewer.mark();
+    viewer.key("Tab"); // hides the panels
+    viewer.waitForWhole(mark);
+    viewer.pause(3.0);
+    viewer.send(SIGKILL);
+    EXPECT_EQ(viewer.wait(), std::nullopt);
+    EXPECT_EQ(readJson("config/tessera/viewer.json").at("showsPanel"), false);
+}
+
 TEST_F(ViewerWindow, panelsAreAsWideAndAsFoldedAsTheyWereLeft) {
     int lights = 0;
     {

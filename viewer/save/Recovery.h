@@ -8,8 +8,24 @@
 
 namespace tessera::viewer {
 
+/// A file that this process holds locked (flock) until it ends, however it ends: process numbers are used again.
+class FileLock {
+public:
+    /// Makes the file, and waits for others that hold it. Throws std::runtime_error.
+    explicit FileLock(const std::filesystem::path& file);
+    ~FileLock();
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+    /// Whether a process holds a file, which need not exist.
+    static bool isHeld(const std::filesystem::path& file);
+
+private:
+    int descriptor_;
+};
+
 /// Keeps the edits of the open scene that are not saved in a file, which is left where the program ends without asking:
-/// a scene file "tessera-NAME.json" in a folder of this process. Other windows keep theirs beside it.
+/// a scene file "tessera-NAME.json" in a locked folder of this run. Other windows keep theirs beside it.
 class Recovery {
 public:
     /// Below a folder that need not be there; none: nothing is kept.
@@ -17,7 +33,7 @@ public:
 
     /// The file that was written last of those that programs which have ended left; none where there is none.
     std::optional<std::filesystem::path> left() const;
-    /// Deletes a file that was left.
+    /// Deletes a file that was left, and its folder with the last one.
     static void discard(const std::filesystem::path& file);
 
     /// Whether keep() has something to do.
@@ -29,6 +45,9 @@ public:
     void forget();
 
 private:
+    /// The folder of this run, which is made and locked where it is not there yet. Throws std::runtime_error.
+    const std::filesystem::path& ownFolder();
+
     struct Kept {
         std::filesystem::path file;
         std::string source;
@@ -36,6 +55,8 @@ private:
     };
     std::optional<std::filesystem::path> folder_;
     std::optional<Kept> kept_;
+    std::filesystem::path own_;
+    std::optional<FileLock> lock_; ///< of own_, while that is there
 };
 
 } // namespace tessera::viewer

@@ -125,11 +125,14 @@ void SceneSwitch::comeBack(OpenScene& scene) {
 
 void SceneSwitch::remember(glm::ivec2 windowSize) {
     if (!options_.preferencesFile) return;
-    viewer::remember(preferences_, state_, base_, windowSize);
+    Preferences now = preferences_; // a setting may yet become again what the open scene began with
+    viewer::remember(now, state_, base_, windowSize);
+    if (now == written_) return;
     try {
-        writePreferences(preferences_, *options_.preferencesFile);
+        writePreferences(now, *options_.preferencesFile);
+        written_ = std::move(now);
     } catch (const std::exception& error) {
-        options_.warn(error.what());
+        if (std::exchange(fault_, error.what()) != error.what()) options_.warn(error.what());
     }
 }
 

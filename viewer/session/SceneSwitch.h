@@ -1,6 +1,8 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "viewer/session/EventLog.h"
 #include "viewer/session/SceneLoader.h"
@@ -29,7 +31,7 @@ public:
     std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
     /// Discards the result.
     void discard();
-    /// Writes the preferences when the window is closed. Failures are warnings.
+    /// Writes the preferences where they differ from those that were written last. Failures are warnings.
     void remember(glm::ivec2 windowSize);
 
 private:
@@ -48,7 +50,9 @@ private:
     const ViewerOptions& options_;
     State& state_;
     const EventLog& log_;
-    Preferences preferences_;          ///< of earlier runs, with later choices
+    Preferences preferences_; ///< of earlier runs, with later choices until the open scene came
+    std::optional<Preferences> written_;
+    std::string fault_;                ///< why they could not be written last
     Look base_;                        ///< initial look of the open scene
     bool hadScene_ = false;            ///< the looks of the state and `base_` are a scene's
     bool wasAsked_ = false;            ///< to open a scene

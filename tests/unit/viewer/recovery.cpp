@@ -17,9 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// No process has this number: the kernel gives none above 4194304.
-constexpr const char* kEndedProcess = "2147483000";
-
 class RecoveryTest : public testing::Test {
 protected:
     RecoveryTest() {
@@ -69,14 +66,13 @@ TEST_F(RecoveryTest, editsAreKeptUntilTheyAreSavedOrUndone) {
     EXPECT_FALSE(fs::exists(own().parent_path()));
 }
 
-TEST_F(RecoveryTest, theLatestFileOfProgramsThatEndedIsOfferedAndNoneOfThoseThatRun) {
+TEST_F(RecoveryTest, theLatestFileOfRunsThatEndedIsOffered) {
     const Recovery recovery(folder());
     EXPECT_FALSE(recovery.left());
-    temporary_.write("recovery/1/tessera-hall.json", "{}"); // the system's first process runs
-    temporary_.write("recovery/notes/tessera-hall.json", "{}");
-    EXPECT_FALSE(recovery.left());
-    const fs::path old = temporary_.write(std::string("recovery/") + kEndedProcess + "/tessera-hall.json", "{}");
-    const fs::path late = temporary_.write(std::string("recovery/") + kEndedProcess + "/tessera-room.json", "{}");
+    // The system's first process always runs, but it is no viewer's.
+    const fs::path old = temporary_.write("recovery/1/tessera-hall.json", "{}");
+    const fs::path late = temporary_.write("recovery/1/tessera-room.json", "{}");
+    temporary_.write("recovery/1/lock", "");
     fs::last_write_time(old, fs::last_write_time(late) - std::chrono::hours(1));
     EXPECT_EQ(recovery.left(), late);
     Recovery::discard(late);
@@ -84,6 +80,26 @@ TEST_F(RecoveryTest, theLatestFileOfProgramsThatEndedIsOfferedAndNoneOfThoseThat
     Recovery::discard(old);
     EXPECT_FALSE(recovery.left());
     EXPECT_FALSE(fs::exists(old.parent_path()));
+}
+
+TEST_F(RecoveryTest, whatARunKeepsIsOfferedOnceItHasEnded) {
+    const Recovery another(folder());
+    change(0.25f);
+    {
+        Recovery recovery(folder());
+        recovery.keep(open());
+        EXPECT_FALSE(another.left()) << "that run goes on";
+    }
+    EXPECT_EQ(another.left(), own());
+}
+
+TEST_F(RecoveryTest, aRunWithTheProcessNumberOfOneThatEndedLeavesItsEditsAlone) {
+    const fs::path before = temporary_.write("recovery/" + std::to_string(getpid()) + "/tessera-room.json", "{}");
+    Recovery recovery(folder());
+    change(0.25f);
+    recovery.keep(open());
+    EXPECT_EQ(recovery.left(), before);
+    EXPECT_EQ(fs::file_size(before), 2u);
 }
 
 TEST_F(RecoveryTest, withoutAFolderNothingIsKept) {
