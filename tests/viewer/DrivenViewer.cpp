@@ -118,7 +118,7 @@ glm::ivec2 DrivenViewer::waitForWhole(std::size_t from) const {
         double scale = 0.0;
         if (still >= kStillSeconds &&
             std::sscanf(latest.c_str(), "drawn %d scale %lf size %dx%d", &frame, &scale, &width, &height) == 4 &&
-            scale == 1.0)
+            scale == 1.0 && !latest.ends_with(" lacks light"))
             return {width, height};
         sleepSeconds(0.05);
     }

@@ -280,6 +280,14 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened(scene, size) + " --diffusion-texels " + texels, size));
     viewer.waitFor("spread light in view", 0);
     viewer.waitFor("spread light everywhere", 0);
+    // Nobody waits for the light with a coarse picture.
+    const std::vector<std::string> opening = viewer.lines();
+    const auto at = [&](const auto& is) { return std::ranges::find_if(opening, is) - opening.begin(); };
+    EXPECT_LT(at([](const std::string& line) {
+                  return line.starts_with("drawn ") && line.find(" scale 1 ") != line.npos &&
+                         line.ends_with(" lacks light");
+              }),
+              at([](const std::string& line) { return line == "spread light in view"; }));
     // To another side: nothing is left to be spread.
     std::size_t mark = viewer.mark();
     viewer.drag(middlePixel(), middlePixel() + glm::ivec2(300, 20));
@@ -316,6 +324,39 @@ TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
     const Shot inFile = file.part({layout.pictureX, layout.pictureY}, size);
     // The program and the graphics driver may round a colour to different sides.
     EXPECT_EQ(differingShare(beside(pictureIn(viewer, size)), beside(inFile), 1), 0.0);
+}
+
+TEST_F(ViewerPictures, aComparisonDrawsNoSideWhosePictureIsThere) {
+    DrivenViewer viewer = open({"lattice", "--fov", "45", "--technique", "forward"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    const glm::ivec2 left(size.x / 2 - 20, size.y - kTitlePixels);
+    const Shot alone = pictureIn(viewer, size).part({0, kTitlePixels}, left);
+    std::size_t mark = viewer.mark();
+    viewer.key("x"); // split
+    viewer.waitForWhole(mark);
+    EXPECT_TRUE(pictureIn(viewer, size).part({0, kTitlePixels}, left) == alone);
+    const auto drawnSince = [&viewer](std::size_t from) {
+        std::vector<std::string> drawn;
+        const std::vector<std::string> lines = viewer.lines();
+        for (std::size_t i = from; i < lines.size(); ++i)
+            if (lines[i].starts_with("drawn ")) drawn.push_back(lines[i]);
+        return drawn;
+    };
+    for (const std::string& line : drawnSince(mark))
+        EXPECT_NE(line.find(" technique clustered_deferred "), line.npos) << line;
+    mark = viewer.mark();
+    viewer.key("F12");
+    const Shot both = readShot(folder_.path() / savedFile(viewer.waitFor("saved ", mark)));
+    ASSERT_EQ(both.sizePixels, glm::ivec2(2 * size.x, size.y));
+    EXPECT_TRUE(both.part({0, 0}, size) == rendered("lattice --fov 45 --technique forward", size));
+    EXPECT_TRUE(both.part({size.x, 0}, size) == both.part({0, 0}, size)) << "techniques are equal to the last bit";
+    viewer.key("Escape");
+    mark = viewer.mark();
+    for (int i = 0; i < 3; ++i) { // difference, one picture, split
+        viewer.key("x");
+        viewer.pause(0.7);
+    }
+    EXPECT_EQ(drawnSince(mark), std::vector<std::string>());
 }
 
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {

@@ -71,8 +71,10 @@ void drawDifferenceNames(const State& state, const Facts& facts, const std::vect
     float top = 0.0f;
     if (left && right) {
         const std::array<std::string, 2> names = sideNames(*left, *right, lights);
-        drawName(fmt::format("{} against {}, {:.4g} times", names[0], names[1], state.amplification), area,
-                 Corner::UpperLeft, kPlain, scale, top);
+        const bool isThere = left->settings.sizePixels == right->settings.sizePixels;
+        drawName(isThere ? fmt::format("{} against {}, {:.4g} times", names[0], names[1], state.amplification)
+                         : fmt::format("{}; the difference to {} follows", names[0], names[1]),
+                 area, Corner::UpperLeft, kPlain, scale, top);
     }
     if (areEqual(facts))
         drawName(fmt::format("No difference: all {} covered pixels are equal in every bit", facts.figures->covered),

@@ -1,7 +1,9 @@
 #include "viewer/save/Saver.h"
 
+#include <algorithm>
 #include <cassert>
 #include <filesystem>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +30,25 @@ TraceFrame traced(const FrameTimes& frame) {
     return result;
 }
 
+/// Black where one is lower than others.
+DisplayImage besideOneAnother(std::span<const DisplayImage> images) {
+    DisplayImage whole;
+    for (const DisplayImage& image : images) {
+        whole.width += image.width;
+        whole.height = std::max(whole.height, image.height);
+    }
+    whole.rgb.resize(3 * whole.pixelCount());
+    std::size_t left = 0;
+    for (const DisplayImage& image : images) {
+        const std::size_t bytes = 3 * std::size_t(image.width);
+        for (std::size_t y = 0; y < std::size_t(image.height); ++y)
+            std::copy_n(image.rgb.begin() + std::ptrdiff_t(y * bytes), bytes,
+                        whole.rgb.begin() + std::ptrdiff_t(3 * (y * std::size_t(whole.width) + left)));
+        left += std::size_t(image.width);
+    }
+    return whole;
+}
+
 } // namespace
 
 std::string Saver::freeName(const char* ending) const {
@@ -39,18 +60,26 @@ void Saver::tell(const std::string& path) {
     log_.line("saved " + path);
 }
 
-void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
-    Look look = drawnLook(state_, state_.activeSide);
+engine::RenderedFrame Saver::rendered(Look& look, glm::ivec2 sizePixels, bool display) {
     look.settings.sizePixels = sizePixels;
-    look.settings.display = extensionOf(path) != ".exr";
-    engine::Renderer& renderer = *screen_.renderer();
-    const engine::RenderedFrame frame = renderer.render(look.technique, look.settings);
-    if (look.settings.display) {
-        writePng(path, validation::shownPicture(frame, renderer.shadows(), state_.open->scene().name, look.technique,
-                                                look.settings.view));
-    } else {
-        writeExr(path, engine::toPicture(frame));
+    look.settings.display = display;
+    return screen_.renderer()->render(look.technique, look.settings);
+}
+
+void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
+    if (extensionOf(path) == ".exr") {
+        Look look = drawnLook(state_, state_.activeSide);
+        writeExr(path, engine::toPicture(rendered(look, sizePixels, false)));
+        return tell(path);
     }
+    std::vector<DisplayImage> sides;
+    for (int side = 0; side < state_.sides(); ++side) {
+        Look look = drawnLook(state_, side);
+        const engine::RenderedFrame frame = rendered(look, sizePixels, true);
+        sides.push_back(validation::shownPicture(frame, screen_.renderer()->shadows(), state_.open->scene().name,
+                                                 look.technique, look.settings.view));
+    }
+    writePng(path, besideOneAnother(sides));
     tell(path);
 }
 

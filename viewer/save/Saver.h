@@ -12,8 +12,8 @@ public:
 
     /// A name of the current folder that is free (freePath), after the open scene.
     std::string freeName(const char* ending) const;
-    /// The active side's picture at full resolution, as `tessera render` writes it; by the name's end as a display
-    /// shows it, or its radiance.
+    /// The picture at full resolution, as `tessera render` writes it; by the name's end as a display shows it, of a
+    /// comparison both sides beside each other, or the active side's radiance.
     void picture(glm::ivec2 sizePixels, const std::string& path);
     /// saveOpenScene().
     void scene(const std::string& path);
@@ -23,6 +23,7 @@ public:
     void trace();
 
 private:
+    engine::RenderedFrame rendered(Look& look, glm::ivec2 sizePixels, bool display);
     void tell(const std::string& path);
 
     State& state_;

@@ -60,6 +60,14 @@ void PictureDrawing::cancel() {
     log_.line(fmt::format("cancelled scale {:.4g}", screen_.scaleOf(wanted_)));
 }
 
+void PictureDrawing::noteShown() {
+    if (!screen_.shows(wanted_)) return;
+    facts_.scale = screen_.shownScale(wanted_);
+    facts_.sizePixels = screen_.picture(0).display().sizePixels();
+    for (int side = 1; side < wanted_.sides; ++side)
+        facts_.sizePixels = glm::min(facts_.sizePixels, screen_.picture(side).display().sizePixels());
+}
+
 bool PictureDrawing::update(glm::ivec2 sizePixels) {
     gaveUpAtRest_ = false;
     if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // until the window says so no more
@@ -80,6 +88,7 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     if (cancelled_ && *cancelled_ != wanted_) cancelled_.reset();
     if (facts_.isCancelled != cancelled_.has_value()) pulse_.another();
     facts_.isCancelled = cancelled_.has_value();
+    noteShown();
     const double have = screen_.scaleOf(wanted_);
     const bool rests = !isMoving(state_) && Window::nowSeconds() >= pulse_.restAt;
     const bool isAtRest = rests && have > 0.0;
@@ -94,13 +103,16 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;
     if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
-    if (isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen)) return spreadSlice(Screen::Reach::Seen);
+    const bool lacksLight = isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen);
+    // Where that takes long, a whole picture without it comes first.
+    const bool isSmall = facts_.scale < restScale() && (screen_.spreadsAnew(wanted_) || wasSpreading);
+    if (lacksLight && !isSmall) return spreadSlice(Screen::Reach::Seen);
     if (have == 0.0) pulse_.stirred(Window::nowSeconds());
     // A scale that is fixed is that of all pictures: none is better.
     const double scale = isAtRest ? nextScale() : movingScale();
-    const Screen::Stay stay = isAtRest && scale < restScale()      ? Screen::Stay::Refines
-                              : isAtRest || !state_.automaticScale ? Screen::Stay::Stays
-                                                                   : Screen::Stay::Passes;
+    const Screen::Stay stay = isAtRest && (scale < restScale() || lacksLight) ? Screen::Stay::Refines
+                              : isAtRest || !state_.automaticScale            ? Screen::Stay::Stays
+                                                                              : Screen::Stay::Passes;
     if (isToBeAnnounced(stay)) return false;
     return drawAt(scale, stay, isAtRest);
 }
@@ -126,7 +138,7 @@ bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
     constexpr int kFrames = 2; // the interface of this frame is laid out already
     if (announcements_ >= kFrames) return false;
     facts_.isPreparing = screen_.lacksPrograms(wanted_);
-    facts_.isSpreading = !facts_.isPreparing && stay != Screen::Stay::Passes && screen_.spreadsAnew(wanted_);
+    facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
     if (!facts_.isPreparing && !facts_.isSpreading) return false;
     facts_.progress = announced();
     ++announcements_;
@@ -148,6 +160,7 @@ std::optional<double> PictureDrawing::drawingShare() const {
     const gpu::BandProgress progress = gpu::bandProgress();
     double done = 0.0, all = 0.0;
     for (int side = 0; side < wanted_.sides; ++side) {
+        if (!screen_.isDrawing(side)) continue;
         const FrameTimes* const before = state_.timings.latest(side);
         if (before == nullptr || before->kind != kinds_ || screen_.isNewKind(wanted_)) return std::nullopt;
         all += before->ms;
@@ -205,23 +218,25 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
         wasUnlike_ = drawn.isUnlike;
         if (isNewKind) ++kinds_;
         facts_.ms = drawn.ms;
-        facts_.scale = drawn.scale;
-        facts_.sizePixels = drawn.sizePixels;
-        facts_.shadows = std::move(drawn.shadows);
+        noteShown();
         facts_.targetBytes = screen_.renderer()->backend().poolBytes();
         ++pictures_;
-        for (int side = 0; side < wanted_.sides; ++side)
-            state_.timings.add({pictures_, 1000.0 * startedAt, drawn.sideMs[std::size_t(side)], drawn.scale, side,
-                                drawn.passes[std::size_t(side)], kinds_, drawn.isUnlike, !isAtRest});
+        for (std::size_t side = 0; side < std::size_t(wanted_.sides); ++side) {
+            if (!drawn.isOfSide[side]) continue;
+            facts_.shadows[side] = std::move(drawn.shadows[side]);
+            state_.timings.add({pictures_, 1000.0 * startedAt, drawn.sideMs[side], drawn.scale, int(side),
+                                drawn.passes[side], kinds_, drawn.isUnlike, !isAtRest});
+        }
         facts_.picturesPerSecond = state_.timings.picturesPerSecond();
         pulse_.another(); // the figures of this frame are shown by the next
         if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
         note(missingTextures_, std::move(drawn.missingTextures));
         if (drawn.unseenSpread) note(unseenSpread_, std::move(*drawn.unseenSpread));
-        const Look& look = wanted_.looks[0];
-        log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}", pictures_, drawn.scale,
-                              drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms, infoOf(look.technique).name,
-                              frame::debugViewInfo(look.settings.view).name));
+        const Look& look = wanted_.looks[drawn.isOfSide[0] ? 0 : 1];
+        log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}{}", pictures_,
+                              drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,
+                              infoOf(look.technique).name, frame::debugViewInfo(look.settings.view).name,
+                              drawn.lacksLight ? " lacks light" : ""));
         return true;
     } catch (const std::exception& error) {
         drawingFault_ = error.what();

@@ -50,7 +50,9 @@ public:
 private:
     double restScale() const;
     /// Whether the whole picture has yet to be drawn with what an inspected pixel tells of lights.
-    bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.knowsLights(); }
+    bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.knowsLights(wanted_); }
+    /// Tells how large the wanted pictures are that the window shows.
+    void noteShown();
     double movingScale() const;
     /// The scale of the next picture at rest: the whole one, or, where that takes long, one with twice the sides.
     double nextScale() const;

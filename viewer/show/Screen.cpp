@@ -161,25 +161,64 @@ void Screen::takeEdits() {
     environmentRevision_ = scene_->environmentRevision();
 }
 
-bool Screen::knowsLights() const {
-    const std::size_t sides = drawn_ ? std::size_t(drawn_->sides) : 0;
-    return std::all_of(pictures_.begin(), pictures_.begin() + std::ptrdiff_t(sides), [](const DrawnPicture& picture) {
-        return picture.lights() != nullptr || !PictureLights::areTold(picture.look());
-    });
+const Screen::Made* Screen::madeFor(const Wanted& wanted, int side) const {
+    const std::optional<Made>& made = made_[std::size_t(side)];
+    const bool isWanted = made && made->look == wanted.looks[std::size_t(side)] &&
+                          made->sceneRevision == wanted.sceneRevision && made->sceneEdits == wanted.sceneEdits &&
+                          (!wanted.keepsRadiance || picture(side).radiance() != nullptr);
+    return isWanted ? &*made : nullptr;
+}
+
+double Screen::scaleOf(const Wanted& wanted) const {
+    double scale = 1.0;
+    for (int side = 0; side < wanted.sides && failed_ != wanted; ++side) {
+        const Made* const made = madeFor(wanted, side);
+        // So that a whole one follows.
+        scale = std::min(scale, made == nullptr    ? 0.0
+                                : made->lacksLight ? std::min(made->scale, kScales[1])
+                                                   : made->scale);
+    }
+    return scale;
+}
+
+double Screen::shownScale(const Wanted& wanted) const {
+    double scale = 1.0;
+    for (int side = 0; side < wanted.sides; ++side) {
+        const Made* const made = madeFor(wanted, side);
+        scale = std::min(scale, made == nullptr ? 0.0 : made->scale);
+    }
+    return scale;
+}
+
+bool Screen::knowsLights(const Wanted& wanted) const {
+    for (int side = 0; side < wanted.sides; ++side)
+        if (!knowsLights(side)) return false;
+    return true;
+}
+
+bool Screen::canDiffer() const {
+    const Target* const a = pictures_[0].radiance();
+    const Target* const b = pictures_[1].radiance();
+    return a != nullptr && b != nullptr && a->sizePixels() == b->sizePixels();
 }
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights,
                            const std::function<bool()>& givesUp) {
-    const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay == Stay::Passes;
+    const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay != Stay::Stays;
     // Graphics cards light what comes into view within the frame.
-    const bool isLimited = !isAnew && stay == Stay::Passes && context_.capabilities().isSoftware;
-    const bool mayLack = isLimited && lacksLight(wanted, Reach::Seen);
-    if (isCoarse || mayLack) scale = std::min(scale, kScales[1]); // so that a whole one follows
+    const bool isLimited = !isAnew && stay != Stay::Stays && context_.capabilities().isSoftware;
+    const bool mayLack = isCoarse || (isLimited && lacksLight(wanted, Reach::Seen));
+    if (mayLack && stay == Stay::Passes) scale = std::min(scale, kScales[1]);
     Drawn result;
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
-    const std::optional<Wanted> before = std::exchange(drawn_, std::nullopt);
+    for (int side = 0; side < wanted.sides; ++side) {
+        const Made* const made = madeFor(wanted, side);
+        result.isOfSide[std::size_t(side)] = made == nullptr || made->scale < scale || (made->lacksLight && !mayLack) ||
+                                             (keepsLights && !knowsLights(side));
+    }
+    isOfSide_ = result.isOfSide;
     failed_.reset();
     if (isAnew)
         forgetSpreadLight();
@@ -194,6 +233,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
         for (int side = 0; side < wanted.sides; ++side) {
             drawingSide_ = side;
             const gpu::CpuTimer clock;
+            if (!result.isOfSide[std::size_t(side)]) continue;
             Look look = wanted.looks[std::size_t(side)];
             look.settings.wholePixels = look.settings.sizePixels;
             look.settings.sizePixels = result.sizePixels;
@@ -209,25 +249,28 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
             if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
-            DrawnPicture& taken = side + 1 < wanted.sides ? waiting_ : pictures_[std::size_t(side)];
-            taken.take(*renderer_, look, {wanted.keepsRadiance, keepsLights});
+            DrawnPicture& taken = side == 0 && result.isOfSide[1] ? waiting_ : pictures_[std::size_t(side)];
+            // A picture that stays may be compared or inspected later.
+            taken.take(*renderer_, look, {wanted.keepsRadiance || stay == Stay::Stays, keepsLights});
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {
-        drawn_ = before; // the pictures are as they were
-        result.gaveUp = true;
+        result.gaveUp = true; // the pictures are as they were
         return result;
     } catch (...) {
         failed_ = wanted;
         throw;
     }
-    if (wanted.sides == 2) std::swap(waiting_, pictures_[0]);
-    drawn_ = wanted;
+    if (result.isOfSide[0] && result.isOfSide[1]) std::swap(waiting_, pictures_[0]);
+    result.lacksLight = mayLack || isLacking;
+    for (int side = 0; side < wanted.sides; ++side)
+        if (result.isOfSide[std::size_t(side)])
+            made_[std::size_t(side)] = {wanted.looks[std::size_t(side)], wanted.sceneRevision, wanted.sceneEdits, scale,
+                                        result.lacksLight};
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kind_ = wanted.looks;
     const std::set<std::string>& programsDrawn = programsOf(wanted);
     known_.insert(programsDrawn.begin(), programsDrawn.end());
-    drawnScale_ = isLacking ? std::min(scale, kScales[1]) : scale;
     if (isLacking) { // whatever took it away
         spreadFor_.reset();
         isAllSpread_ = false;
@@ -242,13 +285,10 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
 }
 
 void Screen::prepareDifference(float factor) {
-    const Target* a = pictures_[0].radiance();
-    const Target* b = pictures_[1].radiance();
-    if (a == nullptr || b == nullptr || a->sizePixels() != b->sizePixels()) return;
-    if (!differenceIsStale_ && factor == differenceFactor_) return;
+    if (!canDiffer() || (!differenceIsStale_ && factor == differenceFactor_)) return;
     differenceFactor_ = factor;
     differenceIsStale_ = false; // also where it fails: the same would fail again
-    difference_.update(renderer_->programs(), *a, *b, factor);
+    difference_.update(renderer_->programs(), *pictures_[0].radiance(), *pictures_[1].radiance(), factor);
 }
 
 void Screen::colorCounts(const std::function<float(int side, frame::DebugView view)>& scaleLog2) {
@@ -277,7 +317,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         const int middle = std::clamp(int(std::lround(divider * float(area.width))), 0, area.width);
         blit(pictures_[0].display(), 0, middle);
         blit(pictures_[1].display(), middle, area.width);
-    } else if (compare == Compare::Difference && difference_.image() != nullptr) {
+    } else if (compare == Compare::Difference && canDiffer() && difference_.image() != nullptr) {
         blit(*difference_.image(), 0, area.width);
     } else {
         blit(pictures_[0].display(), 0, area.width);

@@ -33,7 +33,9 @@ public:
     /// What a call of draw() did.
     struct Drawn {
         bool gaveUp = false;
-        bool isUnlike = false; ///< it compiled shaders, or spread light anew: pictures like it take less
+        std::array<bool, 2> isOfSide{}; ///< it drew that side; the other one had its picture
+        bool lacksLight = false;        ///< that is to be spread over surfaces, so that another picture follows
+        bool isUnlike = false;          ///< it compiled shaders, or spread light anew: pictures like it take less
         double scale = 1.0;
         glm::ivec2 sizePixels{0};
         double ms = 0.0;                                    ///< of all sides, the waiting for the GPU included
@@ -56,17 +58,19 @@ public:
 
     /// Whether what is wanted is what was drawn, and at which scale: 0 where it was not. What could not be drawn counts
     /// as whole: it would fail again.
-    double scaleOf(const Wanted& wanted) const {
-        return drawn_ == wanted ? drawnScale_ : failed_ == wanted ? 1.0 : 0.0;
-    }
+    double scaleOf(const Wanted& wanted) const;
+    /// The same, whatever light the pictures lack.
+    double shownScale(const Wanted& wanted) const;
     /// Whether the pictures are the wanted ones.
-    bool shows(const Wanted& wanted) const { return drawn_ == wanted; }
+    bool shows(const Wanted& wanted) const { return failed_ != wanted && shownScale(wanted) > 0.0; }
     /// A picture that is worth drawing at once while things move.
     double movingScale() const { return resolution_.next(); }
     /// What the pictures would take at one of kScales, as far as those before tell.
     double predictedMs(double scale) const { return resolution_.predictedMs(scale); }
     /// Of the pictures that draw() draws, which one; for its `givesUp`.
     int drawingSide() const { return drawingSide_; }
+    /// Whether it draws that side at all.
+    bool isDrawing(int side) const { return isOfSide_[std::size_t(side)]; }
     /// Whether programs have to be compiled before what is wanted is drawn.
     bool lacksPrograms(const Wanted& wanted) const;
     /// Whether it lacks some, or is of another kind than what was drawn last: it takes a time that none before tells.
@@ -83,17 +87,17 @@ public:
     /// Whether it may take so long that it must be given up where somebody waits: it is the first of its kind, or even
     /// the latest picture of moving things took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
-    /// Whether the pictures have kept what they tell of the lights that their pixels visit, which those of draw() do
-    /// that are asked to.
-    bool knowsLights() const;
-    /// Draws the wanted pictures at a scale; those that pass at a smaller one, with small atlases, where light must be
-    /// spread anew, and on a software rasteriser without spreading the light of what has come into view. `givesUp` may
-    /// be null, and may show the pictures as they were before; where it ends the frame, or the frame fails, they stay
-    /// so. Throws as Renderer::draw does.
+    /// Whether the wanted pictures have kept what they tell of the lights that their pixels visit, which those of
+    /// draw() do that are asked to.
+    bool knowsLights(const Wanted& wanted) const;
+    /// Draws the wanted pictures at a scale, but for a side that has its picture at that scale already. Unless they
+    /// stay, they are drawn with small atlases where light must be spread anew, and on a software rasteriser without
+    /// spreading the light of what has come into view. `givesUp` may be null, and may show the pictures as they were
+    /// before; where it ends the frame, or the frame fails, they stay so. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights, const std::function<bool()>& givesUp);
     /// Redraws the current pictures after a change of shaders, and spreads their light again.
     void forget() {
-        drawn_.reset();
+        made_ = {};
         failed_.reset();
         differenceIsStale_ = true;
         forgetSpreadLight();
@@ -121,6 +125,20 @@ public:
 private:
     void tellSpreadLight(const Wanted& drawn);
     void forgetSpreadLight();
+    /// How the picture of a side was made.
+    struct Made {
+        Look look;
+        std::uint64_t sceneRevision = 0, sceneEdits = 0;
+        double scale = 0.0;
+        bool lacksLight = false;
+    };
+    /// That, where it is the wanted one.
+    const Made* madeFor(const Wanted& wanted, int side) const;
+    bool knowsLights(int side) const {
+        return picture(side).lights() != nullptr || !PictureLights::areTold(picture(side).look());
+    }
+    /// Both pictures are there, of one size.
+    bool canDiffer() const;
     /// By their keys, those of all sides.
     const std::set<std::string>& programsOf(const Wanted& wanted) const;
 
@@ -131,10 +149,11 @@ private:
     std::unique_ptr<engine::Renderer> renderer_;
     std::uint64_t geometryRevision_ = 0, materialRevision_ = 0, environmentRevision_ = 0;
     std::array<DrawnPicture, 2> pictures_;
-    DrawnPicture waiting_; ///< the left one, until the right one is drawn too
+    DrawnPicture waiting_; ///< the left one, where the right one is to be drawn too
     int drawingSide_ = 0;
     CountColors countColors_;
     Difference difference_;
+    std::array<bool, 2> isOfSide_{}; ///< Drawn::isOfSide, of the latest
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
@@ -151,8 +170,8 @@ private:
     mutable std::optional<Programs> programs_; ///< as they were asked for last, of this scene
     std::set<std::string> known_;              ///< programs of the pictures that were drawn of this scene
     std::optional<std::array<Look, 2>> kind_;  ///< of the pictures drawn last of this scene
-    std::optional<Wanted> drawn_, failed_;
-    double drawnScale_ = 0.0;
+    std::array<std::optional<Made>, 2> made_;
+    std::optional<Wanted> failed_;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling
 };
 
