@@ -224,6 +224,8 @@ PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
     return area;
 }
 
+            // Errors stay until Esc: a click may be a mistake.
+            if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) state.notice = {};
 glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth) {
     return pictureSize + glm::ivec2(panelWidth, kStatusHeight);
 }

@@ -1,11 +1,16 @@
 #include "viewer/session/SceneSwitch.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/ChooseView.h"
+#include "scenes/import/StandIn.h"
 #include "viewer/session/MapChoices.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"
@@ -28,6 +33,26 @@ scenes::CameraChange placeOfSupplied(const scenes::Camera& camera, const scenes:
     complete(change.nearMetres, place.nearMetres);
     complete(change.farMetres, place.farMetres);
     return change;
+}
+
+/// How many warnings a scene came with, and what it was given; empty where neither. The panel Scene shows all of it.
+std::string loadNote(const scenes::Scene& scene) {
+    static constexpr std::size_t kMostCounted = 100; // files may have any number
+    const std::size_t warnings = scene.warnings.size();
+    const auto pictures = std::size_t(std::ranges::count_if(
+        scene.warnings, [](const std::string& warning) { return warning.ends_with(scenes::kStandInText); }));
+    const auto counted = [](std::size_t count, std::string_view what) {
+        return count > kMostCounted ? fmt::format("over {} {}s", kMostCounted, what)
+                                    : fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    std::vector<std::string> parts, given;
+    if (pictures > 0) parts.push_back(counted(pictures, "picture") + " missing, shown as checkerboards");
+    if (warnings > pictures) parts.push_back(counted(warnings - pictures, pictures > 0 ? "other warning" : "warning"));
+    if (scene.supplied.light) given.emplace_back("environment");
+    if (scene.supplied.camera) given.emplace_back("camera");
+    if (scene.supplied.exposureEV != 0) given.emplace_back("exposure");
+    if (!given.empty()) parts.push_back(fmt::format("supplied: {}", fmt::join(given, ", ")));
+    return parts.empty() ? std::string() : fmt::format("{} (see the panel Scene)", fmt::join(parts, "; "));
 }
 
 } // namespace
@@ -95,7 +120,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
     state_.types.forget();
-    if (!state_.notice.outlivesLoad) state_.notice = {};
+    if (!state_.notice.outlivesLoad) state_.notice = {loadNote(scene->scene())};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));
     noteRecent(state_.recent, result->source);

@@ -245,6 +245,19 @@ TEST_F(SceneSwitchTest, aDiscardedResultDoesNotReturn) {
     EXPECT_EQ(switch_.take([](const OpenScene&) { FAIL() << "shown"; }), nullptr);
 }
 
+TEST_F(SceneSwitchTest, aNoteCountsTheWarningsOfALoadAndNamesWhatWasSupplied) {
+    ASSERT_TRUE(open("spheres"));
+    EXPECT_EQ(state_.notice.text, "");
+    folder_.write("bare.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd lost.png\nd 0\n");
+    const std::string bare =
+        folder_.write("bare.obj", "mtllib bare.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n")
+            .string();
+    ASSERT_TRUE(open(bare)) << failure_;
+    EXPECT_EQ(state_.notice.text, "2 pictures missing, shown as checkerboards; 1 other warning; supplied: environment, "
+                                  "camera (see the panel Scene)");
+    EXPECT_FALSE(state_.notice.isError);
+}
+
 TEST_F(SceneSwitchTest, withoutTheDefaultLightNoSceneEverGetsIt) {
     options_.load.defaultLight = false;
     const std::string file = folder_.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
