@@ -166,7 +166,7 @@ std::vector<Setting> frameSettings() {
                              "where_worth is on for lists of {} lights or more. Only with --cull-on cpu",
                              namesOf(culling::normalTestTable()), culling::kLightsWorthNormals),
          .byItself = "where_worth",
-         .label = "By normals",
+         .label = "Normal culling",
          .heeds = listsFromGBuffer,
          .refusal = "it does not build light lists from a G-buffer",
          .samePicture = true,

@@ -16,7 +16,7 @@ struct ShadowChoice {
 };
 constexpr ShadowChoice kShadowChoices[] = {
     {{scenes::ShadowRequest::Kind::None}, "none", "no light casts shadows"},
-    {{scenes::ShadowRequest::Kind::Asked}, "asked", "lights with castsShadow cast shadows"},
+    {{scenes::ShadowRequest::Kind::Asked}, "scene", "lights with castsShadow cast shadows"},
     {{scenes::ShadowRequest::Kind::All}, "all", "every light casts shadows"},
 };
 
@@ -153,7 +153,7 @@ std::vector<Setting> shadowSettings() {
          .flag = "--shadows",
          .key = "shadows",
          .type = "WHICH",
-         .help = "Which lights cast shadows: none, those that the scene asks for (asked), all, or the first N",
+         .help = "Which lights cast shadows: none, those that the scene asks for (scene), all, or the first N",
          .group = "Shadows",
          .panel = SettingPanel::Shadows,
          .value = shadowChoice()},
@@ -242,13 +242,13 @@ std::vector<Setting> subsurfaceSettings() {
          .key = "subsurface",
          .type = "METHOD",
          .help = "Subsurface scattering of all materials that ask for some: " + listed(scenes::subsurfaceMethods()),
-         .byItself = "asked: as each material says",
+         .byItself = "material: as each material says",
          .group = "Subsurface scattering",
          .panel = SettingPanel::Skin,
          .label = "Method",
          .isOfFrame = true,
          .value = choice(in(&FrameSettings::subsurface), scenes::subsurfaceMethods(),
-                         &scenes::SubsurfaceMethodInfo::method, "asked")},
+                         &scenes::SubsurfaceMethodInfo::method, "material")},
         {.name = "diffusion texels",
          .flag = "--diffusion-texels",
          .key = "diffusionTexels",

@@ -133,7 +133,8 @@ private:
         const gpu::BetweenBands between;
         noteBackground();
         paint();
-        gui_.drawOver([this](ImDrawList& list) { drawProgress(*facts_.told(), area_, uiScale(), list); });
+        gui_.drawOver(
+            [this](ImDrawList& list) { drawProgress(*facts_.told(), area_, state_.inspectorBox, uiScale(), list); });
         present();
     }
 

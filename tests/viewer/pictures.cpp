@@ -218,7 +218,7 @@ TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
     ASSERT_GT(figures.maxRel, 0.0);
 
     toggle(viewer, Section::Compare);
-    // Below Compare, Active side, Amplified, Bit-equal, relMse, rel p50 and rel p99; greyed until they are measured.
+    // Below Compare, Active side, Amplified, Bit-equal, relMse, median rel and p99 rel; greyed until they are measured.
     constexpr std::size_t kWorst = 7;
     std::vector<int> lines = linesOf(viewer, Section::Compare);
     for (int i = 0; i < 120 && lines.size() <= kWorst; ++i) {

@@ -42,7 +42,7 @@ std::optional<SubsurfaceKey> subsurfaceKeyOf(const scenes::Scene& scene, const f
     }
     if (methods.empty()) return {};
     SubsurfaceKey key;
-    key.method = methods.size() > 1 ? "asked" : std::string(infoOf(*methods.begin()).name);
+    key.method = methods.size() > 1 ? "material" : std::string(infoOf(*methods.begin()).name);
     if (!scenes::anySpreads(scene, settings.subsurface)) return key;
     for (const SubsurfaceSetting& row : subsurfaceSettingTable())
         key.values.push_back({row.key, engine::settingOf(row.key).text({.settings = settings})});

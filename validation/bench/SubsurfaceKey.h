@@ -24,7 +24,7 @@ std::span<const SubsurfaceSetting> subsurfaceSettingTable();
 
 /// What a point's surfaces do with light that enters them: the method, and how light is spread where some spreads.
 struct SubsurfaceKey {
-    std::string method;           ///< a name of scenes::subsurfaceMethods(), or "asked" where materials differ
+    std::string method;           ///< a name of scenes::subsurfaceMethods(), or "material" where materials differ
     std::vector<KeyValue> values; ///< in the order of the table; empty where no light spreads
 
     /// Null: no value.

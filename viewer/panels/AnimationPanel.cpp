@@ -46,7 +46,7 @@ void timeRow(State& state) {
     constexpr const char* kSeconds = "%.2f s";
     editShown(state.active().settings.timeSeconds, least, most, kSeconds, [&](double& seconds) {
         return isBounded
-                   ? ImGui::SliderScalar("##Time", ImGuiDataType_Double, &seconds, &least, &most, kSeconds)
+                   ? slideNumber("##Time", seconds, least, most, kSeconds)
                    : ImGui::DragScalar("##Time", ImGuiDataType_Double, &seconds, 0.02f, nullptr, nullptr, kSeconds);
     });
 }

@@ -27,9 +27,8 @@ void compareRows(State& state) {
         slider("Divider", state.divider, 0.0f, 1.0f, "%.2f");
     } else {
         row("Amplified");
-        edit(state.amplification, 1.0f, 1e6f, [](float& times) {
-            return ImGui::SliderFloat("##Amplified", &times, 1.0f, 1e6f, "%.0f x", ImGuiSliderFlags_Logarithmic);
-        });
+        edit(state.amplification, 1.0f, 1e6f,
+             [](float& times) { return slideNumber("##Amplified", times, 1.0f, 1e6f, "%.0f x", true); });
     }
 }
 
@@ -51,8 +50,8 @@ void worstRow(State& state, const validation::ErrorFigures& figures, glm::ivec2 
 void figureRows(State& state, const validation::ErrorFigures& figures, glm::ivec2 sizePixels) {
     fact("Bit-equal", fmt::format("{:.4f} % of {} pixels", 100.0 * figures.bitEqual, figures.covered));
     fact("relMse", figure(figures.relMse));
-    fact("rel p50", figure(figures.p50Rel));
-    fact("rel p99", fmt::format("{}, p99.9 {}", figure(figures.p99Rel), figure(figures.p999Rel)));
+    fact("median rel", figure(figures.p50Rel));
+    fact("p99 rel", fmt::format("{}, p99.9 {}", figure(figures.p99Rel), figure(figures.p999Rel)));
     worstRow(state, figures, sizePixels);
     fact("max abs", figure(figures.maxAbs));
     fact("rmse", figure(figures.rmse));

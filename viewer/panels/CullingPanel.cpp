@@ -24,8 +24,8 @@ void cullingPanel(State& state, const Facts& facts) {
     const auto perPixel = [&](std::uint64_t pairs) { return fmt::format("{:.4g} a pixel", figures.perPixel(pairs)); };
     fact("All lights", perPixel(figures.evaluated + figures.everywhere));
     tip("Lights that a pixel visits");
-    fact("at most", fmt::format("{}, p99 {}", figures.evaluatedMax, figures.evaluatedP99));
-    fact("Endless", perPixel(figures.everywhere));
+    fact("Most", fmt::format("{}, p99 {}", figures.evaluatedMax, figures.evaluatedP99));
+    fact("Without range", perPixel(figures.everywhere));
     tip("Lights that reach everywhere: every pixel needs them, so that none can be culled");
     if (figures.evaluated + figures.needed == 0) {
         fact("Tightness", "no light to cull");
@@ -36,7 +36,7 @@ void cullingPanel(State& state, const Facts& facts) {
         tip("Of the lights that end somewhere");
         fact("Needed", perPixel(figures.needed));
         tip("Of the lights that end somewhere: those that reach the surface");
-        fact("and lit", perPixel(figures.neededLit));
+        fact("Lit in front", perPixel(figures.neededLit));
         tip("Those that also shine on the surface's front");
         fact("Tightness", tightness ? fmt::format("{:.3g}", *tightness) : "none is needed");
         tip("Visited / needed: 1 is perfect");

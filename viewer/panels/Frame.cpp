@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,6 +75,7 @@ void showSection(State& state, const Facts& facts, const Section& section) {
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_Tab));
     ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_TabHovered));
     ImGui::PushStyleColor(ImGuiCol_HeaderActive, ImGui::GetStyleColorVec4(ImGuiCol_TabActive));
+    const float topY = ImGui::GetCursorPosY();
     const bool isOpen = ImGui::CollapsingHeader(section.title);
     ImGui::PopStyleColor(3);
     ImGui::PopStyleVar();
@@ -81,20 +83,34 @@ void showSection(State& state, const Facts& facts, const Section& section) {
         state.reveals.reset();
         if (!wasOpen || !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.0f);
     }
-    if (isOpen != wasOpen) state.sections[section.title] = isOpen;
+    const bool isChanged = isOpen != wasOpen;
+    if (isChanged) state.sections[section.title] = isOpen;
     if (!isOpen) return;
     ImGui::PushID(section.title);
     section.show(state, facts);
     ImGui::PopID();
     ImGui::Spacing();
+    // What was opened comes into view, its bar at least.
+    const float endY = ImGui::GetCursorPosY(), heightY = ImGui::GetWindowHeight();
+    if (isChanged && !isRevealed && endY - ImGui::GetScrollY() > heightY)
+        endY - topY < heightY ? ImGui::SetScrollFromPosY(endY - ImGui::GetScrollY(), 1.0f)
+                              : ImGui::SetScrollFromPosY(topY - ImGui::GetScrollY(), 0.0f);
+}
+
+void foldAll(State& state) {
+    for (const Section& section : kSections) state.sections[section.title] = false;
 }
 
 void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize({panelWidth(state, scale), height});
-    if (ImGui::Begin("Panels", nullptr, kFixed))
+    if (std::exchange(state.foldsPanels, false)) foldAll(state);
+    if (ImGui::Begin("Panels", nullptr, kFixed)) {
         for (const Section& section : kSections)
             if (section.isThere(state)) showSection(state, facts, section);
+        if (ImGui::SmallButton("Fold all")) foldAll(state);
+        tip("Every panel but its title (Shift+Tab)");
+    }
     ImGui::End();
 }
 
@@ -208,6 +224,8 @@ void notices(State& state, const PictureArea& area, float scale) {
             errorParagraph(state.notice.text);
         } else if (!state.notice.text.empty()) {
             paragraph(state.notice.text);
+            // Errors stay until Esc: a click may be a mistake.
+            if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) state.notice = {};
         }
     }
     ImGui::End();
@@ -224,8 +242,6 @@ PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale) {
     return area;
 }
 
-            // Errors stay until Esc: a click may be a mistake.
-            if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) state.notice = {};
 glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth) {
     return pictureSize + glm::ivec2(panelWidth, kStatusHeight);
 }
@@ -251,7 +267,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawInspector(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
-        if (facts.told()) drawProgress(*facts.told(), area, scale, *ImGui::GetBackgroundDrawList());
+        if (facts.told()) drawProgress(*facts.told(), area, state.inspectorBox, scale, *ImGui::GetBackgroundDrawList());
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

@@ -27,6 +27,7 @@ void outline(ImDrawList& list, const glm::vec2& corner, float size, float width)
 
 void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     const std::optional<glm::vec2> place = state.inspectedPlace();
+    state.inspectorBox.reset();
     if (!place || !facts.inspection) return;
     const float pad = kBoxPad * area.scale, line = ImGui::GetTextLineHeight();
     const float texel = kTexelPoints * area.scale, loupe = float(kLoupeTexels) * texel;
@@ -40,6 +41,7 @@ void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     const float beside = kBesidePoints * area.scale;
     const glm::vec2 corner(besidePoint(point.x, size.x, area.corner.x, end.x, beside),
                            besidePoint(point.y, size.y, area.corner.y, end.y, beside));
+    state.inspectorBox = {corner, size};
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
     if (state.pinnedPlace) outline(list, point - 0.75f * texel, 1.5f * texel, area.scale);

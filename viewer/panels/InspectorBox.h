@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 
 /// What the picture shows at the inspected pixel, in words beside it, and where the loupes are to be drawn
-/// (added to State::loupes). Nothing where nothing is inspected, or the picture has no room.
+/// (added to State::loupes); State::inspectorBox. Nothing where nothing is inspected, or the picture has no room.
 void drawInspector(State& state, const Facts& facts, const PictureArea& area);
 
 } // namespace tessera::viewer

@@ -174,10 +174,7 @@ bool periodRows(scenes::LightAnimation& way) {
                                  "%.2f s");
     });
     row("Phase");
-    changed |= edit(way.phase, 0.0, 1.0, [](double& share) {
-        constexpr double kLeast = 0.0, kMost = 1.0;
-        return ImGui::SliderScalar("##Phase", ImGuiDataType_Double, &share, &kLeast, &kMost, "%.3f");
-    });
+    changed |= edit(way.phase, 0.0, 1.0, [](double& share) { return slideNumber("##Phase", share, 0.0, 1.0, "%.3f"); });
     tip("Where it is at 0 s, as a share of the period");
     return changed;
 }

@@ -276,9 +276,9 @@ void listButtons(State& state) {
 /// Replaces the lights by many.
 void scatterRows(State& state) {
     row("Scatter");
-    ImGui::SliderInt("##Scatter", &state.scatter.count, 1, kMostScattered,
-                     state.scatter.count == 1 ? "%d light" : "%d lights",
-                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    edit(state.scatter.count, 1, kMostScattered, [](int& count) {
+        return slideNumber("##Scatter", count, 1, kMostScattered, count == 1 ? "%d light" : "%d lights", true);
+    });
     row("");
     if (ImGui::Button("Replace all by these")) state.requests.scatter = true;
     tip("Ctrl+Z brings the old ones back");
@@ -292,17 +292,14 @@ bool flickerRows(scenes::Light& light, std::size_t index) {
     if (changed) letFlicker(light, flickers, index);
     if (!light.flicker) return changed;
     row("Flicker amount");
-    changed |= edit(light.flicker->amplitude, 0.0, 1.0, [](double& amplitude) {
-        constexpr double kLeast = 0.0, kMost = 1.0;
-        return ImGui::SliderScalar("##FlickerAmount", ImGuiDataType_Double, &amplitude, &kLeast, &kMost, "%.2f");
-    });
+    changed |= edit(light.flicker->amplitude, 0.0, 1.0,
+                    [](double& amplitude) { return slideNumber("##FlickerAmount", amplitude, 0.0, 1.0, "%.2f"); });
     tip("The intensity stays within 1 - amount and 1 + amount times the light's own");
     row("Flicker speed");
     changed |=
         edit(light.flicker->frequencyHz, kLeastFlickerHertz, scenes::LightFlicker::kMostHertz, [](double& hertz) {
             constexpr double kMostShown = 30.0; // half of what most displays show in a second
-            return ImGui::SliderScalar("##FlickerSpeed", ImGuiDataType_Double, &hertz, &kLeastFlickerHertz, &kMostShown,
-                                       "%.2f Hz", ImGuiSliderFlags_Logarithmic);
+            return slideNumber("##FlickerSpeed", hertz, kLeastFlickerHertz, kMostShown, "%.2f Hz", true);
         });
     tip("Nothing in the flicker is faster");
     return changed;

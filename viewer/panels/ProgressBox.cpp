@@ -9,16 +9,34 @@
 
 namespace tessera::viewer {
 
-void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list) {
+namespace {
+
+/// The first corner where a box meets no other; each lies so far from the lower and upper edge, where messages and
+/// names stand.
+glm::vec2 freeCorner(const PictureArea& area, const glm::vec2& size, float pad, float fromEdge,
+                     const std::optional<Box>& other) {
+    const float left = area.corner.x + pad, right = area.corner.x + area.size.x - pad - size.x;
+    const float lower = area.corner.y + area.size.y - fromEdge - size.y, upper = area.corner.y + fromEdge;
+    const glm::vec2 corners[] = {{left, lower}, {right, lower}, {left, upper}, {right, upper}};
+    for (const glm::vec2& corner : corners)
+        if (!other || !Box{corner, size}.meets(*other)) return corner;
+    return corners[0];
+}
+
+} // namespace
+
+void drawProgress(const Progress& progress, const PictureArea& area, const std::optional<Box>& other, float scale,
+                  ImDrawList& list) {
     constexpr ImU32 kBox = IM_COL32(20, 21, 24, 255), kWords = IM_COL32(220, 222, 228, 255);
     constexpr ImU32 kRail = IM_COL32(60, 62, 68, 255), kDone = IM_COL32(70, 140, 220, 255);
-    constexpr float kWidthEms = 26.0f, kAboveEdgeEms = 5.0f; // above a message of a line
+    constexpr float kWidthEms = 24.0f, kAboveEdgeEms = 5.0f; // above a message of a line
     const float em = ImGui::GetFontSize(), pad = 8.0f * scale, rail = 5.0f * scale;
     const float width = std::min(kWidthEms * em, area.size.x - 2.0f * pad);
     const ImVec2 size(width, 2.0f * em + rail + 4.0f * pad);
     if (width < 8.0f * em || area.size.y < size.y + 2.0f * pad) return; // no room to read it
-    const float below = std::min(kAboveEdgeEms * em, area.size.y - size.y - pad);
-    const ImVec2 corner(area.corner.x + 0.5f * (area.size.x - size.x), area.corner.y + area.size.y - below - size.y);
+    const float fromEdge = std::min(kAboveEdgeEms * em, area.size.y - size.y - pad);
+    const glm::vec2 place = freeCorner(area, {size.x, size.y}, pad, fromEdge, other);
+    const ImVec2 corner(place.x, place.y);
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
     list.AddRectFilled(corner, end, kBox, pad);
     list.PushClipRect(corner, end, true);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "viewer/session/Controls.h"
@@ -8,9 +9,10 @@ struct ImDrawList;
 
 namespace tessera::viewer {
 
-/// A box over the picture's lower part that says what takes long, how far it is, and that Esc cancels it. It covers
-/// what it drew before.
-void drawProgress(const Progress& progress, const PictureArea& area, float scale, ImDrawList& list);
+/// A box in a corner of the picture that says what takes long, how far it is, and that Esc cancels it: beside the
+/// picture's middle, and clear of another box. It covers what it drew before.
+void drawProgress(const Progress& progress, const PictureArea& area, const std::optional<Box>& other, float scale,
+                  ImDrawList& list);
 
 /// "Filtering sky: 45 %", or "Loading sky ..." where nobody knows the share, on one line of a width (shortened()); what
 /// is left of a name does not depend on the share.

@@ -55,7 +55,7 @@ bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
         const int least = int(std::max(kind.least, -kMostWhole)), most = int(std::min(kind.most, kMostWhole));
         int edited = int(value);
         isEdited = edit(edited, least, most, [&](int& n) {
-            return isBounded ? ImGui::SliderInt(id.c_str(), &n, least, most) : ImGui::DragInt(id.c_str(), &n);
+            return isBounded ? slideNumber(id.c_str(), n, least, most, "%d") : ImGui::DragInt(id.c_str(), &n);
         });
         if (isEdited) value = edited;
     } else {
@@ -63,7 +63,7 @@ bool show(const Setting& setting, const engine::NumberKind& kind, Look& look) {
         const float sliderMost = hasSlider ? kind.sliderMost : float(kind.most);
         float edited = float(value);
         isEdited = editShown(edited, float(kind.least), float(kind.most), kind.format, [&](float& n) {
-            return isBounded ? ImGui::SliderFloat(id.c_str(), &n, sliderLeast, sliderMost, kind.format)
+            return isBounded ? slideNumber(id.c_str(), n, sliderLeast, sliderMost, kind.format)
                              : ImGui::DragFloat(id.c_str(), &n, 0.01f, 0.0f, 0.0f, kind.format);
         });
         if (isEdited) value = std::clamp(double(edited), kind.least, kind.most);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "base/OneLine.h"
 #include "base/Utf8.h"
@@ -55,6 +56,15 @@ void rowTip(std::string_view meaning) {
     if (!ImGui::IsMouseHoveringRect(corner, {endX, corner.y + ImGui::GetFrameHeight()}) || isUsed(latest)) return;
     if (!ImGui::IsAnyItemActive()) tooltip(meaning);
 }
+
+template <typename Number>
+constexpr ImGuiDataType kDataType = ImGuiDataType_COUNT;
+template <>
+constexpr ImGuiDataType kDataType<int> = ImGuiDataType_S32;
+template <>
+constexpr ImGuiDataType kDataType<float> = ImGuiDataType_Float;
+template <>
+constexpr ImGuiDataType kDataType<double> = ImGuiDataType_Double;
 
 /// Of a widget whose label stands beside it.
 std::string idOf(const char* label) {
@@ -120,18 +130,43 @@ Gesture widgetGesture() {
     return ImGui::IsAnyItemActive() ? Gesture::GoesOn : Gesture::Once;
 }
 
+template <typename Number>
+bool slideNumber(const char* id, Number& value, Number least, Number most, const char* format, bool isLogarithmic) {
+    const ImGuiSliderFlags flags = isLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+    // Dear ImGui's own grab would lie behind the number like a selection.
+    ImGui::PushStyleColor(ImGuiCol_SliderGrab, ImVec4());
+    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, ImVec4());
+    const bool isChanged = ImGui::SliderScalar(id, kDataType<Number>, &value, &least, &most, format, flags);
+    ImGui::PopStyleColor(2);
+    if (ImGui::TempInputIsActive(ImGui::GetItemID())) return isChanged; // a number is typed
+    ImRect grab;
+    const ImRect frame(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    ImGui::SliderBehavior(frame, ImGui::GetID("grab"), kDataType<Number>, &value, &least, &most, format, flags, &grab);
+    const float unit = ImGui::GetStyle().GrabRounding, x = grab.GetCenter().x; // 3 pixels on usual displays
+    const float railY = frame.Max.y - unit, inset = 1.5f * unit;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImU32 color = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
+    list.AddRectFilled({frame.Min.x + inset, railY}, {frame.Max.x - inset, railY + 0.5f * unit},
+                       ImGui::GetColorU32(ImGuiCol_Border));
+    list.AddRectFilled({frame.Min.x + inset, railY}, {x, railY + 0.5f * unit}, ImGui::GetColorU32(ImGuiCol_CheckMark));
+    list.AddRectFilled({x - 1.5f * unit, railY - unit}, {x + 1.5f * unit, frame.Max.y - 0.33f * unit}, color,
+                       0.5f * unit);
+    return isChanged;
+}
+template bool slideNumber(const char*, int&, int, int, const char*, bool);
+template bool slideNumber(const char*, float&, float, float, const char*, bool);
+template bool slideNumber(const char*, double&, double, double, const char*, bool);
+
 bool slider(const char* label, float& value, float least, float most, const char* format) {
     row(label);
-    return editShown(value, least, most, format, [&](float& edited) {
-        return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format);
-    });
+    return editShown(value, least, most, format,
+                     [&](float& edited) { return slideNumber(idOf(label).c_str(), edited, least, most, format); });
 }
 
 bool logarithmicSlider(const char* label, float& value, float least, float most, const char* format) {
     row(label);
-    return edit(value, least, most, [&](float& edited) {
-        return ImGui::SliderFloat(idOf(label).c_str(), &edited, least, most, format, ImGuiSliderFlags_Logarithmic);
-    });
+    return edit(value, least, most,
+                [&](float& edited) { return slideNumber(idOf(label).c_str(), edited, least, most, format, true); });
 }
 
 bool angleSlider(const char* label, float& radians, float leastDegrees, float mostDegrees) {
@@ -139,7 +174,7 @@ bool angleSlider(const char* label, float& radians, float leastDegrees, float mo
     row(label);
     return edit(radians, glm::radians(leastDegrees), glm::radians(mostDegrees), [&](float& edited) {
         auto degrees = float(shownNumber(kDegrees, glm::degrees(edited)));
-        if (!ImGui::SliderFloat(idOf(label).c_str(), &degrees, leastDegrees, mostDegrees, kDegrees)) return false;
+        if (!slideNumber(idOf(label).c_str(), degrees, leastDegrees, mostDegrees, kDegrees)) return false;
         edited = glm::radians(degrees);
         return true;
     });

@@ -61,6 +61,10 @@ bool editShown(Value& value, Number least, Number most, const char* format, cons
 /// Whether the edit of a widget that was just shown is one of many that the user makes with it in one go.
 Gesture widgetGesture();
 
+/// A slider without a label, of an int, a float or a double: its grab runs on a rail below the number.
+template <typename Number>
+bool slideNumber(const char* id, Number& value, Number least, Number most, const char* format,
+                 bool isLogarithmic = false);
 /// A slider in a row of its own. Whether it changed the value.
 bool slider(const char* label, float& value, float least, float most, const char* format = "%.3f");
 /// The same for values over several powers of ten.

@@ -61,6 +61,7 @@ constexpr KeyBinding kBindings[] = {
      }},
     {GLFW_KEY_ENTER, kNone, "Enter", "draw on after Esc", [](State& s) { s.requests.resume = true; }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
+    {GLFW_KEY_TAB, kShift, "Shift+Tab", "fold all panels", [](State& s) { s.foldsPanels = true; }},
     {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
     {GLFW_KEY_1, kNone, "1 to 7", "the numbered views; 7 is the lit picture", [](State& s) { showNumbered(s, 1); },
      "Picture"},

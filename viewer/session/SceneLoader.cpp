@@ -1,7 +1,9 @@
 #include "viewer/session/SceneLoader.h"
 
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "renderer/frame/ComputedCache.h"
@@ -9,6 +11,16 @@
 
 namespace tessera::viewer {
 namespace {
+
+/// A text without the folder of a file but for the first time that it is named.
+std::string namedOnce(std::string text, const std::string& file) {
+    const std::string folder = (std::filesystem::path(file).parent_path() / "").string();
+    std::size_t at = text.find(folder);
+    if (folder.size() < 2 || at == std::string::npos) return text;
+    while ((at = text.find(folder, at + 1)) != std::string::npos)
+        if (std::string_view(" '\"(").find(text[at - 1]) != std::string_view::npos) text.erase(at, folder.size());
+    return text;
+}
 
 SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& options, EnvironmentProgress& progress) {
     SceneLoader::Result result;
@@ -33,7 +45,7 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";
     } catch (const std::exception& error) {
         result.scene.reset();
-        result.error = error.what();
+        result.error = namedOnce(error.what(), source);
     }
     result.seconds = clock.elapsedMs() / 1000.0;
     return result;

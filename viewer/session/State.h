@@ -31,6 +31,15 @@ struct Loupe {
     float size = 0.0f;
 };
 
+/// A rectangle of the window, screen coordinates.
+struct Box {
+    glm::vec2 corner{0.0f}, size{0.0f};
+    bool meets(const Box& other) const {
+        return glm::all(glm::lessThan(corner, other.corner + other.size)) &&
+               glm::all(glm::lessThan(other.corner, corner + size));
+    }
+};
+
 /// A line for the user: a finished action, or an error with its remedy.
 struct Notice {
     std::string text;
@@ -95,6 +104,7 @@ struct State {
     std::map<std::string, bool> sections; ///< as Preferences::sections
     std::optional<Selected> reveals;      ///< whose panel is to come into view
     bool showsHelp = false;
+    bool foldsPanels = false;             ///< all of them, in the next frame
     int selectedLight = scenes::kNone; ///< that panels and handles are about
     std::set<int> selectedLights;      ///< several, where that one is among them
     int selectedMaterial = scenes::kNone;
@@ -115,6 +125,7 @@ struct State {
     std::optional<glm::vec2> pinnedPlace;  ///< that is inspected meanwhile
     std::vector<Loupe> loupes;             ///< of this frame
     std::string dragText;                  ///< what the drag in progress sets, for the user
+    std::optional<Box> inspectorBox;       ///< of this frame: what is told of that pixel
     bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
     bool showsMaterial = false;            ///< a panel shows the selected material
     bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame

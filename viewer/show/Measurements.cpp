@@ -91,8 +91,9 @@ void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
     facts.lights = validation::judgeLights(*screen.renderer(), look.technique, settings);
     const culling::Choice culling =
         engine::prepareView(screen.renderer()->scene(), look.technique, settings).spec.culling;
-    facts.lightsOf = fmt::format("{}, {}, tile {}, {}x{}", infoOf(look.technique).name, infoOf(culling.method).name,
-                                 culling.tilePixels, settings.sizePixels.x, settings.sizePixels.y);
+    facts.lightsOf = fmt::format("at {}x{}, 1/{} of the picture's sides: {}, {}, tile {}", settings.sizePixels.x,
+                                 settings.sizePixels.y, kJudgedShare, infoOf(look.technique).name,
+                                 infoOf(culling.method).name, culling.tilePixels);
     facts.lightsLook = look;
 }
 

@@ -177,7 +177,7 @@ std::optional<double> PictureDrawing::drawingShare() const {
 void PictureDrawing::tellProgress(double scale) {
     if (!calls_.tells || Window::nowSeconds() < nextTold_) return;
     const std::optional<double> share = drawingShare();
-    facts_.progress = {drawingText(scale), share, true};
+    facts_.progress = screen_.lacksPrograms(wanted_) ? announced() : Progress{drawingText(scale), share, true};
     log_.line(fmt::format("progress {}{}", facts_.progress->text,
                           share ? fmt::format(" {:.0f} %", 100.0 * *share) : std::string()));
     calls_.tells();

@@ -20,6 +20,7 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_WindowBg] = grey(0.115f);
     colors[ImGuiCol_ChildBg] = grey(0.0f, 0.0f);
     colors[ImGuiCol_PopupBg] = grey(0.12f);
+    colors[ImGuiCol_ModalWindowDimBg] = grey(0.0f, 0.55f);
     // Around fields, whose ground is too dark to stand out from a panel's.
     colors[ImGuiCol_Border] = grey(0.41f);
     // Darker than a panel, so that the grab of a slider stands out from them and a number can be read on both.
@@ -33,9 +34,9 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.48f);
     colors[ImGuiCol_ScrollbarGrabActive] = grey(0.56f);
     colors[ImGuiCol_CheckMark] = accent(1.2f);
-    // Dim: the number is written across it.
-    colors[ImGuiCol_SliderGrab] = accent(0.72f);
-    colors[ImGuiCol_SliderGrabActive] = accent(0.76f);
+    // Below the number (slideNumber()).
+    colors[ImGuiCol_SliderGrab] = grey(0.75f);
+    colors[ImGuiCol_SliderGrabActive] = grey(0.95f);
     colors[ImGuiCol_Button] = grey(0.25f);
     colors[ImGuiCol_ButtonHovered] = grey(0.32f);
     colors[ImGuiCol_ButtonActive] = accent(0.8f);

@@ -187,7 +187,7 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     const Setting& shadows = settingOf("shadows");
     using Kind = scenes::ShadowRequest::Kind;
     ViewRequest request;
-    EXPECT_EQ(shadows.text(request), "asked");
+    EXPECT_EQ(shadows.text(request), "scene");
     for (const auto& [text, value] : std::initializer_list<std::pair<const char*, scenes::ShadowRequest>>{
              {"none", {Kind::None}}, {"all", {Kind::All}}, {"0", {Kind::First, 0}}, {"16", {Kind::First, 16}}}) {
         shadows.read(request, text);
@@ -196,9 +196,9 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     }
     EXPECT_EQ(refusal([&] { shadows.read(request, "-1"); }), "shadows -1 is below 0; give 0 or more");
     EXPECT_EQ(refusal([&] { shadows.read(request, "al"); }),
-              "unknown shadows 'al': give none, asked, all or a number N, for the first N lights; did you mean 'all'?");
+              "unknown shadows 'al': give none, scene, all or a number N, for the first N lights; did you mean 'all'?");
     EXPECT_EQ(refusal([&] { shadows.read(request, "1.5"); }),
-              "unknown shadows '1.5': give none, asked, all or a number N, for the first N lights");
+              "unknown shadows '1.5': give none, scene, all or a number N, for the first N lights");
     scenes::Scene scene;
     scene.options.wishes["shadows"] = 3.0;
     takeWishes(scene, "s.json", request);

@@ -163,8 +163,9 @@ TEST_F(Overlays, theBoxOfProgressStandsInThePictureAndCoversItself) {
     State state;
     state.showsPanel = false;
     const PictureArea place = area(state);
+    std::optional<Box> other;
     const auto boxOf = [&](const Progress& progress) {
-        return overlaySpan([&] { drawProgress(progress, place, 1.0f, *ImGui::GetBackgroundDrawList()); });
+        return overlaySpan([&] { drawProgress(progress, place, other, 1.0f, *ImGui::GetBackgroundDrawList()); });
     };
     const auto unknown = boxOf({"Preparing shaders", {}, true});
     ASSERT_TRUE(unknown);
@@ -172,9 +173,16 @@ TEST_F(Overlays, theBoxOfProgressStandsInThePictureAndCoversItself) {
     EXPECT_LE(unknown->second, place.corner.x + place.size.x);
     EXPECT_EQ(boxOf({"Drawing the whole picture", 0.5, false}), unknown);
     EXPECT_EQ(boxOf({"Drawing the whole picture", 7.0, true}), unknown) << "more than all";
+    EXPECT_LT(unknown->second, place.corner.x + 0.5f * place.size.x) << "it hides the object";
+    other = Box{place.corner + glm::vec2(0.0f, 0.8f * place.size.y), 0.2f * place.size};
+    const auto beside = boxOf({"Preparing shaders", {}, true});
+    ASSERT_TRUE(beside);
+    EXPECT_GT(beside->first, other->corner.x + other->size.x) << "it covers the inspector";
     PictureArea narrow = place;
     narrow.size = {50.0f, 20.0f};
-    EXPECT_FALSE(overlaySpan([&] { drawProgress({"x", 0.5, true}, narrow, 1.0f, *ImGui::GetBackgroundDrawList()); }));
+    EXPECT_FALSE(overlaySpan([&] {
+        drawProgress({"x", 0.5, true}, narrow, {}, 1.0f, *ImGui::GetBackgroundDrawList());
+    }));
 }
 
 TEST_F(Overlays, theStatusLineSaysThatThePictureWasCancelled) {

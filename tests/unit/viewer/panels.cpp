@@ -218,6 +218,48 @@ TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
     EXPECT_TRUE(isClicked);
 }
 
+TEST_F(Panels, aClickTakesANoteAwayButNoError) {
+    State state = test::unusualScene();
+    const PictureArea picture = area(state);
+    ImGui::GetIO().MousePos = {picture.corner.x + 30.0f, picture.corner.y + picture.size.y - 24.0f};
+    for (const bool isError : {false, true}) {
+        state.notice = {"2 pictures missing", isError};
+        for (const bool isDown : {false, false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = isDown;
+            frame([&] { drawInterface(state, {}, picture, 1.0f); });
+        }
+        EXPECT_EQ(state.notice.text.empty(), !isError);
+    }
+}
+
+TEST_F(Panels, aPanelThatIsOpenedLowInTheColumnIsScrolledTo) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {1280.0f, 300.0f};
+    State state = test::unusualScene();
+    state.foldsPanels = true;
+    const auto next = [&] {
+        frame([&] { drawInterface(state, {}, pictureArea(state, {1280.0f, 300.0f}, 1.0f), 1.0f); });
+        return ImGui::FindWindowByName("Panels")->Scroll.y;
+    };
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(next(), 0.0f);
+    for (const auto& [title, isOpen] : state.sections) EXPECT_FALSE(isOpen) << title;
+    const auto click = [&](const char* title, int bar) {
+        constexpr float kFirst = 17.0f, kStep = 24.0f; // of bars, one below the other
+        io.MousePos = {150.0f, kFirst + kStep * float(bar)};
+        for (const bool isDown : {false, true, false}) {
+            io.MouseDown[0] = isDown;
+            next();
+        }
+        next();
+        EXPECT_TRUE(state.sections[title]) << title;
+        return next();
+    };
+    EXPECT_EQ(click("Scene", 0), 0.0f) << "all of it is in view";
+    state.foldsPanels = true;
+    next();
+    EXPECT_GT(click("Technique", 8), 0.0f);
+}
+
 TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
     const glm::vec3 before(0.402f, 3.5f, 0.3f); // brighter than a display
     glm::vec3 color = before;
@@ -284,7 +326,7 @@ TEST_F(Panels, theFiguresOfLightCullingDivideToTheTightness) {
     figures.needed = 1100;
     const std::string text = textOf([&] { cullingPanel(state, facts); });
     EXPECT_DOUBLE_EQ(numberBehind(text, "All lights"), 15.7) << text;
-    EXPECT_DOUBLE_EQ(numberBehind(text, "Endless"), 12.0) << text;
+    EXPECT_DOUBLE_EQ(numberBehind(text, "Without range"), 12.0) << text;
     EXPECT_NEAR(numberBehind(text, "Visited") / numberBehind(text, "Needed"), numberBehind(text, "Tightness"), 0.005)
         << text;
 }
@@ -296,7 +338,7 @@ TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
     figures.covered = 1000;
     figures.everywhere = 12000;
     const std::string text = textOf([&] { cullingPanel(state, facts); });
-    EXPECT_DOUBLE_EQ(numberBehind(text, "Endless"), 12.0) << text;
+    EXPECT_DOUBLE_EQ(numberBehind(text, "Without range"), 12.0) << text;
     EXPECT_NE(text.find("no light to cull"), std::string::npos) << text;
     EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
 }

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/TempFolder.h"
+
 namespace tessera::viewer {
 namespace {
 
@@ -38,6 +40,23 @@ TEST(SceneLoader, aNewRequestTakesThePlaceOfAllBeforeWhichAreNotLoadedAtOnce) {
     loader.start("room", {}); // what has come to rest begins again
     wait(loader);
     EXPECT_TRUE(loader.take());
+}
+
+TEST(SceneLoader, anErrorNamesItsFolderOnce) {
+    const tessera::test::TempFolder folder;
+    const std::string file =
+        folder
+            .write("model.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "gone.bin", "byteLength": 12}],
+            "bufferViews": [{"buffer": 0, "byteLength": 12}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]})")
+            .string();
+    SceneLoader loader([] {});
+    loader.start(file, {});
+    for (int i = 0; i < 6000 && !loader.hasResult(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const std::optional<SceneLoader::Result> result = loader.take();
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->error, file + ": /buffers/0: gone.bin: there is no such file; check the name and the folder");
 }
 
 } // namespace

@@ -1,9 +1,12 @@
 #include "viewer/window/Theme.h"
 
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 
 #include "base/Srgb.h"
 #include "tests/unit/viewer/PanelTest.h"
+#include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
 namespace {
@@ -39,10 +42,31 @@ TEST_F(Theme, fieldsStandOutFromPanelsByTheirBorders) {
         EXPECT_GE(contrast(ImGuiCol_Border, ground), kLeastOfParts) << ImGui::GetStyleColorName(ground);
 }
 
-TEST_F(Theme, numbersCanBeReadOnSliders) {
+TEST_F(Theme, theGrabOfASliderLeavesItsNumberAlone) {
     EXPECT_GE(contrast(ImGuiCol_Text, ImGuiCol_FrameBg), kLeastOfText);
-    EXPECT_GE(contrast(ImGuiCol_Text, ImGuiCol_SliderGrab), kLeastOfText);
-    EXPECT_GE(contrast(ImGuiCol_Text, ImGuiCol_SliderGrabActive), kLeastOfParts) << "while it is dragged";
+    // The number stands in the middle of the frame, and the value in the middle of its range.
+    float top = FLT_MAX, bottom = 0.0f, numberTop = 0.0f;
+    const ImU32 color = ImGui::GetColorU32(ImGuiCol_SliderGrab);
+    show([&] {
+        float value = 0.0f;
+        slider("Exposure", value, -8.0f, 8.0f, "%+.1f EV");
+        const ImVec2 middle((ImGui::GetItemRectMin().x + ImGui::GetItemRectMax().x) / 2.0f, 0.0f);
+        numberTop = ImGui::GetItemRectMin().y + ImGui::GetStyle().FramePadding.y;
+        for (const ImDrawVert& vertex : ImGui::GetWindowDrawList()->VtxBuffer) {
+            if (vertex.col != color || std::abs(vertex.pos.x - middle.x) > 8.0f) continue;
+            top = std::min(top, vertex.pos.y);
+            bottom = std::max(bottom, vertex.pos.y);
+        }
+    });
+    constexpr float kDigitShare = 0.8f; // of a line of DejaVu Sans; below it hang commas
+    EXPECT_GE(top, numberTop + kDigitShare * ImGui::GetFontSize());
+    EXPECT_GE(bottom - top, 3.5f) << "there is no grab";
+}
+
+TEST_F(Theme, aDialogDarkensTheWindow) {
+    const ImVec4& veil = ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg];
+    EXPECT_LE(std::max({veil.x, veil.y, veil.z}), 0.05f);
+    EXPECT_GE(veil.w, 0.4f);
 }
 
 TEST_F(Theme, selectedRowsCanBeReadAndScrollBarsAreSeen) {
