@@ -346,6 +346,7 @@ private:
         if (requests.saveAs) document_.saveAs(*requests.saveAs, size);
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) document_.copyCommand(size);
+        if (requests.addLight) addLight(state_, screen_.meanLuminance());
         if (requests.scatter) replaceByScattered(state_);
         if (requests.pick) log_.line("picked " + selectMaterialAt(state_, *requests.pick, size));
         if (requests.turnAbout && turnAboutPlace(state_, *requests.turnAbout, size)) log_.line("turns about a surface");

@@ -14,8 +14,6 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kLuxAtFocus = 3.0; ///< a matte white surface there looks about white
-
 /// A name without the number that tells copies apart.
 std::string withoutNumber(const std::string& name) {
     const std::size_t space = name.find_last_of(' ');
@@ -54,16 +52,6 @@ std::string freeLightName(const Lights& lights, const std::string& wanted) {
 
 scenes::Light newLight(const Lights& lights, scenes::Light light) {
     light.name = freeLightName(lights, light.name.empty() ? "light" : light.name);
-    return light;
-}
-
-scenes::Light lightBeforeFocus(const CameraPose& pose) {
-    scenes::Light light;
-    light.name = "light";
-    const double distanceMetres = 0.5 * pose.focusMetres;
-    light.positionWS = pose.eyeWS + distanceMetres * pose.heading.forwardWS();
-    light.directionWS = pose.heading.forwardWS();
-    light.intensity = float(kLuxAtFocus * distanceMetres * distanceMetres);
     return light;
 }
 

@@ -20,10 +20,6 @@ std::string freeLightName(const Lights& lights, const std::string& wanted);
 /// A light under a name that is free.
 scenes::Light newLight(const Lights& lights, scenes::Light light);
 
-/// A white point light halfway to the camera's focus, before the things that are looked at and not inside them: of 3
-/// lux there.
-scenes::Light lightBeforeFocus(const CameraPose& pose);
-
 /// A copy of a light, the number behind its name counted on ("lamp 2").
 scenes::Light copyOfLight(const Lights& lights, std::size_t index);
 

@@ -8,22 +8,31 @@
 
 #include <fmt/format.h>
 
-#include "validation/reference/Visibility.h"
+#include "viewer/edit/Clearance.h"
 #include "viewer/edit/Surfaces.h"
 
 namespace tessera::viewer {
 namespace {
 
-/// Heights above the surface, as shares of the range.
-constexpr double kLowest = 0.1;
+/// Heights above the surface, as shares of a light's range: lower ones burn what is below them.
+constexpr double kLowest = 0.2;
 constexpr double kHighest = 0.5;
+/// Squares of ranges, as shares of the square of the mean one; their mean is 1.
+constexpr double kLeastSquare = 0.4;
+constexpr double kMostSquare = 1.6;
 /// A light of height h reaches a disc of radius sqrt(range^2 - h^2): its mean share of the disc of the range.
 constexpr double kReachedShare = 1.0 - (kLowest * kLowest + kLowest * kHighest + kHighest * kHighest) / 3.0;
-/// Mean over the disc of the range of cos / d^2 times the falloff's window, for height 0.3 and in units of the range:
-/// 2 h times the integral of (1 - d^4)^2 / d^2 from h to 1.
-constexpr double kMeanIrradiance = 1.0965;
+/// Mean over the disc of the range of cos / d^2 times the falloff's window, for the mean height h and in units of the
+/// range: 2 h times the integral of (1 - d^4)^2 / d^2 from h to 1, without the term of h^8.
+constexpr double kMeanHeight = 0.5 * (kLowest + kHighest);
+constexpr double kMeanIrradiance =
+    2.0 - 64.0 / 21.0 * kMeanHeight + 4.0 / 3.0 * kMeanHeight * kMeanHeight * kMeanHeight * kMeanHeight;
 /// As a fraction of the distance to the surface above, so that lamps stay below a ceiling.
 constexpr double kClearShare = 0.8;
+/// Of the scene's size: in gaps narrower than that are no lamps.
+constexpr double kLeastClearShare = 0.01;
+constexpr double kLeastUp = 0.5; ///< 60 degrees from level: a steep roof still faces up
+constexpr int kMostTries = 16;   ///< for each light
 
 /// std::mt19937_64 is the same everywhere, the distributions of <random> are not.
 class Numbers {
@@ -35,59 +44,59 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// The distance from a place to the surface that faces it. The eye of its rays is the middle of the bounds.
-class Clearance {
-public:
-    Clearance(const scenes::Scene& scene, const scenes::Box3& boundsWS)
-        : rays_(cameraIn(boundsWS), {1, 1}), objects_(scene, rays_), textures_(scene, reference::Filtering::Exact),
-          visibility_(objects_, rays_, textures_) {}
-
-    double metresAbove(const Surfaces::Place& place, double mostMetres) const {
-        // Off the surface itself, by more than single precision blurs it.
-        const double startMetres = 1e-4 * mostMetres;
-        const reference::Ray ray{place.positionWS + startMetres * place.normalWS - rays_.eyeWS(), place.normalWS};
-        const std::optional<reference::Hit> hit = visibility_.nearestOpaque(ray);
-        return hit ? std::min(mostMetres, startMetres + hit->depthMetres) : mostMetres;
-    }
-
-private:
-    static scenes::Camera cameraIn(const scenes::Box3& boundsWS) {
-        scenes::Camera camera;
-        camera.projection = scenes::Projection::Orthographic; // nothing is too near for parallel rays
-        camera.nearMetres = 0.0;
-        camera.worldFromCamera[3] = glm::dvec4(0.5 * (boundsWS.min + boundsWS.max), 1.0);
-        camera.farMetres = 2.0 * glm::length(boundsWS.max - boundsWS.min) + 1.0;
-        return camera;
-    }
-
-    reference::CameraRays rays_;
-    reference::Objects objects_;
-    reference::Textures textures_;
-    reference::Visibility visibility_;
+/// Where a lamp may hang.
+struct Spot {
+    Surfaces::Place place;
+    double clearMetres = 0.0;
 };
 
-scenes::Light lightOf(int number, double hue, double rangeMetres, const Scatter& scatter) {
+/// Places above surfaces where lamps hang in a building: above what faces up, and before walls and ceilings that other
+/// surfaces face; not behind walls, below floors or in narrow gaps. Anywhere, where there are no such places.
+std::vector<Spot> spotsIn(const Clearance& clearance, const Surfaces& surfaces, double diagonalMetres, int count,
+                          Numbers& numbers, double& areaSquareMetres) {
+    std::vector<Spot> spots;
+    const auto wanted = std::size_t(count);
+    for (const bool takesAll : {false, true}) {
+        std::size_t tried = 0;
+        for (; tried < kMostTries * wanted && spots.size() < wanted; ++tried) {
+            const double triangle = numbers.unit(), u = numbers.unit(), v = numbers.unit();
+            const Surfaces::Place place = surfaces.at(triangle, u, v);
+            const auto metres = clearance.metresAlong(place.positionWS, place.normalWS, diagonalMetres);
+            const bool isGood = metres ? *metres >= kLeastClearShare * diagonalMetres : place.normalWS.y >= kLeastUp;
+            if (isGood || takesAll) spots.push_back({place, metres.value_or(diagonalMetres)});
+        }
+        if (!takesAll && !spots.empty()) areaSquareMetres *= double(spots.size()) / double(tried);
+    }
+    return spots;
+}
+
+scenes::Light lightOf(int number, double rangeMetres, const Scatter& scatter, Numbers& numbers) {
     scenes::Light light;
     light.name = fmt::format("scattered {}", number);
-    light.color = equalLuminanceColor(hue);
-    light.rangeMetres = float(rangeMetres);
-    light.intensity =
-        float(scatter.lux * kReachedShare * rangeMetres * rangeMetres / (scatter.lightsPerPoint * kMeanIrradiance));
+    // As likely in any step that an eye tells apart: those are even in the reciprocals.
+    light.color = lampColor(1.0 / glm::mix(1.0 / kWarmestKelvin, 1.0 / kCoolestKelvin, numbers.unit()));
+    light.rangeMetres = float(rangeMetres * std::sqrt(glm::mix(kLeastSquare, kMostSquare, numbers.unit())));
+    light.intensity = float(scatter.lux * kReachedShare * double(light.rangeMetres) * double(light.rangeMetres) /
+                            (scatter.lightsPerPoint * kMeanIrradiance));
     return light;
 }
 
 } // namespace
 
-glm::vec3 equalLuminanceColor(double hue) {
-    constexpr double kSaturation = 0.6;
-    glm::dvec3 color;
-    for (glm::length_t i = 0; i < 3; ++i) {
-        // Each channel is full within a sixth of its hue and empty beyond a third.
-        const double apart = hue - i / 3.0;
-        const double distance = std::abs(apart - std::round(apart));
-        color[i] = 1.0 - kSaturation + kSaturation * std::clamp(2.0 - 6.0 * distance, 0.0, 1.0);
-    }
-    return glm::vec3(color / glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722)));
+glm::vec3 lampColor(double kelvin) {
+    assert(kelvin >= 1667.0 && kelvin <= 25000.0);
+    const double k = 1000.0 / kelvin;
+    const double x = kelvin < 4000.0 ? ((-0.2661239 * k - 0.2343589) * k + 0.8776956) * k + 0.179910
+                                     : ((-3.0258469 * k + 2.1070379) * k + 0.2226347) * k + 0.240390;
+    const double y = kelvin < 2222.0   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
+                     : kelvin < 4000.0 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
+                                       : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
+    const glm::dvec3 xyz(x / y, 1.0, (1.0 - x - y) / y);
+    const glm::dmat3 rgbFromXyz = glm::transpose(glm::dmat3(3.2404542, -1.5371385, -0.4985314, //
+                                                            -0.9692660, 1.8760108, 0.0415560,  //
+                                                            0.0556434, -0.2040259, 1.0572252));
+    const glm::dvec3 rgb = glm::max(rgbFromXyz * xyz, glm::dvec3(0.0));
+    return glm::vec3(rgb / glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)));
 }
 
 std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatter& scatter) {
@@ -99,25 +108,28 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
     const scenes::Box3 boundsWS =
         surfaces.empty() ? scenes::Box3{glm::dvec3(-1.0), glm::dvec3(1.0)} : scenes::worldBounds(scene);
     const double diagonalMetres = glm::length(boundsWS.max - boundsWS.min);
+    double areaSquareMetres = surfaces.empty() ? 4.0 : surfaces.areaSquareMetres();
+    const Clearance clearance(scene);
+    const std::vector<Spot> spots =
+        surfaces.empty() ? std::vector<Spot>()
+                         : spotsIn(clearance, surfaces, diagonalMetres, scatter.count, numbers, areaSquareMetres);
     // So many lights a square metre reach lightsPerPoint of them into the disc of the range.
-    const double areaSquareMetres = surfaces.empty() ? 4.0 : surfaces.areaSquareMetres();
     const double rangeMetres = std::min(diagonalMetres, std::sqrt(scatter.lightsPerPoint * areaSquareMetres /
                                                                   (std::numbers::pi * kReachedShare * scatter.count)));
-    std::optional<Clearance> clearance;
-    if (!surfaces.empty()) clearance.emplace(scene, boundsWS);
-    const double firstHue = numbers.unit();
     for (int i = 0; i < scatter.count; ++i) {
-        // Steps of the golden ratio spread any number of hues evenly.
-        const double hue = firstHue + i / std::numbers::phi;
-        scenes::Light light = lightOf(i, hue - std::floor(hue), rangeMetres, scatter);
-        const double triangle = numbers.unit(), u = numbers.unit(), v = numbers.unit(), height = numbers.unit();
-        if (surfaces.empty()) {
-            light.positionWS = boundsWS.min + glm::dvec3(triangle, u, v) * (boundsWS.max - boundsWS.min);
+        scenes::Light light = lightOf(i, rangeMetres, scatter, numbers);
+        if (spots.empty()) {
+            const double x = numbers.unit(), y = numbers.unit(), z = numbers.unit();
+            light.positionWS = boundsWS.min + glm::dvec3(x, y, z) * (boundsWS.max - boundsWS.min);
         } else {
-            const Surfaces::Place place = surfaces.at(triangle, u, v);
-            const double wantedMetres = rangeMetres * glm::mix(kLowest, kHighest, height);
-            const double metres = kClearShare * clearance->metresAbove(place, wantedMetres / kClearShare);
+            const auto& [place, clearMetres] = spots[std::size_t(i)];
+            const double wantedMetres = double(light.rangeMetres) * glm::mix(kLowest, kHighest, numbers.unit());
+            const double metres = std::min(wantedMetres, kClearShare * clearMetres);
             light.positionWS = glm::clamp(place.positionWS + metres * place.normalWS, boundsWS.min, boundsWS.max);
+            // Where it has less room on any side, that side is as bright as from the least height.
+            const double roomMetres = kLowest * double(light.rangeMetres);
+            const double nearMetres = clearance.metresAround(light.positionWS, roomMetres).value_or(roomMetres);
+            light.intensity *= float(nearMetres * nearMetres / (roomMetres * roomMetres));
         }
         lights.push_back(std::move(light));
     }

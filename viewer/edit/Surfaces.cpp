@@ -6,8 +6,6 @@
 namespace tessera::viewer {
 
 Surfaces::Surfaces(const scenes::Scene& scene) {
-    constexpr double kLeastUp = 0.5; // 60 degrees from level: a steep roof still is one
-    std::vector<Triangle> others;
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         // A transform that mirrors turns a front into the other order of corners.
@@ -24,11 +22,10 @@ Surfaces::Surfaces(const scenes::Scene& scene) {
                 const glm::dvec3 normal = glm::cross(first, second);
                 const double length = glm::length(normal);
                 if (!(length > 0.0) || !std::isfinite(length)) continue;
-                (normal.y >= kLeastUp * length ? triangles_ : others).push_back({a, first, second});
+                triangles_.push_back({a, first, second});
             }
         }
     }
-    if (triangles_.empty()) triangles_ = std::move(others);
     double sum = 0.0;
     for (const Triangle& triangle : triangles_) {
         sum += 0.5 * glm::length(glm::cross(triangle.firstEdge, triangle.secondEdge));

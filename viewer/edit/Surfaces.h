@@ -5,8 +5,7 @@
 
 namespace tessera::viewer {
 
-/// Places on the surfaces of a scene, as likely on any square metre as on any other. Surfaces that face up are taken
-/// alone where there are any, because that is where one expects lamps above.
+/// Places on the surfaces of a scene, as likely on any square metre as on any other.
 class Surfaces {
 public:
     explicit Surfaces(const scenes::Scene& scene);

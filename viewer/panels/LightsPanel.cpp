@@ -259,7 +259,7 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
 void listButtons(State& state) {
     const bool any = state.selectedLight != scenes::kNone;
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
-    if (ImGui::Button("Add", {width, 0.0f})) addLight(state);
+    if (ImGui::Button("Add", {width, 0.0f})) state.requests.addLight = true;
     tip("A point light in the picture's middle, halfway to the camera's pivot");
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);

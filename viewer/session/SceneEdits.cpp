@@ -1,11 +1,13 @@
 #include "viewer/session/SceneEdits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "scenes/Limits.h"
+#include "viewer/edit/AddedLight.h"
 #include "viewer/edit/LightList.h"
 
 namespace tessera::viewer {
@@ -68,9 +70,11 @@ bool mayStep(const State& state) {
 
 } // namespace
 
-void addLight(State& state) {
+void addLight(State& state, double meanLuminance) {
     if (!state.open || isFull(state)) return;
-    append(state, "add", newLight(state.open->scene().lights, lightBeforeFocus(state.open->rig().pose())));
+    const scenes::Scene& scene = state.open->scene();
+    const double luminance = noticedLuminance(meanLuminance, double(state.active().settings.exposureEV));
+    append(state, "add", newLight(scene.lights, lightBefore(scene, state.open->rig().pose(), luminance)));
 }
 
 void duplicateSelectedLight(State& state) {
@@ -139,7 +143,9 @@ void selectAllLights(State& state) {
 void replaceByScattered(State& state) {
     if (!state.open) return;
     const scenes::Scene& scene = state.open->scene();
-    Lights scattered = scatterLights(scene, state.scatter);
+    Scatter wanted = state.scatter;
+    wanted.lux /= std::exp2(double(state.active().settings.exposureEV)); // as bright in the picture, whatever that is
+    Lights scattered = scatterLights(scene, wanted);
     ++state.scatter.seed;
     const std::string what = fmt::format("scatter {} light{}", scattered.size(), scattered.size() == 1 ? "" : "s");
     replace(state, what, 0, scene.lights.size(), std::move(scattered));

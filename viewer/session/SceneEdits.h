@@ -5,9 +5,9 @@
 /// how looks show the environment. Without a scene they do nothing.
 namespace tessera::viewer {
 
-/// Adds a light in the picture's middle, or a copy of the selected one, at the end of the list, and selects it. Nothing
-/// happens where there are as many as a scene can have.
-void addLight(State& state);
+/// Adds a light in the picture's middle, which suits a picture of this mean luminance (AddedLight.h), or a copy of the
+/// selected one, at the end of the list, and selects it. Nothing happens where there are as many as a scene can have.
+void addLight(State& state, double meanLuminance);
 void duplicateSelectedLight(State& state);
 
 /// Deletes the lights that are selected, if any are, in one step. The light that follows is selected then, else the

@@ -70,6 +70,7 @@ struct Requests {
     bool saveTrace = false;
     bool copyCommand = false;
     bool measureLights = false;
+    bool addLight = false;
     bool scatter = false;               ///< the lights that `State::scatter` describes, in the place of the scene's
     std::optional<glm::vec2> pick;      ///< a place in the picture, shares of its size from the upper left
     std::optional<glm::vec2> turnAbout; ///< the same: of the surface that orbits are to turn about
@@ -103,8 +104,8 @@ struct State {
     float panelWidth = kUsualPanelWidth;  ///< as Preferences::panelWidth
     std::map<std::string, bool> sections; ///< as Preferences::sections
     std::optional<Selected> reveals;      ///< whose panel is to come into view
-    bool showsHelp = false;
     bool foldsPanels = false;             ///< all of them, in the next frame
+    bool showsHelp = false;
     int selectedLight = scenes::kNone; ///< that panels and handles are about
     std::set<int> selectedLights;      ///< several, where that one is among them
     int selectedMaterial = scenes::kNone;
@@ -124,8 +125,8 @@ struct State {
     std::optional<glm::vec2> pointedPlace; ///< of the picture, a share of its size; none: the pointer is elsewhere
     std::optional<glm::vec2> pinnedPlace;  ///< that is inspected meanwhile
     std::vector<Loupe> loupes;             ///< of this frame
-    std::string dragText;                  ///< what the drag in progress sets, for the user
     std::optional<Box> inspectorBox;       ///< of this frame: what is told of that pixel
+    std::string dragText;                  ///< what the drag in progress sets, for the user
     bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
     bool showsMaterial = false;            ///< a panel shows the selected material
     bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "engine/Rendering.h"
+#include "renderer/frame/DebugViews.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Timer.h"
@@ -212,13 +214,13 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     Drawn result;
     result.scale = scale;
     result.sizePixels = scaled(wanted.looks[0].settings.sizePixels, scale);
-    const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
     for (int side = 0; side < wanted.sides; ++side) {
         const Made* const made = madeFor(wanted, side);
         result.isOfSide[std::size_t(side)] = made == nullptr || made->scale < scale || (made->lacksLight && !mayLack) ||
                                              (keepsLights && !knowsLights(side));
     }
     isOfSide_ = result.isOfSide;
+    const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
     failed_.reset();
     if (isAnew)
         forgetSpreadLight();
@@ -231,9 +233,9 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
         std::optional<gpu::BandedDrawing> banded;
         if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         for (int side = 0; side < wanted.sides; ++side) {
+            if (!result.isOfSide[std::size_t(side)]) continue;
             drawingSide_ = side;
             const gpu::CpuTimer clock;
-            if (!result.isOfSide[std::size_t(side)]) continue;
             Look look = wanted.looks[std::size_t(side)];
             look.settings.wholePixels = look.settings.sizePixels;
             look.settings.sizePixels = result.sizePixels;
@@ -323,6 +325,20 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         blit(pictures_[0].display(), 0, area.width);
     }
     gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // without the scissor
+}
+
+double Screen::meanLuminance() const {
+    const DrawnPicture& shown = picture(0);
+    if (!shown.isThere() || shown.radiance() == nullptr || !frame::showsLitPicture(shown.look().settings.view))
+        return 0.0;
+    const Picture radiance = engine::toPicture(engine::readBack(shown.radiance()->texture(), nullptr));
+    double sum = 0.0;
+    for (std::size_t i = 0; i < radiance.pixelCount(); ++i) {
+        const float* const rgba = radiance.pixel(i);
+        const double luminance = 0.2126 * double(rgba[0]) + 0.7152 * double(rgba[1]) + 0.0722 * double(rgba[2]);
+        if (std::isfinite(luminance)) sum += luminance;
+    }
+    return sum / double(std::max<std::size_t>(radiance.pixelCount(), 1));
 }
 
 void Screen::magnify(int side, const glm::vec2& place, const gpu::Rectangle& square) {

@@ -120,11 +120,11 @@ public:
         const DrawnPicture& shown = picture(side);
         return shown.isThere() ? std::optional(shown.look()) : std::nullopt;
     }
+    /// Of the left picture, before exposure; 0 where it shows something else than light. Waits for the GPU.
+    double meanLuminance() const;
     const DrawnPicture& picture(int side) const { return pictures_[std::size_t(side)]; }
 
 private:
-    void tellSpreadLight(const Wanted& drawn);
-    void forgetSpreadLight();
     /// How the picture of a side was made.
     struct Made {
         Look look;
@@ -139,6 +139,8 @@ private:
     }
     /// Both pictures are there, of one size.
     bool canDiffer() const;
+    void tellSpreadLight(const Wanted& drawn);
+    void forgetSpreadLight();
     /// By their keys, those of all sides.
     const std::set<std::string>& programsOf(const Wanted& wanted) const;
 
@@ -151,9 +153,9 @@ private:
     std::array<DrawnPicture, 2> pictures_;
     DrawnPicture waiting_; ///< the left one, where the right one is to be drawn too
     int drawingSide_ = 0;
+    std::array<bool, 2> isOfSide_{}; ///< Drawn::isOfSide, of the latest
     CountColors countColors_;
     Difference difference_;
-    std::array<bool, 2> isOfSide_{}; ///< Drawn::isOfSide, of the latest
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;

@@ -354,13 +354,5 @@ TEST(LightList, theWidthOfARectangleStaysAcrossItsDirection) {
     EXPECT_EQ(spot.alongWS, scenes::Light().alongWS) << "others have no width";
 }
 
-TEST(LightList, aNewLightGivesTheFocusThreeLux) {
-    const scenes::Camera lens = perspective({0, 0, 8}, {0, 0, 0});
-    const CameraPose pose = poseOf(lens, kBox);
-    const scenes::Light light = lightBeforeFocus(pose);
-    const double distance = glm::distance(light.positionWS, pose.eyeWS + pose.focusMetres * pose.heading.forwardWS());
-    EXPECT_NEAR(light.intensity / (distance * distance), 3.0, 1e-5); // single precision
-}
-
 } // namespace
 } // namespace tessera::viewer

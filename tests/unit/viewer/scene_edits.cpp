@@ -93,7 +93,7 @@ TEST(SceneEdits, aChoiceGoesAloneBesidesOrAsARange) {
     EXPECT_EQ(state.allSelectedLights().size(), 3u);
     state.selectedLight = 1; // as a marker does
     EXPECT_EQ(state.allSelectedLights().size(), 3u) << "it was one of them";
-    addLight(state);
+    addLight(state, 0.2);
     EXPECT_EQ(state.allSelectedLights(), std::set<int>{3});
 }
 
@@ -182,7 +182,7 @@ TEST(SceneEdits, nothingIsUndoneWhileSomethingIsDragged) {
 
 TEST(SceneEdits, addingAndDuplicatingAreUndoneAndNamed) {
     State state = threeLights();
-    addLight(state);
+    addLight(state, 0.2);
     EXPECT_EQ(state.selectedLight, 3);
     EXPECT_EQ(*state.open->history().undoText(), "add light 'light'");
     state.selectedLight = 0;

@@ -1,0 +1,38 @@
+#include "viewer/edit/AddedLight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "viewer/edit/Clearance.h"
+
+namespace tessera::viewer {
+
+scenes::Light lightBefore(const scenes::Scene& scene, const CameraPose& pose, double luminance) {
+    constexpr double kGrey = 0.5;   // share of the light that it reflects
+    constexpr double kRanges = 4.0; // with the falloff's window, 99 % are left at a quarter of the range
+    const Clearance clearance(scene);
+    const glm::dvec3 forwardWS = pose.heading.forwardWS();
+    const scenes::Box3 boundsWS = scenes::worldBounds(scene);
+    const double beyondMetres = boundsWS.empty() ? pose.focusMetres
+                                                 : glm::distance(pose.eyeWS, boundsWS.min) +
+                                                       glm::distance(boundsWS.min, boundsWS.max); // all of the scene
+    const double aheadMetres = clearance.metresAlong(pose.eyeWS, forwardWS, beyondMetres).value_or(pose.focusMetres);
+    const double halfMetres = 0.5 * aheadMetres;
+    scenes::Light light;
+    light.name = "light";
+    light.positionWS = pose.eyeWS + halfMetres * forwardWS;
+    light.directionWS = forwardWS;
+    const double nearMetres = clearance.metresAround(light.positionWS, halfMetres).value_or(halfMetres);
+    light.intensity = float(std::numbers::pi * luminance / kGrey * nearMetres * nearMetres);
+    light.rangeMetres = float(kRanges * nearMetres);
+    return light;
+}
+
+double noticedLuminance(double meanLuminance, double exposureEV) {
+    constexpr double kTimes = 2.0, kLeast = 0.15, kMost = 0.5; // of a display's white
+    const double exposed = std::exp2(exposureEV);
+    return std::clamp(kTimes * meanLuminance * exposed, kLeast, kMost) / exposed;
+}
+
+} // namespace tessera::viewer
