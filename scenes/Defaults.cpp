@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/Enclosure.h"
 #include "scenes/Exposure.h"
 #include "scenes/Framing.h"
 #include "scenes/InUse.h"
@@ -84,11 +85,14 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
     Camera camera;
     camera.name = kDefaultName;
     camera.fovYRadians = std::numbers::pi / 4.0;
-    const Framing framing = framingOf(scene, camera.fovYRadians, aspect.value_or(aspectWished(scene)));
+    const Framing whole = framingOf(scene, camera.fovYRadians, aspect.value_or(aspectWished(scene)));
+    const std::optional<Framing> inside = framingInside(scene);
+    const Framing& framing = inside ? *inside : whole;
     camera.worldFromCamera = worldFromLookAt(framing.eyeWS, framing.targetWS);
     camera.nearMetres = kNearShare * framing.radiusMetres;
     scene.cameras.push_back(camera);
     scene.supplied.camera = true;
+    scene.supplied.isInside = inside.has_value();
 }
 
 void leaveOutCameras(Scene& scene) {
@@ -150,7 +154,7 @@ void addDefaultToneMap(Scene& scene) {
 
 std::string suppliedText(const Scene& scene, Advice advice) {
     const bool isOptions = advice == Advice::Options;
-    const auto& [camera, light, fillShare, replacesCameras, exposureEV, wishes] = scene.supplied;
+    const auto& [camera, light, fillShare, replacesCameras, exposureEV, isInside, wishes] = scene.supplied;
     std::string lacks, given;
     if (light) {
         if (fillShare == 0.0) lacks = "no light";
@@ -167,8 +171,10 @@ std::string suppliedText(const Scene& scene, Advice advice) {
         if (!replacesCameras) lacks += lacks.empty() ? "no camera" : " and no camera";
         const bool isEmpty = triangleCount(scene) == 0;
         given += fmt::format("{}{} by the supplied camera '{}'{}{}", light ? ", " : "",
-                             isEmpty ? "seen around the origin" : "seen whole", kDefaultName,
-                             replacesCameras ? " in the place of its own" : "",
+                             isEmpty    ? "seen around the origin"
+                             : isInside ? "seen from inside"
+                                        : "seen whole",
+                             kDefaultName, replacesCameras ? " in the place of its own" : "",
                              isEmpty ? ", as there are no triangles" : "");
     }
     std::string text = lacks.empty() ? given : fmt::format("{} in it: {}", lacks, given);

@@ -14,7 +14,8 @@ class LoadLedger;
 inline constexpr const char* kDefaultName = "default";
 
 /// A scene without a camera gets one of 45 degrees that sees all of it (framingOf()) in a picture of an aspect, width
-/// over height, else of that which its options ask for, else of 16:9. Its near plane does not depend on the aspect.
+/// over height, else of that which its options ask for, else of 16:9; one that surrounds its middle is seen from inside
+/// (framingInside()). Its near plane does not depend on the aspect.
 /// Throws InputError when the bounds are too large to be numbers.
 void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "base/Error.h"
 #include "scenes/Clips.h"
+#include "scenes/Corners.h"
 #include "scenes/LookAt.h"
 #include "scenes/Pose.h"
 
@@ -39,18 +39,6 @@ void overClips(Scene& scene, const Look& look) {
         look(scene);
     }
     poseScene(scene, 0.0);
-}
-
-/// Calls `use` with every vertex that a triangle uses, three of a triangle after one another.
-template <typename Use>
-void forEachCornerWS(const Scene& scene, const Use& use) {
-    const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
-    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
-        for (const MeshInstance& instance : scene.nodes[n].instances) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-            for (const std::uint32_t index : mesh.indices)
-                use(glm::dvec3(worldFromNode[n] * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0)));
-        }
 }
 
 /// Along which axis the bounds are flat, or -1.

@@ -96,6 +96,7 @@ struct Supplied {
     double fillShare = 0.0;       ///< of the supplied light's brightness, beside lights of the scene's own
     bool replacesCameras = false; ///< the camera stands in the place of the scene's own
     int exposureEV = 0;           ///< whole stops, where its lights are much too bright or too dim for a display
+    bool isInside = false;        ///< the camera stands within the scene, which surrounds it (scenes/Enclosure.h)
     std::set<std::string> wishes; ///< keys of SceneOptions::wishes that no file asked for
     bool operator==(const Supplied&) const = default;
 };

@@ -77,6 +77,7 @@ EXTENSIONS = {
     "KHR_xmp_json_ld": (RIGHT, "words about the model"),
 }
 SUPPLIED_CAMERA = "by the supplied camera"
+FROM_INSIDE = "seen from inside " + SUPPLIED_CAMERA  # it frames nothing then
 DEFAULT_CAMERA = "--default-camera"  # in the place of the model's own
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
@@ -195,7 +196,7 @@ def figures_of(shown, framed, is_supplied):
     left, top = (min(box[side] for box in boxes) for side in (0, 1))
     right, bottom = (max(box[side] for box in boxes) for side in (2, 3))
     span = max((right - left + 1) / width, (bottom - top + 1) / height)
-    is_cut = left == 0 or top == 0 or right == width - 1 or bottom == height - 1
+    is_cut = is_supplied != FROM_INSIDE and (left == 0 or top == 0 or right == width - 1 or bottom == height - 1)
     return Figures(shown.luminance(), span, is_cut, is_supplied, *shown.lost())
 
 
@@ -446,12 +447,12 @@ def csv_of(rows):
 
 def render(program, path, picture, size, *more):
     """Of a model, with more options: the exit code (None after MOST_SECONDS), the warnings without names of programs and
-    files, whether the program supplied the camera, and the stops by which it exposes a display picture."""
+    files, what it says of a camera that it supplied, and the stops by which it exposes a display picture."""
     command = [str(program), "render", str(path), "-o", str(picture), "--size", f"{size[0]}x{size[1]}", *more]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=MOST_SECONDS)
     except subprocess.TimeoutExpired:
-        return None, [], False, 0
+        return None, [], None, 0
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
@@ -463,7 +464,8 @@ def render(program, path, picture, size, *more):
         if line:
             lines.append(line)
     exposed = re.search(r"exposed by ([+-]\d+) EV", done.stdout)
-    return done.returncode, lines, SUPPLIED_CAMERA in done.stdout, int(exposed[1]) if exposed else 0
+    supplied = next((said for said in (FROM_INSIDE, SUPPLIED_CAMERA) if said in done.stdout), None)
+    return done.returncode, lines, supplied, int(exposed[1]) if exposed else 0
 
 
 def look_at(name, program, path, picture, size):

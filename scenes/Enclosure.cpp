@@ -1,0 +1,130 @@
+#include "scenes/Enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scenes/Corners.h"
+
+namespace tessera::scenes {
+namespace {
+
+/// Each side of a room's bounds, at least: helmets and bottles may have an inside too, but nobody walks there.
+constexpr double kLeastRoomMetres = 2.0;
+constexpr double kEyeMetres = 1.7; ///< a person's, above the floor; no higher than the middle of the bounds
+/// Of all rays; those upwards may meet nothing, as a court is open to the sky.
+constexpr double kMostBacks = 0.1;
+/// Of those that go down, or no steeper up than by an angle of this sine.
+constexpr double kLeastFronts = 0.9, kLevel = 0.3;
+constexpr double kTowardsWall = 0.8; ///< of the way from the middle to the wall behind, where the eye stands
+
+constexpr int kRays = 64;      ///< in all directions
+constexpr int kLevelRays = 32; ///< at the eye's height
+
+struct Ray {
+    glm::dvec3 directionWS{0.0};
+    double metres = std::numeric_limits<double>::infinity(); ///< to what it meets first
+    bool meetsBack = false;
+    bool meetsFront() const { return std::isfinite(metres) && !meetsBack; }
+};
+
+/// Evenly over the sphere, along a spiral.
+std::array<Ray, kRays> raysAround() {
+    constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896);
+    std::array<Ray, kRays> rays;
+    for (int i = 0; i < kRays; ++i) {
+        const double y = 1.0 - (2.0 * i + 1.0) / kRays, radius = std::sqrt(1.0 - y * y), angle = kGoldenAngle * i;
+        rays[std::size_t(i)].directionWS = {radius * std::cos(angle), y, radius * std::sin(angle)};
+    }
+    return rays;
+}
+
+std::array<Ray, kLevelRays> levelRays() {
+    std::array<Ray, kLevelRays> rays;
+    for (int i = 0; i < kLevelRays; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kLevelRays;
+        rays[std::size_t(i)].directionWS = {std::cos(angle), 0.0, std::sin(angle)};
+    }
+    return rays;
+}
+
+/// Follows rays from one origin. A ray meets a triangle where it lies on one side of the three planes through the
+/// origin and an edge; which side tells the front, anticlockwise, from the back.
+template <std::size_t kCount>
+void follow(const Scene& scene, const glm::dvec3& originWS, std::array<Ray, kCount>& rays) {
+    std::array<glm::dvec3, 3> corners;
+    std::size_t corner = 0;
+    forEachCornerWS(scene, [&](const glm::dvec3& positionWS) {
+        corners[corner] = positionWS - originWS;
+        corner = (corner + 1) % 3;
+        if (corner != 0) return;
+        const auto& [a, b, c] = corners;
+        const glm::dvec3 ab = glm::cross(a, b), bc = glm::cross(b, c), ca = glm::cross(c, a);
+        const glm::dvec3 normal = ab + bc + ca;
+        const double volume = glm::dot(a, bc); // the sign of it is the side that faces the origin
+        if (volume == 0.0) return;
+        for (Ray& ray : rays) {
+            const auto isBeside = [&](const glm::dvec3& plane) {
+                return glm::dot(ray.directionWS, plane) * volume < 0.0;
+            };
+            if (isBeside(ab) || isBeside(bc) || isBeside(ca)) continue;
+            const double slope = glm::dot(ray.directionWS, normal);
+            if (slope == 0.0) continue;
+            const double metres = volume / slope;
+            if (metres >= ray.metres) continue;
+            ray.metres = metres;
+            ray.meetsBack = slope > 0.0;
+        }
+    });
+}
+
+template <std::size_t kCount, typename Is, typename Holds>
+double shareOf(const std::array<Ray, kCount>& rays, const Is& is, const Holds& holds) {
+    const auto all = std::ranges::count_if(rays, is);
+    const auto some = std::ranges::count_if(rays, [&](const Ray& ray) { return is(ray) && holds(ray); });
+    return double(some) / double(all);
+}
+
+bool isEnclosed(const std::array<Ray, kRays>& rays) {
+    const auto isAny = [](const Ray&) { return true; };
+    const auto isLevelOrDown = [](const Ray& ray) { return ray.directionWS.y <= kLevel; };
+    const auto meetsFront = [](const Ray& ray) { return ray.meetsFront(); };
+    return shareOf(rays, isAny, [](const Ray& ray) { return ray.meetsBack; }) <= kMostBacks &&
+           shareOf(rays, isLevelOrDown, meetsFront) >= kLeastFronts;
+}
+
+} // namespace
+
+std::optional<Framing> framingInside(const Scene& scene) {
+    const Box3 boundsWS = worldBounds(scene);
+    if (boundsWS.empty()) return std::nullopt;
+    const glm::dvec3 sides = boundsWS.max - boundsWS.min, middleWS = 0.5 * (boundsWS.min + boundsWS.max);
+    if (!(std::min({sides.x, sides.y, sides.z}) >= kLeastRoomMetres)) return std::nullopt;
+    std::array<Ray, kRays> around = raysAround();
+    follow(scene, middleWS, around);
+    if (!isEnclosed(around)) return std::nullopt;
+    // The steepest ray, the last one, finds the floor.
+    const Ray& down = around.back();
+    if (!std::isfinite(down.metres)) return std::nullopt;
+    const double heightMetres = -down.directionWS.y * down.metres;
+    const glm::dvec3 standsWS = middleWS - glm::dvec3(0.0, std::max(heightMetres - kEyeMetres, 0.0), 0.0);
+    std::array<Ray, kLevelRays> level = levelRays();
+    follow(scene, standsWS, level);
+    const auto behind = [&](std::size_t i) -> const Ray& { return level[(i + kLevelRays / 2) % kLevelRays]; };
+    std::optional<std::size_t> longest;
+    const auto lengthOf = [&](std::size_t i) { return level[i].metres + behind(i).metres; };
+    for (std::size_t i = 0; i < kLevelRays; ++i) {
+        if (!std::isfinite(lengthOf(i))) continue;
+        if (!longest || lengthOf(i) > lengthOf(*longest)) longest = i;
+    }
+    if (!longest) return std::nullopt;
+    Framing framing;
+    framing.radiusMetres = 0.5 * glm::length(sides);
+    framing.eyeWS = standsWS + kTowardsWall * behind(*longest).metres * behind(*longest).directionWS;
+    framing.targetWS = standsWS;
+    return framing;
+}
+
+} // namespace tessera::scenes
