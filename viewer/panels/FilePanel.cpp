@@ -120,6 +120,11 @@ bool entryRows(FileDialog& dialog, float height) {
                 isAccepted = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
             }
             tip(entry.meaning);
+            if (!entry.meaning.empty()) { // as far as there is room
+                constexpr float kNameEms = 11.0f;
+                ImGui::SameLine(kNameEms * ImGui::GetFontSize());
+                ImGui::TextDisabled("%s", entry.meaning.c_str());
+            }
             if (isChosen && isMoved) ImGui::SetScrollHereY();
             ImGui::PopID();
         }

@@ -107,6 +107,8 @@ std::vector<FileEntry> entriesOf(const Path& folder, const std::string& begin, F
 FileDialog::FileDialog(Purpose purpose, const Path& folder, std::string text, std::string reason)
     : purpose_(purpose), folder_(tidy(folder)), text_(std::move(text)), reason_(std::move(reason)) {
     list();
+    const auto isAbove = [](const FileEntry& entry) { return entry.name == kAbove; };
+    if (text_.empty() && fault_.empty() && std::ranges::all_of(entries_, isAbove)) showBuiltin();
 }
 
 Path FileDialog::resolved(const std::string& text) const {

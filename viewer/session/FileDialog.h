@@ -28,7 +28,8 @@ class FileDialog {
 public:
     enum class Purpose : std::uint8_t { Open, Save };
 
-    /// `text` is the name to begin with, `reason` why a name is asked for.
+    /// `text` is the name to begin with, `reason` why a name is asked for. Where there is nothing to open in the
+    /// folder, the built-in scenes are shown.
     FileDialog(Purpose purpose, const std::filesystem::path& folder, std::string text = {}, std::string reason = {});
 
     Purpose purpose() const { return purpose_; }

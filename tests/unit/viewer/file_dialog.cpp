@@ -43,6 +43,17 @@ TEST_F(Files, theListHasFoldersAndThenWhatCanBeOpened) {
     EXPECT_EQ(fileNamesOf({Purpose::Open, "/"}).front().find(".."), std::string::npos) << "nothing is above the root";
 }
 
+TEST_F(Files, whereThereIsNothingToOpenTheBuiltInScenesAreShownEachWithItsPurpose) {
+    folder_.write("nothing/notes.txt", "");
+    FileDialog dialog(Purpose::Open, folder_.path() / "nothing");
+    EXPECT_FALSE(dialog.folder());
+    ASSERT_EQ(dialog.entries().size(), scenes::builtinScenes().size());
+    for (const FileEntry& entry : dialog.entries()) EXPECT_FALSE(entry.meaning.empty()) << entry.name;
+    dialog.goTo(folder_.path() / "nothing");
+    EXPECT_EQ(fileNamesOf(dialog), FileNames{"../"}) << "who goes there sees it";
+    EXPECT_TRUE(FileDialog(Purpose::Save, folder_.path() / "nothing").folder());
+}
+
 TEST_F(Files, typedTextNarrowsTheListInAnyCaseAndEnterTakesItsFirst) {
     FileDialog dialog = open();
     dialog.type("m");
