@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -6,6 +8,7 @@
 
 #include "viewer/edit/Bounded.h"
 #include "viewer/edit/MaterialModel.h"
+#include "viewer/edit/Thumbnail.h"
 #include "viewer/panels/ChooseNamed.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
@@ -141,6 +144,46 @@ bool surfaceRows(Material& material) {
     return changed;
 }
 
+void drawThumbnail(const scenes::Image& image, float sidePoints) {
+    constexpr int kPixels = 24;
+    const Thumbnail small = thumbnailOf(image, kPixels);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({sidePoints, sidePoints});
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float step = sidePoints / kPixels;
+    for (int y = 0; y < small.sizePixels.y; ++y)
+        for (int x = 0; x < small.sizePixels.x; ++x) {
+            const glm::u8vec4& color = small.pixels[std::size_t(y * small.sizePixels.x + x)];
+            const ImVec2 from(std::floor(corner.x + step * float(x)), std::floor(corner.y + step * float(y)));
+            const ImVec2 to(std::floor(corner.x + step * float(x + 1)), std::floor(corner.y + step * float(y + 1)));
+            list.AddRectFilled(from, to, IM_COL32(color.x, color.y, color.z, 255)); // where it is clear too
+        }
+}
+
+/// The textures that scale values, each as a small picture with its name.
+void textureRows(const Material& material, const std::vector<scenes::Image>& images) {
+    const float side = 2.0f * ImGui::GetFrameHeight();
+    for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots) {
+        const scenes::TextureUse& use = material.texture(slot.slot);
+        if (use.image == scenes::kNone) continue;
+        const scenes::Image& image = images[std::size_t(use.image)];
+        ImGui::PushID(int(slot.slot));
+        std::string label(slot.name);
+        std::ranges::replace(label, '_', ' ');
+        row(shortened(label, labelWidth()).c_str(), fmt::format("The {}, which scales values above", slot.what));
+        drawThumbnail(image, side);
+        const std::string name = image.name.empty() ? fmt::format("picture {}", use.image) : image.name;
+        tip(fmt::format("{}, {} x {} texels, {} bits a channel", name, image.width, image.height,
+                        2 * scenes::texelBytes(image.format)));
+        ImGui::SameLine();
+        ImGui::BeginGroup();
+        ImGui::TextUnformatted(shortened(labelOf(name), ImGui::GetContentRegionAvail().x).c_str());
+        ImGui::TextDisabled("%d x %d", image.width, image.height);
+        ImGui::EndGroup();
+        ImGui::PopID();
+    }
+}
+
 bool materialRows(Material& material) {
     MaterialModel model = material.model;
     bool changed = chooseNamed("Model", model);
@@ -155,12 +198,7 @@ bool materialRows(Material& material) {
     if (scenes::infoOf(material.model).isLit && !scenes::isTransmissive(material) && !scenes::isIridescent(material))
         changed |= subsurfaceRows(material.subsurface);
     changed |= colorRow("Emission", material.emissive, kMostRadiance);
-    changed |= surfaceRows(material);
-    const auto textured = std::count_if(material.textures.begin(), material.textures.end(),
-                                        [](const scenes::TextureUse& use) { return use.image != scenes::kNone; });
-    if (textured > 0)
-        ImGui::TextDisabled("%s", textured == 1 ? "A texture scales a value" : "Textures scale the values");
-    return changed;
+    return changed | surfaceRows(material);
 }
 
 } // namespace
@@ -190,6 +228,7 @@ void materialsPanel(State& state) {
     const auto index = std::size_t(state.selectedMaterial);
     Material edited = materials[index];
     if (materialRows(edited)) state.open->changeMaterial(index, std::move(edited), widgetGesture());
+    textureRows(materials[index], state.open->scene().images);
 }
 
 } // namespace tessera::viewer
