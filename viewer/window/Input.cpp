@@ -49,6 +49,8 @@ bool fits(const std::vector<InputEvent>& taken, const InputEvent& next) {
     const auto any = [&](auto&& conflicts) { return std::any_of(taken.begin(), taken.end(), conflicts); };
     if (next.kind == InputEvent::Kind::Move || next.kind == InputEvent::Kind::Scroll)
         return !any([](const InputEvent& event) { return event.kind == InputEvent::Kind::Button; });
+    const bool endsDrag = next.kind == InputEvent::Kind::Button && !next.down;
+    if (endsDrag && any([](const InputEvent& event) { return event.kind == InputEvent::Kind::Move; })) return false;
     if (isModifier(next) && any(heedsModifiers)) return false;
     if (next.kind == InputEvent::Kind::Character) return !any(isEditingKey);
     if (isSwitch(next))

@@ -28,8 +28,9 @@ public:
     /// The events of the next frame: as many as one frame of a user interface can tell apart. It sees a pointer in one
     /// place, a button or key either down or up, Shift and Ctrl held throughout or not at all, and text before other
     /// keys. So the events end before one that would undo what another of them did, before the pointer moves on from
-    /// where a button changed, before Shift or Ctrl change after something that heeds them, and before text that was
-    /// typed after a key such as Enter. With `keysWait` they also end before the first press of a key.
+    /// where a button changed, before a button is let go where the pointer came to, which a slider would not heed,
+    /// before Shift or Ctrl change after something that heeds them, and before text that was typed after a key such as
+    /// Enter. With `keysWait` they also end before the first press of a key.
     std::vector<InputEvent> takeFrame(bool keysWait = false);
     bool empty() const { return events_.empty(); }
     /// Whether a button, a wheel or a key that was not held down already waits.

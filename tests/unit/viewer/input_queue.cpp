@@ -36,6 +36,14 @@ TEST(InputQueue, thePointerNeverLeavesWhereAButtonChangedWithinTheFrame) {
     EXPECT_EQ(queue.takeFrame().front().position.x, 9.0f);
 }
 
+TEST(InputQueue, aDragReachesItsEndAFrameBeforeTheButtonIsLetGo) {
+    InputQueue queue;
+    queue.push(at(Kind::Move, 9.0f));
+    queue.push(at(Kind::Button, 9.0f, 0, false));
+    ASSERT_EQ(queue.takeFrame().size(), 1u);
+    EXPECT_EQ(queue.takeFrame().front().kind, Kind::Button);
+}
+
 TEST(InputQueue, ofAPointerOnItsWayExactlyTheEndIsKept) {
     InputQueue queue;
     for (int i = 0; i < 100; ++i) queue.push(at(Kind::Move, float(i)));
