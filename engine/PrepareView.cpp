@@ -296,8 +296,9 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
     std::vector<frame::SurfaceBounds> withLights;
     if (!seenLights.empty()) withLights.assign(bounds.begin(), bounds.end());
     for (const frame::SeenLight& seen : seenLights) withLights.push_back(seen.bounds);
-    prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, background,
-                                            seenLights.empty() ? bounds : withLights, settings.snapPixels);
+    prepared.camera =
+        frame::makeCameraView(camera, settings.sizePixels, settings.space, background,
+                              seenLights.empty() ? bounds : withLights, settings.snapPixels, settings.offsetPixels);
     prepared.camera.constants.sizePixels.z = glm::uint(samples);
     if (frame::showsLitPicture(settings.view)) prepared.seenLights = frame::packSeenLights(seenLights, prepared.camera);
     const auto makeSpec = [&](const frame::PackedLights& lights) {

@@ -12,16 +12,24 @@ namespace {
 struct Lens {
     glm::dmat4 clipFromView{0.0}; ///< clip.z is left 0
     glm::dvec2 halfExtent{1.0};   ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
+    glm::dvec2 seenExtent{1.0};   ///< the same of what is in view
+    glm::dvec2 shift{0.0};        ///< of the picture, in halves of its sides
 };
 
-Lens makeLens(const scenes::Camera& camera, double aspect) {
+Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dvec2& offsetPixels) {
     Lens lens;
+    const double aspect = double(sizePixels.x) / double(sizePixels.y);
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
     const double halfHeight = isPerspective ? std::tan(0.5 * camera.fovYRadians) : camera.halfHeightMetres;
-    lens.halfExtent = {halfHeight * aspect, halfHeight};
+    lens.halfExtent = lens.seenExtent = {halfHeight * aspect, halfHeight};
     lens.clipFromView[0][0] = 1.0 / lens.halfExtent.x;
     lens.clipFromView[1][1] = 1.0 / lens.halfExtent.y;
     (isPerspective ? lens.clipFromView[2][3] : lens.clipFromView[3][3]) = isPerspective ? -1.0 : 1.0;
+    if (offsetPixels == glm::dvec2(0.0)) return lens;
+    // Of clip.w, which the origin of lighting space adds its part to below.
+    lens.shift = 2.0 * offsetPixels / glm::dvec2(sizePixels);
+    // Depths are those of all that the shifted picture sees.
+    lens.seenExtent *= 1.0 + glm::abs(lens.shift);
     return lens;
 }
 
@@ -60,15 +68,16 @@ glm::dvec4 unitPlane(const glm::dvec4& plane) {
 } // namespace
 
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
-                          const glm::vec3& background, std::span<const SurfaceBounds> bounds, float snapPixels) {
+                          const glm::vec3& background, std::span<const SurfaceBounds> bounds, float snapPixels,
+                          const glm::dvec2& offsetPixels) {
     const bool orthographic = camera.projection == scenes::Projection::Orthographic;
-    const Lens lens = makeLens(camera, double(sizePixels.x) / double(sizePixels.y));
+    const Lens lens = makeLens(camera, sizePixels, offsetPixels);
     const glm::dmat3 worldFromView(camera.worldFromCamera);
     const glm::dvec3 forwardWS = -worldFromView[2];
 
     CameraView view;
     view.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
-    view.depths = depthInterval(camera, lens.halfExtent, bounds);
+    view.depths = depthInterval(camera, lens.seenExtent, bounds);
     const double origin = view.depths.originMetres;
     view.originWS = view.eyeWS + origin * forwardWS;
     view.lsFromWorld = space == LightingSpace::World ? glm::dmat3(1.0) : glm::transpose(worldFromView);
@@ -82,6 +91,9 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     clipFromOrigin[2][2] = -coding.slope;
     clipFromOrigin[3][2] = coding.offset;
     if (!orthographic) clipFromOrigin[3][3] = origin;
+    for (int column = 0; column < 4; ++column)
+        for (int axis = 0; axis < 2; ++axis)
+            clipFromOrigin[column][axis] += lens.shift[axis] * clipFromOrigin[column][3];
     view.clipFromLS = clipFromOrigin * glm::dmat4(glm::transpose(lsFromView));
     const glm::dvec4 x = row(view.clipFromLS, 0), y = row(view.clipFromLS, 1), w = row(view.clipFromLS, 3);
     view.frustumPlanesLS = {unitPlane(w + x), unitPlane(w - x), unitPlane(w + y), unitPlane(w - y),
@@ -98,7 +110,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.forwardLS = glm::vec4(view.forwardLS, orthographic ? 1.0f : 0.0f);
     c.aheadFromDepth = glm::vec4(coding.aheadFromDepth);
     c.background = glm::vec4(background, 0.0f);
-    c.rayFromPixel = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels));
+    c.rayFromPixel = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels) + offsetPixels);
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
     // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;

@@ -29,10 +29,10 @@ struct CameraView {
 };
 
 /// `bounds` are those of the scene; without them depth and lighting space are the camera's own, whatever it sees.
-/// `snapPixels` is gpu::Capabilities::snapPixels.
+/// `snapPixels` is gpu::Capabilities::snapPixels. `offsetPixels` shifts the picture to the right and up.
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
                           const glm::vec3& background, std::span<const SurfaceBounds> bounds = {},
-                          float snapPixels = 0.0f);
+                          float snapPixels = 0.0f, const glm::dvec2& offsetPixels = glm::dvec2(0.0));
 
 /// Whether some plane of the view's frustum has all of a box behind it by more than a margin.
 bool isOutside(const scenes::Box3& boxWS, double marginMetres, const CameraView& view);

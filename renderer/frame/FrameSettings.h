@@ -182,7 +182,8 @@ struct FrameSettings {
         samplePlaces; ///< as the driver places them, `samples` or more; none where no driver was asked
     int camera = 0;   ///< index into Scene::cameras
     double timeSeconds = 0.0;
-    glm::dvec3 eyeOffsetWS{0.0}; ///< metres, added to the camera's place: benchmarks move the eye between frames
+    glm::dvec3 eyeOffsetWS{0.0};  ///< metres, added to the camera's place: benchmarks move the eye between frames
+    glm::vec2 offsetPixels{0.0f}; ///< shifts the picture to the right and up, by parts of a pixel
     GBufferLayout layout;
     DebugView view = DebugView::Final;
     bool idsOfNearest = false; ///< the view ids tells transparent surfaces as if they were opaque: for outlines

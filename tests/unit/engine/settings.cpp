@@ -36,11 +36,11 @@ struct Differences {
 Differences differences(const ViewRequest& a, const ViewRequest& b) {
     const auto members = [](const ViewRequest& request) {
         const auto& [technique, settings] = request;
-        const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, layout, view,
-                     idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows, shadowFilter,
-                     shadowSamples, shadowMaps, shadowTerminator, subsurface, diffusion, environment, area, refraction,
-                     glassDepth, culling, lightOn, snapPixels, texturesAStage, hasClosedBodies, softwareBackend,
-                     display, exposureEV, toneMap] = settings;
+        const auto& [sizePixels, wholePixels, samples, samplePlaces, camera, timeSeconds, eyeOffsetWS, offsetPixels,
+                     layout, view, idsOfNearest, filter, space, prune, specular, rangeTolerance, soloLight, shadows,
+                     shadowFilter, shadowSamples, shadowMaps, shadowTerminator, subsurface, diffusion, environment,
+                     area, refraction, glassDepth, culling, lightOn, snapPixels, texturesAStage, hasClosedBodies,
+                     softwareBackend, display, exposureEV, toneMap] = settings;
         const auto& [method, tilePixels, builder, normals, lanes] = culling;
         const auto& [sideTexels, gaussians, half] = diffusion;
         const auto& [light, lightSamples, compensates, rotationDegrees, intensity, backdrop] = environment;
@@ -52,8 +52,8 @@ Differences differences(const ViewRequest& a, const ViewRequest& b) {
                                     sideTexels, gaussians, half, light, lightSamples, compensates, rotationDegrees,
                                     intensity, backdrop, areaLights, areaSamples, refraction, glassDepth, method,
                                     tilePixels, builder, normals, lightOn, exposureEV, toneMap),
-                         std::tuple(wholePixels, samplePlaces, eyeOffsetWS, idsOfNearest, snapPixels, texturesAStage,
-                                    hasClosedBodies, softwareBackend, display, lanes));
+                         std::tuple(wholePixels, samplePlaces, eyeOffsetWS, offsetPixels, idsOfNearest, snapPixels,
+                                    texturesAStage, hasClosedBodies, softwareBackend, display, lanes));
     };
     const auto differ = []<std::size_t... kIndex>(const auto& x, const auto& y, std::index_sequence<kIndex...>) {
         return std::vector<bool>{!(std::get<kIndex>(x) == std::get<kIndex>(y))...};

@@ -106,6 +106,28 @@ TEST(CameraView, aPointIsRebuiltFromItsPixelAndDepth) {
     }
 }
 
+TEST(CameraView, anOffsetShiftsThePictureByThatManyPixelsAndItsRaysWithIt) {
+    test::Random random(3);
+    const glm::dvec2 offset(0.375, -0.25);
+    for (const LightingSpace space : {LightingSpace::World, LightingSpace::View})
+        for (const scenes::Camera& camera : {perspective(0.1, kEndless), orthographic(0.1, 100.0)}) {
+            const CameraView still = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+            const CameraView shifted = makeCameraView(camera, kSize, space, glm::vec3(0.0f), {}, 0.0f, offset);
+            for (int i = 0; i < 1000; ++i) {
+                const glm::dvec3 point = pointInView(random, still, camera, 0.11, 99.0);
+                const Projected before = project(still, point), after = project(shifted, point);
+                constexpr float kRounding = 1e-4f; // of pixels up to 641 in fp32
+                ASSERT_LE(glm::distance(before.pixel + glm::vec2(offset), after.pixel), kRounding);
+                ASSERT_EQ(before.depth, after.depth);
+                const float metres = float(glm::length(point));
+                ASSERT_LE(glm::distance(rebuilt(still.constants, before), rebuilt(shifted.constants, after)),
+                          1e-5f * metres);
+            }
+            const glm::dvec4 left = shifted.frustumPlanesLS[0] - still.frustumPlanesLS[0];
+            EXPECT_NE(left, glm::dvec4(0.0)) << "what it sees is shifted too";
+        }
+}
+
 TEST(CameraView, bothLightingSpacesPutAWorldPointAtTheSamePixelAndDepth) {
     test::Random random(2);
     for (const scenes::Camera& camera : {perspective(0.1, kEndless), orthographic(0.1, 100.0)}) {
