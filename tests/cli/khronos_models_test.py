@@ -62,18 +62,6 @@ def pixels_of(png):
     return width, height, [rows[y * step + 1 : (y + 1) * step] for y in range(height)]
 
 
-class Covered:
-    """A picture that a model covers wholly."""
-
-    width, height = 8, 4
-
-    def box(self):
-        return 0, 0, self.width - 1, self.height - 1
-
-    def luminance(self):
-        return 0.5
-
-
 class KhronosModels(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -260,9 +248,10 @@ class KhronosModels(unittest.TestCase):
             self.assertEqual(tool.faults_of(tool.Row("A", "right", "", tool.Figures(0.5, 0.9, False, True, *lost))), names)
         self.assertEqual(faults(0.02, 0.549, False), ["framed under 55 %"])
         self.assertEqual(faults(0.02, 1.0, True), ["cut off"])
-        inside = tool.figures_of(Covered(), [Covered()], tool.FROM_INSIDE)
+        room = self.covering(0, 0, 19, 9)
+        inside = tool.figures_of(room, [room], tool.FROM_INSIDE)
         self.assertFalse(inside.is_cut, "a room reaches beyond the picture on all sides")
-        self.assertTrue(tool.figures_of(Covered(), [Covered()], tool.SUPPLIED_CAMERA).is_cut)
+        self.assertTrue(tool.figures_of(room, [room], tool.SUPPLIED_CAMERA).is_cut)
         self.assertEqual(faults(0.01, 0.5, True, is_supplied=False), ["black", "framed under 55 %", "cut off"])
         self.assertEqual(faults(0.5, 0.0, False, is_supplied=False), ["framed under 55 %"], "its own camera sees it")
         self.assertEqual(faults(0.0, 0.55, False, is_supplied=False), ["black"], "its own camera sees nothing")
