@@ -87,6 +87,17 @@ double shareOf(const std::array<Ray, kCount>& rays, const Is& is, const Holds& h
     return double(some) / double(all);
 }
 
+/// Whether a few rays down and to the sides let a room be likely: of most things, however many triangles they have, they
+/// meet backs or nothing, and no more rays need to be followed.
+bool mayBeEnclosed(const Scene& scene, const glm::dvec3& originWS) {
+    constexpr std::size_t kProbes = 8, kLeastFrontProbes = 6;
+    const std::array<Ray, kRays> around = raysAround();
+    std::array<Ray, kProbes> probes;
+    for (std::size_t i = 0; i < kProbes; ++i) probes[i] = around[kRays - 1 - 4 * i];
+    follow(scene, originWS, probes);
+    return std::ranges::count_if(probes, [](const Ray& ray) { return ray.meetsFront(); }) >= int(kLeastFrontProbes);
+}
+
 bool isEnclosed(const std::array<Ray, kRays>& rays) {
     const auto isAny = [](const Ray&) { return true; };
     const auto isLevelOrDown = [](const Ray& ray) { return ray.directionWS.y <= kLevel; };
@@ -102,6 +113,7 @@ std::optional<Framing> framingInside(const Scene& scene) {
     if (boundsWS.empty()) return std::nullopt;
     const glm::dvec3 sides = boundsWS.max - boundsWS.min, middleWS = 0.5 * (boundsWS.min + boundsWS.max);
     if (!(std::min({sides.x, sides.y, sides.z}) >= kLeastRoomMetres)) return std::nullopt;
+    if (!mayBeEnclosed(scene, middleWS)) return std::nullopt;
     std::array<Ray, kRays> around = raysAround();
     follow(scene, middleWS, around);
     if (!isEnclosed(around)) return std::nullopt;
