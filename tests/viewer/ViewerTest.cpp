@@ -60,10 +60,7 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
     };
     std::vector<int> bars = barsInView();
     if (bars.size() <= std::size_t(section)) { // a small screen's panels show what was selected
-        constexpr int kRim = 3, kToTop = 40;
-        viewer.moveTo({kRim, screenPixels().y / 2});
-        viewer.wheel(kToTop);
-        viewer.pause(0.5);
+        scrollToTop(viewer);
         bars = barsInView();
     }
     if (bars.size() <= std::size_t(section)) throw std::runtime_error("a section of the panels is not in view");
@@ -114,10 +111,24 @@ void ViewerTest::pickSphere(const DrivenViewer& viewer, glm::ivec2 sizePixels) {
     viewer.pause(0.5);
 }
 
+void ViewerTest::scrollToTop(const DrivenViewer& viewer) {
+    constexpr int kRim = 3, kToTop = 40;
+    viewer.moveTo({kRim, screenPixels().y / 2});
+    viewer.wheel(kToTop);
+    viewer.pause(0.5);
+}
+
 void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
-    viewer.click({200, barOf(viewer, section)});
+    const int bar = barOf(viewer, section);
+    const auto above = [&] { return viewer.capture().part({0, 0}, {kPanelPixels, bar - 12}); };
+    const Shot before = above();
+    viewer.click({200, bar});
     viewer.moveTo(middlePixel()); // where nothing lights up
     viewer.pause(0.5);
+    if (above() == before) return;
+    scrollToTop(viewer); // what opens low comes into view
+    viewer.moveTo(middlePixel());
+    viewer.pause(0.3);
 }
 
 void ViewerTest::addLight(const DrivenViewer& viewer) {

@@ -101,7 +101,7 @@ protected:
     /// Heights in the window of the middles of an open section's lines of text at the left, labels most of them, as far
     /// as it is in view; without what is greyed.
     static std::vector<int> linesOf(const DrivenViewer& viewer, Section section);
-    /// Opens a section, or closes it.
+    /// Opens a section, or closes it; nothing is scrolled afterwards.
     static void toggle(const DrivenViewer& viewer, Section section);
     /// Folds what is open, so that nothing scrolls where another section opens.
     static void makeRoom(const DrivenViewer& viewer);
@@ -143,6 +143,7 @@ protected:
     static inline std::unique_ptr<Desktop> desktop_;
 
 private:
+    static void scrollToTop(const DrivenViewer& viewer);
     static int lightY(const DrivenViewer& viewer, int light) {
         constexpr int kFirstPixels = 67, kLightPixels = 23;
         return barOf(viewer, Section::Lights) + kFirstPixels + light * kLightPixels;
