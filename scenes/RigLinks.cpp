@@ -40,14 +40,21 @@ void setLightLinks(Rig& rig, const LightLinks& links) {
         if (infoOf(rig.numbers[i].property).owner == AnimatedOwner::Light) rig.numbers[i].element = links.numbers[i];
 }
 
-LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after) {
+LightLinks linksAfterEdit(const Rig& rig, std::size_t first, std::span<const Light> before,
+                          std::span<const Light> after) {
+    assert(before.size() == after.size());
+    const auto isEdited = [&](int light) { return std::size_t(light) - first < before.size() && light != kNone; };
     LightLinks links = lightLinks(rig);
-    if (before.positionWS != after.positionWS || before.directionWS != after.directionWS)
-        std::erase_if(links.carried, [&](const Carried& carried) { return std::size_t(carried.element) == light; });
+    std::erase_if(links.carried, [&](const Carried& carried) {
+        if (!isEdited(carried.element)) return false;
+        const std::size_t i = std::size_t(carried.element) - first;
+        return before[i].positionWS != after[i].positionWS || before[i].directionWS != after[i].directionWS;
+    });
     for (std::size_t i = 0; i < rig.numbers.size(); ++i) {
-        if (links.numbers[i] != int(light)) continue;
+        if (!isEdited(links.numbers[i])) continue;
+        const std::size_t light = std::size_t(links.numbers[i]) - first;
         const AnimatedMember& member = infoOf(rig.numbers[i].property).member;
-        if (numberOf(before, member) != numberOf(after, member)) links.numbers[i] = kNone;
+        if (numberOf(before[light], member) != numberOf(after[light], member)) links.numbers[i] = kNone;
     }
     return links;
 }

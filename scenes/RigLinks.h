@@ -15,8 +15,10 @@ struct LightLinks {
 };
 LightLinks lightLinks(const Rig& rig);
 void setLightLinks(Rig& rig, const LightLinks& links);
-/// What is left of the links when a light is edited. An edited place, direction or number is no longer animated.
-LightLinks linksAfterEdit(const Rig& rig, std::size_t light, const Light& before, const Light& after);
+/// What is left of the links when lights from `first` on are edited. An edited place, direction or number is no longer
+/// animated.
+LightLinks linksAfterEdit(const Rig& rig, std::size_t first, std::span<const Light> before,
+                          std::span<const Light> after);
 /// The same when `put` lights have come in the place of `taken` ones from `first` on, which all are without links.
 LightLinks linksAfterReplacing(const Rig& rig, std::size_t first, std::size_t taken, std::size_t put);
 /// The same when lights were deleted; indices from the least on.

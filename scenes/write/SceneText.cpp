@@ -144,7 +144,7 @@ void askForNoView(SceneOptions& options) {
 }
 
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file,
-                      const std::optional<EnvironmentView>& seen) {
+                      const std::optional<EnvironmentView>& seen, std::span<const Camera> furtherCameras) {
     assert(scene.materials.size() == origin.materials.size() && scene.images.size() == origin.images);
     assert(scene.meshes.size() == origin.meshes && scene.nodes.size() == origin.nodes);
     assert(!scene.cameras.empty());
@@ -159,7 +159,8 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
     for (const Light& light : scene.lights)
         lights.push_back(write::lightJson(light, light.texture ? nameIn(light.texture->source, file) : ""));
     Json& cameras = document["cameras"] = Json::array();
-    for (const Camera& camera : scene.cameras) cameras.push_back(write::cameraJson(camera));
+    for (const std::span<const Camera> some : {std::span(scene.cameras), furtherCameras})
+        for (const Camera& camera : some) cameras.push_back(write::cameraJson(camera));
     document["environment"] = environmentJson(scene, file, seen.value_or(EnvironmentView()));
     if (scene.hook && !scene.hook->parameters.empty()) document["hook"] = {{"values", hookValuesJson(*scene.hook)}};
     document["options"] = optionsJson(scene, seen && scene.environment);

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 
 #include "scenes/Environment.h"
 #include "scenes/write/SceneOrigin.h"
@@ -13,9 +14,9 @@ namespace tessera::scenes {
 /// new file, and a scene without lights gets the option that none is supplied. Where a view shows the environment as
 /// `seen` says, the file's own lies and shines like that, and its options ask for no such view (askForNoView()). Throws
 /// InputError, naming the file, the thing and the remedy, when the scene does not pass checkScene(), when `file` is one
-/// that the origin is made of, or when text is not UTF-8.
+/// that the origin is made of, or when text is not UTF-8. Further cameras come behind the scene's own.
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file,
-                      const std::optional<EnvironmentView>& seen = {});
+                      const std::optional<EnvironmentView>& seen = {}, std::span<const Camera> furtherCameras = {});
 
 /// Takes the wishes away for a view that turns or brightens the environment. A file with options has none of its
 /// base's.

@@ -112,15 +112,16 @@ protected:
     /// A light of the list in the open panel of lights, which nothing has scrolled: its switch, and its name.
     static glm::ivec2 lightSwitch(const DrivenViewer& viewer, int light) { return {17, lightY(viewer, light)}; }
     static glm::ivec2 lightName(const DrivenViewer& viewer, int light) { return {120, lightY(viewer, light)}; }
-    /// A place in a row of the light that is selected, the first one below the list being 1.
-    static glm::ivec2 inLightRow(const DrivenViewer& viewer, int row, int x) {
-        constexpr int kListPixels = 197; // from the middle of the bar, with the buttons above the list
-        return {x, barOf(viewer, Section::Lights) + kListPixels + row * kRowPixels};
+    /// A place in a row of the light that is selected, the first one below the list of so many lights being 1.
+    static glm::ivec2 inLightRow(const DrivenViewer& viewer, int row, int x, int lights = 1) {
+        constexpr int kBarePixels = 46; // from the middle of the bar, with the buttons and the titles of the list
+        return {x, barOf(viewer, Section::Lights) + kBarePixels + lights * kLightPixels + row * kRowPixels};
     }
     /// Chooses an entry of the list of scenes: the built-in ones, then the recent files.
     static void chooseScene(const DrivenViewer& viewer, std::string_view builtin);
     static void chooseRecentScene(const DrivenViewer& viewer, int index);
     static constexpr int kRowPixels = 24;
+    static constexpr int kLightPixels = 23; ///< of a row in the list of lights
 
     /// Saves the scene with its edits, and takes the message away that says so; the file's name.
     static std::string saveScene(const DrivenViewer& viewer);
@@ -145,7 +146,7 @@ protected:
 private:
     static void scrollToTop(const DrivenViewer& viewer);
     static int lightY(const DrivenViewer& viewer, int light) {
-        constexpr int kFirstPixels = 67, kLightPixels = 23;
+        constexpr int kFirstPixels = 67;
         return barOf(viewer, Section::Lights) + kFirstPixels + light * kLightPixels;
     }
 };

@@ -52,6 +52,17 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
                 }));
 }
 
+TEST_F(ViewerCameras, keysLookAlongTheAxesAndHomeBringsThePictureBack) {
+    DrivenViewer viewer = open(kSpheres);
+    const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
+    const Shot side = after(viewer, [&] { viewer.key("ctrl+2"); });
+    const Shot top = after(viewer, [&] { viewer.key("ctrl+3"); });
+    EXPECT_GT(differingShare(side, home, 4), 0.1);
+    EXPECT_GT(differingShare(top, side, 4), 0.1);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("KP_3"); }) == side);
+    EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
+}
+
 TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) {
     DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));

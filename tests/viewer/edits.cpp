@@ -103,6 +103,28 @@ TEST_F(ViewerEdits, severalLightsAreSelectedInTheListAndDeletedAtOnce) {
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 
+TEST_F(ViewerEdits, aLightIsRenamedByF2AndByADoubleClickOnItsName) {
+    DrivenViewer viewer = open(kSpheres);
+    viewer.waitForWhole(0);
+    toggle(viewer, Section::Lights);
+    viewer.click(lightName(viewer, 1));
+    viewer.pause(0.5);
+    viewer.key("F2");
+    viewer.pause(0.5);
+    viewer.type("lantern");
+    viewer.key("Return");
+    viewer.pause(0.5);
+    viewer.doubleClick(lightName(viewer, 0));
+    viewer.pause(0.5);
+    viewer.type("sun");
+    viewer.key("Return");
+    viewer.moveTo(middlePixel());
+    viewer.pause(0.5);
+    const nlohmann::json lights = readJson(saveScene(viewer)).at("lights");
+    EXPECT_EQ(lights.at(0).at("name"), "sun");
+    EXPECT_EQ(lights.at(1).at("name"), "lantern");
+}
+
 TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
     Shot dark;
     {

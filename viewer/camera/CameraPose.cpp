@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/Limits.h"
+#include "scenes/LookAt.h"
 
 namespace tessera::viewer {
 namespace {
@@ -49,6 +50,21 @@ CameraPose poseOf(const scenes::Camera& camera, double focusMetres) {
     pose.nearMetres = camera.nearMetres;
     pose.farMetres = camera.farMetres;
     return pose;
+}
+
+CameraPose between(const CameraPose& pose, const glm::dvec3& eyeWS, const glm::dvec3& targetWS) {
+    CameraPose moved = pose;
+    const double distanceMetres = glm::distance(eyeWS, targetWS);
+    if (!(distanceMetres > 0.0)) return moved;
+    moved.eyeWS = eyeWS;
+    moved.focusMetres = distanceMetres;
+    moved.heading = headingOf(glm::dmat3(scenes::worldFromLookAt(eyeWS, targetWS)));
+    moved.heading.rollRadians += pose.heading.rollRadians;
+    return moved;
+}
+
+glm::dvec3 targetOf(const CameraPose& pose) {
+    return pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
 }
 
 scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start) {

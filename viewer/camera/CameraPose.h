@@ -22,6 +22,11 @@ CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS);
 /// The same with the focus that many metres ahead, > 0.
 CameraPose poseOf(const scenes::Camera& camera, double focusMetres);
 
+/// The pose with another eye or target, what its focus is in: it looks from the one to the other, with its roll. As it
+/// was where they are one point.
+CameraPose between(const CameraPose& pose, const glm::dvec3& eyeWS, const glm::dvec3& targetWS);
+glm::dvec3 targetOf(const CameraPose& pose);
+
 /// The command line's form of the pose of a camera that started as `start`: eye, target and other differences. The
 /// viewer draws the result of changedCamera() on it, so that both are the same to the last bit.
 scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -14,13 +15,24 @@
 namespace tessera::viewer {
 namespace {
 
-/// A name without the number that tells copies apart.
-std::string withoutNumber(const std::string& name) {
-    const std::size_t space = name.find_last_of(' ');
-    if (space == std::string::npos || space == 0 || space + 1 == name.size()) return name;
-    const bool isNumber = name.find_first_not_of("0123456789", space + 1) == std::string::npos;
-    return isNumber ? name.substr(0, space) : name;
-}
+/// Names that no light has yet, one after the other.
+class FreeNames {
+public:
+    explicit FreeNames(const Lights& lights) {
+        for (const scenes::Light& light : lights) taken_.insert(light.name);
+    }
+    std::string take(const std::string& wanted) {
+        std::string name = wanted;
+        for (int& number = next_.try_emplace(wanted, 2).first->second; taken_.contains(name); ++number)
+            name = fmt::format("{} {}", wanted, number);
+        taken_.insert(name);
+        return name;
+    }
+
+private:
+    std::unordered_set<std::string> taken_;
+    std::unordered_map<std::string, int> next_; ///< number to try
+};
 
 /// Of a rectangle: a polygon's x runs along its width.
 scenes::LightCorners cornersOfSides(const scenes::Light& light) {
@@ -41,13 +53,15 @@ std::string lightLabel(const Lights& lights, std::size_t index) {
     return lights[index].name.empty() ? fmt::format("light {}", index) : lights[index].name;
 }
 
+std::string withoutNumber(const std::string& name) {
+    const std::size_t space = name.find_last_of(' ');
+    if (space == std::string::npos || space == 0 || space + 1 == name.size()) return name;
+    const bool isNumber = name.find_first_not_of("0123456789", space + 1) == std::string::npos;
+    return isNumber ? name.substr(0, space) : name;
+}
+
 std::string freeLightName(const Lights& lights, const std::string& wanted) {
-    std::unordered_set<std::string_view> taken;
-    for (const scenes::Light& light : lights) taken.insert(light.name);
-    if (!taken.contains(wanted)) return wanted;
-    std::string name;
-    for (int number = 2; name.empty() || taken.contains(name); ++number) name = fmt::format("{} {}", wanted, number);
-    return name;
+    return FreeNames(lights).take(wanted);
 }
 
 scenes::Light newLight(const Lights& lights, scenes::Light light) {
@@ -55,11 +69,14 @@ scenes::Light newLight(const Lights& lights, scenes::Light light) {
     return light;
 }
 
-scenes::Light copyOfLight(const Lights& lights, std::size_t index) {
-    assert(index < lights.size());
-    scenes::Light copy = lights[index];
-    copy.name = freeLightName(lights, withoutNumber(copy.name));
-    return copy;
+Lights copiesOfLights(const Lights& lights, const std::set<int>& indices) {
+    FreeNames names(lights);
+    Lights copies;
+    for (const int index : indices) {
+        scenes::Light& copy = copies.emplace_back(lights.at(std::size_t(index)));
+        copy.name = names.take(withoutNumber(copy.name));
+    }
+    return copies;
 }
 
 std::optional<int> indexAfter(int index, std::size_t first, std::size_t taken, std::size_t put) {

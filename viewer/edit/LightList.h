@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,17 @@ using Lights = std::vector<scenes::Light>;
 /// What a list calls a light: by its name, else by its number.
 std::string lightLabel(const Lights& lights, std::size_t index);
 
+/// A name without the number that tells copies apart: "lamp" of "lamp 2".
+std::string withoutNumber(const std::string& name);
+
 /// `wanted` if no light has that name, else with the least number from 2 on behind it ("lamp 2").
 std::string freeLightName(const Lights& lights, const std::string& wanted);
 
 /// A light under a name that is free.
 scenes::Light newLight(const Lights& lights, scenes::Light light);
 
-/// A copy of a light, the number behind its name counted on ("lamp 2").
-scenes::Light copyOfLight(const Lights& lights, std::size_t index);
+/// Copies of lights, the numbers behind their names counted on ("lamp 2").
+Lights copiesOfLights(const Lights& lights, const std::set<int>& indices);
 
 /// Where the light of an index is after `put` lights came in the place of `taken` from `first` on; none where it was
 /// one of those that went. As many as went are the same lights, changed.

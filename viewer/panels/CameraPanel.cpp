@@ -1,10 +1,75 @@
+#include <cfloat>
+#include <cmath>
+#include <string>
+
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 #include <imgui.h>
 
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/Keys.h"
 
 namespace tessera::viewer {
+
+namespace {
+
+void axisRow(OpenScene& open) {
+    row("Look from");
+    const auto views = float(axisViews().size());
+    const float spacing = ImGui::GetStyle().ItemSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - (views - 1.0f) * spacing) / views;
+    for (const AxisView& view : axisViews()) {
+        if (&view != axisViews().data()) ImGui::SameLine();
+        if (ImGui::Button(view.name, {width, 0.0f}))
+            open.jumpToHeading(std::string("look ") + view.meaning, view.heading);
+        tip(fmt::format("{} (Ctrl+{:c})", view.meaning, char(view.key)));
+    }
+}
+
+void numberRows(OpenScene& open) {
+    constexpr float kSpeedShare = 0.002f; // of the focus, a pixel of a drag
+    constexpr float kLeastDegrees = 1.0f, kMostDegrees = 170.0f;
+    const CameraPose pose = open.rig().pose();
+    const float speed = kSpeedShare * float(pose.focusMetres);
+    glm::dvec3 eyeWS = pose.eyeWS, targetWS = targetOf(pose);
+    bool moved = dragVector("Eye", eyeWS, speed, kMostMetres);
+    if (moved) open.moveCamera(between(pose, eyeWS, targetWS), widgetGesture());
+    moved = dragVector("Target", targetWS, speed, kMostMetres);
+    if (moved) open.moveCamera(between(pose, eyeWS, targetWS), widgetGesture());
+    fact("Pivot at", numberText("%.3f", pose.focusMetres) + " m");
+    if (open.rig().start().projection != scenes::Projection::Perspective) return;
+    auto radians = float(open.rig().start().fovYRadians);
+    if (angleSlider("Field of view", radians, kLeastDegrees, kMostDegrees)) {
+        constexpr double kStepsADegree = 10.0; // as it is shown
+        open.changeFieldOfView(std::round(kStepsADegree * glm::degrees(double(radians))) / kStepsADegree,
+                               widgetGesture());
+    }
+}
+
+/// Those that were stored, each with a button that removes it.
+void viewpointRows(State& state) {
+    OpenScene& open = *state.open;
+    row("Viewpoints");
+    if (ImGui::Button("Store this one", {-FLT_MIN, 0.0f})) open.storeViewpoint();
+    tip("Keeps where the camera is. A saved scene has it as a camera.");
+    std::optional<std::size_t> removed;
+    for (std::size_t i = 0; i < open.viewpoints().size(); ++i) {
+        ImGui::PushID(int(i));
+        row("");
+        const float side = ImGui::GetFrameHeight();
+        const float width = ImGui::GetContentRegionAvail().x - side - ImGui::GetStyle().ItemSpacing.x;
+        if (ImGui::Button(labelOf(open.viewpoints()[i].name).c_str(), {width, 0.0f})) open.jumpToViewpoint(i);
+        tip("Goes there");
+        ImGui::SameLine();
+        if (ImGui::Button("x", {side, 0.0f})) removed = i;
+        tip("Removes it");
+        ImGui::PopID();
+    }
+    if (removed) open.removeViewpoint(*removed);
+}
+
+} // namespace
 
 void cameraPanel(State& state) {
     if (!state.open) return;
@@ -28,10 +93,9 @@ void cameraPanel(State& state) {
     ImGui::SameLine();
     if (ImGui::Button("Home")) open.jumpHome();
     tip("Back to the scene's camera");
-    const CameraPose pose = rig.pose();
-    const auto metres = [](double value) { return numberText("%.3f", value); };
-    fact("Eye", fmt::format("{} {} {} m", metres(pose.eyeWS.x), metres(pose.eyeWS.y), metres(pose.eyeWS.z)));
-    fact("Pivot at", metres(pose.focusMetres) + " m");
+    axisRow(open);
+    numberRows(open);
+    viewpointRows(state);
 }
 
 } // namespace tessera::viewer

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
+#include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,12 +14,13 @@
 #include "viewer/panels/LightLifeRows.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
+#include "viewer/session/FieldLetters.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
 
-constexpr float kListRows = 7.0f;
+constexpr std::size_t kMostListRows = 12;
 constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
 constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: sides and lengths that are slid to
 constexpr double kMostRadiusShare = 0.1;   ///< the same of radii
@@ -28,7 +32,79 @@ Choosing choosingNow() {
     return io.KeyCtrl ? Choosing::Toggle : Choosing::Alone;
 }
 
-void tableRow(State& state, int index, bool isScrolledTo) {
+/// A field in which the text of a name is edited; those letters that it cannot hold come back as they are. `flags` may
+/// say when it counts as entered.
+bool nameField(const char* id, const char* hint, std::string& name, ImGuiInputTextFlags flags) {
+    constexpr std::size_t kRoomBytes = 1024; // for what is typed in one frame
+    FieldLetters letters;
+    std::string buffer = letters.inField(name);
+    buffer.resize(buffer.size() + kRoomBytes);
+    const bool isEntered = ImGui::InputTextWithHint(id, hint, buffer.data(), buffer.size(), flags);
+    name = letters.fromField(buffer.c_str());
+    return isEntered;
+}
+
+/// In the place of the name. Enter and a click elsewhere take it, Esc does not.
+void renamingField(State& state) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (!state.renamed->isBegun) ImGui::SetKeyboardFocusHere();
+    const bool isEntered = nameField("##name", "", state.renamed->name,
+                                     ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool isActive = ImGui::IsItemActive();
+    const bool isLeft = std::exchange(state.renamed->isBegun, state.renamed->isBegun || isActive) && !isActive;
+    if (!isEntered && !isLeft) return;
+    if (!isEntered && ImGui::IsKeyPressed(ImGuiKey_Escape, false))
+        state.renamed.reset();
+    else
+        endRenaming(state);
+}
+
+void nameCell(State& state, int index, std::span<const int> list) {
+    if (state.renamed && state.renamed->light == index) return renamingField(state);
+    const std::string name = labelOf(lightLabel(state.open->scene().lights, std::size_t(index)));
+    if (ImGui::Selectable(name.c_str(), state.isLightSelected(index), ImGuiSelectableFlags_AllowDoubleClick)) {
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+            state.selectedLight = index; // the first click may have let go of it
+            beginRenaming(state);
+        } else {
+            selectLight(state, index, choosingNow(), list);
+        }
+    }
+    tip("Ctrl and a click selects several, Shift and a click all between; a double click or F2 renames");
+}
+
+/// Switches all lights of a group, and its name selects them.
+void groupRow(State& state, const ListedLight& group) {
+    const Lights& lights = state.open->scene().lights;
+    ImGui::PushID(group.group.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    bool areOn = std::ranges::all_of(group.lights, [&](int light) { return lights[std::size_t(light)].enabled; });
+    if (ImGui::Checkbox("##on", &areOn)) switchLights(state, group.lights, areOn);
+    tip("all of them on or off");
+    ImGui::TableNextColumn();
+    const bool isOpen = state.listing.unfolded.contains(group.group) || !state.listing.search.empty();
+    ImGui::SetNextItemOpen(isOpen);
+    const auto isSelected = [&](int light) { return state.isLightSelected(light); };
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth |
+                               ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_NoTreePushOnOpen;
+    if (std::ranges::all_of(group.lights, isSelected)) flags |= ImGuiTreeNodeFlags_Selected;
+    const std::string label = fmt::format("{} ({})###group", labelOf(group.group), group.lights.size());
+    ImGui::TreeNodeEx(label.c_str(), flags);
+    if (ImGui::IsItemToggledOpen()) {
+        if (isOpen)
+            state.listing.unfolded.erase(group.group);
+        else
+            state.listing.unfolded.insert(group.group);
+    } else if (ImGui::IsItemClicked()) {
+        selectLights(state, group.lights, choosingNow() != Choosing::Alone);
+    }
+    tip("A click selects all of them; the arrow shows them");
+    ImGui::TableNextColumn();
+    ImGui::PopID();
+}
+
+void tableRow(State& state, int index, bool isInGroup, bool isScrolledTo, std::span<const int> list) {
     const Lights& lights = state.open->scene().lights;
     const scenes::Light& light = lights[std::size_t(index)];
     ImGui::PushID(index);
@@ -36,12 +112,15 @@ void tableRow(State& state, int index, bool isScrolledTo) {
     ImGui::TableNextColumn();
     bool isOn = light.enabled;
     if (ImGui::Checkbox("##on", &isOn)) {
-        scenes::Light switched = light;
-        switched.enabled = isOn;
-        state.open->changeLight(std::size_t(index), std::move(switched));
+        const std::set<int> selected = state.allSelectedLights();
+        if (selected.contains(index))
+            switchLights(state, std::vector<int>(selected.begin(), selected.end()), isOn);
+        else
+            switchLights(state, {&index, 1}, isOn);
     }
     tip("on or off");
     ImGui::TableNextColumn();
+    if (isInGroup) ImGui::Indent();
     const float side = ImGui::GetFontSize();
     const float top = ImGui::GetCursorPosY();
     ImGui::SetCursorPosY(top + 0.5f * (ImGui::GetFrameHeight() - side));
@@ -49,10 +128,9 @@ void tableRow(State& state, int index, bool isScrolledTo) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
     ImGui::AlignTextToFramePadding();
-    const std::string name = labelOf(lightLabel(lights, std::size_t(index)));
-    if (ImGui::Selectable(name.c_str(), state.isLightSelected(index))) selectLight(state, index, choosingNow());
-    tip("Ctrl and a click selects several, Shift and a click all between");
+    nameCell(state, index, list);
     if (isScrolledTo && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
+    if (isInGroup) ImGui::Unindent();
     ImGui::TableNextColumn();
     std::optional<int>& solo = state.active().settings.soloLight;
     bool isSolo = solo == index;
@@ -61,8 +139,41 @@ void tableRow(State& state, int index, bool isScrolledTo) {
     ImGui::PopID();
 }
 
+/// Which lights the list has, and in which order.
+void listingRow(LightListing& listing) {
+    ImGui::SetNextItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
+    nameField("##search", "search", listing.search, 0);
+    tip("Lights with this in their name or kind");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (!ImGui::BeginCombo("##order", nameOf(listing.order))) return;
+    closeOnEscape();
+    for (std::size_t i = 0; i < std::size_t(LightOrder::Count); ++i)
+        if (ImGui::Selectable(nameOf(LightOrder(i)), listing.order == LightOrder(i))) listing.order = LightOrder(i);
+    ImGui::EndCombo();
+}
+
 void lightList(State& state) {
-    const float height = kListRows * ImGui::GetFrameHeightWithSpacing();
+    const Lights& lights = state.open->scene().lights;
+    // A light that was selected elsewhere comes into view.
+    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), scenes::kNone);
+    const int count = int(lights.size()), selected = state.selectedLight;
+    const bool isRenamed = state.renamed && !state.renamed->isBegun;
+    const bool isMoved = (std::exchange(shown, selected) != selected || isRenamed) && selected >= 0 && selected < count;
+    if (state.allSelectedLights().size() == 1 && isMoved)
+        state.listing.unfolded.insert(groupOf(lights, std::size_t(selected), state.listing.order));
+    if (lights.size() > kFewLights) listingRow(state.listing);
+    const std::uint64_t edits = state.open->edits();
+    if (!state.listed || state.listed->edits != edits || state.listed->listing != state.listing)
+        state.listed = {edits, state.listing, listedLights(lights, state.listing)};
+    const std::vector<ListedLight>& rows = state.listed->rows;
+    if (state.renamed && std::ranges::find(rows, state.renamed->light, &ListedLight::light) == rows.end())
+        state.renamed.reset(); // the search hides it
+    if (rows.empty()) return ImGui::TextDisabled("No light has that in its name");
+    const std::vector<int> list = lightsIn(rows);
+    const float padding = 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float height = ImGui::GetTextLineHeight() + padding +
+                         float(std::min(rows.size(), kMostListRows)) * (ImGui::GetFrameHeight() + padding);
     const ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
     if (!ImGui::BeginTable("lights", 3, flags, {0.0f, height})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
@@ -70,15 +181,18 @@ void lightList(State& state) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableHeadersRow();
-    // A light that was selected elsewhere comes into view.
-    int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), scenes::kNone);
-    const int count = int(state.open->scene().lights.size()), selected = state.selectedLight;
-    const bool isMoved = std::exchange(shown, selected) != selected && selected >= 0 && selected < count;
     ImGuiListClipper clipper; // tens of thousands of rows, of which few are in view
-    clipper.Begin(count);
-    if (isMoved) clipper.ForceDisplayRangeByIndices(selected, selected + 1);
+    clipper.Begin(int(rows.size()));
+    const int row = int(std::ranges::find(rows, selected, &ListedLight::light) - rows.begin());
+    if (isMoved && row < int(rows.size())) clipper.ForceDisplayRangeByIndices(row, row + 1);
     while (clipper.Step())
-        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) tableRow(state, i, isMoved && i == selected);
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            const ListedLight& listed = rows[std::size_t(i)];
+            if (listed.light == scenes::kNone)
+                groupRow(state, listed);
+            else
+                tableRow(state, listed.light, !listed.group.empty(), isMoved && listed.light == selected, list);
+        }
     ImGui::EndTable();
 }
 
@@ -234,6 +348,13 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
+/// What of several lights the rows below are about.
+void selectionLine(const State& state, std::size_t selected) {
+    if (selected < 2) return;
+    const std::string label = labelOf(lightLabel(state.open->scene().lights, std::size_t(state.selectedLight)));
+    paragraph(fmt::format("Edits apply to all {} selected lights. Shown are the values of '{}'.", selected, label));
+}
+
 bool typeRow(State& state, scenes::Light& light, std::size_t index, double sceneSizeMetres) {
     scenes::LightType type = light.type;
     if (!chooseNamed("Type", type)) return false;
@@ -263,8 +384,8 @@ void listButtons(State& state) {
     tip("A point light in the picture's middle, halfway to the camera's pivot");
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);
-    if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLight(state);
-    tip("A copy of the selected light, in the same place");
+    if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLights(state);
+    tip("A copy of each selected light, in the same place");
     ImGui::SameLine();
     const std::size_t count = state.allSelectedLights().size();
     const std::string label = count > 1 ? fmt::format("Delete {}###delete", count) : "Delete###delete";
@@ -323,11 +444,12 @@ void lightsPanel(State& state) {
         const double size = bounds.empty() || bounds.min == bounds.max ? 1.0 : glm::length(bounds.max - bounds.min);
         const auto index = std::size_t(state.selectedLight);
         scenes::Light edited = lights[index];
+        selectionLine(state, state.allSelectedLights().size());
         bool changed = typeRow(state, edited, index, size);
         changed |= lightRows(edited, timeSeconds, size);
         changed |= lightLifeRows(edited, timeSeconds, size);
         changed |= flickerRows(edited, index);
-        if (changed) open.changeLight(index, std::move(edited), widgetGesture());
+        if (changed) changeSelectedLights(state, edited, size, widgetGesture());
     }
     ImGui::Separator();
     scatterRows(state);

@@ -95,7 +95,12 @@ constexpr Meaning kMeanings[] = {
     {"Map", "What surrounds the scene and lights it"},
     {"Camera", "Cameras of the scene; Home goes back to it"},
     {"Moves by", "What the mouse does with the camera (C)"},
-    {"Eye", "Where the camera is"},
+    {"Edges", "Whether the edges of what is seen are smoothed"},
+    {"Look from", "Along an axis of the world, about what the camera turns about"},
+    {"Eye", "Where the camera is; it goes on looking at its target"},
+    {"Target", "What the camera looks at and turns about"},
+    {"Field of view", "From the picture's lower side to its upper one"},
+    {"Viewpoints", "Places of the camera that were stored"},
     {"Pivot at", "Distance of what the camera turns about"},
     // Animation
     {"Clip", "The animation of the model that plays"},

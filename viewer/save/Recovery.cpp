@@ -107,7 +107,7 @@ void Recovery::keep(const OpenScene& open) {
     if (!folder_) return;
     if (!open.isEdited()) return forget();
     const fs::path file = ownFolder() / fmt::format("tessera-{}.json", savedStem(open.source()));
-    saveScene(file.string(), open.scene(), open.origin(), open.environmentView());
+    saveScene(file.string(), open.scene(), open.origin(), open.environmentView(), open.viewpoints());
     std::error_code ignored;
     if (kept_ && kept_->file != file) fs::remove(kept_->file, ignored);
     kept_ = Kept{file, open.source(), open.edits()};

@@ -26,16 +26,16 @@ std::string savedStem(const std::string& source) {
 }
 
 void saveScene(const std::string& path, const scenes::Scene& scene, const scenes::SceneOrigin& origin,
-               const scenes::EnvironmentView& seen) {
+               const scenes::EnvironmentView& seen, std::span<const scenes::Camera> viewpoints) {
     if (extensionOf(path) != ".json") throw InputError(path + ": edited scenes are saved as .json; give such a name");
-    writeFileAtomically(path, scenes::sceneText(scene, origin, path, seen));
+    writeFileAtomically(path, scenes::sceneText(scene, origin, path, seen, viewpoints));
 }
 
 void saveOpenScene(State& state, const std::string& path) {
     OpenScene& open = *state.open;
     scenes::SceneOptions before = open.exchangeOptions(optionsToSave(state));
     try {
-        saveScene(path, open.scene(), open.origin(), open.environmentView());
+        saveScene(path, open.scene(), open.origin(), open.environmentView(), open.viewpoints());
     } catch (...) {
         open.exchangeOptions(std::move(before));
         throw;

@@ -69,6 +69,14 @@ void CameraRig::turnAbout(const glm::dvec3& pivotWS) {
     goTo(pose);
 }
 
+void CameraRig::look(const Heading& heading) {
+    CameraPose pose = mode_ == Mode::Orbit ? orbit_.goal() : fly_.goal();
+    const glm::dvec3 pivotWS = pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
+    pose.heading = heading;
+    pose.eyeWS = pivotWS - pose.focusMetres * heading.forwardWS();
+    goTo(pose);
+}
+
 void CameraRig::goHome() {
     goTo(home_);
 }

@@ -35,6 +35,10 @@ public:
     /// Slides across the picture so that orbits turn about a point, which comes into the picture's middle at its depth.
     /// Nothing happens where it lies behind the eye, or when flying.
     void turnAbout(const glm::dvec3& pivotWS);
+    /// Turns about the pivot to another heading.
+    void look(const Heading& heading);
+    /// Moves to a pose.
+    void goTo(const CameraPose& pose);
     /// Back to where it started, exactly.
     void goHome();
 
@@ -56,8 +60,6 @@ public:
     scenes::Camera camera() const { return isMoved() ? cameraAt(pose(), start_) : start_; }
 
 private:
-    void goTo(const CameraPose& pose);
-
     scenes::Camera start_;
     CameraPose home_;
     scenes::Box3 boundsWS_;

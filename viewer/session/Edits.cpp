@@ -23,6 +23,7 @@ bool isInPlace(const Light& before, const Light& after) {
 }
 
 constexpr ChangeVerb<Light> kLightVerbs[] = {
+    {"rename", [](const Light& a, const Light& b) { return a.name != b.name; }},
     {"change type of", [](const Light& a, const Light& b) { return a.type != b.type; }},
     {"switch on", [](const Light& a, const Light& b) { return !a.enabled && b.enabled; }},
     {"switch off", [](const Light& a, const Light& b) { return a.enabled && !b.enabled; }},
@@ -69,15 +70,10 @@ constexpr ChangeVerb<Material> kMaterialVerbs[] = {
 };
 
 template <typename Element>
-std::string textOfChange(std::span<const ChangeVerb<Element>> verbs, const Element& before, const Element& after,
-                         const char* kind, const std::string& label) {
-    const char* verb = "change";
+const char* verbOf(std::span<const ChangeVerb<Element>> verbs, const Element& before, const Element& after) {
     for (const ChangeVerb<Element>& row : verbs)
-        if (row.holds(before, after)) {
-            verb = row.verb;
-            break;
-        }
-    return fmt::format("{} {} '{}'", verb, kind, label);
+        if (row.holds(before, after)) return row.verb;
+    return "change";
 }
 
 } // namespace
@@ -85,25 +81,32 @@ std::string textOfChange(std::span<const ChangeVerb<Element>> verbs, const Eleme
 bool areOfOneElement(const Edit& first, const Edit& second) {
     if (const auto* a = std::get_if<LightsEdit>(&first)) {
         const auto* b = std::get_if<LightsEdit>(&second);
-        const auto isOfOne = [](const LightsEdit& edit) { return edit.count == 1 && edit.others.size() == 1; };
-        return b != nullptr && isOfOne(*a) && isOfOne(*b) && a->first == b->first;
+        const auto changesAll = [](const LightsEdit& edit) {
+            return edit.count > 0 && edit.count == edit.others.size();
+        };
+        return b != nullptr && changesAll(*a) && changesAll(*b) && a->first == b->first && a->count == b->count;
     }
     if (const auto* a = std::get_if<HookEdit>(&first)) {
         const auto* b = std::get_if<HookEdit>(&second);
         return b != nullptr && a->parameter == b->parameter;
     }
     if (std::holds_alternative<EnvironmentViewEdit>(first)) return std::holds_alternative<EnvironmentViewEdit>(second);
+    if (std::holds_alternative<CameraEdit>(first)) return std::holds_alternative<CameraEdit>(second);
     const auto* a = std::get_if<MaterialEdit>(&first);
     const auto* b = std::get_if<MaterialEdit>(&second);
     return a != nullptr && b != nullptr && a->index == b->index;
 }
 
 std::string changeText(const Light& before, const Light& after, const std::string& label) {
-    return textOfChange<Light>(kLightVerbs, before, after, "light", label);
+    return fmt::format("{} light '{}'", verbOf<Light>(kLightVerbs, before, after), label);
+}
+
+std::string changeText(const Light& before, const Light& after, std::size_t count) {
+    return fmt::format("{} {} lights", verbOf<Light>(kLightVerbs, before, after), count);
 }
 
 std::string changeText(const Material& before, const Material& after, const std::string& label) {
-    return textOfChange<Material>(kMaterialVerbs, before, after, "material", label);
+    return fmt::format("{} material '{}'", verbOf<Material>(kMaterialVerbs, before, after), label);
 }
 
 std::string changeText(const scenes::EnvironmentView& before, const scenes::EnvironmentView& after) {

@@ -44,20 +44,28 @@ struct CameraEdit {
     CameraView other;
 };
 
-using Edit = std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, EnvironmentViewEdit, CameraEdit>;
+/// Of all stored viewpoints.
+struct ViewpointsEdit {
+    std::vector<scenes::Camera> others;
+};
+
+using Edit =
+    std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, EnvironmentViewEdit, CameraEdit, ViewpointsEdit>;
 
 /// Movements of the camera are no edits of the scene: nothing of it is lost with them.
 inline bool changesScene(const Edit& edit) {
     return !std::holds_alternative<CameraEdit>(edit);
 }
 
-/// Whether two edits are of the same light, material or parameter, or of how the environment lies and shines, so that
-/// one drag can make one of them.
+/// Whether two edits are of the same lights, material or parameter, of how the environment lies and shines, or of where
+/// the camera is, so that one drag can make one of them.
 bool areOfOneElement(const Edit& first, const Edit& second);
 
 /// What was done to a light, a material or the environment, as the user is told: "move light 'lamp 3'". The label is
 /// how lists call it.
 std::string changeText(const scenes::Light& before, const scenes::Light& after, const std::string& label);
+/// The same of several, of which this is one: "move 3 lights".
+std::string changeText(const scenes::Light& before, const scenes::Light& after, std::size_t count);
 std::string changeText(const scenes::Material& before, const scenes::Material& after, const std::string& label);
 std::string changeText(const scenes::EnvironmentView& before, const scenes::EnvironmentView& after);
 

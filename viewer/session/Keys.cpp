@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
 
 #include <GLFW/glfw3.h>
 
@@ -40,6 +43,19 @@ void changeExposure(State& state, float stepEV) {
     float& exposureEV = state.active().settings.exposureEV;
     exposureEV =
         std::clamp(std::round(exposureEV / stepEV) * stepEV + stepEV, -frame::kMostExposureEV, frame::kMostExposureEV);
+}
+
+constexpr double kQuarter = 0.5 * std::numbers::pi;
+constexpr AxisView kAxisViews[] = {
+    {"Front", "from the front, along -Z", GLFW_KEY_1, GLFW_KEY_KP_1, {}},
+    {"Side", "from the right side, along -X", GLFW_KEY_2, GLFW_KEY_KP_3, {kQuarter, 0.0, 0.0}},
+    {"Top", "from above, along -Y", GLFW_KEY_3, GLFW_KEY_KP_7, {0.0, -kQuarter, 0.0}},
+};
+
+template <std::size_t kView>
+void viewAlongAxis(State& state) {
+    const AxisView& view = kAxisViews[kView];
+    if (state.open) state.open->jumpToHeading(std::string("look ") + view.meaning, view.heading);
 }
 
 constexpr int kNone = 0;
@@ -98,6 +114,13 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) {
          if (s.open) s.open->jumpHome();
      }},
+    {GLFW_KEY_1, kControl, "Ctrl+1, 2, 3", "look from the front, the side, above; on the number pad 1, 3, 7",
+     viewAlongAxis<0>},
+    {GLFW_KEY_2, kControl, "", "", viewAlongAxis<1>},
+    {GLFW_KEY_3, kControl, "", "", viewAlongAxis<2>},
+    {GLFW_KEY_KP_1, kNone, "", "", viewAlongAxis<0>},
+    {GLFW_KEY_KP_3, kNone, "", "", viewAlongAxis<1>},
+    {GLFW_KEY_KP_7, kNone, "", "", viewAlongAxis<2>},
     {GLFW_KEY_M, kNone, "M", "mark where lights are", [](State& s) { s.showsMarkers = !s.showsMarkers; }, "Lights"},
     {GLFW_KEY_L, kNone, "L", "only the selected light shines, or all again",
      [](State& s) {
@@ -105,6 +128,7 @@ constexpr KeyBinding kBindings[] = {
          solo = solo || s.selectedLight == scenes::kNone ? std::nullopt : std::optional<int>(s.selectedLight);
      }},
     {GLFW_KEY_DELETE, kNone, "Del", "delete the selected lights", deleteSelectedLights},
+    {GLFW_KEY_F2, kNone, "F2", "rename the selected light", beginRenaming},
     {GLFW_KEY_A, kControl, "Ctrl+A", "select all lights", selectAllLights},
     {GLFW_KEY_Z, kControl, "Ctrl+Z", "undo the latest edit, or jump of the camera", undo, "Edits"},
     {GLFW_KEY_Z, kControl | kShift, "Ctrl+Shift+Z", "redo; also Ctrl+Y", redo},
@@ -133,7 +157,8 @@ constexpr GestureHelp kGestures[] = {
     {"Drag a light's handle", "square: a side, radius or length, with Shift one side alone; round: its direction"},
     {"Drag the divider", "split view"},
     {"Drag the panels' edge", "makes them wider or narrower"},
-    {"Ctrl or Shift + click", "on a light's name: selects several, or all between"},
+    {"Ctrl or Shift + click", "on a light's name: selects several, or all between; what is edited then is that of all"},
+    {"Double click", "on a light's name: renames it"},
     {"Drop a file", "anywhere: opens a scene (.gltf, .glb, .obj, .json), or takes an environment (.hdr, .exr)"},
 };
 
@@ -141,6 +166,10 @@ constexpr GestureHelp kGestures[] = {
 
 std::span<const KeyBinding> keyBindings() {
     return kBindings;
+}
+
+std::span<const AxisView> axisViews() {
+    return kAxisViews;
 }
 
 std::span<const GestureHelp> gestureHelp() {

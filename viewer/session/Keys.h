@@ -16,6 +16,15 @@ struct KeyBinding {
 };
 std::span<const KeyBinding> keyBindings();
 
+/// Views along the axes of the world, about what the camera turns about.
+struct AxisView {
+    const char* name;
+    const char* meaning;
+    int key, padKey; ///< GLFW_KEY_*: with Ctrl, and that of the number pad
+    Heading heading;
+};
+std::span<const AxisView> axisViews();
+
 /// What the mouse does, and keys that are held; for the help.
 struct GestureHelp {
     const char* name;

@@ -83,8 +83,8 @@ void OpenScene::useCamera(int camera) {
     shown_.use(camera, changeForAspect(source_, cameras()[std::size_t(camera)], load_.aspect));
 }
 
-void OpenScene::keepJump(std::string what, CameraView before) {
-    if (shown_.isElsewhere(before)) history_.keep(std::move(what), CameraEdit{std::move(before)});
+void OpenScene::keepJump(std::string what, CameraView before, Gesture gesture) {
+    if (shown_.isElsewhere(before)) history_.keep(std::move(what), CameraEdit{std::move(before)}, gesture);
 }
 
 void OpenScene::jump(std::string what, const std::function<void()>& begin) {
@@ -116,6 +116,46 @@ void OpenScene::jumpTo(std::string what, const scenes::Box3& boundsWS, double as
     jump(std::move(what), [&] { rig().frame(boundsWS, aspect); });
 }
 
+void OpenScene::jumpToHeading(std::string what, const Heading& heading) {
+    jump(std::move(what), [&] { rig().look(heading); });
+}
+
+void OpenScene::moveCamera(const CameraPose& pose, Gesture gesture) {
+    CameraView before = shown_.view();
+    rig().jumpTo(pose);
+    applyRig();
+    keepJump("move the camera", std::move(before), gesture);
+}
+
+void OpenScene::changeFieldOfView(double degrees, Gesture gesture) {
+    CameraView before = shown_.view();
+    shown_.changeFieldOfView(degrees);
+    keepJump("change the field of view", std::move(before), gesture);
+}
+
+void OpenScene::storeViewpoint() {
+    const auto isTaken = [this](const std::string& name) {
+        const auto isCalled = [&](const scenes::Camera& camera) { return camera.name == name; };
+        return std::ranges::any_of(cameras(), isCalled) || std::ranges::any_of(viewpoints_, isCalled);
+    };
+    ViewpointsEdit edit{viewpoints_};
+    scenes::Camera& stored = edit.others.emplace_back(rig().camera());
+    for (int number = 1; number == 1 || isTaken(stored.name); ++number) stored.name = fmt::format("view {}", number);
+    std::string what = fmt::format("store '{}'", stored.name);
+    apply(std::move(what), std::move(edit));
+}
+
+void OpenScene::removeViewpoint(std::size_t index) {
+    ViewpointsEdit edit{viewpoints_};
+    edit.others.erase(edit.others.begin() + std::ptrdiff_t(index));
+    apply(fmt::format("remove '{}'", viewpoints_[index].name), std::move(edit));
+}
+
+void OpenScene::jumpToViewpoint(std::size_t index) {
+    const scenes::Camera& stored = viewpoints_[index];
+    jump(fmt::format("go to '{}'", stored.name), [&] { shown_.goTo(stored); });
+}
+
 void OpenScene::turnAbout(const glm::dvec3& pivotWS) {
     jump("turn about another point", [&] { rig().turnAbout(pivotWS); });
 }
@@ -128,14 +168,26 @@ void OpenScene::apply(std::string what, Edit edit, Gesture gesture) {
 }
 
 void OpenScene::changeLight(std::size_t index, scenes::Light changed, Gesture gesture) {
-    const scenes::Light& now = scene_.lights[index];
-    if (changed == now) return;
-    const std::string label = lightLabel(scene_.lights, index);
-    LightsEdit edit{index, 1, {std::move(changed)}};
-    edit.links = scenes::linksAfterEdit(scene_.rig, index, now, edit.others.front());
+    changeLights({{index, std::move(changed)}}, gesture);
+}
+
+void OpenScene::changeLights(const std::map<std::size_t, scenes::Light>& changed, Gesture gesture) {
+    const Lights& lights = scene_.lights;
+    if (std::ranges::all_of(changed, [&](const auto& one) { return one.second == lights[one.first]; })) return;
+    // Of all lights from the first that changes to the last.
+    const std::size_t first = changed.begin()->first, count = changed.rbegin()->first + 1 - first;
+    const std::span<const scenes::Light> now = std::span(lights).subspan(first, count);
+    LightsEdit edit{first, count, Lights(now.begin(), now.end())};
+    for (const auto& [index, light] : changed) edit.others[index - first] = light;
+    edit.links = scenes::linksAfterEdit(scene_.rig, first, now, edit.others);
     const Edit* const begun = history_.continued(edit, gesture);
-    const scenes::Light& before = begun != nullptr ? std::get<LightsEdit>(*begun).others.front() : now;
-    std::string what = changeText(before, edit.others.front(), label);
+    const std::span<const scenes::Light> before = begun != nullptr ? std::get<LightsEdit>(*begun).others : now;
+    const auto differing = std::ranges::mismatch(before, edit.others);
+    const bool isAny = differing.in1 != before.end(); // a drag may have come back to where it began
+    const scenes::Light& was = isAny ? *differing.in1 : before.front();
+    const scenes::Light& is = isAny ? *differing.in2 : edit.others.front();
+    std::string what =
+        changed.size() == 1 ? changeText(was, is, lightLabel(lights, first)) : changeText(was, is, changed.size());
     apply(std::move(what), std::move(edit), gesture);
 }
 
@@ -241,6 +293,7 @@ void OpenScene::goOnFrom(OpenScene& other) {
     const std::ptrdiff_t steps = other.history_.stepsToSaved().value();
     other.step(steps);
     history_ = std::exchange(other.history_, {});
+    viewpoints_ = other.viewpoints_;
     // Steps of the camera and of the environment's view exchange what the other began with.
     if (scene_.environment) {
         scenes::EnvironmentView own = scenes::ownViewOf(*scene_.environment), view = other.environmentView();

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,6 +49,8 @@ public:
     const History& history() const { return history_; }
     /// Gives a light, a material or a parameter of the hook other values. Nothing happens where they are the same.
     void changeLight(std::size_t index, scenes::Light changed, Gesture gesture = Gesture::Once);
+    /// The same of several lights by their indices, in one step; at least one.
+    void changeLights(const std::map<std::size_t, scenes::Light>& changed, Gesture gesture = Gesture::Once);
     void changeMaterial(std::size_t index, scenes::Material changed, Gesture gesture = Gesture::Once);
     void changeHookParameter(std::size_t parameter, float value, Gesture gesture = Gesture::Once);
     /// Puts lights in the place of `count` from `first` on. `what` tells the user: "delete light 'lamp 3'".
@@ -121,8 +124,21 @@ public:
     void jumpToAll(double aspect);
     /// The same of a box; `what` tells the user.
     void jumpTo(std::string what, const scenes::Box3& boundsWS, double aspect);
+    /// Turns about the pivot until it looks that way.
+    void jumpToHeading(std::string what, const Heading& heading);
+    /// Is elsewhere at once, by numbers that the user edits; the same with another field of view of a perspective
+    /// camera.
+    void moveCamera(const CameraPose& pose, Gesture gesture);
+    void changeFieldOfView(double degrees, Gesture gesture);
     /// Slides there where orbits turn about a point.
     void turnAbout(const glm::dvec3& pivotWS);
+
+    // ---- Viewpoints: cameras that the user stored, which a saved scene has behind its own ----
+    const std::vector<scenes::Camera>& viewpoints() const { return viewpoints_; }
+    /// These are edits of the scene. A new one is called "view 1" and so on.
+    void storeViewpoint();
+    void removeViewpoint(std::size_t index);
+    void jumpToViewpoint(std::size_t index);
 
 private:
     void apply(std::string what, Edit edit, Gesture gesture = Gesture::Once);
@@ -135,6 +151,7 @@ private:
     void exchange(EnvironmentEdit& edit) { environment_.exchange(edit.other); }
     void exchange(EnvironmentViewEdit& edit) { environment_.exchange(edit.own, edit.view); }
     void exchange(CameraEdit& edit) { shown_.exchange(edit.other); }
+    void exchange(ViewpointsEdit& edit) { viewpoints_.swap(edit.others); }
     /// Makes what the views make of environments their own.
     void takeAsSeen();
     bool isLike(const scenes::Scene& loaded) const;
@@ -143,7 +160,7 @@ private:
     /// Jumps, and keeps where the camera was.
     void jump(std::string what, const std::function<void()>& begin);
     /// The same of a jump that has begun.
-    void keepJump(std::string what, CameraView before);
+    void keepJump(std::string what, CameraView before, Gesture gesture = Gesture::Once);
     /// Poses a scene that has poses, and leaves the user's camera to the user.
     void pose(double timeSeconds);
 
@@ -154,6 +171,7 @@ private:
     SeenEnvironment environment_;
     scenes::Box3 boundsWS_;
     ShownCamera shown_;
+    std::vector<scenes::Camera> viewpoints_;
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0;
     History history_;

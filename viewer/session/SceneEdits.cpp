@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +18,13 @@ namespace {
 
 bool hasSelected(const State& state) {
     return state.open && state.selectedLight >= 0 && state.selectedLight < int(state.open->scene().lights.size());
+}
+
+/// The selected lights that there are; one is.
+std::set<int> selectedIn(const State& state) {
+    std::set<int> selected = state.allSelectedLights();
+    selected.erase(selected.lower_bound(int(state.open->scene().lights.size())), selected.end());
+    return selected;
 }
 
 /// Selection, solo and what is known of types go with their lights after `put` lights came in the place of `taken` from
@@ -39,15 +49,38 @@ void replace(State& state, std::string what, std::size_t first, std::size_t coun
     followLights(state, first, count, put);
 }
 
-void append(State& state, const char* verb, scenes::Light light) {
-    const std::size_t count = state.open->scene().lights.size();
-    std::string what = fmt::format("{} light '{}'", verb, light.name);
-    replace(state, std::move(what), count, 0, {std::move(light)});
-    state.selectedLight = int(count);
+/// Where there is room for them. The latest is the one that panels are about.
+void append(State& state, const char* verb, Lights added) {
+    const std::size_t before = state.open->scene().lights.size(), count = added.size();
+    if (before + count > std::size_t(scenes::kMostLights)) return;
+    std::string what =
+        count == 1 ? fmt::format("{} light '{}'", verb, added.front().name) : fmt::format("{} {} lights", verb, count);
+    replace(state, std::move(what), before, 0, std::move(added));
+    state.selectedLights.clear();
+    for (std::size_t i = 0; i < count; ++i) state.selectedLights.insert(int(before + i));
+    state.selectedLight = int(before + count) - 1;
 }
 
-bool isFull(const State& state) {
-    return state.open->scene().lights.size() >= std::size_t(scenes::kMostLights);
+/// Gives a light what was changed of another, but its place, its name and how it moves by itself.
+void copyChanges(scenes::Light& light, std::size_t index, const scenes::Light& before, const scenes::Light& after) {
+    const auto isOwn = [](std::string_view name) {
+        return name == "name" || name == "animation" || name == "keyframes";
+    };
+    const int seed = light.flicker ? light.flicker->seed : int(index);
+    scenes::visitFields(scenes::kLightFields, [&](const auto& field) {
+        const auto member = field.member;
+        if (isOwn(field.name) || before.*member == after.*member) return;
+        if constexpr (std::is_same_v<decltype(member), glm::dvec3 scenes::Light::*const>) {
+            if (member == &scenes::Light::directionWS) turnLight(light, after.*member);
+            if (member == &scenes::Light::alongWS) layLight(light, after.*member);
+        } else {
+            light.*member = after.*member;
+        }
+    });
+    if (light.flicker) light.flicker->seed = seed;
+    for (const scenes::LightParameter& parameter : scenes::infoOf(light.type).parameters)
+        if (parameter.within != nullptr)
+            light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
 }
 
 /// What was exchanged is where the user looks.
@@ -71,23 +104,74 @@ bool mayStep(const State& state) {
 } // namespace
 
 void addLight(State& state, double meanLuminance) {
-    if (!state.open || isFull(state)) return;
+    if (!state.open) return;
     const scenes::Scene& scene = state.open->scene();
     const double luminance = noticedLuminance(meanLuminance, double(state.active().settings.exposureEV));
-    append(state, "add", newLight(scene.lights, lightBefore(scene, state.open->rig().pose(), luminance)));
+    append(state, "add", {newLight(scene.lights, lightBefore(scene, state.open->rig().pose(), luminance))});
 }
 
-void duplicateSelectedLight(State& state) {
-    if (!hasSelected(state) || isFull(state)) return;
-    append(state, "duplicate", copyOfLight(state.open->scene().lights, std::size_t(state.selectedLight)));
+void duplicateSelectedLights(State& state) {
+    if (!hasSelected(state)) return;
+    append(state, "duplicate", copiesOfLights(state.open->scene().lights, selectedIn(state)));
+}
+
+void changeSelectedLights(State& state, const scenes::Light& changed, double sceneSizeMetres, Gesture gesture) {
+    if (!hasSelected(state)) return;
+    const Lights& lights = state.open->scene().lights;
+    const double timeSeconds = state.active().settings.timeSeconds;
+    const auto selected = std::size_t(state.selectedLight);
+    const scenes::Light before = lights[selected];
+    const auto placeWS = [&](const scenes::Light& light) { return scenes::lightAtTime(light, timeSeconds).positionWS; };
+    std::map<std::size_t, scenes::Light> all{{selected, changed}};
+    for (const int other : selectedIn(state)) {
+        const auto index = std::size_t(other);
+        if (index == selected) continue;
+        scenes::Light light = lights[index];
+        if (changed.type != before.type)
+            state.types.choose(index, light, changed.type, sceneSizeMetres);
+        else
+            copyChanges(light, index, before, changed);
+        if (changed.positionWS != before.positionWS && scenes::infoOf(light.type).hasPosition())
+            placeLight(light, timeSeconds, placeWS(light) + changed.positionWS - before.positionWS);
+        all.emplace(index, std::move(light));
+    }
+    state.open->changeLights(all, gesture);
+}
+
+void switchLights(State& state, std::span<const int> switched, bool isOn) {
+    std::map<std::size_t, scenes::Light> changed;
+    for (const int index : switched) {
+        scenes::Light light = state.open->scene().lights[std::size_t(index)];
+        light.enabled = isOn;
+        changed.emplace(std::size_t(index), std::move(light));
+    }
+    if (!changed.empty()) state.open->changeLights(changed);
+}
+
+void beginRenaming(State& state) {
+    if (!hasSelected(state)) return;
+    state.renamed = {state.selectedLight, lightLabel(state.open->scene().lights, std::size_t(state.selectedLight))};
+    state.reveals = Selected::Light;
+    state.showsPanel = true;
+}
+
+void endRenaming(State& state) {
+    const std::optional<RenamedLight> renamed = std::exchange(state.renamed, std::nullopt);
+    if (!renamed || !state.open || renamed->light >= int(state.open->scene().lights.size())) return;
+    const auto index = std::size_t(renamed->light);
+    const Lights& lights = state.open->scene().lights;
+    if (renamed->name.empty() || renamed->name == lightLabel(lights, index)) return;
+    if (renamed->name.size() > scenes::kMostNameBytes) return;
+    scenes::Light light = lights[index];
+    light.name = freeLightName(lights, renamed->name);
+    state.open->changeLight(index, std::move(light));
 }
 
 void deleteSelectedLights(State& state) {
     if (!hasSelected(state)) return;
     std::vector<std::size_t> deleted;
     const Lights& lights = state.open->scene().lights;
-    for (const int light : state.allSelectedLights())
-        if (std::size_t(light) < lights.size()) deleted.push_back(std::size_t(light));
+    for (const int light : selectedIn(state)) deleted.push_back(std::size_t(light));
     state.open->deleteLights(deleted.size() == 1 ? fmt::format("delete light '{}'", lightLabel(lights, deleted[0]))
                                                  : fmt::format("delete {} lights", deleted.size()),
                              deleted);
@@ -107,7 +191,7 @@ void deleteSelectedLights(State& state) {
     state.selectedLight = left == 0 || state.isDragging ? scenes::kNone : std::min(next, left - 1);
 }
 
-void selectLight(State& state, int index, Choosing choosing) {
+void selectLight(State& state, int index, Choosing choosing, std::span<const int> list) {
     std::set<int> selected = state.allSelectedLights();
     switch (choosing) {
     case Choosing::Alone:
@@ -124,12 +208,24 @@ void selectLight(State& state, int index, Choosing choosing) {
         break;
     case Choosing::Range: {
         const int from = state.selectedLight == scenes::kNone ? index : state.selectedLight;
-        for (int light = std::min(from, index); light <= std::max(from, index); ++light) selected.insert(light);
+        const auto begin = std::ranges::find(list, from), end = std::ranges::find(list, index);
+        if (begin != list.end() && end != list.end())
+            selected.insert(std::min(begin, end), std::max(begin, end) + 1);
+        else
+            for (int light = std::min(from, index); light <= std::max(from, index); ++light) selected.insert(light);
         state.selectedLight = index;
         break;
     }
     }
     state.selectedLights = state.selectedLight == scenes::kNone ? std::set<int>() : selected;
+}
+
+void selectLights(State& state, std::span<const int> lights, bool isBeside) {
+    if (lights.empty()) return;
+    std::set<int> selected = isBeside ? state.allSelectedLights() : std::set<int>();
+    selected.insert(lights.begin(), lights.end());
+    if (!selected.contains(state.selectedLight)) state.selectedLight = lights.front();
+    state.selectedLights = std::move(selected);
 }
 
 void selectAllLights(State& state) {

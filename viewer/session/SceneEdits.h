@@ -1,14 +1,30 @@
 #pragma once
+#include <span>
+
 #include "viewer/session/State.h"
 
 /// Edits and undoing, as far as they concern more than the scene: which light is selected, which one shines alone, and
 /// how looks show the environment. Without a scene they do nothing.
 namespace tessera::viewer {
 
-/// Adds a light in the picture's middle, which suits a picture of this mean luminance (AddedLight.h), or a copy of the
-/// selected one, at the end of the list, and selects it. Nothing happens where there are as many as a scene can have.
+/// Adds a light in the picture's middle, which suits a picture of this mean luminance (AddedLight.h), or copies of the
+/// selected ones, at the end of the list, and selects what it adds. Nothing happens where there would be more than a
+/// scene can have.
 void addLight(State& state, double meanLuminance);
-void duplicateSelectedLight(State& state);
+void duplicateSelectedLights(State& state);
+
+/// Gives the selected light other values, in one step with all that are selected with it: what was changed of it
+/// becomes theirs, but a place, by which they move alike. Its name, and how it moves by itself, are its own.
+/// `sceneSizeMetres` is for lights that become area lights.
+void changeSelectedLights(State& state, const scenes::Light& changed, double sceneSizeMetres,
+                          Gesture gesture = Gesture::Once);
+/// Switches lights on or off, in one step.
+void switchLights(State& state, std::span<const int> lights, bool isOn);
+
+/// Begins to ask for another name of the selected light, and takes what was typed: as it is, or with a number behind it
+/// where another light has that name. An empty one changes nothing.
+void beginRenaming(State& state);
+void endRenaming(State& state);
 
 /// Deletes the lights that are selected, if any are, in one step. The light that follows is selected then, else the
 /// last one; none while something is dragged.
@@ -18,9 +34,12 @@ void deleteSelectedLights(State& state);
 enum class Choosing : std::uint8_t {
     Alone,  ///< in their place; a light that was selected alone is let go of
     Toggle, ///< besides them, or no longer
-    Range   ///< with all from the selected one on
+    Range   ///< with all from the selected one on, in the order of the list
 };
-void selectLight(State& state, int index, Choosing choosing);
+/// Without a list in the order of the scene.
+void selectLight(State& state, int index, Choosing choosing, std::span<const int> list = {});
+/// Selects several in the place of all others, or besides them.
+void selectLights(State& state, std::span<const int> lights, bool isBeside);
 void selectAllLights(State& state);
 
 /// Puts the lights that State::scatter describes in the place of the scene's. The next time the scattered ones lie

@@ -120,6 +120,9 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     comeBack(*scene);
     state_.selectedLight = state_.selectedMaterial = scenes::kNone;
     state_.types.forget();
+    state_.listing = {};
+    state_.listed.reset();
+    state_.renamed.reset();
     if (!state_.notice.outlivesLoad) state_.notice = {loadNote(scene->scene())};
     state_.shaderFaults.clear();
     log_.line(fmt::format("opened {} seconds {:.2f}", result->source, result->seconds));

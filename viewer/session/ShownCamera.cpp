@@ -58,6 +58,30 @@ void ShownCamera::applyRig() {
     ++revision_;
 }
 
+void ShownCamera::changeFieldOfView(double degrees) {
+    if (rig_.start().projection != scenes::Projection::Perspective) return;
+    scenes::CameraChange change = placed_;
+    change.fovYDegrees = degrees;
+    scenes::Camera start = scenes::changedCamera(sceneCamera(), change);
+    start.worldFromCamera = rig_.start().worldFromCamera; // a clip may have moved the scene's
+    const bool isMoved = rig_.isMoved();
+    const CameraPose pose = rig_.pose();
+    placed_ = change;
+    begin(start, rig_.home());
+    if (!isMoved) return;
+    rig_.jumpTo(pose);
+    applyRig();
+}
+
+void ShownCamera::goTo(const scenes::Camera& other) {
+    if (other.projection == scenes::Projection::Perspective && other.fovYRadians != rig_.start().fovYRadians)
+        changeFieldOfView(glm::degrees(other.fovYRadians));
+    CameraPose pose = poseThrough(other);
+    pose.nearMetres = rig_.home().nearMetres;
+    pose.nearFocusMetres = rig_.home().nearFocusMetres;
+    rig_.goTo(pose);
+}
+
 void ShownCamera::exchange(CameraView& other) {
     CameraView before = view();
     giveBack();

@@ -50,6 +50,10 @@ public:
     scenes::CameraChange change() const;
     /// Puts the scene's camera to where the rig is. To be called after the rig moved.
     void applyRig();
+    /// Gives a perspective camera another field of view; it stays where it is, and so does its home.
+    void changeFieldOfView(double degrees);
+    /// Goes to where another camera is, with its field of view.
+    void goTo(const scenes::Camera& other);
     /// Exchanges where it is and another view.
     void exchange(CameraView& other);
     /// A file has the cameras as they are shown: they are the scene's own, and this one begins here.

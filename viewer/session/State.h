@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/edit/LightList.h"
+#include "viewer/edit/LightListing.h"
 #include "viewer/edit/Scatter.h"
 #include "viewer/session/FileDialog.h"
 #include "viewer/session/Look.h"
@@ -23,6 +23,20 @@ enum class Compare : std::uint8_t { Off, Split, Difference };
 
 /// What was selected last.
 enum class Selected : std::uint8_t { Light, Material };
+
+/// The rows of the list of lights, which many lights take long to sort.
+struct ListedLights {
+    std::uint64_t edits = 0; ///< of the scene,
+    LightListing listing;    ///< and how it was listed, when they were made
+    std::vector<ListedLight> rows;
+};
+
+/// A light whose name is being typed.
+struct RenamedLight {
+    int light = scenes::kNone;
+    std::string name;
+    bool isBegun = false; ///< the field has the keyboard, or had it
+};
 
 /// A square of the window in which pixels of a side's picture are shown large, in screen coordinates.
 struct Loupe {
@@ -110,8 +124,11 @@ struct State {
     std::set<int> selectedLights;      ///< several, where that one is among them
     int selectedMaterial = scenes::kNone;
     Selected selectedLast = Selected::Light;
-    Scatter scatter;   ///< settings of the next scattering
-    TypeChooser types; ///< of the open scene's lights
+    Scatter scatter;      ///< settings of the next scattering
+    TypeChooser types;    ///< of the open scene's lights
+    LightListing listing; ///< how the list shows them
+    std::optional<ListedLights> listed;
+    std::optional<RenamedLight> renamed; ///< its name is a field
 
     double pictureAspect = 1.0;                ///< width over height of where the picture is
     std::optional<glm::ivec2> firstWindowSize; ///< screen coordinates, as the window opened

@@ -40,7 +40,7 @@ scenes::Light movingLight(int kind) {
 
 TEST(LightList, everyNewNameIsFreeAndOthersNeverChange) {
     Lights lights = named({"lamp", "sun", "lamp 3"});
-    for (const std::size_t index : {0, 0, 2}) lights.push_back(copyOfLight(lights, index));
+    for (const int index : {0, 0, 2}) lights.push_back(copiesOfLights(lights, {index}).front());
     lights.push_back(newLight(lights, lights[1]));
     lights.push_back(newLight(lights, scenes::Light()));
     EXPECT_EQ(namesOf(lights), (Names{"lamp", "sun", "lamp 3", "lamp 2", "lamp 4", "lamp 5", "sun 2", "light"}));
@@ -50,7 +50,7 @@ TEST(LightList, aCopyIsExactlyTheLightButForItsName) {
     Lights lights = named({"lamp"});
     lights[0].intensity = 7.0f;
     lights[0].animation.emplace().periodSeconds = 3.0;
-    scenes::Light copy = copyOfLight(lights, 0);
+    scenes::Light copy = copiesOfLights(lights, {0}).front();
     copy.name = "lamp";
     EXPECT_TRUE(copy == lights[0]);
 }

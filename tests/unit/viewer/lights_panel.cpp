@@ -11,6 +11,7 @@
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/edit/LightLife.h"
 #include "viewer/panels/Panels.h"
+#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -139,6 +140,27 @@ TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
     expectRows("a sun", {"Keys of direction", "Keys of intensity", "2.25 s"}, {"Way", "Keys of position"});
 }
 
+TEST_F(LightRows, ofManyLightsTheListHasGroupsWhichUnfoldForALightThatIsSelectedElsewhere) {
+    scenes::Scene scene = scenes::loadScene("room", {});
+    scene.lights.assign(9, {});
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].name = fmt::format("lamp {}", i);
+    State state = test::stateOf(std::move(scene));
+    const auto has = [&](const char* label) {
+        const std::string text = textOf([&] { lightsPanel(state); });
+        return text.find(label) != std::string::npos;
+    };
+    EXPECT_TRUE(has("lamp (9)"));
+    EXPECT_FALSE(has("lamp 3"));
+    state.selectedLight = 3;
+    EXPECT_TRUE(has("lamp 3"));
+    state.listing.unfolded.clear();
+    state.listing.search = "mp 5";
+    EXPECT_TRUE(has("lamp 5"));
+    EXPECT_FALSE(has("lamp (9)"));
+    selectAllLights(state);
+    EXPECT_TRUE(has("Edits apply to all 9 selected lights."));
+}
+
 TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
     scenes::Scene scene = scenes::loadScene("room", {});
     scene.lights.assign(1, {});
@@ -153,6 +175,7 @@ TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
     const float padding = 2.0f * ImGui::GetStyle().CellPadding.y;
     const float header = ImGui::GetTextLineHeight() + padding, row = ImGui::GetFrameHeight() + padding;
     ImGui::GetIO().MousePos = {list->Pos.x + 100.0f, list->Pos.y + header + 0.5f * row};
+    ImGui::GetIO().MouseDoubleClickTime = 0.0f; // these are single ones
     for (const int expected : {0, scenes::kNone, 0}) {
         for (const bool isDown : {false, true, false}) {
             ImGui::GetIO().MouseDown[0] = isDown;

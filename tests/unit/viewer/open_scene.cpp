@@ -1,8 +1,12 @@
 // Scenes as they are opened: their cameras and hooks.
 #include "viewer/session/OpenScene.h"
 
+#include <glm/trigonometric.hpp>
+
 #include "base/Error.h"
+#include "scenes/write/SceneText.h"
 #include "tests/unit/viewer/CameraTest.h"
+#include "viewer/session/Keys.h"
 
 namespace tessera::viewer {
 namespace {
@@ -60,6 +64,87 @@ TEST(OpenScene, aPlacedCameraEqualsItsCommandToTheLastBit) {
         opened.settle();
         EXPECT_EQ(opened.shown(), camera);
         EXPECT_EQ(opened.open.cameraChange(), change);
+    }
+}
+
+TEST(OpenScene, aFieldOfViewChangesInItsPlaceAndHomeStaysHome) {
+    Opened opened;
+    opened.move();
+    const CameraPose pose = opened.open.rig().pose();
+    const scenes::Camera before = opened.shown();
+    opened.open.changeFieldOfView(31.5, Gesture::Once);
+    EXPECT_EQ(opened.open.rig().pose(), pose);
+    EXPECT_NEAR(glm::degrees(opened.shown().fovYRadians), 31.5, 1e-12);
+    EXPECT_EQ(opened.said(), opened.shown());
+    opened.open.undo();
+    EXPECT_EQ(opened.shown(), before);
+    opened.open.redo();
+    opened.open.rig().goHome();
+    opened.settle();
+    EXPECT_EQ(opened.shown().worldFromCamera, Opened::made().cameras[0].worldFromCamera);
+    EXPECT_EQ(opened.said(), opened.shown());
+    EXPECT_FALSE(opened.open.isEdited());
+}
+
+TEST(OpenScene, aCameraMovedByNumbersIsOneStepADragAndItsCommandReproducesIt) {
+    Opened opened;
+    const scenes::Camera before = opened.shown();
+    const CameraPose pose = opened.open.rig().pose();
+    for (const double x : {1.0, 2.0})
+        opened.open.moveCamera(between(pose, {x, 3.0, 4.0}, {0.0, 1.0, 0.0}), Gesture::GoesOn);
+    opened.open.endGesture();
+    EXPECT_EQ(opened.open.rig().pose().eyeWS, glm::dvec3(2.0, 3.0, 4.0));
+    EXPECT_LT(glm::distance(targetOf(opened.open.rig().pose()), glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
+    EXPECT_EQ(opened.said(), opened.shown());
+    opened.open.undo();
+    EXPECT_EQ(opened.shown(), before);
+    EXPECT_EQ(between(pose, pose.eyeWS, pose.eyeWS), pose) << "there is no way from a point to itself";
+}
+
+TEST(OpenScene, aViewpointIsStoredGoneToRemovedUndoneAndSavedAsACamera) {
+    Opened opened;
+    opened.move();
+    const scenes::Camera stored = opened.shown();
+    opened.open.storeViewpoint();
+    EXPECT_TRUE(opened.open.isEdited());
+    ASSERT_EQ(opened.open.viewpoints().size(), 1u);
+    EXPECT_EQ(opened.open.viewpoints()[0].name, "view 1");
+    EXPECT_EQ(opened.open.viewpoints()[0].worldFromCamera, stored.worldFromCamera);
+    opened.open.rig().goHome();
+    opened.settle();
+    opened.open.changeFieldOfView(20.0, Gesture::Once);
+    opened.open.storeViewpoint();
+    EXPECT_EQ(opened.open.viewpoints()[1].name, "view 2");
+    opened.open.jumpToViewpoint(0);
+    opened.settle();
+    EXPECT_LT(glm::distance(opened.shown().worldFromCamera[3], stored.worldFromCamera[3]), 1e-9);
+    EXPECT_LT(glm::distance(opened.shown().worldFromCamera[2], stored.worldFromCamera[2]), 1e-9);
+    EXPECT_NEAR(opened.shown().fovYRadians, stored.fovYRadians, 1e-12);
+    const std::string text =
+        scenes::sceneText(opened.open.scene(), opened.open.origin(), "saved.json", {}, opened.open.viewpoints());
+    EXPECT_LT(text.find("\"view 1\""), text.find("\"view 2\""));
+    opened.open.removeViewpoint(0);
+    ASSERT_EQ(opened.open.viewpoints().size(), 1u);
+    EXPECT_EQ(opened.open.viewpoints()[0].name, "view 2");
+    EXPECT_EQ(*opened.open.history().undoText(), "remove 'view 1'");
+    opened.open.undo();
+    EXPECT_EQ(opened.open.viewpoints().size(), 2u);
+}
+
+TEST(OpenScene, looksAlongAnAxisAboutWhatItTurnsAbout) {
+    Opened opened;
+    opened.move();
+    const glm::dvec3 pivotWS = targetOf(opened.open.rig().pose());
+    const double metres = opened.open.rig().pose().focusMetres;
+    const glm::dvec3 towardsEyeWS[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    for (std::size_t i = 0; i < axisViews().size(); ++i) {
+        opened.open.jumpToHeading("look", axisViews()[i].heading);
+        opened.settle();
+        EXPECT_LT(glm::distance(glm::dvec3(opened.shown().worldFromCamera[3]), pivotWS + metres * towardsEyeWS[i]),
+                  1e-6)
+            << axisViews()[i].name;
+        EXPECT_LT(glm::distance(targetOf(opened.open.rig().pose()), pivotWS), 1e-6);
+        EXPECT_EQ(opened.said(), opened.shown());
     }
 }
 

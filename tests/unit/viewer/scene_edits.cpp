@@ -56,6 +56,92 @@ TEST(SceneEdits, severalLightsAreDeletedAndComeBackInOneStep) {
     EXPECT_FALSE(state.open->isEdited());
 }
 
+TEST(SceneEdits, whatIsEditedOfTheSelectedLightBecomesThatOfAllInOneStep) {
+    State state = threeLights();
+    test::changeLight(state, 2, [](scenes::Light& light) {
+        light.positionWS = {1.0, 2.0, 3.0};
+        light.intensity = 7.0f;
+        light.castsShadow = true;
+    });
+    const Lights before = state.open->scene().lights;
+    selectLight(state, 0, Choosing::Alone);
+    selectLight(state, 2, Choosing::Toggle);
+    state.selectedLight = 0;
+    scenes::Light changed = before[0];
+    for (const float intensity : {3.0f, 5.0f}) { // one drag
+        changed.intensity = intensity;
+        changeSelectedLights(state, changed, 10.0, Gesture::GoesOn);
+    }
+    state.open->endGesture();
+    const Lights& lights = state.open->scene().lights;
+    EXPECT_EQ(lights[0].intensity, 5.0f);
+    EXPECT_EQ(lights[2].intensity, 5.0f);
+    EXPECT_TRUE(lights[2].castsShadow) << "that was not edited";
+    EXPECT_EQ(lights[2].name, "c");
+    EXPECT_TRUE(lights[1] == before[1]);
+    EXPECT_EQ(*state.open->history().undoText(), "change intensity of 2 lights");
+    undo(state);
+    EXPECT_TRUE(lights == before);
+    changed = before[0];
+    changed.positionWS += glm::dvec3(0.0, 1.0, 0.0);
+    changeSelectedLights(state, changed, 10.0);
+    EXPECT_EQ(lights[2].positionWS, glm::dvec3(1.0, 3.0, 3.0)) << "they move alike";
+    changed.type = scenes::LightType::Disk;
+    changeSelectedLights(state, changed, 10.0);
+    EXPECT_EQ(lights[2].type, scenes::LightType::Disk);
+    EXPECT_GT(lights[2].radiusMetres, 0.0f) << "an area light has a size";
+    undo(state);
+    undo(state);
+    EXPECT_TRUE(lights == before);
+}
+
+TEST(SceneEdits, severalLightsAreDuplicatedInOneStepAndTheCopiesSelected) {
+    State state = threeLights();
+    selectLight(state, 1, Choosing::Alone);
+    selectLight(state, 2, Choosing::Toggle);
+    duplicateSelectedLights(state);
+    const Lights& lights = state.open->scene().lights;
+    ASSERT_EQ(lights.size(), 5u);
+    EXPECT_EQ(lights[3].name, "b 2");
+    EXPECT_EQ(lights[4].name, "c 2");
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{3, 4}));
+    EXPECT_EQ(*state.open->history().undoText(), "duplicate 2 lights");
+    undo(state);
+    EXPECT_EQ(lights.size(), 3u);
+}
+
+TEST(SceneEdits, aLightIsRenamedUnlessTheNameIsEmptyAndNoTwoHaveOneName) {
+    State state = threeLights();
+    selectLight(state, 1, Choosing::Alone);
+    const auto rename = [&](const std::string& name) {
+        beginRenaming(state);
+        ASSERT_TRUE(state.renamed.has_value());
+        state.renamed->name = name;
+        endRenaming(state);
+    };
+    rename("");
+    EXPECT_FALSE(state.open->isEdited());
+    rename("b");
+    EXPECT_FALSE(state.open->isEdited());
+    rename("lamp");
+    EXPECT_EQ(state.open->scene().lights[1].name, "lamp");
+    EXPECT_EQ(*state.open->history().undoText(), "rename light 'b'");
+    rename("a");
+    EXPECT_EQ(state.open->scene().lights[1].name, "a 2");
+}
+
+TEST(SceneEdits, aRangeGoesByTheOrderOfTheList) {
+    State state = threeLights();
+    const std::vector<int> list{1, 0, 2};
+    selectLight(state, 1, Choosing::Alone, list);
+    selectLight(state, 0, Choosing::Range, list);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{0, 1}));
+    selectLights(state, std::vector<int>{2}, true);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{0, 1, 2}));
+    selectLights(state, std::vector<int>{1, 2}, false);
+    EXPECT_EQ(state.allSelectedLights(), (std::set<int>{1, 2}));
+}
+
 TEST(SceneEdits, whatIsKnownOfALightsTypeGoesWithIt) {
     State state = threeLights();
     const auto choose = [&](std::size_t index, scenes::LightType type) {
@@ -186,7 +272,7 @@ TEST(SceneEdits, addingAndDuplicatingAreUndoneAndNamed) {
     EXPECT_EQ(state.selectedLight, 3);
     EXPECT_EQ(*state.open->history().undoText(), "add light 'light'");
     state.selectedLight = 0;
-    duplicateSelectedLight(state);
+    duplicateSelectedLights(state);
     EXPECT_EQ(state.selectedLight, 4);
     EXPECT_EQ(*state.open->history().undoText(), "duplicate light 'a 2'");
     undo(state);
