@@ -88,8 +88,8 @@ private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
     bool awaitsRest() const {
-        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.tellsRate() || inspector_.awaitsRest() ||
-               outline_.awaitsRest();
+        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.lacksSmoothing() || drawing_.tellsRate() ||
+               inspector_.awaitsRest() || outline_.awaitsRest();
     }
     double glidesFrom() const { return Gliding{window_.isButtonHeld(), isMoving(state_), facts_.ms, shownAt_}.from(); }
     /// A minimised window shows nothing; a pending picture waits.

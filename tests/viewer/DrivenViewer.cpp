@@ -69,6 +69,12 @@ DrivenViewer::DrivenViewer(const Desktop& desktop, const std::filesystem::path& 
                            const std::map<std::string, std::string>& environment)
     : desktop_(desktop), folder_(folder) {
     std::filesystem::remove(folder_ / kLog);
+    // Pictures are compared with rendered ones, whose edges are not smoothed.
+    const std::filesystem::path settings = folder_ / "config" / "tessera" / "viewer.json";
+    if (!std::filesystem::exists(settings)) {
+        std::filesystem::create_directories(settings.parent_path());
+        std::ofstream(settings) << R"({"smooths": false})";
+    }
     // The log is a file so that it can be read while the viewer writes it.
     std::vector<std::string> command{"sh", "-c", fmt::format("exec \"$@\" >{}", kLog), "sh", TESSERA_PROGRAM, "view"};
     command.insert(command.end(), arguments.begin(), arguments.end());

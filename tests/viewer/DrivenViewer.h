@@ -33,7 +33,7 @@ double differingShare(const Shot& a, const Shot& b, int steps = 0);
 class DrivenViewer {
 public:
     /// Waits until the window is there. The working folder is where files are saved; settings are kept in its folder
-    /// "config".
+    /// "config". Where it has none, edges are not smoothed at rest.
     DrivenViewer(const Desktop& desktop, const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                  const std::map<std::string, std::string>& environment = {});
 

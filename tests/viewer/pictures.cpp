@@ -309,6 +309,26 @@ TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRe
     expectSpreadLightOfACameraThatMoves();
 }
 
+TEST_F(ViewerPictures, edgesAreSmoothedAtRestAndFilesAreNot) {
+    folder_.write("config/tessera/viewer.json", "{}");
+    DrivenViewer viewer = open(kSpheres);
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    viewer.waitFor("smoothed", 0, 300.0);
+    viewer.pause(1.0);
+    const Shot smooth = pictureIn(viewer, size), plain = rendered("spheres --fov 40", size);
+    const double share = differingShare(smooth, plain, 4);
+    EXPECT_GT(share, 0.001) << "no edge was smoothed";
+    EXPECT_LT(share, 0.2) << "more than edges was changed";
+    std::size_t mark = viewer.mark();
+    viewer.key("F12");
+    EXPECT_TRUE(readShot(folder_.path() / savedFile(viewer.waitFor("saved ", mark))) == plain);
+    viewer.key("Escape");
+    mark = viewer.mark();
+    viewer.key("bracketright"); // another exposure begins anew
+    viewer.waitForWhole(mark);
+    viewer.waitFor("smoothed", mark, 300.0);
+}
+
 TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
     DrivenViewer viewer = open({"room", "--fov", "62", "--view", "lights", "--technique", "clustered_deferred"});
     const glm::ivec2 size = viewer.waitForWhole(0);

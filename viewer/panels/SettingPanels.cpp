@@ -115,6 +115,13 @@ void scaleRows(State& state) {
     slider("Picture scale", state.fixedScale, kLeastScale, 1.0f);
 }
 
+void smoothingRow(State& state) {
+    row("Edges");
+    ImGui::Checkbox("smooth at rest", &state.smooths);
+    tip("Once the lit picture is whole, 32 pictures that are shifted by parts of a pixel are drawn, and their mean is "
+        "shown. Files that are saved, comparisons and inspected pixels are those of the picture itself.");
+}
+
 /// One line in any state, so that rows below stay where the pointer is.
 void loadingLine(const State& state, const Facts& facts) {
     if (state.loadingEnvironment.empty()) {
@@ -179,6 +186,7 @@ void viewPanel(State& state) {
         ImGui::Checkbox("range to the data", &state.fitsCountColors);
     }
     scaleRows(state);
+    smoothingRow(state);
 }
 
 } // namespace tessera::viewer

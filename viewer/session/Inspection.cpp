@@ -54,6 +54,7 @@ std::vector<std::string> inspectionLines(const Inspection& inspection) {
         addSide(lines, side);
         if (side.visitedLights) lines.push_back(visits(*side.visitedLights));
     };
+    if (inspection.isOfUnshifted) lines.emplace_back("before its edges were smoothed:");
     if (left && !compares) addSide(lines, *left);
     if (compares) {
         addCompared("Left", *left);

@@ -38,6 +38,7 @@ struct Inspection {
     glm::ivec2 pixel{0}; ///< from the upper left
     glm::ivec2 sizePixels{0};
     std::array<std::optional<InspectedSide>, 2> sides; ///< the second of a comparison
+    bool isOfUnshifted = false;                        ///< the window shows a mean of shifted pictures in its place
     bool isSurfaceKnown = false;                       ///< it takes a moment
     std::optional<InspectedSurface> surface;           ///< none: the pixel shows none
 };

@@ -54,6 +54,7 @@ void visitPreferences(Known& preferences, Visitor&& visit) {
     visit("window", preferences.windowSize);
     visit("automaticScale", preferences.automaticScale);
     visit("fixedScale", preferences.fixedScale);
+    visit("smooths", preferences.smooths);
     visit("showsPanel", preferences.showsPanel);
     visit("panelWidth", preferences.panelWidth);
     visit("sections", preferences.sections);

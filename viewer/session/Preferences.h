@@ -21,6 +21,7 @@ struct Preferences {
     std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
     bool automaticScale = true;
     float fixedScale = 1.0f; ///< otherwise; kLeastScale to 1
+    bool smooths = true;     ///< as State::smooths
     bool showsPanel = true;
     float panelWidth = kUsualPanelWidth;  ///< kLeastPanelWidth to kMostPanelWidth
     std::map<std::string, bool> sections; ///< of the panels, by title: opened or folded by the user

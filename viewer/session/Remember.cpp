@@ -6,6 +6,7 @@ void recall(const Preferences& preferences, State& state) {
     state.recent = preferences.recent;
     state.automaticScale = preferences.automaticScale;
     state.fixedScale = preferences.fixedScale;
+    state.smooths = preferences.smooths;
     state.showsPanel = preferences.showsPanel;
     state.panelWidth = preferences.panelWidth;
     state.sections = preferences.sections;
@@ -32,6 +33,7 @@ void remember(Preferences& preferences, const State& state, const Look& begun, g
     preferences.recent = state.recent;
     preferences.automaticScale = state.automaticScale;
     preferences.fixedScale = state.fixedScale;
+    preferences.smooths = state.smooths;
     preferences.showsPanel = state.showsPanel;
     preferences.panelWidth = state.panelWidth;
     preferences.sections = state.sections;

@@ -114,6 +114,7 @@ struct State {
     bool repeatsClip = true;    ///< at its end; otherwise it stays there
     bool automaticScale = true; ///< smaller pictures while something moves
     float fixedScale = 1.0f;    ///< otherwise
+    bool smooths = true;        ///< the picture's edges, once it rests
     bool showsPanel = true;
     float panelWidth = kUsualPanelWidth;  ///< as Preferences::panelWidth
     std::map<std::string, bool> sections; ///< as Preferences::sections

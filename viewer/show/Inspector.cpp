@@ -73,6 +73,9 @@ bool Inspector::update(Facts& facts, const State& state, const Screen& screen, s
     }
     bool isChanged = isAsked_ && take(facts);
     std::vector<frame::DebugView> views = viewsToRead(state, screen);
+    if (facts.inspection &&
+        std::exchange(facts.inspection->isOfUnshifted, screen.showsSmoothed()) != screen.showsSmoothed())
+        isChanged = true;
     if (views.empty()) awaitsRest_ = false;
     if (views.empty() || isAsked_) return isChanged;
     const glm::ivec2 size = screen.picture(0).display().sizePixels();

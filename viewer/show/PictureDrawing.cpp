@@ -38,6 +38,22 @@ bool PictureDrawing::lacksLight() const {
            screen_.lacksLight(wanted_, Screen::Reach::All);
 }
 
+bool PictureDrawing::lacksSmoothing() const {
+    return state_.open && state_.smooths && isWhole() && cancelled_ != wanted_ && screen_.lacksSmoothing(wanted_);
+}
+
+void PictureDrawing::smooth() {
+    try {
+        const auto givesUp = [this] { return isInterrupted(true); };
+        gaveUpAtRest_ = !screen_.smooth(wanted_, givesUp);
+    } catch (const std::exception& error) {
+        calls_.fails(error.what());
+    }
+    if (!screen_.isSmoothed()) return;
+    log_.line("smoothed");
+    pulse_.another();
+}
+
 double PictureDrawing::restScale() const {
     return state_.automaticScale ? 1.0 : double(state_.fixedScale);
 }
@@ -100,6 +116,8 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     const bool isWholeNow = isWhole();
     if (isWholeNow && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
         return spreadSlice(Screen::Reach::All);
+    if (!state_.smooths) screen_.forgetSmoothing();
+    if (isWholeNow && isAtRest && lacksSmoothing()) smooth();
     if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;
     if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is

@@ -44,6 +44,8 @@ public:
     void resume() { cancelled_.reset(); }
     /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
     bool lacksLight() const;
+    /// Whether shifted pictures are left to draw that smooth the edges of the one at rest.
+    bool lacksSmoothing() const;
     /// Whether the window still tells how fast pictures follow one another, which is wrong at rest.
     bool tellsRate() const { return facts_.picturesPerSecond.has_value(); }
 
@@ -63,6 +65,8 @@ private:
     std::optional<double> drawingShare() const;
     /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
     bool spreadSlice(Screen::Reach reach);
+    /// The next of the shifted pictures.
+    void smooth();
     /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
     /// for one frame why it will wait.
     bool isToBeAnnounced(Screen::Stay stay);

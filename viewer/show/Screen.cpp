@@ -286,6 +286,39 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     return result;
 }
 
+bool Screen::lacksSmoothing(const Wanted& wanted) const {
+    const bool canBe = shows(wanted) && scaleOf(wanted) == 1.0 && wanted.sides == 1 &&
+                       wanted.looks[0].settings.view == frame::DebugView::Final;
+    return canBe && (smoothed_ != wanted || !(smoothing_.isDone() || isSmoothingAtFault_));
+}
+
+bool Screen::smooth(const Wanted& wanted, const std::function<bool()>& givesUp) {
+    if (smoothed_ != wanted) {
+        smoothing_.restart();
+        smoothed_ = wanted;
+        isSmoothingAtFault_ = false;
+    }
+    Look look = wanted.looks[0];
+    look.settings.wholePixels = look.settings.sizePixels;
+    look.settings.offsetPixels = Smoothing::offsetPixels(smoothing_.count());
+    try {
+        {
+            const gpu::BandedDrawing banded(givesUp, gpu::BandPace{latestMs_ > kSlowMs});
+            renderer_->draw(look.technique, look.settings);
+            gpu::finish();
+        }
+        smoothing_.add(renderer_->programs(), renderer_->radianceTexture());
+        constexpr int kFirstShown = 8; // fewer are still rough
+        if (smoothing_.count() % kFirstShown == 0) smoothing_.showMean(renderer_->programs(), look.settings);
+        return true;
+    } catch (const graph::Interrupted&) {
+        return false;
+    } catch (...) {
+        isSmoothingAtFault_ = true; // the same would fail again
+        throw;
+    }
+}
+
 void Screen::prepareDifference(float factor) {
     if (!canDiffer() || (!differenceIsStale_ && factor == differenceFactor_)) return;
     differenceFactor_ = factor;
@@ -322,7 +355,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
     } else if (compare == Compare::Difference && canDiffer() && difference_.image() != nullptr) {
         blit(*difference_.image(), 0, area.width);
     } else {
-        blit(pictures_[0].display(), 0, area.width);
+        blit(showsSmoothed() ? *smoothing_.shown() : pictures_[0].display(), 0, area.width);
     }
     gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // without the scissor
 }

@@ -12,6 +12,7 @@
 #include "viewer/show/Difference.h"
 #include "viewer/show/DrawnPicture.h"
 #include "viewer/show/ResolutionScale.h"
+#include "viewer/show/Smoothing.h"
 #include "viewer/show/SpreadLight.h"
 
 namespace tessera::viewer {
@@ -95,11 +96,22 @@ public:
     /// spreading the light of what has come into view. `givesUp` may be null, and may show the pictures as they were
     /// before; where it ends the frame, or the frame fails, they stay so. Throws as Renderer::draw does.
     Drawn draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights, const std::function<bool()>& givesUp);
+    /// Whether the one picture, which is whole, lacks some of the shifted ones that smooth its edges (Smoothing.h).
+    bool lacksSmoothing(const Wanted& wanted) const;
+    /// Draws the next of them, unless `givesUp`: then false, and all is as it was. Throws as draw() does; then the
+    /// picture stays as it is.
+    bool smooth(const Wanted& wanted, const std::function<bool()>& givesUp);
+    void forgetSmoothing() { smoothed_.reset(); }
+    /// Whether show() shows the mean of shifted pictures in the place of the picture.
+    bool showsSmoothed() const { return smoothed_ && shows(*smoothed_) && smoothing_.shown() != nullptr; }
+    bool isSmoothed() const { return showsSmoothed() && smoothing_.isDone(); }
+
     /// Redraws the current pictures after a change of shaders, and spreads their light again.
     void forget() {
         made_ = {};
         failed_.reset();
         differenceIsStale_ = true;
+        forgetSmoothing();
         forgetSpreadLight();
     }
 
@@ -174,6 +186,9 @@ private:
     std::optional<std::array<Look, 2>> kind_;  ///< of the pictures drawn last of this scene
     std::array<std::optional<Made>, 2> made_;
     std::optional<Wanted> failed_;
+    Smoothing smoothing_;
+    std::optional<Wanted> smoothed_; ///< what it is of
+    bool isSmoothingAtFault_ = false;
     double latestMs_ = 0.0; ///< of the latest picture while something moved, without what was spent on compiling
 };
 
