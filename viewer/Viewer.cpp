@@ -347,6 +347,7 @@ private:
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) document_.copyCommand(size);
         if (requests.addLight) addLight(state_, screen_.meanLuminance());
+        if (facts_.inspection && state_.inspectedPlace()) keepInspection(requests);
         if (requests.scatter) replaceByScattered(state_);
         if (requests.pick) log_.line("picked " + selectMaterialAt(state_, *requests.pick, size));
         if (requests.turnAbout && turnAboutPlace(state_, *requests.turnAbout, size)) log_.line("turns about a surface");
@@ -354,6 +355,17 @@ private:
         Look look = state_.active();
         look.settings.sizePixels = size;
         measurements_.judgeLights(facts_, screen_, look);
+    }
+
+    void keepInspection(const Requests& requests) {
+        const std::vector<std::string> lines = inspectionLines(*facts_.inspection);
+        if (requests.pinInspection) {
+            state_.pins.push_back({*state_.inspectedPlace(), lines});
+            log_.line("pinned " + lines.front());
+        }
+        if (!requests.copyInspection) return;
+        window_.setClipboard(fmt::format("{}", fmt::join(lines, "\n")));
+        state_.notice = {"Copied what is told of pixel " + lines.front(), false};
     }
 
     /// Advances animations and damped movements.
@@ -399,7 +411,7 @@ private:
     /// The pictures, and the interface as it was laid out last.
     void paint() {
         const glm::ivec2 pixels = window_.sizePixels();
-        screen_.show(pixels, areaPixels(), state_.compare, state_.divider);
+        screen_.show(pixels, areaPixels(), state_.compare, state_.divider, state_.magnification);
         if (const std::optional<glm::vec2> place = state_.inspectedPlace()) {
             for (const Loupe& loupe : state_.loupes)
                 screen_.magnify(loupe.side, *place, inPixels(loupe.corner, glm::vec2(loupe.size)));

@@ -176,8 +176,10 @@ void DrivenViewer::drag(glm::ivec2 from, glm::ivec2 to, const std::string& held,
     desktop_.xdotool(words);
 }
 
-void DrivenViewer::wheel(int clicks) const {
+void DrivenViewer::wheel(int clicks, const std::string& held) const {
+    if (!held.empty()) desktop_.xdotool({"keydown", held});
     desktop_.xdotool({"click", "--repeat", number(std::abs(clicks)), "--delay", "60", clicks > 0 ? "4" : "5"});
+    if (!held.empty()) desktop_.xdotool({"keyup", held});
 }
 
 void DrivenViewer::drop(glm::ivec2 pixel, const std::vector<std::filesystem::path>& files) const {

@@ -54,7 +54,7 @@ public:
     void doubleClick(glm::ivec2 pixel) const;
     /// By way of ten points, with keys held; X11's button 1 is the left one, 3 the right one.
     void drag(glm::ivec2 from, glm::ivec2 to, const std::string& held = "", int button = 1) const;
-    void wheel(int clicks) const; ///< positive: away from the user
+    void wheel(int clicks, const std::string& held = "") const; ///< positive: away from the user
     /// As dropFiles() does.
     void drop(glm::ivec2 pixel, const std::vector<std::filesystem::path>& files) const;
     void resize(glm::ivec2 sizePixels) const;

@@ -309,6 +309,40 @@ TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRe
     expectSpreadLightOfACameraThatMoves();
 }
 
+TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyWhatIsToldOfThem) {
+    DrivenViewer viewer = open(kSpheres);
+    const Shot whole = pictureIn(viewer, viewer.waitForWhole(0));
+    const glm::ivec2 size = whole.sizePixels, middle = size / 2;
+    viewer.moveTo(kPictureCorner + middle);
+    viewer.wheel(3, "ctrl"); // 8 times
+    viewer.pause(1.0);
+    const Shot large = pictureIn(viewer, size);
+    // The pixel under the pointer stays there, and is a square of one colour with its neighbours beside it.
+    constexpr int kTimes = 8, kReach = 5;
+    int wrong = 0;
+    for (int y = -kReach; y <= kReach; ++y)
+        for (int x = -kReach; x <= kReach; ++x) {
+            const glm::ivec2 place = middle + kTimes * glm::ivec2(x, y) + kTimes / 2;
+            wrong += large.at(place) != whole.at(middle + glm::ivec2(x, y));
+        }
+    EXPECT_EQ(wrong, 0);
+    viewer.drag(kPictureCorner + middle, kPictureCorner + middle + glm::ivec2(4 * kTimes, 0));
+    viewer.moveTo(kPictureCorner + middle);
+    viewer.pause(0.5);
+    EXPECT_EQ(pictureIn(viewer, size).at(middle + kTimes / 2), whole.at(middle - glm::ivec2(4, 0))) << "it moved";
+    const std::size_t mark = viewer.mark();
+    viewer.key("i");
+    const std::string told = viewer.waitFor("inspected ", mark);
+    EXPECT_NE(told.find(fmt::format("inspected {}, {} of ", middle.x - 4, middle.y)), std::string::npos) << told;
+    viewer.key("p");
+    EXPECT_NE(viewer.waitFor("pinned ", mark).find(fmt::format("{}, {} of ", middle.x - 4, middle.y)),
+              std::string::npos);
+    viewer.key("i");
+    viewer.key("ctrl+0");
+    viewer.pause(1.0);
+    EXPECT_TRUE(pictureIn(viewer, size) == whole) << "the camera did not move";
+}
+
 TEST_F(ViewerPictures, edgesAreSmoothedAtRestAndFilesAreNot) {
     folder_.write("config/tessera/viewer.json", "{}");
     DrivenViewer viewer = open(kSpheres);

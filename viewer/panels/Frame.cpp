@@ -133,6 +133,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
         parts.emplace_back("loading ...");
     else if (facts.spreading)
         parts.push_back(spreadText(*facts.spreading));
+    if (state.magnification.isOn())
+        parts.push_back(fmt::format("pixels x {} (Ctrl+0: all)", state.magnification.times));
     if (facts.isCancelled) parts.emplace_back("cancelled (Enter: draw on)");
     if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly)
         parts.push_back(fmt::format("flying, {:.3g} m/s (C: orbit)", state.open->rig().flyMetresPerSecond()));
@@ -265,6 +267,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
         drawInspector(state, facts, area);
+        drawPins(state, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
         if (facts.told()) drawProgress(*facts.told(), area, state.inspectorBox, scale, *ImGui::GetBackgroundDrawList());

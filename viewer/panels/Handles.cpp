@@ -173,7 +173,8 @@ void drawHandles(const State& state, const PictureArea& area) {
 }
 
 void drawMaterialOutline(const State& state, const Facts& facts, const PictureArea& area) {
-    if (!state.showsMaterial || !facts.materialOutline || facts.materialOutline->material != state.selectedMaterial)
+    if (state.magnification.isOn() || !state.showsMaterial || !facts.materialOutline ||
+        facts.materialOutline->material != state.selectedMaterial)
         return;
     PictureInk ink(area);
     const glm::dvec2 scale = glm::dvec2(area.size) / glm::dvec2(facts.materialOutline->sizePixels);

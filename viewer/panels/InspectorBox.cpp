@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
+
+#include "viewer/panels/Widgets.h"
 
 namespace tessera::viewer {
 namespace {
@@ -37,7 +41,7 @@ void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     for (const std::string& text : lines) size.x = std::max(size.x, ImGui::CalcTextSize(text.c_str()).x);
     size += 2.0f * pad;
     if (area.size.x < size.x || area.size.y < size.y) return;
-    const glm::vec2 point = area.corner + *place * area.size, end = area.corner + area.size;
+    const glm::vec2 point = pointOf(state, area, *place), end = area.corner + area.size;
     const float beside = kBesidePoints * area.scale;
     const glm::vec2 corner(besidePoint(point.x, size.x, area.corner.x, end.x, beside),
                            besidePoint(point.y, size.y, area.corner.y, end.y, beside));
@@ -64,6 +68,43 @@ void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     for (std::size_t i = 0; i < lines.size(); ++i)
         list.AddText({words.x, words.y + float(i) * line}, kBoxInk, lines[i].c_str());
     list.PopClipRect();
+}
+
+void drawPins(State& state, const PictureArea& area) {
+    if (state.pins.empty() || !state.inspects) return;
+    const float side = kTexelPoints * area.scale;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const glm::vec2 end = area.corner + area.size;
+    list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
+    for (std::size_t i = 0; i < state.pins.size(); ++i) {
+        const glm::vec2 point = pointOf(state, area, state.pins[i].place);
+        outline(list, point - 0.5f * side, side, area.scale);
+        list.AddText({point.x + side, point.y - side}, kBoxInk, fmt::format("{}", i + 1).c_str());
+    }
+    list.PopClipRect();
+    const float margin = kBesidePoints * area.scale;
+    ImGui::SetNextWindowPos({end.x - margin, area.corner.y + margin}, ImGuiCond_Appearing, {1.0f, 0.0f});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {area.size.x, std::max(area.size.y - 2.0f * margin, margin)});
+    std::optional<std::size_t> removed;
+    if (ImGui::Begin("Pinned pixels", nullptr,
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoCollapse))
+        for (std::size_t i = 0; i < state.pins.size(); ++i) {
+            ImGui::PushID(int(i));
+            ImGui::AlignTextToFramePadding();
+            ImGui::Text("%zu", i + 1);
+            ImGui::SameLine();
+            if (ImGui::Button("Copy"))
+                ImGui::SetClipboardText(fmt::format("{}", fmt::join(state.pins[i].lines, "\n")).c_str());
+            tip("These lines, for another program");
+            ImGui::SameLine();
+            if (ImGui::Button("x")) removed = i;
+            tip("Takes it away");
+            for (const std::string& text : state.pins[i].lines) ImGui::TextUnformatted(text.c_str());
+            ImGui::PopID();
+        }
+    ImGui::End();
+    if (removed) state.pins.erase(state.pins.begin() + std::ptrdiff_t(*removed));
 }
 
 } // namespace tessera::viewer

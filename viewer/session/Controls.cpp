@@ -87,12 +87,20 @@ PictureArea partOf(const State& state, const PictureArea& area, int side) {
     return {area.corner + glm::vec2(left, 0.0f), {area.size.x - left, area.size.y}, area.scale};
 }
 
+glm::vec2 placeAt(const State& state, const PictureArea& area, const glm::vec2& point) {
+    return state.magnification.placeAt((point - area.corner) / area.size);
+}
+
+glm::vec2 pointOf(const State& state, const PictureArea& area, const glm::vec2& place) {
+    return area.corner + state.magnification.shareOf(place) * area.size;
+}
+
 PictureView viewOf(const State& state, const PictureArea& area) {
     return {state.open->scene().cameras[std::size_t(state.open->camera())], area.size};
 }
 
 std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area) {
-    if (!hasSelectedLight(state) || isEmpty(area)) return std::nullopt;
+    if (!hasSelectedLight(state) || isEmpty(area) || state.magnification.isOn()) return std::nullopt;
     return lightFigure(lightShown(state, state.selectedLight), viewOf(state, area), area.scale);
 }
 
@@ -101,6 +109,7 @@ std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& are
     const Lights& lights = state.open->scene().lights;
     const PictureView view = viewOf(state, area);
     std::vector<LightMarker> markers;
+    if (state.magnification.isOn()) return markers;
     const auto mark = [&](int index) {
         const scenes::Light light = lightShown(state, index);
         if (!scenes::infoOf(light.type).hasPosition()) return;
@@ -167,8 +176,7 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
             event.down ? press(event, state, area, claims) : release(event, state, area);
             break;
         case InputEvent::Kind::Scroll:
-            if (!claims.mouse && state.open && area.contains(event.position))
-                state.open->rig().wheel(double(event.scroll.y), fromCenter(event.position, area), area.size.y);
+            if (!claims.mouse && state.open && area.contains(event.position)) scroll(event, state, area);
             break;
         case InputEvent::Kind::Key:
             key(event, state, claims);
@@ -185,15 +193,25 @@ void Controls::handle(std::span<const InputEvent> events, State& state, const Pi
     }
     if (state.open) state.open->rig().hold(flying_);
     const bool isPointed = state.inspects && !claims.mouse && !isEmpty(area) && area.contains(pointer_);
-    state.pointedPlace = isPointed ? std::optional((pointer_ - area.corner) / area.size) : std::nullopt;
+    state.pointedPlace = isPointed ? std::optional(placeAt(state, area, pointer_)) : std::nullopt;
     if (isPointed) state.pinnedPlace.reset();
+}
+
+void Controls::scroll(const InputEvent& event, State& state, const PictureArea& area) {
+    if ((event.modifiers & GLFW_MOD_CONTROL) == 0 && !state.magnification.isOn())
+        return state.open->rig().wheel(double(event.scroll.y), fromCenter(event.position, area), area.size.y);
+    const int steps = event.scroll.y > 0.0f ? 1 : event.scroll.y < 0.0f ? -1 : 0;
+    state.magnification.zoom(steps, (event.position - area.corner) / area.size);
 }
 
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {
     if (drag_ != Drag::None || claims.mouse || state.isAsking() || !area.contains(event.position)) return;
     button_ = event.code;
     pressedAt_ = event.position;
-    if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
+    const bool isOfPicture = !isAtPanelEdge(state, area, event.position) && !isAtDivider(state, area, event.position);
+    if (state.magnification.isOn() && isOfPicture) {
+        drag_ = Drag::Magnified;
+    } else if (event.code == GLFW_MOUSE_BUTTON_MIDDLE) {
         drag_ = Drag::Pan;
     } else if (event.code == GLFW_MOUSE_BUTTON_RIGHT) {
         if (!(event.modifiers & GLFW_MOD_SHIFT)) {
@@ -227,13 +245,14 @@ void Controls::press(const InputEvent& event, State& state, const PictureArea& a
 
 void Controls::release(const InputEvent& event, State& state, const PictureArea& area) {
     if (event.code != button_) return;
-    const bool isClick = drag_ == Drag::Rotate && glm::distance(event.position, pressedAt_) <= kClickReach * area.scale;
+    const bool isLeft = drag_ == Drag::Rotate || (drag_ == Drag::Magnified && button_ == GLFW_MOUSE_BUTTON_LEFT);
+    const bool isClick = isLeft && glm::distance(event.position, pressedAt_) <= kClickReach * area.scale;
     if (isClick && area.size.x > 0.0f) click(event, state, area);
     endDrag(state);
 }
 
 void Controls::click(const InputEvent& event, State& state, const PictureArea& area) {
-    const glm::vec2 place = (event.position - area.corner) / area.size;
+    const glm::vec2 place = placeAt(state, area, event.position);
     const bool isSecond = clicked_ && event.heardSeconds - clicked_->heardSeconds <= kDoubleClickSeconds &&
                           glm::distance(event.position, clicked_->place) <= kClickReach * area.scale;
     if (isSecond) {
@@ -318,6 +337,9 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
         state.dragText = turnText(state.open->environmentView().rotationDegrees);
         break;
     }
+    case Drag::Magnified:
+        state.magnification.pan(glm::vec2(moved) / area.size);
+        break;
     case Drag::Divider:
         state.divider = std::clamp((event.position.x - area.corner.x) / area.size.x, 0.0f, 1.0f);
         break;

@@ -26,10 +26,14 @@ struct PictureArea {
 /// The part of the picture's place that shows a side: what lies left or right of the divider, or all.
 PictureArea partOf(const State& state, const PictureArea& area, int side);
 
+/// The place of the picture, a share of its size, that is shown at a point of the window, and back.
+glm::vec2 placeAt(const State& state, const PictureArea& area, const glm::vec2& point);
+glm::vec2 pointOf(const State& state, const PictureArea& area, const glm::vec2& place);
+
 /// What the picture of an open scene shows where, from its upper left in screen coordinates. The area is not empty.
 PictureView viewOf(const State& state, const PictureArea& area);
 
-/// Outline and handles of the selected light; none where no light is selected, or there is no picture.
+/// Outline and handles of the selected light; none where no light is selected, there is no picture, or it is magnified.
 std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area);
 
 /// Its handle that a press at a point of the window takes; its marker is taken before one that is no nearer.
@@ -43,7 +47,8 @@ struct LightMarker {
 };
 
 /// The markers of an open scene in a picture that is not empty: of the selected lights, then, where the state says so,
-/// of all others up to kMostMarkers. Suns only where all are marked: one below the other, as many as there is room for.
+/// of all others up to kMostMarkers; none where it is magnified. Suns only where all are marked: one below the other,
+/// as many as there is room for.
 std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& area);
 
 /// The figures of the other lights that are selected, up to kMostFigures.
@@ -66,7 +71,8 @@ public:
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
 
 private:
-    enum class Drag { None, Rotate, Pan, Zoom, Divider, PanelEdge, Light, Handle, Environment };
+    enum class Drag { None, Rotate, Pan, Zoom, Divider, PanelEdge, Light, Handle, Environment, Magnified };
+    void scroll(const InputEvent& event, State& state, const PictureArea& area);
     void press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims);
     void release(const InputEvent& event, State& state, const PictureArea& area);
     void click(const InputEvent& event, State& state, const PictureArea& area);

@@ -101,6 +101,12 @@ constexpr KeyBinding kBindings[] = {
          s.inspects = !s.inspects;
          s.pinnedPlace.reset();
      }},
+    {GLFW_KEY_P, kNone, "P", "pin what is told of the inspected pixel",
+     [](State& s) { s.requests.pinInspection = s.inspects; }},
+    {GLFW_KEY_C, kControl | kShift, "Ctrl+Shift+C", "copy what is told of the inspected pixel",
+     [](State& s) { s.requests.copyInspection = s.inspects; }},
+    {GLFW_KEY_0, kControl, "Ctrl+0", "show all of the picture again, after Ctrl + wheel",
+     [](State& s) { s.magnification = {}; }},
     {GLFW_KEY_SPACE, kNone, "Space", "play or pause what moves", togglePlaying},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode, "Camera"},
@@ -150,6 +156,7 @@ constexpr GestureHelp kGestures[] = {
     {"Shift + right drag", "turns the environment; the angle stands beside the pointer"},
     {"Right drag", "move across the picture; also the middle button, and Alt + left drag"},
     {"Ctrl + left drag, wheel", "nearer and farther; the wheel towards the pointer"},
+    {"Ctrl + wheel", "magnifies pixels; then the wheel goes on with that, and drags move the picture"},
     {"W A S D, Q E", "fly: forward, left, back, right; down, up. Shift is fast, the wheel sets the speed"},
     {"Click", "picks the material of the surface"},
     {"Double click", "slides the surface into the middle, and turns about it from then on"},

@@ -122,6 +122,8 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     state_.types.forget();
     state_.listing = {};
     state_.listed.reset();
+    state_.magnification = {};
+    state_.pins.clear();
     state_.renamed.reset();
     if (!state_.notice.outlivesLoad) state_.notice = {loadNote(scene->scene())};
     state_.shaderFaults.clear();

@@ -54,6 +54,28 @@ struct Box {
     }
 };
 
+/// How large the window shows the picture's pixels: a part of the picture fills its place.
+struct Magnification {
+    static constexpr int kMost = 64;
+    int times = 1;          ///< a power of two; 1: all of it is shown
+    glm::vec2 corner{0.0f}; ///< of that part, a share of the picture's size from the upper left
+
+    bool isOn() const { return times > 1; }
+    /// The place of the picture that is shown at a share of the window's part, and back.
+    glm::vec2 placeAt(const glm::vec2& share) const { return corner + share / float(times); }
+    glm::vec2 shareOf(const glm::vec2& place) const { return (place - corner) * float(times); }
+    /// Doubles or halves it so often; the pixel at a share stays there.
+    void zoom(int steps, const glm::vec2& share);
+    /// Moves the picture by a share of the window's part.
+    void pan(const glm::vec2& share);
+};
+
+/// What was told of a pixel, kept until it is removed.
+struct PinnedInspection {
+    glm::vec2 place{0.0f}; ///< in the picture, a share of its size
+    std::vector<std::string> lines;
+};
+
 /// A line for the user: a finished action, or an error with its remedy.
 struct Notice {
     std::string text;
@@ -83,6 +105,8 @@ struct Requests {
     bool saveScene = false;
     bool saveTrace = false;
     bool copyCommand = false;
+    bool copyInspection = false; ///< what is told of the pixel that is inspected
+    bool pinInspection = false;
     bool measureLights = false;
     bool addLight = false;
     bool scatter = false;               ///< the lights that `State::scatter` describes, in the place of the scene's
@@ -143,6 +167,8 @@ struct State {
     std::optional<glm::vec2> pointedPlace; ///< of the picture, a share of its size; none: the pointer is elsewhere
     std::optional<glm::vec2> pinnedPlace;  ///< that is inspected meanwhile
     std::vector<Loupe> loupes;             ///< of this frame
+    std::vector<PinnedInspection> pins;
+    Magnification magnification;
     std::optional<Box> inspectorBox;       ///< of this frame: what is told of that pixel
     std::string dragText;                  ///< what the drag in progress sets, for the user
     bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it

@@ -337,16 +337,22 @@ void Screen::colorCounts(const std::function<float(int side, frame::DebugView vi
     }
 }
 
-void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider) {
+void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider,
+                  const Magnification& magnification) {
     gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y);
     gpu::clearColor(0, kBehindPicture);
     if (!pictures_[0].isThere() || area.width < 1 || area.height < 1) return;
+    // Of the whole picture, of which the scissor leaves what is in the area; from the lower left.
+    const int times = magnification.times;
+    const glm::ivec2 corner = glm::round(magnification.corner * float(times) * glm::vec2(area.width, area.height));
+    const gpu::Rectangle whole{area.x - corner.x, area.y + area.height + corner.y - times * area.height,
+                               times * area.width, times * area.height};
     const auto blit = [&](const Target& from, int left, int right) {
         if (left >= right) return;
         const glm::ivec2 size = from.sizePixels();
-        const bool isScaled = size != glm::ivec2(area.width, area.height);
+        const bool isScaled = size != glm::ivec2(area.width, area.height) && !magnification.isOn();
         gpu::setScissor({area.x + left, area.y, right - left, area.height});
-        gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, area, isScaled);
+        gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, whole, isScaled);
     };
     if (compare == Compare::Split && pictures_[1].isThere()) {
         const int middle = std::clamp(int(std::lround(divider * float(area.width))), 0, area.width);

@@ -121,8 +121,10 @@ public:
     /// Gives each picture that shows counts the colours of a scale that ends there, as a power of two. Throws
     /// gpu::ShaderError.
     void colorCounts(const std::function<float(int side, frame::DebugView view)>& scaleLog2);
-    /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared.
-    void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider);
+    /// Shows the pictures in a part of the window, whose framebuffer stays bound; the rest of it is cleared. Magnified
+    /// pixels are squares.
+    void show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare compare, float divider,
+              const Magnification& magnification);
     /// Shows pixels of a side's picture large, about the one at a place, in a square of the window: what show() left
     /// bound. A square that is no multiple of kLoupeTexels is filled as far as whole pixels go.
     void magnify(int side, const glm::vec2& place, const gpu::Rectangle& square);

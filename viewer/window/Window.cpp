@@ -85,6 +85,8 @@ void Window::installCallbacks() {
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
         InputEvent event{InputEvent::Kind::Scroll};
+        const auto isHeld = [window](int key) { return glfwGetKey(window, key) == GLFW_PRESS; };
+        if (isHeld(GLFW_KEY_LEFT_CONTROL) || isHeld(GLFW_KEY_RIGHT_CONTROL)) event.modifiers = GLFW_MOD_CONTROL;
         event.scroll = {float(x), float(y)};
         windowOf(window).note(event);
     });

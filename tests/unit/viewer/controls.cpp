@@ -39,6 +39,47 @@ TEST(Controls, twoClicksInOnePlaceSoonAfterOneAnotherAskToTurnAboutIt) {
     EXPECT_FALSE(click({100.0f, 320.0f}, 11.6)) << "elsewhere";
 }
 
+TEST(Controls, ctrlAndTheWheelMagnifyPixelsAboutThePointerAndDragsMoveThePicture) {
+    State state = withLightInTheMiddle(0, 1);
+    state.selectedLight = 0;
+    state.inspects = true;
+    Controls controls;
+    const CameraPose pose = state.open->rig().pose();
+    const auto handle = [&](const InputEvent& event) { controls.handle(std::span(&event, 1), state, kArea, {}); };
+    const glm::vec2 pointer(100.0f, 300.0f);
+    const auto wheel = [&](float steps, int modifiers) {
+        InputEvent event;
+        event.kind = InputEvent::Kind::Scroll;
+        event.position = pointer;
+        event.scroll = {0.0f, steps};
+        event.modifiers = modifiers;
+        handle(event);
+    };
+    EXPECT_TRUE(selectedFigure(state, kArea));
+    wheel(1.0f, 2); // GLFW's Ctrl
+    wheel(1.0f, 0); // goes on with it
+    EXPECT_EQ(state.magnification.times, 4);
+    EXPECT_EQ(placeAt(state, kArea, pointer), glm::vec2(0.25f, 0.75f)) << "the pixel under the pointer stays there";
+    EXPECT_EQ(pointOf(state, kArea, glm::vec2(0.25f, 0.75f)), pointer);
+    EXPECT_FALSE(selectedFigure(state, kArea)) << "handles would be elsewhere";
+    EXPECT_TRUE(lightMarkers(state, kArea).empty());
+    InputEvent press, move, release;
+    press.kind = release.kind = InputEvent::Kind::Button;
+    press.down = true;
+    press.position = pointer;
+    move.position = release.position = pointer + glm::vec2(40.0f, 0.0f);
+    for (const InputEvent& event : {press, move, release}) handle(event);
+    EXPECT_EQ(placeAt(state, kArea, move.position), glm::vec2(0.25f, 0.75f)) << "it follows the pointer";
+    EXPECT_EQ(state.inspectedPlace(), glm::vec2(0.25f, 0.75f));
+    for (int i = 0; i < 20; ++i) wheel(1.0f, 0);
+    EXPECT_EQ(state.magnification.times, Magnification::kMost);
+    for (int i = 0; i < 20; ++i) wheel(-1.0f, 2);
+    EXPECT_EQ(state.magnification.times, 1);
+    EXPECT_EQ(state.magnification.corner, glm::vec2(0.0f));
+    EXPECT_EQ(state.open->rig().pose(), pose);
+    EXPECT_TRUE(state.open->rig().isAtRest());
+}
+
 TEST(Controls, whatIsInspectedIsUnderThePointerAndElseWhatIsPinned) {
     State state = withLightInTheMiddle(0, 1);
     Controls controls;
