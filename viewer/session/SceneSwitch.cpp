@@ -46,7 +46,7 @@ std::string loadNote(const scenes::Scene& scene) {
                                     : fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
     };
     std::vector<std::string> parts, given;
-    if (pictures > 0) parts.push_back(counted(pictures, "picture") + " missing, shown as checkerboards");
+    if (pictures > 0) parts.push_back(counted(pictures, "picture") + " missing, shown by a checkerboard");
     if (warnings > pictures) parts.push_back(counted(warnings - pictures, pictures > 0 ? "other warning" : "warning"));
     if (scene.supplied.light) given.emplace_back("environment");
     if (scene.supplied.camera) given.emplace_back("camera");

@@ -253,8 +253,9 @@ TEST_F(SceneSwitchTest, aNoteCountsTheWarningsOfALoadAndNamesWhatWasSupplied) {
         folder_.write("bare.obj", "mtllib bare.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n")
             .string();
     ASSERT_TRUE(open(bare)) << failure_;
-    EXPECT_EQ(state_.notice.text, "2 pictures missing, shown as checkerboards; 1 other warning; supplied: environment, "
-                                  "camera (see the panel Scene)");
+    EXPECT_EQ(state_.notice.text,
+              "2 pictures missing, shown by a checkerboard; 1 other warning; supplied: environment, "
+              "camera (see the panel Scene)");
     EXPECT_FALSE(state_.notice.isError);
 }
 
