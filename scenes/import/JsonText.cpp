@@ -51,6 +51,13 @@ public:
                 what.erase(0, at + prefixEnd.size());
         if (const std::size_t colon = what.find(": "); colon != std::string::npos && colon < 8)
             what.erase(0, colon + 2);
+        // It quotes the whole of what it read last, which may be as long as the file.
+        constexpr std::size_t kMostBytes = 400;
+        if (what.size() > kMostBytes) {
+            std::size_t length = kMostBytes;
+            while (length > 0 && (static_cast<unsigned char>(what[length]) & 0xc0) == 0x80) --length; // a whole letter
+            what.replace(length, std::string::npos, "...");
+        }
         throw InputError(fmt::format("{}:{}:{}: {}", file_.string(), line, last - lineStart + 1, what));
     }
 

@@ -49,6 +49,14 @@ TEST(Memory, theLimitOfAControlGroupIsTheLeastOfItsOwnAndThoseAbove) {
     EXPECT_FALSE(limitOf("5:cpu:/user\nbroken\n"));
 }
 
+TEST(Messages, quoteNoMoreOfABrokenFileThanALine) {
+    const TempFolder folder;
+    const std::filesystem::path file = folder.write("a.json", R"({"tessera": )" + std::string(1'000'000, ' '));
+    const std::string error = inputErrorOf([&] { loadScene(file.string()); });
+    EXPECT_LT(error.size(), 500 + file.string().size());
+    EXPECT_THAT(error, HasSubstr("a.json:1:1000013: "));
+}
+
 TEST(Memory, accessorsThatAreReadAgainAndAgainAreCharged) {
     // A few hundred bytes: one accessor of a million zeros, drawn by hundreds of primitives.
     Builder builder;
