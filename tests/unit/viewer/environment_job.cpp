@@ -13,6 +13,7 @@
 
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
+#include "shaders/shared/environment.h"
 #include "tests/support/TempFolder.h"
 #include "viewer/session/OpenScene.h"
 
