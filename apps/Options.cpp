@@ -88,7 +88,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addSettings(command, options, "Frame");
     command
         .add_flag("--no-default-light", options.noDefaultLight,
-                  "Supplies no studio: without lights a scene is dark, else its own light it alone")
+                  "Supplies no studio: only the scene's own lights are used")
         ->group("Frame");
     command
         .add_option("--environment", options.environment,

@@ -34,9 +34,10 @@ DisplayImage toDisplayImage(const Picture& picture, const frame::FrameSettings& 
     image.height = picture.height;
     image.rgb.reserve(image.pixelCount() * 3);
     const float scale = std::exp2(settings.exposureEV);
+    const frame::ToneMap map = frame::showsLitPicture(settings.view) ? settings.toneMap : frame::ToneMap::None;
     for (std::size_t i = 0; i < image.pixelCount(); ++i) {
         const glm::vec3 radiance = scale * glm::vec3(picture.pixel(i)[0], picture.pixel(i)[1], picture.pixel(i)[2]);
-        const glm::vec3 code = shared::encodeSrgb(shared::toneMapped(radiance, std::uint32_t(settings.toneMap)));
+        const glm::vec3 code = shared::encodeSrgb(shared::toneMapped(radiance, std::uint32_t(map)));
         for (int channel = 0; channel < 3; ++channel)
             image.rgb.push_back(std::uint8_t(std::isnan(code[channel]) ? 0 : std::lround(255.0f * code[channel])));
     }

@@ -15,7 +15,7 @@ namespace tessera::python {
 
 /// A rendered picture.
 struct Rendered {
-    Picture picture;                   ///< linear
+    Picture picture;    ///< linear
     DisplayImage shown; ///< as a display shows it
     std::string scene, technique, view;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "scenes/Corners.h"
 
@@ -87,8 +88,8 @@ double shareOf(const std::array<Ray, kCount>& rays, const Is& is, const Holds& h
     return double(some) / double(all);
 }
 
-/// Whether a few rays down and to the sides let a room be likely: of most things, however many triangles they have, they
-/// meet backs or nothing, and no more rays need to be followed.
+/// Whether a few rays down and to the sides let a room be likely: of most things, however many triangles they have,
+/// they meet backs or nothing, and no more rays need to be followed.
 bool mayBeEnclosed(const Scene& scene, const glm::dvec3& originWS) {
     constexpr std::size_t kProbes = 8, kLeastFrontProbes = 6;
     const std::array<Ray, kRays> around = raysAround();
@@ -129,9 +130,11 @@ std::optional<Framing> framingInside(const Scene& scene) {
     const auto lengthOf = [&](std::size_t i) { return level[i].metres + behind(i).metres; };
     for (std::size_t i = 0; i < kLevelRays; ++i) {
         if (!std::isfinite(lengthOf(i))) continue;
-        if (!longest || lengthOf(i) > lengthOf(*longest)) longest = i;
+        // Of the two ends of a way that with the more room behind the middle.
+        const auto rank = [&](std::size_t ray) { return std::pair(lengthOf(ray), behind(ray).metres); };
+        if (!longest || rank(i) > rank(*longest)) longest = i;
     }
-    if (!longest) return std::nullopt;
+    if (!longest || lengthOf(*longest) < kLeastRoomMetres) return std::nullopt;
     Framing framing;
     framing.radiusMetres = 0.5 * glm::length(sides);
     framing.eyeWS = standsWS + kTowardsWall * behind(*longest).metres * behind(*longest).directionWS;

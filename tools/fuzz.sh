@@ -5,6 +5,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 source "$root/tools/setup.sh"
+cd "$root"
 
 seconds=${1:-}
 [[ $seconds =~ ^[1-9][0-9]*$ ]] || fail "--fuzz needs a number of seconds, as in ./test --fuzz 60"
@@ -16,8 +17,8 @@ buildPreset fuzz fuzz
 words() {
     local table=$1
     shift
-    (cd "$root" && { grep -ohE '[A-Za-z0-9_]{2,40}' "$table" || true; grep -ohE '"[A-Za-z0-9_.:/-]{1,40}"' "$@" | tr -d '"'
-        printf '%s\n' -1 1e39 1e308 2147483648 4294967296 9007199254740992 18446744073709551615 null true false; }) |
+    { grep -ohE '[A-Za-z0-9_]{2,40}' "$table" || true; grep -ohE '"[A-Za-z0-9_.:/-]{1,40}"' "$@" | tr -d '"'
+        printf '%s\n' -1 1e39 1e308 2147483648 4294967296 9007199254740992 18446744073709551615 null true false; } |
         sort -u | sed 's/.*/"&"\n"\\"&\\""/'
 }
 dictionaryOf() {

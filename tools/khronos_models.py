@@ -239,13 +239,12 @@ def table_of(rows):
 
     def cells(row):
         if not is_drawn(row):
-            return [""] * 6
+            return [""] * 4
         figures = row.figures
         camera = "supplied" if figures.is_supplied else "its own"
-        shares = [percent(share) for share in (figures.dark, figures.burnt)]
-        return [f"{figures.luminance:.2g}", *shares, f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
+        return [f"{figures.luminance:.2g}", f"{percent(figures.span)}", "cut" if figures.is_cut else "free", camera]
 
-    names = ["model", "status", "luminance", "black", "burnt", "share", "edge", "camera", "why"]
+    names = ["model", "status", "luminance", "share", "edge", "camera", "why"]
     lines = ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
     lines += ["| " + " | ".join([cell(row.name), row.status, *cells(row), cell(row.why)]) + " |" for row in rows]
     return "\n".join(lines) + "\n"

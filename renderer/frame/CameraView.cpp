@@ -10,10 +10,10 @@ namespace {
 
 /// What the image plane sees, by the camera alone.
 struct Lens {
-    glm::dmat4 clipFromView{0.0}; ///< clip.z is left 0
-    glm::dvec2 halfExtent{1.0};   ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
-    glm::dvec2 seenExtent{1.0};   ///< the same of what is in view
-    glm::dvec2 shift{0.0};        ///< of the picture, in halves of its sides
+    glm::dmat4 clipFromView{0.0};  ///< clip.z is left 0
+    glm::dvec2 halfExtent{1.0};    ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
+    glm::dvec2 visibleExtent{1.0}; ///< the same of what is in view
+    glm::dvec2 shift{0.0};         ///< of the picture, in halves of its sides
 };
 
 Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dvec2& offsetPixels) {
@@ -21,7 +21,7 @@ Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dv
     const double aspect = double(sizePixels.x) / double(sizePixels.y);
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
     const double halfHeight = isPerspective ? std::tan(0.5 * camera.fovYRadians) : camera.halfHeightMetres;
-    lens.halfExtent = lens.seenExtent = {halfHeight * aspect, halfHeight};
+    lens.halfExtent = lens.visibleExtent = {halfHeight * aspect, halfHeight};
     lens.clipFromView[0][0] = 1.0 / lens.halfExtent.x;
     lens.clipFromView[1][1] = 1.0 / lens.halfExtent.y;
     (isPerspective ? lens.clipFromView[2][3] : lens.clipFromView[3][3]) = isPerspective ? -1.0 : 1.0;
@@ -29,7 +29,7 @@ Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dv
     // Of clip.w, which the origin of lighting space adds its part to below.
     lens.shift = 2.0 * offsetPixels / glm::dvec2(sizePixels);
     // Depths are those of all that the shifted picture sees.
-    lens.seenExtent *= 1.0 + glm::abs(lens.shift);
+    lens.visibleExtent *= 1.0 + glm::abs(lens.shift);
     return lens;
 }
 
@@ -77,7 +77,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
 
     CameraView view;
     view.eyeWS = glm::dvec3(camera.worldFromCamera[3]);
-    view.depths = depthInterval(camera, lens.seenExtent, bounds);
+    view.depths = depthInterval(camera, lens.visibleExtent, bounds);
     const double origin = view.depths.originMetres;
     view.originWS = view.eyeWS + origin * forwardWS;
     view.lsFromWorld = space == LightingSpace::World ? glm::dmat3(1.0) : glm::transpose(worldFromView);

@@ -46,8 +46,8 @@ glm::dvec3 boxRadiance(const Box& box, const glm::dvec3& direction) {
 glm::dvec3 studioRadiance(const glm::dvec3& direction) {
     const double up = direction.y;
     // Walls, a floor and between them a sweep without a corner: darker than what is lit by the boxes, so that a model
-    // stands out. Straight below the floor is as bright as one of albedo 0.2 under the boxes, so that metal is not black
-    // where it faces down.
+    // stands out. Straight below the floor is as bright as one of albedo 0.2 under the boxes, so that metal is not
+    // black where it faces down.
     const glm::dvec3 wall =
         glm::mix(glm::dvec3(0.11, 0.11, 0.113), glm::dvec3(0.055, 0.055, 0.058), smoothStep(0.0, 1.0, up));
     const glm::dvec3 floor =

@@ -267,9 +267,9 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
 }
 
 /// Roughness blurs what glass transmits by its index of refraction: not at all at 1. The reference integrates Walter's
-/// lobe; the closed form ignores that lobes lean aside at grazing angles. Of roughness 0.6 that darkens bodies of index 2
-/// by 4.0 % and sheets by 4.5 %, brightens bodies of index 1.25 by 2.3 %, and puts single pixels at grazing angles off
-/// by 0.17 in bodies and 0.51 in sheets, before a sky of 0.1 to 1.9 (docs/glass.md).
+/// lobe; the closed form ignores that lobes lean aside at grazing angles. Of roughness 0.6 that darkens bodies of index
+/// 2 by 4.0 % and sheets by 4.5 %, brightens bodies of index 1.25 by 2.3 %, and puts single pixels at grazing angles
+/// off by 0.17 in bodies and 0.51 in sheets, before a sky of 0.1 to 1.9 (docs/glass.md).
 void GlassTruth::expectRoughAsTheReference() {
     struct Case {
         double ior;

@@ -292,7 +292,7 @@ class Results:
         self.path = root / "build/mutants/results.json"
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.known = json.loads(self.path.read_text()) if self.path.exists() else {}
-        self.killers = dict(line.rsplit(" | ", 1) for line in KILLERS.read_text().splitlines() if not line.startswith("#"))
+        self.killers = dict(line.rsplit(" | ", 1) for line in KILLERS.read_text().splitlines() if " | " in line and line[0] != "#")
         files = subprocess.run(["git", "ls-files", "-z"], cwd=root, check=True, text=True, stdout=subprocess.PIPE).stdout.split("\0")
         digest = hashlib.sha256()
         for name in filter(None, files):
@@ -315,8 +315,9 @@ class Results:
     def remember(self, mutants):
         """Adds the tests that saw these mutants to killers.txt; of mutants that are gone the rows go."""
         found = {name: result["killedBy"].split(" ")[0] for name, result in self.known.items() if ":" in (result["killedBy"] or "")}
-        names = {mutant.name for mutant in mutants}
-        rows = sorted(f"{name} | {killer}" for name, killer in {**self.killers, **found}.items() if name in names)
+        names, files = {mutant.name for mutant in mutants}, {mutant.path for mutant in mutants}
+        rows = sorted(f"{name} | {killer}" for name, killer in {**self.killers, **found}.items()
+                      if name in names or name.split(" | ")[0] not in files)
         head = [line for line in KILLERS.read_text().splitlines() if line.startswith("#")]
         KILLERS.write_text("\n".join([*head, *rows]) + "\n")
 

@@ -51,8 +51,11 @@ std::string answersHtml(const BenchRecord& record) {
         const std::optional<Recommendation> choice = recommendFor(group);
         if (!choice) continue;
         const BenchResult& best = *choice->best;
-        html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Take\"><strong>{}</strong></td>\n",
-                            escapedHtml(groupName(group)), escapedHtml(pointName(best.key)));
+        const std::string name = escapedHtml(pointName(best.key));
+        html += fmt::format("<tr><th scope=\"row\">{}</th>\n<td data-label=\"Take\">{}</td>\n",
+                            escapedHtml(groupName(group)),
+                            choice->caveat.empty() ? fmt::format("<strong>{}</strong>", name)
+                                                   : fmt::format("{}; ahead: {}", choice->caveat, name));
         html += cellHtml("ms a frame", millisecondsText(best.times.cpuMs.median));
         html +=
             cellHtml("Against forward", choice->speedup ? fmt::format("<span class=\"{}\">{:.2f}&times;</span>",

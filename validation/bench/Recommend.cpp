@@ -20,8 +20,16 @@ constexpr double kAsExact = 2.0;
 /// What two times may differ by and still be called the same: medians of 20 frames repeat to within some percent.
 constexpr double kSameSpeed = 1.05;
 
+constexpr std::string_view kBusy = "the machine was busy", kNothingToCull = "nothing to cull";
+
 double timeOf(const BenchResult& result) {
     return result.times.cpuMs.median;
+}
+
+/// Whether single frames took far longer than most, as on a machine that is busy with something else.
+bool isDisturbed(const BenchResult& result) {
+    constexpr double kSteady = 2.0; // p95 over median; of frames alone on a machine it is below 1.3
+    return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
 template <typename Condition>
@@ -97,6 +105,10 @@ std::optional<Recommendation> recommendFor(const BenchGroup& group) {
     if (!choice.best) choice.best = fastest(group, [](const BenchResult&) { return true; }); // no errors are known
     const BenchResult* exact = fastest(group, isExact);
     if (exact != choice.best) choice.exact = exact;
+    if (isDisturbed(*choice.best) || (choice.baseline && isDisturbed(*choice.baseline)))
+        choice.caveat = kBusy;
+    else if (group.lights == 0)
+        choice.caveat = kNothingToCull;
     if (choice.baseline) {
         choice.speedup = timeOf(*choice.baseline) / timeOf(*choice.best);
         if (choice.exact) choice.exactSpeedup = timeOf(*choice.baseline) / timeOf(*choice.exact);
@@ -111,12 +123,6 @@ std::string speedText(double speedup) {
 }
 
 namespace {
-
-/// Whether single frames took far longer than most, as on a machine that is busy with something else.
-bool isDisturbed(const BenchResult& result) {
-    constexpr double kSteady = 2.0; // p95 over median; of frames alone on a machine it is below 1.3
-    return result.times.cpuMs.p95 > kSteady * timeOf(result);
-}
 
 /// Says also how forward found its shadows, scattered light below surfaces and found the light of the environment
 /// and of area lights, where the result did otherwise.
@@ -141,13 +147,13 @@ std::string recommendationText(const BenchGroup& group) {
     const std::optional<Recommendation> choice = recommendFor(group);
     if (!choice) return "";
     const BenchResult& best = *choice->best;
-    const bool isBusy = isDisturbed(best) || (choice->baseline && isDisturbed(*choice->baseline));
     std::string text;
-    if (isBusy)
-        text = fmt::format("The machine was too busy to tell which technique is best for {}: some frames took more than "
-                           "twice the median. Measure again. So far {} leads: ",
-                           groupName(group), pointName(best.key));
-    else if (group.lights == 0)
+    if (choice->caveat == kBusy)
+        text =
+            fmt::format("The machine was too busy to tell which technique is best for {}: some frames took more than "
+                        "twice the median. Measure again. So far {} leads: ",
+                        groupName(group), pointName(best.key));
+    else if (choice->caveat == kNothingToCull)
         text = fmt::format("In {} there is nothing to cull. Ahead is {}: ", groupName(group), pointName(best.key));
     else
         text = fmt::format("For {} take {}: ", groupName(group), pointName(best.key));

@@ -2,6 +2,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "validation/bench/BenchResult.h"
 
@@ -23,6 +24,7 @@ struct Recommendation {
     /// Forward, where it was measured: with the smallest range tolerance, and with the shadows of the smallest error.
     const BenchResult* baseline = nullptr;
     bool isAcceptable = false;
+    std::string_view caveat;            ///< why nothing is recommended; empty: best is
     std::optional<double> speedup;      ///< of best over forward
     std::optional<double> exactSpeedup; ///< of exact over forward
 };

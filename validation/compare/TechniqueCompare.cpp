@@ -229,10 +229,9 @@ void addHardwareFilter(engine::Renderer& renderer, const CompareRequest& request
     picture.name = hardwareFilterName(picture.name);
     const TruthPicture reference = referenceTruth(renderer, settings, request.renderedOne);
     PairTruth truth = reference.of(picture.picture);
-    result.record.pairs.push_back(comparePair(picture.name, picture.picture, result.truth.name, truth.picture,
-                                              referenceTolerance(renderer.scene(), settings), truth.excluded,
-                                              shownPair(request, picture.display,
-                                                        engine::toDisplayImage(truth.picture, settings))));
+    result.record.pairs.push_back(comparePair(
+        picture.name, picture.picture, result.truth.name, truth.picture, referenceTolerance(renderer.scene(), settings),
+        truth.excluded, shownPair(request, picture.display, engine::toDisplayImage(truth.picture, settings))));
     ComparePair& pair = result.record.pairs.back();
     pair.verdict = reference.verdictOf(picture.picture, pair.tolerance);
     missLostGeometry(pair.verdict, reference.triangles.lost);

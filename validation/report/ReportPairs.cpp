@@ -93,8 +93,7 @@ std::string heatMapHtml(const Report& report, const ComparePair& pair) {
 
 /// One line in place of a slider between equal pictures and a black map.
 std::string viewsHtml(const Report& report, const ComparePair& pair) {
-    if (pair.figures.bitEqual == 1.0)
-        return "<p>Both pictures have the same bits in every pixel.</p>\n";
+    if (pair.figures.bitEqual == 1.0) return "<p>Both pictures have the same bits in every pixel.</p>\n";
     if (showsNoError(pair.figures)) return "<p>No pixel differs by more than fp32 rounds.</p>\n";
     return sliderHtml(report, pair) + heatMapHtml(report, pair);
 }

@@ -17,14 +17,16 @@ scenes::Light lightBefore(const scenes::Scene& scene, const CameraPose& pose, do
     const double beyondMetres = boundsWS.empty() ? pose.focusMetres
                                                  : glm::distance(pose.eyeWS, boundsWS.min) +
                                                        glm::distance(boundsWS.min, boundsWS.max); // all of the scene
-    const double aheadMetres = clearance.metresAlong(pose.eyeWS, forwardWS, beyondMetres).value_or(pose.focusMetres);
+    const double aheadMetres =
+        clearance.metresAlong(pose.eyeWS, forwardWS, beyondMetres, 1e-4 * pose.focusMetres).value_or(pose.focusMetres);
     const double halfMetres = 0.5 * aheadMetres;
     scenes::Light light;
     light.name = "light";
     light.positionWS = pose.eyeWS + halfMetres * forwardWS;
     light.directionWS = forwardWS;
     const double nearMetres = clearance.metresAround(light.positionWS, halfMetres).value_or(halfMetres);
-    light.intensity = float(std::numbers::pi * luminance / kGrey * nearMetres * nearMetres);
+    constexpr double kMostIntensity = 1e9; // whatever the exposure
+    light.intensity = float(std::min(std::numbers::pi * luminance / kGrey * nearMetres * nearMetres, kMostIntensity));
     light.rangeMetres = float(kRanges * nearMetres);
     return light;
 }

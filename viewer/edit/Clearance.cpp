@@ -22,9 +22,8 @@ Clearance::Clearance(const scenes::Scene& scene)
       textures_(scene, reference::Filtering::Exact), visibility_(objects_, rays_, textures_) {}
 
 std::optional<double> Clearance::metresAlong(const glm::dvec3& placeWS, const glm::dvec3& directionWS,
-                                             double mostMetres) const {
-    // Off a surface that the place lies on, by more than single precision blurs it.
-    const double startMetres = 1e-4 * mostMetres;
+                                             double mostMetres, double leastMetres) const {
+    const double startMetres = leastMetres > 0.0 ? leastMetres : 1e-4 * mostMetres;
     const reference::Ray ray{placeWS + startMetres * directionWS - rays_.eyeWS(), directionWS};
     const std::optional<reference::Hit> hit = visibility_.nearestOpaqueAhead(ray);
     if (!hit || startMetres + hit->depthMetres > mostMetres) return std::nullopt;

@@ -13,9 +13,10 @@ class Clearance {
 public:
     explicit Clearance(const scenes::Scene& scene);
 
-    /// Along a direction of length 1; none where nothing is that near.
-    std::optional<double> metresAlong(const glm::dvec3& placeWS, const glm::dvec3& directionWS,
-                                      double mostMetres) const;
+    /// Along a direction of length 1; none where nothing is that near. What is nearer than `leastMetres`, else than
+    /// 1e-4 of the most, is passed: single precision blurs a surface that the place lies on.
+    std::optional<double> metresAlong(const glm::dvec3& placeWS, const glm::dvec3& directionWS, double mostMetres,
+                                      double leastMetres = 0.0) const;
     /// To the nearest of all sides.
     std::optional<double> metresAround(const glm::dvec3& placeWS, double mostMetres) const;
 

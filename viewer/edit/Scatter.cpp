@@ -57,6 +57,7 @@ std::vector<Spot> spotsIn(const Clearance& clearance, const Surfaces& surfaces, 
     std::vector<Spot> spots;
     const auto wanted = std::size_t(count);
     for (const bool takesAll : {false, true}) {
+        if (takesAll && !spots.empty()) break;
         std::size_t tried = 0;
         for (; tried < kMostTries * wanted && spots.size() < wanted; ++tried) {
             const double triangle = numbers.unit(), u = numbers.unit(), v = numbers.unit();
@@ -122,7 +123,7 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
             const double x = numbers.unit(), y = numbers.unit(), z = numbers.unit();
             light.positionWS = boundsWS.min + glm::dvec3(x, y, z) * (boundsWS.max - boundsWS.min);
         } else {
-            const auto& [place, clearMetres] = spots[std::size_t(i)];
+            const auto& [place, clearMetres] = spots[std::size_t(i) % spots.size()];
             const double wantedMetres = double(light.rangeMetres) * glm::mix(kLowest, kHighest, numbers.unit());
             const double metres = std::min(wantedMetres, kClearShare * clearMetres);
             light.positionWS = glm::clamp(place.positionWS + metres * place.normalWS, boundsWS.min, boundsWS.max);

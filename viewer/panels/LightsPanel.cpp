@@ -381,7 +381,7 @@ void listButtons(State& state) {
     const bool any = state.selectedLight != scenes::kNone;
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
     if (ImGui::Button("Add", {width, 0.0f})) state.requests.addLight = true;
-    tip("A point light in the picture's middle, halfway to the camera's pivot");
+    tip("A point light halfway to the surface in the picture's middle");
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);
     if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLights(state);

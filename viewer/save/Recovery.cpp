@@ -79,8 +79,9 @@ void Recovery::discard(const fs::path& file) {
 }
 
 const fs::path& Recovery::ownFolder() {
-    if (lock_) return own_;
     std::error_code error;
+    if (lock_ && fs::exists(own_ / kLock, error)) return own_;
+    lock_.reset(); // the folder was cleaned away
     fs::create_directories(*folder_, error);
     // A run before may have had the same process number.
     int number = 1;
@@ -114,7 +115,7 @@ void Recovery::keep(const OpenScene& open) {
 }
 
 void Recovery::forget() {
-    if (kept_) discard(kept_->file);
+    if (lock_) discard(kept_ ? kept_->file : own_ / kLock);
     kept_.reset();
     lock_.reset();
 }

@@ -15,7 +15,7 @@ void History::keep(std::string what, Edit edit, Gesture gesture) {
     if (continued(edit, gesture) != nullptr) {
         Step& step = steps_[position_ - 1];
         step.what = std::move(what);
-        step.makes = ++latest_;
+        if (step.makes) step.makes = ++latest_;
         return;
     }
     std::optional<Version> makes;

@@ -314,7 +314,9 @@ void OpenScene::exchangeLater(Edit& edit) {
 void OpenScene::exchange(Edit& edit) {
     std::visit([this](auto& one) { exchange(one); }, edit);
     ++revision_;
-    if (changesScene(edit)) ++edits_;
+    if (!changesScene(edit)) return;
+    ++edits_;
+    if (!std::holds_alternative<ViewpointsEdit>(edit)) ++pictureEdits_;
 }
 
 void OpenScene::exchange(LightsEdit& edit) {

@@ -34,6 +34,8 @@ public:
     bool isEdited() const { return !history_.isSaved(); }
     /// Counts edits, undone and redone ones too.
     std::uint64_t edits() const { return edits_; }
+    /// Likewise, of those that change what is drawn.
+    std::uint64_t pictureEdits() const { return pictureEdits_; }
     /// Continues as the scene of a file that was just saved with all edits and the current camera. The picture stays.
     /// What environmentView() makes of the environment is the file's own, and of those that undoing brings back; it
     /// then changes nothing of them. Without an environment it stays.
@@ -173,7 +175,7 @@ private:
     ShownCamera shown_;
     std::vector<scenes::Camera> viewpoints_;
     std::uint64_t revision_ = 0;
-    std::uint64_t edits_ = 0;
+    std::uint64_t edits_ = 0, pictureEdits_ = 0;
     History history_;
     double clipSeconds_;        ///< as clipSeconds() says
     double askedSeconds_ = 0.0; ///< of the clip, of which the pose may have been refused

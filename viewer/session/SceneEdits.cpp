@@ -78,9 +78,11 @@ void copyChanges(scenes::Light& light, std::size_t index, const scenes::Light& b
         }
     });
     if (light.flicker) light.flicker->seed = seed;
-    for (const scenes::LightParameter& parameter : scenes::infoOf(light.type).parameters)
-        if (parameter.within != nullptr)
-            light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
+    // Of every type: what this one has no use of is checked too.
+    for (const scenes::LightTypeInfo& info : scenes::lightTypes())
+        for (const scenes::LightParameter& parameter : info.parameters)
+            if (parameter.within != nullptr)
+                light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
 }
 
 /// What was exchanged is where the user looks.
@@ -161,9 +163,9 @@ void endRenaming(State& state) {
     const auto index = std::size_t(renamed->light);
     const Lights& lights = state.open->scene().lights;
     if (renamed->name.empty() || renamed->name == lightLabel(lights, index)) return;
-    if (renamed->name.size() > scenes::kMostNameBytes) return;
     scenes::Light light = lights[index];
     light.name = freeLightName(lights, renamed->name);
+    if (light.name.size() > scenes::kMostNameBytes) return;
     state.open->changeLight(index, std::move(light));
 }
 

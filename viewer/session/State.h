@@ -169,12 +169,12 @@ struct State {
     std::vector<Loupe> loupes;             ///< of this frame
     std::vector<PinnedInspection> pins;
     Magnification magnification;
-    std::optional<Box> inspectorBox;       ///< of this frame: what is told of that pixel
-    std::string dragText;                  ///< what the drag in progress sets, for the user
-    bool isCancellable = false;            ///< something takes long, and the window says that Esc cancels it
-    bool showsMaterial = false;            ///< a panel shows the selected material
-    bool wantsPlan = false;                ///< a panel shows the plan of the active side's frame
-    std::string command;                   ///< that renders the picture, on request
+    std::optional<Box> inspectorBox; ///< of this frame: what is told of that pixel
+    std::string dragText;            ///< what the drag in progress sets, for the user
+    bool isCancellable = false;      ///< something takes long, and the window says that Esc cancels it
+    bool showsMaterial = false;      ///< a panel shows the selected material
+    bool wantsPlan = false;          ///< a panel shows the plan of the active side's frame
+    std::string command;             ///< that renders the picture, on request
     Timings timings;
 
     std::optional<Question> question; ///< waits for an answer, and all else waits for that

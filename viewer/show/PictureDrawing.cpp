@@ -100,7 +100,7 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     wanted_.keepsRadiance =
         state_.compare != Compare::Off || state_.inspects || std::ranges::any_of(wanted_.looks, showsCounts);
     wanted_.sceneRevision = state_.open->revision();
-    wanted_.sceneEdits = state_.open->edits();
+    wanted_.sceneEdits = state_.open->pictureEdits();
     if (cancelled_ && *cancelled_ != wanted_) cancelled_.reset();
     if (facts_.isCancelled != cancelled_.has_value()) pulse_.another();
     facts_.isCancelled = cancelled_.has_value();
@@ -112,11 +112,11 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
         facts_.picturesPerSecond.reset();
         pulse_.another();
     }
+    if (!state_.smooths || wanted_.sides != 1) screen_.forgetSmoothing();
     if (cancelled_) return false;
     const bool isWholeNow = isWhole();
     if (isWholeNow && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
         return spreadSlice(Screen::Reach::All);
-    if (!state_.smooths) screen_.forgetSmoothing();
     if (isWholeNow && isAtRest && lacksSmoothing()) smooth();
     if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;

@@ -176,9 +176,7 @@ double Screen::scaleOf(const Wanted& wanted) const {
     for (int side = 0; side < wanted.sides && failed_ != wanted; ++side) {
         const Made* const made = madeFor(wanted, side);
         // So that a whole one follows.
-        scale = std::min(scale, made == nullptr    ? 0.0
-                                : made->lacksLight ? std::min(made->scale, kScales[1])
-                                                   : made->scale);
+        scale = std::min(scale, made == nullptr ? 0.0 : made->lacksLight ? made->scale * kScales[1] : made->scale);
     }
     return scale;
 }
@@ -252,6 +250,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
             banded.reset(); // copying must not be given up half way
             DrawnPicture& taken = side == 0 && result.isOfSide[1] ? waiting_ : pictures_[std::size_t(side)];
+            if (&taken == &pictures_[std::size_t(side)]) made_[std::size_t(side)].reset(); // should copying fail
             // A picture that stays may be compared or inspected later.
             taken.take(*renderer_, look, {wanted.keepsRadiance || stay == Stay::Stays, keepsLights});
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
@@ -281,6 +280,9 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     const bool compiled = renderer_->programs().size() != programs;
     result.isUnlike = isNew || compiled || (isAnew && !isCoarse);
     if (result.isUnlike) return result;
+    // Times of pictures are those of all sides.
+    if (std::count(result.isOfSide.begin(), result.isOfSide.begin() + wanted.sides, true) != wanted.sides)
+        return result;
     resolution_.drew(scale, result.ms);
     if ((scale < 1.0 && stay != Stay::Refines) || result.ms < kSlowMs) latestMs_ = result.ms;
     return result;

@@ -48,6 +48,14 @@ Scene box(const glm::dvec3& sides, Facing facing, std::initializer_list<int> wal
     return scene;
 }
 
+TEST(Enclosure, whatANodeMirrorsHasItsFrontsWhereItShowsThem) {
+    for (const Facing facing : {Facing::Inwards, Facing::Outwards}) {
+        Scene mirrored = box({10.0, 6.0, 4.0}, facing);
+        mirrored.nodes[0].parentFromNode[0][0] = -1.0;
+        EXPECT_EQ(framingInside(mirrored).has_value(), facing == Facing::Inwards);
+    }
+}
+
 TEST(Enclosure, aRoomIsSeenFromOneEndAtTheHeightOfAPersonAlongItsLongestWay) {
     const Scene room = box({10.0, 6.0, 4.0}, Facing::Inwards);
     const std::optional<Framing> inside = framingInside(room);

@@ -35,8 +35,7 @@ Report sampleReport() {
     report.record.pairs.push_back(comparePair("packed", a, "forward", b, {.maxRel = 1e-5}));
     report.choice = "Take deferred: it costs a third of forward here.";
     report.facts = {{"Triangles", "212,480"}};
-    report.pictures = {{"forward", "the truth", encodePng(plainImage(10))},
-                       {"packed", "", encodePng(plainImage(12))}};
+    report.pictures = {{"forward", "the truth", encodePng(plainImage(10))}, {"packed", "", encodePng(plainImage(12))}};
     report.heatMaps.push_back({"packed", "forward", encodePng(errorHeatMap(a, b, "packed"))});
     report.plans = {{"deferred", "gbuffer -> deferred_lighting\n  left out: <shadows>"}};
     report.commands = {"./run compare hall --json 'x&y.json'"};
@@ -174,7 +173,8 @@ TEST(Report, theErrorOfARangeToleranceIsOnThePage) {
     report.record.rangeTruncation = {0.25, "<forward>", errorFigures(greyPicture(4, 2, 1.f), whole)};
     const std::string html = reportHtml(report);
     EXPECT_THAT(html, HasSubstr("range tolerance 0.25 drops, &lt;forward&gt; against itself"));
-    EXPECT_THAT(html, HasSubstr("bias <span class=\"whole\">&minus;5.0&#8239;&times;&#8239;10<sup>&minus;1</sup></span>"));
+    EXPECT_THAT(html,
+                HasSubstr("bias <span class=\"whole\">&minus;5.0&#8239;&times;&#8239;10<sup>&minus;1</sup></span>"));
     EXPECT_EQ(faultOf(html), "");
 }
 
@@ -212,8 +212,9 @@ TEST(Report, aPairWithoutPicturesNeverHasASlider) {
 }
 
 TEST(Report, figuresAreSetWithPowersOfTen) {
-    EXPECT_THAT(reportHtml(sampleReport()),
-                HasSubstr("max&nbsp;rel &le;&nbsp;<span class=\"whole\">1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
+    EXPECT_THAT(
+        reportHtml(sampleReport()),
+        HasSubstr("max&nbsp;rel &le;&nbsp;<span class=\"whole\">1.0&#8239;&times;&#8239;10<sup>&minus;5</sup>"));
 }
 
 TEST(Html, bytesThatAreNotUtf8AndControlCharactersAreReplaced) {

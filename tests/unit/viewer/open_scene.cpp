@@ -93,6 +93,7 @@ TEST(OpenScene, aCameraMovedByNumbersIsOneStepADragAndItsCommandReproducesIt) {
     for (const double x : {1.0, 2.0})
         opened.open.moveCamera(between(pose, {x, 3.0, 4.0}, {0.0, 1.0, 0.0}), Gesture::GoesOn);
     opened.open.endGesture();
+    EXPECT_FALSE(opened.open.isEdited());
     EXPECT_EQ(opened.open.rig().pose().eyeWS, glm::dvec3(2.0, 3.0, 4.0));
     EXPECT_LT(glm::distance(targetOf(opened.open.rig().pose()), glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
     EXPECT_EQ(opened.said(), opened.shown());
