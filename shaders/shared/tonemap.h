@@ -46,11 +46,12 @@ SHARED_FUNCTION vec3 toneMapAgx(vec3 color) {
 }
 
 SHARED_FUNCTION vec3 toneMapped(vec3 color, uint curve) {
-    vec3 c = clamp(color, vec3(0.0f), vec3(1e9f)); // squares of more are no numbers
+    vec3 c = max(color, vec3(0.0f));
+    if (curve == TONEMAP_NONE) return c;
+    c = min(c, vec3(1e9f)); // squares of more are no numbers
     if (curve == TONEMAP_KHRONOS_NEUTRAL) return toneMapKhronosNeutral(c);
     if (curve == TONEMAP_ACES) return toneMapAces(c);
-    if (curve == TONEMAP_AGX) return toneMapAgx(c);
-    return c;
+    return toneMapAgx(c);
 }
 
 // Linear 0..1 to sRGB code values. Source: IEC 61966-2-1.
