@@ -85,7 +85,7 @@ Json plotData(const BenchRecord& record) {
         const std::optional<Recommendation> choice = recommendFor(group);
         Json points = Json::array();
         for (std::size_t i = 0; i < group.results.size(); ++i)
-            points.push_back(plotPoint(group.results[i], kind, pareto[i], choice && choice->best == &group.results[i]));
+            points.push_back(plotPoint(group.results[i], kind, pareto[i], choice && choice->takes(group.results[i])));
         data["groups"].push_back({{"name", groupName(group)}, {"truth", group.truth}, {"points", points}});
     }
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {

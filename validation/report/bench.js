@@ -195,16 +195,19 @@
                 order: 1,
             });
         }
-        datasets.push({
-            label: "take",
-            data: measured.filter((point) => point.best).map((point) => ({ ...place(point), label: point.technique })),
-            backgroundColor: "transparent",
-            borderColor: variable("--ink"),
-            borderWidth: 2,
-            pointRadius: 12,
-            pointHitRadius: 0,
-            pointStyle: "circle",
-        });
+        const taken = measured.filter((point) => point.best);
+        if (taken.length) {
+            datasets.push({
+                label: "take",
+                data: taken.map((point) => ({ ...place(point), label: point.technique })),
+                backgroundColor: "transparent",
+                borderColor: variable("--ink"),
+                borderWidth: 2,
+                pointRadius: 12,
+                pointHitRadius: 0,
+                pointStyle: "circle",
+            });
+        }
         // What the shapes mean stands in the legend without marks of its own.
         const shown = kinds.filter((kind) => measured.some((point) => point.mark === kind));
         if (shown.length > 1) {

@@ -268,7 +268,7 @@ bool OpenScene::isLike(const scenes::Scene& loaded) const {
         return scene.hook ? std::span(scene.hook->parameters) : std::span<const scenes::HookParameter>();
     };
     return std::ranges::equal(scene_.lights, loaded.lights, isSameLight) &&
-           scene_.cameras.size() == loaded.cameras.size() &&
+           scene_.cameras.size() + viewpoints_.size() == loaded.cameras.size() &&
            scene_.environment.has_value() == loaded.environment.has_value() &&
            std::ranges::equal(parameters(scene_), parameters(loaded), isSameParameter) &&
            std::ranges::equal(scene_.rig.numbers, loaded.rig.numbers, isSameNumber) &&
@@ -294,6 +294,7 @@ void OpenScene::goOnFrom(OpenScene& other) {
     other.step(steps);
     history_ = std::exchange(other.history_, {});
     viewpoints_ = other.viewpoints_;
+    shown_.removeLast(viewpoints_.size()); // the file has them as cameras
     // Steps of the camera and of the environment's view exchange what the other began with.
     if (scene_.environment) {
         scenes::EnvironmentView own = scenes::ownViewOf(*scene_.environment), view = other.environmentView();
@@ -312,11 +313,23 @@ void OpenScene::exchangeLater(Edit& edit) {
 }
 
 void OpenScene::exchange(Edit& edit) {
+    if (isSeen(edit)) {
+        ++revision_;
+        if (changesScene(edit)) ++pictureEdits_;
+    }
     std::visit([this](auto& one) { exchange(one); }, edit);
-    ++revision_;
-    if (!changesScene(edit)) return;
-    ++edits_;
-    if (!std::holds_alternative<ViewpointsEdit>(edit)) ++pictureEdits_;
+    if (changesScene(edit)) ++edits_;
+}
+
+/// Whether the picture is another one after it: names of lights and stored viewpoints are not seen.
+bool OpenScene::isSeen(const Edit& edit) const {
+    if (std::holds_alternative<ViewpointsEdit>(edit)) return false;
+    const auto* const lights = std::get_if<LightsEdit>(&edit);
+    return lights == nullptr || !std::ranges::equal(std::span(scene_.lights).subspan(lights->first, lights->count),
+                                                    lights->others, [](scenes::Light one, const scenes::Light& other) {
+                                                        one.name = other.name;
+                                                        return one == other;
+                                                    });
 }
 
 void OpenScene::exchange(LightsEdit& edit) {

@@ -157,6 +157,7 @@ private:
     /// Makes what the views make of environments their own.
     void takeAsSeen();
     bool isLike(const scenes::Scene& loaded) const;
+    bool isSeen(const Edit& edit) const;
     /// Undoes so many steps where they are negative, else redoes them.
     void step(std::ptrdiff_t steps);
     /// Jumps, and keeps where the camera was.

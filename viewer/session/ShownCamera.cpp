@@ -94,6 +94,11 @@ void ShownCamera::exchange(CameraView& other) {
     other = std::move(before);
 }
 
+void ShownCamera::removeLast(std::size_t count) {
+    for (std::vector<scenes::Camera>* const cameras : {&scene_.cameras, &cameras_, &loadedCameras_})
+        cameras->erase(cameras->end() - std::ptrdiff_t(count), cameras->end());
+}
+
 void ShownCamera::becomeOwn() {
     cameras_ = loadedCameras_ = scene_.cameras;
     placed_ = {};

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ public:
     void goTo(const scenes::Camera& other);
     /// Exchanges where it is and another view.
     void exchange(CameraView& other);
+    /// Takes the last `count` cameras, none of which is shown, from the scene.
+    void removeLast(std::size_t count);
     /// A file has the cameras as they are shown: they are the scene's own, and this one begins here.
     void becomeOwn();
 

@@ -166,7 +166,10 @@ TEST(Recommend, noSpeedIsClaimedThatTheSpreadDoesNotShow) {
 TEST(Recommend, disturbedTimesAreToldSo) {
     BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 40, 1e-9), madeUpResult("deferred", 10, 1e-9)});
     EXPECT_THAT(recommendationText(group), testing::StartsWith("For "));
+    EXPECT_TRUE(recommendFor(group)->takes(group.results[1]));
+    EXPECT_FALSE(recommendFor(group)->takes(group.results[0]));
     group.results[1].times.cpuMs.p95 = 21.0;
+    EXPECT_FALSE(recommendFor(group)->takes(group.results[1]));
     EXPECT_THAT(recommendationText(group), testing::StartsWith("The machine was too busy to tell"));
     group.results[1].ratioToFloor = 0.5;
     EXPECT_THAT(recommendationText(group), HasSubstr("No frame can be faster than its lower bound"));

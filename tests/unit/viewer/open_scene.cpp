@@ -298,6 +298,23 @@ void edit(OpenScene& open, const Change& change) {
     open.changeMaterial(0, material);
 }
 
+TEST(OpenScene, namesAndViewpointsDrawNothingAnew) {
+    OpenScene open("model.gltf", {}, inVariant("ruby"), {});
+    const std::uint64_t pictureEdits = open.pictureEdits(), revision = open.revision();
+    scenes::Light light = open.scene().lights[0];
+    light.name = "lamp";
+    open.changeLight(0, light);
+    open.storeViewpoint();
+    EXPECT_EQ(open.scene().lights[0], light);
+    EXPECT_EQ(open.edits(), 2u);
+    EXPECT_EQ(open.pictureEdits(), pictureEdits);
+    EXPECT_EQ(open.revision(), revision);
+    light.intensity *= 2.0f;
+    open.changeLight(0, light);
+    EXPECT_GT(open.pictureEdits(), pictureEdits);
+    EXPECT_GT(open.revision(), revision);
+}
+
 TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
     for (const bool isSaved : {false, true}) {
         OpenScene before("model.gltf", {}, inVariant("ruby"), {});
@@ -308,9 +325,11 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
         // The file then has these.
         scenes::Scene loaded = inVariant("sky");
         if (isSaved) {
+            before.storeViewpoint();
             before.becomes("saved.json");
             loaded.lights = before.scene().lights;
             loaded.materials[0] = before.scene().materials[0];
+            loaded.cameras.push_back(before.viewpoints()[0]);
         }
         before.jumpToCamera(1);
         edit(before, [](scenes::Light& light, scenes::Material&) { light.intensity = 5.0f; });
@@ -327,7 +346,9 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
         EXPECT_EQ(now.camera(), 0) << "a jump of the other moves this one's camera";
         EXPECT_EQ(now.environmentView(), before.environmentView());
         EXPECT_EQ(now.isEdited(), !isSaved);
-        EXPECT_EQ(now.history().undoable(), 3u);
+        EXPECT_EQ(now.viewpoints().size(), isSaved ? 1u : 0u);
+        EXPECT_EQ(now.scene().cameras.size(), inVariant("sky").cameras.size()) << "viewpoints are not cameras";
+        EXPECT_EQ(now.history().undoable(), isSaved ? 4u : 3u);
         ASSERT_NE(now.redo(), nullptr);
         EXPECT_EQ(now.scene().lights[1].intensity, 5.0f);
         now.useCamera(1); // as it was left

@@ -95,6 +95,28 @@ TEST(SceneEdits, whatIsEditedOfTheSelectedLightBecomesThatOfAllInOneStep) {
     EXPECT_TRUE(lights == before);
 }
 
+TEST(SceneEdits, aNarrowerConeOfASpotStaysOneForTheLightsBesides) {
+    State state = threeLights();
+    test::changeLight(state, 0, [](scenes::Light& light) {
+        light.type = scenes::LightType::Spot;
+        light.outerConeRadians = 0.8f;
+        light.innerConeRadians = 0.6f;
+    });
+    test::changeLight(state, 2, [](scenes::Light& light) {
+        light.outerConeRadians = 0.8f;
+        light.innerConeRadians = 0.7f;
+    });
+    selectLight(state, 2, Choosing::Alone);
+    selectLight(state, 0, Choosing::Toggle);
+    scenes::Light changed = state.open->scene().lights[0];
+    changed.outerConeRadians = 0.65f;
+    changeSelectedLights(state, changed, 10.0);
+    const Lights& lights = state.open->scene().lights;
+    EXPECT_EQ(lights[0].innerConeRadians, 0.6f);
+    EXPECT_EQ(lights[2].outerConeRadians, 0.65f);
+    EXPECT_EQ(lights[2].innerConeRadians, 0.65f);
+}
+
 TEST(SceneEdits, severalLightsAreDuplicatedInOneStepAndTheCopiesSelected) {
     State state = threeLights();
     selectLight(state, 1, Choosing::Alone);
