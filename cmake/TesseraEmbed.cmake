@@ -1,6 +1,6 @@
 # tessera_embed(TARGET NAMESPACE FUNCTION ROOT files...)
 #
-# Compiles text files into TARGET. The generated header "<FUNCTION>.gen.h" declares
+# Compiles files into TARGET. The generated header "<FUNCTION>.gen.h" declares
 #   std::span<const EmbeddedFile> NAMESPACE::FUNCTION();
 # whose entries carry each file's path relative to ROOT and its contents. The files become string literals, cut into
 # pieces because compilers only promise 64 KiB a literal.

@@ -4,11 +4,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/Utf8.h"
 #include "shaders/shared/faults.h"
 #include "shaders/shared/heat.h"
 #include "validation/figures/Flip.h"
@@ -29,7 +31,7 @@ constexpr int kTickGap = 1; // to the label
 constexpr int kSwatch = 7;
 constexpr int kWordsGap = 3;  // from a swatch to its words
 constexpr int kSwatchGap = 8; // from the words to the next swatch
-constexpr int kSwatchRow = kGlyphHeight + kMargin / 2;
+constexpr int kSwatchRow = kLineHeight + kMargin / 2;
 constexpr int kLeastWidth = 320;        // the swatches with their words, and labels that do not overlap
 constexpr int kLeastPaintedWidth = 160; // a title of two lines
 constexpr int kLeastTextScale = 2;
@@ -59,9 +61,10 @@ struct Tick {
 };
 
 std::vector<Tick> errorTicks() {
-    std::vector<Tick> ticks;
-    for (int exponent = kErrorScaleLowExponent; exponent <= 0; ++exponent)
-        ticks.push_back({scalePosition(std::pow(10.0, exponent)), exponent == 0 ? "1" : fmt::format("1e{}", exponent)});
+    constexpr const char* kRaised[] = {"¹", "²", "³", "⁴", "⁵", "⁶", "⁷"};
+    std::vector<Tick> ticks{{1.0, "1"}};
+    for (int i = 1; i <= -kErrorScaleLowExponent; ++i)
+        ticks.push_back({scalePosition(std::pow(10.0, -i)), fmt::format("10⁻{}", kRaised[i - 1])});
     return ticks;
 }
 
@@ -95,14 +98,13 @@ template <typename LayoutFor>
 Framed framed(const LayoutFor& layoutFor, const std::string& title) {
     HeatMapLayout layout = layoutFor(1);
     const int unit = layout.textScale;
-    const int room = (layout.width / unit - 2 * kMargin) / kGlyphAdvance;
-    const std::vector<std::string> lines = titleLines(title, std::size_t(room));
+    const std::vector<std::string> lines = titleLines(title, layout.width / unit - 2 * kMargin);
     layout = layoutFor(std::max(int(lines.size()), 1));
     DisplayImage image{layout.width, layout.height, {}};
     image.rgb.resize(3 * image.pixelCount());
     fillRectangle(image, 0, 0, image.width, image.height, kBackground);
     for (std::size_t i = 0; i < lines.size(); ++i)
-        drawText(image, unit * kMargin, unit * (kMargin + int(i) * kGlyphHeight), lines[i], kInk, unit);
+        drawText(image, unit * kMargin, unit * (kMargin + int(i) * kLineHeight), lines[i], kInk, unit);
     return {layout, std::move(image)};
 }
 
@@ -183,14 +185,13 @@ HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int lines) {
     const int unit = layout.textScale;
     layout.width = std::max(unit * kLeastWidth, layout.scale * pictureWidth + 2 * unit * kMargin);
     layout.pictureX = (layout.width - layout.scale * pictureWidth) / 2;
-    layout.pictureY = unit * (kMargin + lines * kGlyphHeight + kMargin / 2);
+    layout.pictureY = unit * (kMargin + lines * kLineHeight + kMargin / 2);
     layout.legendX = unit * kMargin;
     layout.legendY = layout.pictureY + layout.scale * pictureHeight + unit * kMargin;
     layout.legendWidth = layout.width - 2 * unit * kMargin;
     layout.legendHeight = unit * kBarHeight;
-    layout.swatchY =
-        layout.legendY + layout.legendHeight + unit * (kTickHeight + kTickGap + kGlyphHeight + kMargin / 2);
-    layout.height = layout.swatchY + unit * (kGlyphHeight + kMargin);
+    layout.swatchY = layout.legendY + layout.legendHeight + unit * (kTickHeight + kTickGap + kLineHeight + kMargin / 2);
+    layout.height = layout.swatchY + unit * (kLineHeight + kMargin);
     return layout;
 }
 
@@ -206,27 +207,35 @@ HeatMapLayout paintedMapLayout(int pictureWidth, int pictureHeight, std::span<co
     layout.swatchY = layout.height = layout.legendY;
     if (swatches.empty()) return layout;
     const int lastRow = swatchPlaces(swatches, layout.legendWidth / unit).back().y;
-    layout.height = layout.swatchY + unit * (lastRow + kGlyphHeight + kMargin);
+    layout.height = layout.swatchY + unit * (lastRow + kLineHeight + kMargin);
     return layout;
 }
 
-std::vector<std::string> titleLines(const std::string& title, std::size_t most) {
-    std::vector<std::string> lines;
-    std::string rest = title;
-    while (!rest.empty()) {
-        std::string line = rest.substr(0, most);
-        if (rest.size() > most && lines.size() + 1 == kMostTitleLines) { // the rest is lost
-            line = most < 3 ? std::string() : line.substr(0, most - 2) + "..";
-            rest.clear();
-        } else if (rest.size() > most) {
-            const std::size_t gap = rest.rfind(' ', most);
-            line = rest.substr(0, gap == std::string::npos || gap == 0 ? most : gap);
-            rest.erase(0, line.size());
-            rest.erase(0, rest.find_first_not_of(' '));
-        } else {
-            rest.clear();
+std::vector<std::string> titleLines(const std::string& title, int room) {
+    constexpr std::string_view kEllipsis = "…";
+    const auto fitting = [](std::string_view text, int width) {
+        std::size_t bytes = 0;
+        while (bytes < text.size()) {
+            const std::size_t next = bytes + std::max<std::size_t>(letterBytes(text.substr(bytes)), 1);
+            if (textWidth(text.substr(0, next)) > width) break;
+            bytes = next;
         }
-        lines.push_back(line);
+        return bytes;
+    };
+    std::vector<std::string> lines;
+    std::string_view rest = title;
+    while (!rest.empty()) {
+        std::size_t bytes = fitting(rest, room);
+        if (bytes < rest.size() && lines.size() + 1 == kMostTitleLines) { // the rest is lost
+            bytes = fitting(rest, room - textWidth(kEllipsis));
+            lines.push_back(std::string(rest.substr(0, bytes)) += kEllipsis);
+            break;
+        }
+        const std::size_t gap = bytes < rest.size() ? rest.rfind(' ', bytes) : rest.npos;
+        if (gap != rest.npos && gap > 0) bytes = gap;
+        lines.emplace_back(rest.substr(0, std::max<std::size_t>(bytes, 1)));
+        rest.remove_prefix(lines.back().size());
+        rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
     }
     return lines;
 }
@@ -242,7 +251,7 @@ DisplayImage errorHeatMap(const Picture& a, const Picture& b, const std::string&
     for (std::size_t i = 0; i < errors.state.size(); ++i)
         drawPixel(image, layout, i, a.width, colourOf(errors.state[i], errors.rel[i]));
     drawBar(image, layout, errorTicks());
-    const Swatch swatches[] = {{scaleColour(0.0), "below 1e-7"},
+    const Swatch swatches[] = {{scaleColour(0.0), "below 10⁻⁷"},
                                {kColourNotFinite, "NaN or Inf"},
                                {kColourUncovered, "not drawn"},
                                {kColourExcluded, "excluded"}};

@@ -8,7 +8,7 @@
 
 #include "base/Picture.h"
 #include "validation/figures/ErrorFigures.h"
-#include "validation/pictures/BitmapFont.h"
+#include "validation/pictures/Lettering.h"
 
 namespace tessera::validation {
 
@@ -51,9 +51,9 @@ struct Swatch {
 HeatMapLayout paintedMapLayout(int pictureWidth, int pictureHeight, std::span<const Swatch> swatches,
                                int titleLines = 1);
 
-/// A title in lines of so many characters, broken between words where they have room; two at most, and what is left
-/// over is replaced by dots.
-std::vector<std::string> titleLines(const std::string& title, std::size_t most);
+/// A title in lines of a width, in pixels at scale 1, broken between words where they have room; two at most, and what
+/// is left over is replaced by an ellipsis.
+std::vector<std::string> titleLines(const std::string& title, int room);
 
 /// Whether the map of an error is black in every pixel that it compares.
 bool showsNoError(const RadianceFigures& figures);

@@ -99,10 +99,10 @@ TEST(HeatMap, theLegendsWordsAreNotCutOffAndItsLabelsStandApart) {
         // The labels are all between ticks and swatches; a gap of a letter's width is between two of them.
         const int unit = layout.textScale, tickRows = unit * (3 + 1);
         const std::vector<bool> ink =
-            inkBelow(errorHeatMap(picture, picture, "t"), bottom + tickRows, bottom + tickRows + unit * kGlyphHeight);
-        int labels = 0, gap = unit * kGlyphAdvance;
+            inkBelow(errorHeatMap(picture, picture, "t"), bottom + tickRows, bottom + tickRows + unit * kLineHeight);
+        int labels = 0, gap = unit * 6;
         for (const bool hasInk : ink) {
-            if (hasInk && gap >= unit * kGlyphAdvance) ++labels;
+            if (hasInk && gap >= unit * 6) ++labels;
             gap = hasInk ? 0 : gap + 1;
         }
         EXPECT_EQ(labels, 8);
@@ -129,18 +129,21 @@ TEST(HeatMap, aTitleOfAnyLengthNeverLeavesTheImage) {
 
 TEST(HeatMap, aTitleIsBrokenBetweenWordsAndCutOnlyAfterTheSecondLine) {
     using testing::ElementsAre;
+    const auto linesIn = [](const char* title, const char* room) { return titleLines(title, textWidth(room)); };
     EXPECT_THAT(titleLines("", 9), ElementsAre());
-    EXPECT_THAT(titleLines("a vs forward", 12), ElementsAre("a vs forward"));
-    EXPECT_THAT(titleLines("deferred vs forward", 12), ElementsAre("deferred vs", "forward"));
-    EXPECT_THAT(titleLines("clustered_deferred", 12), ElementsAre("clustered_de", "ferred"));
-    EXPECT_THAT(titleLines("one two three four", 8), ElementsAre("one two", "three .."));
+    EXPECT_THAT(linesIn("a vs forward", "a vs forward"), ElementsAre("a vs forward"));
+    EXPECT_THAT(linesIn("deferred vs forward", "deferred vs for"), ElementsAre("deferred vs", "forward"));
+    EXPECT_THAT(linesIn("clustered_deferred", "clustered_de"), ElementsAre("clustered_de", "ferred"));
+    EXPECT_THAT(linesIn("one two three four", "three fo"), ElementsAre("one two", "three …"));
+    EXPECT_THAT(linesIn("öäüß", "öä"), ElementsAre("öä", "üß"));
+    EXPECT_THAT(titleLines("WW", 1), ElementsAre("W", "…")) << "each line has a letter";
     const Picture picture = greyPicture(2, 2, 1.f);
     const DisplayImage one = errorHeatMap(picture, picture, "short"),
                        two = errorHeatMap(picture, picture,
                                           "clustered_deferred, cluster 16, packed, range 0.004 vs "
                                           "the reference of a scene with a long name");
     EXPECT_EQ(two.width, one.width);
-    EXPECT_EQ(two.height, one.height + heatMapLayout(2, 2).textScale * kGlyphHeight);
+    EXPECT_EQ(two.height, one.height + heatMapLayout(2, 2).textScale * kLineHeight);
 }
 
 TEST(HeatMap, theLettersGrowWithTheImageThatIsShownSmaller) {
@@ -152,7 +155,7 @@ TEST(HeatMap, theLettersGrowWithTheImageThatIsShownSmaller) {
 }
 
 TEST(HeatMap, aPaintedPictureIsFramedNoWiderAndNoHigherThanItsSwatchesNeed) {
-    const std::vector<Swatch> swatches(6, {{1, 200, 3}, std::string(21, 'W')});
+    const std::vector<Swatch> swatches(6, {{1, 200, 3}, std::string(21, 'n')});
     for (const auto& [width, height] : {std::pair{320, 180}, {960, 540}, {1, 700}, {64, 36}}) {
         SCOPED_TRACE(width);
         const DisplayImage painted{width, height, std::vector<std::uint8_t>(std::size_t(3 * width * height), 7)};
@@ -176,21 +179,27 @@ TEST(HeatMap, aPaintedPictureIsFramedNoWiderAndNoHigherThanItsSwatchesNeed) {
     EXPECT_LT(paintedMapLayout(960, 540, {}).height, paintedMapLayout(960, 540, {{swatches[0]}}).height);
 }
 
-TEST(BitmapFont, textIsDrawnInItsCellsAndCutOffAtTheEdge) {
-    DisplayImage image{8, 10, std::vector<std::uint8_t>(240, 0)};
-    drawText(image, 1, 0, "-", {9, 9, 9});
-    std::vector<int> lit;
-    for (int i = 0; i < 80; ++i)
-        if (at(image, i % 8, i / 8) == Rgb8{9, 9, 9}) lit.push_back(i);
-    EXPECT_THAT(lit, testing::ElementsAre(3 * 8 + 2, 3 * 8 + 3, 3 * 8 + 4));
-    EXPECT_EQ(textWidth("ab", 2), 22);
+TEST(Lettering, lettersHaveTheirShapesAndWidthsAndAreCutOffAtTheEdge) {
+    const auto drawn = [](std::string_view text, int scale, int x = 0, int y = 0) {
+        DisplayImage image{64, 32, std::vector<std::uint8_t>(3 * 64 * 32, 0)};
+        drawText(image, x, y, text, {255, 255, 255}, scale);
+        return image;
+    };
+    const auto ink = [](const DisplayImage& image) {
+        double sum = 0.0;
+        for (const std::uint8_t value : image.rgb) sum += double(value) / 255.0 / 3.0;
+        return sum;
+    };
+    // A hyphen of DejaVu Sans is 510 by 166 of 2048 units; a line of 2384 is 27 pixels.
+    const double pixelsPerUnit = 27.0 / 2384.0;
+    EXPECT_NEAR(ink(drawn("-", 3)), 510 * 166 * pixelsPerUnit * pixelsPerUnit, 0.5);
+    EXPECT_EQ(textWidth("--", 3), int(std::ceil(2 * 739 * pixelsPerUnit))) << "each is 739 units wide";
     EXPECT_EQ(textWidth(""), 0);
-    drawText(image, -3, -3, "WWWW", {1, 1, 1}, 3);
-    EXPECT_TRUE(image.isConsistent());
-    DisplayImage unknown{8, 10, std::vector<std::uint8_t>(240, 0)}, question = unknown;
-    drawText(unknown, 0, 0, "\x7f", {9, 9, 9});
-    drawText(question, 0, 0, "?", {9, 9, 9});
-    EXPECT_EQ(unknown.rgb, question.rgb);
+    EXPECT_NEAR(ink(drawn("-", 3, 30, 5)), ink(drawn("-", 3)), 1e-9);
+    EXPECT_LT(ink(drawn("W", 3, -9, -9)), ink(drawn("W", 3)));
+    EXPECT_EQ(drawn("\x7f", 2).rgb, drawn("?", 2).rgb) << "what the font lacks";
+    EXPECT_EQ(drawn("\xff", 2).rgb, drawn("?", 2).rgb) << "what is no UTF-8";
+    EXPECT_NE(drawn("ö", 2).rgb, drawn("?", 2).rgb);
 }
 
 TEST(HeatMap, aFlipMapShowsThePixelsErrorOnAScaleFromNothingToOne) {

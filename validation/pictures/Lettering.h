@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -12,15 +11,16 @@ struct Rgb8 {
     bool operator==(const Rgb8&) const = default;
 };
 
-constexpr int kGlyphWidth = 5;
-constexpr int kGlyphHeight = 9;  ///< two of them below the base line
-constexpr int kGlyphAdvance = 6; ///< from one character to the next
+/// The TrueType file of the letters, in pictures and in the viewer: DejaVu Sans, which the program carries.
+std::string_view fontFile();
 
-/// Width in pixels of a line of text at a whole-number scale.
+constexpr int kLineHeight = 9; ///< from one line of text to the next, in pixels at scale 1
+
+/// Width in pixels of a line of UTF-8 text at a scale, rounded up.
 int textWidth(std::string_view text, int scale = 1);
 
-/// Draws a line of ASCII text with its upper left corner at x, y; what falls outside the image is cut off. A character
-/// the font lacks is drawn as '?'.
+/// Draws a line of UTF-8 text with its upper left corner at x, y; what falls outside the image is cut off. What the
+/// font lacks is drawn as '?'.
 void drawText(DisplayImage& image, int x, int y, std::string_view text, Rgb8 colour, int scale = 1);
 
 void fillRectangle(DisplayImage& image, int x, int y, int width, int height, Rgb8 colour);
