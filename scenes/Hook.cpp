@@ -169,6 +169,8 @@ HookFunctions hookFunctions(std::string_view text) {
 }
 
 std::optional<HookFault> hookFault(std::string_view text) {
+    if (text.size() > kMostHookBytes)
+        return HookFault{1, fmt::format("it has {} bytes; a hook has at most {}", text.size(), kMostHookBytes)};
     std::optional<std::size_t> openComment;
     const std::string code = withoutComments(text, &openComment);
     std::vector<std::size_t> conditionals; // lines of those that are open

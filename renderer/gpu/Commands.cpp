@@ -156,16 +156,6 @@ void blitToWindow(const Framebuffer& from, const Rectangle& source, const Rectan
                            smooth ? GL_LINEAR : GL_NEAREST);
 }
 
-void fillBuffer(const Buffer& buffer, std::uint32_t value) {
-    assert(buffer.bytes() % sizeof(value) == 0);
-    glClearNamedBufferData(buffer.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
-}
-
-void copyBuffer(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t fromOffset, std::size_t toOffset) {
-    assert(fromOffset + bytes <= from.bytes() && toOffset + bytes <= to.bytes());
-    glCopyNamedBufferSubData(from.id(), to.id(), GLintptr(fromOffset), GLintptr(toOffset), GLsizeiptr(bytes));
-}
-
 void setState(const PipelineState& state) {
     setEnabled(GL_DEPTH_TEST, state.depthTest != DepthTest::Off);
     glDepthFunc(depthFunction(state.depthTest));

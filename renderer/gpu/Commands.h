@@ -47,9 +47,6 @@ void blit(const Framebuffer& from, const Framebuffer& to, bool color, bool depth
 /// Copies a part of colour attachment 0 to the bound window's framebuffer, stretched to `target`; where the sizes are
 /// equal every texel is copied as it is. The scissor holds.
 void blitToWindow(const Framebuffer& from, const Rectangle& source, const Rectangle& target, bool smooth);
-void fillBuffer(const Buffer& buffer, std::uint32_t value);
-void copyBuffer(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t fromOffset = 0,
-                std::size_t toOffset = 0);
 
 // ---- State and bindings --------------------------------------------------------------------------------------------
 

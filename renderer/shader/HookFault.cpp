@@ -31,6 +31,10 @@ constexpr const char* kNamesRemedy = "a hook may use GLSL without textures and d
                                      "docs/hooks.md lists, and names that it declares "
                                      "itself; other names of the program are hidden";
 
+bool isInName(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
 /// Without warnings, most of which are about the program's own files. The hook's own names are as its file has them.
 std::string errorsOf(std::string_view log) {
     std::string errors;
@@ -38,12 +42,11 @@ std::string errorsOf(std::string_view log) {
     for (std::string line; std::getline(lines, line);)
         if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
     for (std::size_t at = errors.find(kHookPrefix); at != std::string::npos; at = errors.find(kHookPrefix, at))
-        errors.erase(at, kHookPrefix.size());
+        if (at == 0 || !isInName(errors[at - 1])) // the end of a file's name too has these letters
+            errors.erase(at, kHookPrefix.size());
+        else
+            ++at;
     return errors;
-}
-
-bool isInName(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 /// Where a name stands in a line by itself, from a place on; npos: nowhere.

@@ -35,11 +35,4 @@ std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDes
     return stages;
 }
 
-std::vector<gpu::StageSource> programSources(const SourceTree& tree, const ProgramDesc& desc) {
-    std::vector<gpu::StageSource> sources;
-    for (ExpandedStage& stage : expandStages(tree, desc))
-        sources.push_back({stage.stage, std::move(stage.source.text)});
-    return sources;
-}
-
 } // namespace tessera::shader

@@ -22,6 +22,5 @@ struct ExpandedStage {
 /// The stages of a variant as the driver gets them; needs no GL, so sources can be checked offline. Throws InputError
 /// as expand() does, and when the description has neither a vertex nor a compute stage, or mixes compute with others.
 std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc);
-std::vector<gpu::StageSource> programSources(const SourceTree& tree, const ProgramDesc& desc);
 
 } // namespace tessera::shader

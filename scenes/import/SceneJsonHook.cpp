@@ -64,9 +64,6 @@ std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
 void readFile(const std::filesystem::path& file, LoadLedger& ledger, Hook& hook) {
     const std::uint64_t mark = ledger.usedBytes();
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
-    if (bytes.size() > kMostHookBytes)
-        throw InputError(fmt::format("{}: has {} bytes, and a hook has at most {}; give a shorter one", file.string(),
-                                     bytes.size(), kMostHookBytes));
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     requireHook(file.string(), text);
     const HookFunctions functions = hookFunctions(text);

@@ -30,6 +30,7 @@ VIEWS = {
     "head": "head",
     "spread_light": "diffusion_truth",
     "lamps": "lamps",
+    "lamps_sampled": "lamps areaLights=sampled",
     "glass": "glass",
     "studio_sampled": "studio environmentLight=sampled",
 }

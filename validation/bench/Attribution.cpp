@@ -132,7 +132,7 @@ constexpr Part kParts[] = {
 };
 
 /// The difference of a picture from the truth of what it shows, by pixel and channel.
-using Difference = std::vector<double>;
+using Difference = std::vector<float>;
 
 Difference operator-(Difference a, const Difference& b) {
     for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
@@ -142,7 +142,7 @@ Difference operator-(Difference a, const Difference& b) {
 Difference differenceOf(const Picture& shown, const Picture& right) {
     Difference result;
     for (std::size_t i = 0; i < shown.rgba.size(); ++i)
-        result.push_back(i % 4 == 3 ? 0.0 : double(shown.rgba[i]) - double(right.rgba[i])); // not the coverage
+        result.push_back(i % 4 == 3 ? 0.0f : shown.rgba[i] - right.rgba[i]); // not the coverage
     return result;
 }
 
@@ -170,7 +170,7 @@ private:
     /// Error figures of the truth plus a difference.
     RadianceFigures figuresOf(const Difference& difference) const {
         Picture off = truth_.picture();
-        for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] = float(double(off.rgba[i]) + difference[i]);
+        for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] += difference[i];
         return radianceFigures(off, truth_.picture(), truth_.excluded());
     }
     void addPart(const char* cause, const std::string& what, const Difference& difference) {
@@ -258,7 +258,7 @@ private:
         const Difference arithmetic = differenceOn(*base, base->ground.settings);
         // Against itself forward has no error. A difference of 0 in all pixels means that no light is left to measure
         // by.
-        const bool isMeasured = std::ranges::any_of(arithmetic, [](double value) { return value != 0.0; });
+        const bool isMeasured = std::ranges::any_of(arithmetic, [](float value) { return value != 0.0f; });
         if (truthName_ == "reference" && isMeasured) addPart("arithmetic", kArithmetic, arithmetic);
         for (const Part* own : in_) {
             const auto isBefore = [&](const Part& other) { return !own->addsLight && &other < own; };
@@ -378,7 +378,7 @@ private:
             const Picture shown = truth_.pictureOf(point.technique, point.settings);
             add(lineOf(kWholeCause, pointName(point.key), truthName_,
                        radianceFigures(shown, truth_.pictureFor(shown), truth_.excluded())));
-            Difference sum(shown.rgba.size(), 0.0);
+            Difference sum(shown.rgba.size(), 0.0f);
             double relMse = 0.0;
             for (const AttributionLine& line : lines_) {
                 const auto known = differences_.find(line.what);

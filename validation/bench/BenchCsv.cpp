@@ -52,31 +52,12 @@ Column counterColumn(const char* name, std::uint64_t BenchCounters::*figure) {
             }};
 }
 
-Column shadowColumn(const ShadowSetting& row) {
-    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
-                const std::string* const text = result.key.shadow ? result.key.shadow->text(row.key) : nullptr;
-                return text ? *text : "";
-            }};
-}
-
-Column subsurfaceColumn(const SubsurfaceSetting& row) {
-    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
-                const std::string* const text = result.key.subsurface ? result.key.subsurface->text(row.key) : nullptr;
-                return text ? *text : "";
-            }};
-}
-
-Column environmentColumn(const EnvironmentSetting& row) {
-    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
-                const std::string* const text =
-                    result.key.environment ? result.key.environment->text(row.key) : nullptr;
-                return text ? *text : "";
-            }};
-}
-
-Column areaColumn(const AreaSetting& row) {
-    return {row.key, [&row](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
-                const std::string* const text = result.key.area ? result.key.area->text(row.key) : nullptr;
+/// A setting of one of a key's methods.
+template <typename Method>
+Column methodColumn(std::string_view name, std::optional<Method> PointKey::*method) {
+    return {name, [name, method](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::optional<Method>& own = result.key.*method;
+                const std::string* const text = own ? own->text(name) : nullptr;
                 return text ? *text : "";
             }};
 }
@@ -130,13 +111,15 @@ std::vector<Column> makeColumns() {
         counterColumn("draws", &BenchCounters::draws),
     };
     for (const ShadowSetting& row : shadowSettingTable())
-        table.insert(std::ranges::find(table, kSubsurfaceKey, &Column::name), shadowColumn(row));
+        table.insert(std::ranges::find(table, kSubsurfaceKey, &Column::name), methodColumn(row.key, &PointKey::shadow));
     for (const SubsurfaceSetting& row : subsurfaceSettingTable())
-        table.insert(std::ranges::find(table, kEnvironmentKey, &Column::name), subsurfaceColumn(row));
+        table.insert(std::ranges::find(table, kEnvironmentKey, &Column::name),
+                     methodColumn(row.key, &PointKey::subsurface));
     for (const EnvironmentSetting& row : environmentSettingTable())
-        table.insert(std::ranges::find(table, kAreaKey, &Column::name), environmentColumn(row));
+        table.insert(std::ranges::find(table, kAreaKey, &Column::name), methodColumn(row.key, &PointKey::environment));
     for (const AreaSetting& row : areaSettingTable())
-        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), areaColumn(row));
+        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name),
+                     methodColumn(row.key, &PointKey::area));
     return table;
 }
 

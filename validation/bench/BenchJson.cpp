@@ -124,64 +124,20 @@ void addValues(Json& json, const std::optional<Key>& key, std::span<const Settin
     }
 }
 
-std::optional<ShadowKey> shadowFrom(const Json& json) {
-    const Json& filter = json.at(std::string(kShadowFilterKey));
-    if (filter.is_null()) return {};
-    return ShadowKey{filter.get<std::string>(), valuesFrom(json, shadowSettingTable())};
+template <typename Method, typename Table>
+std::optional<Method> methodFrom(const Json& json, std::string_view key, const Table& table) {
+    const Json& name = json.at(std::string(key));
+    if (name.is_null()) return {};
+    return Method{name.get<std::string>(), valuesFrom(json, table)};
 }
 
-/// Why fields of shadows are null.
-void explainShadows(const PointKey& key, std::map<std::string, std::string>& why) {
-    if (!key.shadow) why[std::string(kShadowFilterKey)] = "there are no shadows";
-    for (const ShadowSetting& row : shadowSettingTable()) {
-        if (!key.shadow || key.shadow->filter == kNoShadows)
-            why[std::string(row.key)] = "there are no shadows";
-        else if (!key.shadow->text(row.key))
-            why[std::string(row.key)] = row.absent;
-    }
-}
-
-std::optional<SubsurfaceKey> subsurfaceFrom(const Json& json) {
-    const Json& method = json.at(std::string(kSubsurfaceKey));
-    if (method.is_null()) return {};
-    return SubsurfaceKey{method.get<std::string>(), valuesFrom(json, subsurfaceSettingTable())};
-}
-
-/// Why fields of subsurfaces are null.
-void explainSubsurface(const PointKey& key, std::map<std::string, std::string>& why) {
-    if (!key.subsurface) why[std::string(kSubsurfaceKey)] = "no material has a subsurface";
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
-        if (!key.subsurface || !key.subsurface->text(row.key)) why[std::string(row.key)] = "no light spreads";
-}
-
-std::optional<EnvironmentKey> environmentFrom(const Json& json) {
-    const Json& light = json.at(std::string(kEnvironmentKey));
-    if (light.is_null()) return {};
-    return EnvironmentKey{light.get<std::string>(), valuesFrom(json, environmentSettingTable())};
-}
-
-/// Why fields of the environment's light are null.
-void explainEnvironment(const PointKey& key, std::map<std::string, std::string>& why) {
-    constexpr const char* kNone = "no environment shines";
-    if (!key.environment) why[std::string(kEnvironmentKey)] = kNone;
-    for (const EnvironmentSetting& row : environmentSettingTable())
-        if (!key.environment || !key.environment->text(row.key))
-            why[std::string(row.key)] = key.environment ? std::string(row.absent) : kNone;
-}
-
-std::optional<AreaKey> areaFrom(const Json& json) {
-    const Json& method = json.at(std::string(kAreaKey));
-    if (method.is_null()) return {};
-    return AreaKey{method.get<std::string>(), valuesFrom(json, areaSettingTable())};
-}
-
-/// Why fields of area lights are null.
-void explainArea(const PointKey& key, std::map<std::string, std::string>& why) {
-    constexpr const char* kNone = "no area light shines";
-    if (!key.area) why[std::string(kAreaKey)] = kNone;
-    for (const AreaSetting& row : areaSettingTable())
-        if (!key.area || !key.area->text(row.key))
-            why[std::string(row.key)] = key.area ? "the light of area lights is not sampled" : kNone;
+/// Why the fields of a method are null: `none` where a point has none, and else absent(row).
+template <typename Method, typename Table, typename Absent>
+void explainMethod(const std::optional<Method>& own, std::string_view key, const Table& table, const char* none,
+                   const Absent& absent, std::map<std::string, std::string>& why) {
+    if (!own) why[std::string(key)] = none;
+    for (const auto& row : table)
+        if (!own || !own->text(row.key)) why[std::string(row.key)] = own ? std::string(absent(row)) : none;
 }
 
 BenchResult resultFrom(const Json& json) {
@@ -192,10 +148,10 @@ BenchResult resultFrom(const Json& json) {
     read(json, "layout", result.key.layout);
     read(json, "lightOn", result.key.lightOn);
     read(json, "range", result.key.rangeTolerance);
-    result.key.shadow = shadowFrom(json);
-    result.key.subsurface = subsurfaceFrom(json);
-    result.key.environment = environmentFrom(json);
-    result.key.area = areaFrom(json);
+    result.key.shadow = methodFrom<ShadowKey>(json, kShadowFilterKey, shadowSettingTable());
+    result.key.subsurface = methodFrom<SubsurfaceKey>(json, kSubsurfaceKey, subsurfaceSettingTable());
+    result.key.environment = methodFrom<EnvironmentKey>(json, kEnvironmentKey, environmentSettingTable());
+    result.key.area = methodFrom<AreaKey>(json, kAreaKey, areaSettingTable());
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -267,10 +223,20 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
     if (!result.key.lightOn) why["lightOn"] = "the technique lights in fragment shaders only";
-    explainShadows(result.key, why);
-    explainSubsurface(result.key, why);
-    explainEnvironment(result.key, why);
-    explainArea(result.key, why);
+    const PointKey& key = result.key;
+    const bool isUnshadowed = key.shadow && key.shadow->filter == kNoShadows;
+    explainMethod(
+        key.shadow, kShadowFilterKey, shadowSettingTable(), "there are no shadows",
+        [&](const ShadowSetting& row) { return isUnshadowed ? "there are no shadows" : row.absent; }, why);
+    explainMethod(
+        key.subsurface, kSubsurfaceKey, subsurfaceSettingTable(), "no material has a subsurface",
+        [](const SubsurfaceSetting&) { return "no light spreads"; }, why);
+    explainMethod(
+        key.environment, kEnvironmentKey, environmentSettingTable(), "no environment shines",
+        [](const EnvironmentSetting& row) { return row.absent; }, why);
+    explainMethod(
+        key.area, kAreaKey, areaSettingTable(), "no area light shines",
+        [](const AreaSetting&) { return "the light of area lights is not sampled"; }, why);
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     Json json = {{"scene", group.scene},

@@ -214,10 +214,16 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
         if (points > double(kMostMatrixPoints)) continue; // reads no more, and counts on
         for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
-    if (points > double(kMostMatrixPoints))
-        throw InputError(fmt::format("{}: asks for {:.3g} points, the product of its lists' lengths; at most {} can be "
+    if (matrix.techniques.empty()) points *= double(engine::techniqueTable().size());
+    double variants = 1.0;
+    for (const BenchMatrix::SettingValues& values : matrix.settings) variants *= double(values.texts.size());
+    const bool asksForPoints = points > double(kMostMatrixPoints);
+    if (asksForPoints || variants > double(kMostMatrixVariants))
+        throw InputError(fmt::format("{}: asks for {:.3g} {}, the product of its lists' lengths; at most {} can be "
                                      "measured: shorten the lists, or divide them over several runs",
-                                     source, points, kMostMatrixPoints));
+                                     source, asksForPoints ? points : variants,
+                                     asksForPoints ? "points" : "combinations of settings",
+                                     asksForPoints ? kMostMatrixPoints : kMostMatrixVariants));
     return matrix;
 }
 

@@ -30,15 +30,17 @@ struct BenchMatrix {
     std::vector<SettingValues> settings; ///< of each key that varies; not empty
 };
 
-/// Points that a matrix may ask for at most: more would take weeks, and memory without a bound.
-inline constexpr std::size_t kMostMatrixPoints = 1'000'000;
+/// Points that a matrix may ask for at most in a scene: more would take weeks, and memory without a bound.
+inline constexpr std::size_t kMostMatrixPoints = 100'000;
+/// Combinations of values of settings among them, which are compared with each other.
+inline constexpr std::size_t kMostMatrixVariants = 1'000;
 
 /// "technique, culling, ...": all keys.
 std::string matrixKeys();
 
 /// Reads the matrix of a JSON object of arrays with these keys. `source` names it in messages. Throws InputError that
 /// names the line and column of broken syntax, a key that is given twice, or the key or value and the nearest valid
-/// ones, or the number of points where it is more than kMostMatrixPoints. The ledger is charged for it.
+/// ones, or the number of points or variants where it is too large. The ledger is charged for it.
 BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

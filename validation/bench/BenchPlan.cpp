@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -41,10 +44,15 @@ bool rangesMatter(const scenes::Scene& scene) {
 }
 
 void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
-    const bool isKnown = std::any_of(plan.skipped.begin(), plan.skipped.end(), [&](const SkippedPoint& skipped) {
-        return skipped.what == what && skipped.why == why;
-    });
-    if (!isKnown) plan.skipped.push_back({what, why});
+    plan.skipped.push_back({what, why});
+}
+
+void tellEachOnce(std::vector<SkippedPoint>& skipped) {
+    std::set<std::pair<std::string_view, std::string_view>> known;
+    std::vector<SkippedPoint> once;
+    for (const SkippedPoint& point : skipped)
+        if (known.emplace(point.what, point.why).second) once.push_back(point);
+    skipped = std::move(once);
 }
 
 /// What the points of a group have in common with every technique: a range tolerance, how shadows are found, what
@@ -241,9 +249,8 @@ private:
                      {}};
         if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
-        const bool isKnown = std::any_of(group_.points.begin(), group_.points.end(),
-                                         [&](const BenchPoint& other) { return other.key == point.key; });
-        if (!isKnown) return group_.points.push_back(std::move(point));
+        if (known_.emplace(pointName(point.key), point.key.rangeTolerance).second) // names round ranges
+            return group_.points.push_back(std::move(point));
         std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);
         if (variant.range && *variant.range > 0.0) what += fmt::format(", range {:g}", *variant.range);
@@ -257,6 +264,7 @@ private:
     std::span<const Variant> variants_;
     Technique technique_;
     const engine::TechniqueInfo& info_;
+    std::set<std::pair<std::string, double>> known_;
 };
 
 double workOf(const PlannedGroup& group) {
@@ -313,6 +321,7 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
             if (!group.points.empty()) plan.groups.push_back(std::move(group));
         }
     }
+    tellEachOnce(plan.skipped);
     choosePictures(plan, sceneName);
 }
 

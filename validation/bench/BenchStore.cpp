@@ -40,12 +40,12 @@ Json identityJson(const RunIdentity& identity, const BenchPlan& plan) {
             {"command", identity.command}, {"groups", planJson(plan)},    {"skipped", skipped}};
 }
 
-/// Shards are measured to be merged: none may take the place of another of its run.
+/// Shards are measured to be merged: no other run may take the place of one.
 void requireNoOtherShard(const std::string& folder, const Json& run) {
     if (!fs::exists(runFile(folder))) return;
     const Json kept = runIn(folder);
     const Json shard = run.at("shard"), other = kept.at("shard");
-    if (other.at(1) == shard.at(1) && other.at(0) != shard.at(0))
+    if (other.at(1) != 1 && other != shard)
         throw InputError(
             fmt::format("{} holds shard {}, which shard {} would replace; name another folder, or remove {}", folder,
                         shardText(kept), shardText(run), partsOf(folder).string()));

@@ -210,13 +210,19 @@ Picture ReferencePicture::weighted(Picture truth, const Picture& shown) const {
 
 namespace {
 
+/// Whether a light that shines is one: is(its place).
+template <typename Is>
+bool anyShining(const scenes::Scene& scene, const frame::FrameSettings& settings, const Is& is) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (scene.lights[i].enabled && (!settings.soloLight || *settings.soloLight == int(i)) && is(i)) return true;
+    return false;
+}
+
 /// Whether lights cast shadows, all or those with a size.
 bool hasShadows(const scenes::Scene& scene, const frame::FrameSettings& settings, bool ofSize) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        if (scene.lights[i].enabled && (!ofSize || scenes::hasSize(scene.lights[i])) &&
-            scenes::castsShadow(scene, i, settings.shadows) && (!settings.soloLight || *settings.soloLight == int(i)))
-            return scenes::hasCasters(scene);
-    return false;
+    return scenes::hasCasters(scene) && anyShining(scene, settings, [&](std::size_t i) {
+               return (!ofSize || scenes::hasSize(scene.lights[i])) && scenes::castsShadow(scene, i, settings.shadows);
+           });
 }
 
 } // namespace
@@ -239,8 +245,8 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
                                  "held to nothing";
         return tolerance;
     }
-    const auto isArea = [](const scenes::Light& light) { return scenes::infoOf(light.type).isArea; };
-    if (std::ranges::any_of(scene.lights, isArea)) {
+    const auto isArea = [&](std::size_t i) { return scenes::infoOf(scene.lights[i].type).isArea; };
+    if (anyShining(scene, settings, isArea)) {
         tolerance.reason = infoOf(settings.area.lights).takesSamples
                                ? "samples of area lights have noise: the error is reported, and held to nothing"
                                : "transformed cosines approximate lobes under area lights: their error is reported, "

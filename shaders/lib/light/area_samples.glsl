@@ -315,9 +315,6 @@ vec3 worthOf(SeenPlace place, AreaSource source, SeenSurface seen)
     return light;
 }
 
-// Nothing about a surface is the same for all lights.
-void prepareAreaLobes(SeenSurface seen) {}
-
 // Radiance towards the viewer that a surface reflects of area light `index`; nothing is taken from its middle here, where
 // `toLightLS` points and `smallIrradiance` comes from.
 vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoint, vec3 toLightLS, vec3 smallIrradiance)

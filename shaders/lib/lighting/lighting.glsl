@@ -43,7 +43,7 @@ bool takesLight(Surface surface)
 // To be called with a surface before lights are added on it.
 void prepareForLights(SeenSurface seen)
 {
-#if HAS_AREA_LIGHTS
+#if HAS_AREA_LIGHTS && AREA_SAMPLES == 0
     prepareAreaLobes(seen);
 #endif
 }

@@ -48,16 +48,8 @@ TEST_F(BufferTest, aNewBufferIsZeroAndNeverEmpty) {
     EXPECT_THAT(empty.downloadAs<std::uint32_t>(4), Each(0u));
     // Used memory is what a driver may hand out again as it is; llvmpipe zeroes it by itself, others do not.
     const auto make = [](int i) { return Buffer("small " + std::to_string(i), 256); };
-    for (int i = 0; i < 64; ++i) fillBuffer(make(i), 0xffffffffu);
+    for (int i = 0; i < 64; ++i) make(i).upload(std::vector<std::uint32_t>(64, 0xffffffffu));
     for (int i = 0; i < 64; ++i) EXPECT_THAT(make(i).downloadAs<std::uint32_t>(64), Each(0u));
-}
-
-TEST_F(BufferTest, fillAndCopyReachTheBytesTheyName) {
-    const Buffer from = Buffer::of("from", std::vector<std::uint32_t>{1, 2, 3, 4});
-    const Buffer to("to", 16);
-    fillBuffer(to, 7);
-    copyBuffer(from, to, 8, 4, 8);
-    EXPECT_THAT(to.downloadAs<std::uint32_t>(4), ElementsAre(7, 7, 2, 3));
 }
 
 TEST_F(BufferTest, aMovedBufferIsTheSameOne) {

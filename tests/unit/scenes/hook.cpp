@@ -194,6 +194,7 @@ TEST(Hook, whatDriversBreakOnIsRefusedAtOnceWithItsLine) {
         {bodied("F(" + repeated(199, ",") + ")", "#define F(a0" + chained(1, 299, ", a{0}") + ")\n"), 1,
          "more than 255 parameters"},
         {bodied(repeated(20'000, "F()\n"), "#define F(a)" + repeated(20'000, " a") + "\n"), 54, "more than 1000000"},
+        {bodied("") + repeated(std::size_t(1) << 20, "\n"), 1, "a hook has at most 1048576"},
         {bodied("H if 0", "#define H #\n"), 1, "a # stands first in its line"},
         {bodied("E # if 0\nE # endif", "#define E\n"), 5, "a # stands first in its line"},
     };

@@ -62,6 +62,15 @@ TEST_F(HookFault, aFieldThatIsNotThereIsAnsweredByThoseThatAre) {
     EXPECT_THAT(said(file + ":8: error: `twice' undeclared"), Not(HasSubstr("HookedSurface has")));
 }
 
+TEST_F(HookFault, namesOfTheHookAreAsItsFileHasThemAndTheFilesIsItsOwn) {
+    const std::string file = folder.write("waterproofHook.glsl", "void hookSurface() { glow; }\n").string();
+    const ProgramDesc named{"lit", "a.vert", "a.frag", "", {{"HOOK_FILE", file}}};
+    const std::string log = file + ":1: error: `ofHookglow' undeclared";
+    EXPECT_TRUE(namesHook(named, log));
+    EXPECT_THAT(hookFaultText(SourceTree::embedded(), named, log),
+                StartsWith(file + ": the driver refuses this hook: " + file + ":1: error: `glow' undeclared"));
+}
+
 TEST_F(HookFault, onlyErrorsWithinTheHookNameIt) {
     EXPECT_TRUE(namesHook(desc, "shaders/a.frag:3: warning: w\n" + file + ":1: error: e"));
     EXPECT_FALSE(namesHook(desc, "shaders/a.frag:3: error: e\n" + file + ":1: warning: w"));

@@ -31,11 +31,11 @@ TEST(ProgramDesc, everyStageGetsTheDefines) {
     folder.write("a.vert", "void main() {}\n");
     folder.write("a.frag", "void main() {}\n");
     const SourceTree tree(folder.path());
-    const auto sources = programSources(tree, {"p", "a.vert", "a.frag", "", {{"A", "1"}}});
-    ASSERT_EQ(sources.size(), 2u);
-    EXPECT_EQ(sources[0].stage, gpu::Stage::Vertex);
-    EXPECT_EQ(sources[1].stage, gpu::Stage::Fragment);
-    for (const gpu::StageSource& source : sources) EXPECT_THAT(source.source, testing::HasSubstr("#define A 1\n"));
+    const auto stages = expandStages(tree, {"p", "a.vert", "a.frag", "", {{"A", "1"}}});
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].stage, gpu::Stage::Vertex);
+    EXPECT_EQ(stages[1].stage, gpu::Stage::Fragment);
+    for (const ExpandedStage& stage : stages) EXPECT_THAT(stage.source.text, testing::HasSubstr("#define A 1\n"));
 }
 
 TEST(ProgramDesc, aSenselessSetOfStagesIsRefused) {

@@ -59,13 +59,19 @@ std::vector<std::string> reasonsOf(const BenchPlan& plan) {
 TEST(BenchMatrix, pointsAreCountedBeforeTheyArePlanned) {
     std::string hundred = "0";
     for (int i = 1; i < 100; ++i) hundred += "," + std::to_string(i);
-    const std::string three = R"({"range": [)" + hundred + R"(], "lights": [)" + hundred + R"(], "size": [)";
-    std::string sizes = "\"1x1\"";
-    for (int i = 2; i <= 100; ++i) sizes += fmt::format(", \"{}x1\"", i);
-    EXPECT_EQ(matrixOf(three + sizes + "]}").lights.size(), 100u);
-    EXPECT_EQ(refusal(three + sizes + R"(, "9x9"]})"),
-              "m.json: asks for 1.01e+06 points, the product of its lists' lengths; at most 1000000 can be measured: "
+    const std::string two = R"("range": [)" + hundred + R"(], "lights": [)" + hundred + "]";
+    const std::string sizes = R"(, "size": ["1x1", "2x1", "3x1", "4x1", "5x1", "6x1", "7x1", "8x1", "9x1", "10x1")";
+    const std::string one = R"({"technique": ["forward"], )";
+    EXPECT_EQ(matrixOf(one + two + sizes + "]}").lights.size(), 100u);
+    EXPECT_EQ(refusal(one + two + sizes + R"(, "9x9"]})"),
+              "m.json: asks for 1.1e+05 points, the product of its lists' lengths; at most 100000 can be measured: "
               "shorten the lists, or divide them over several runs");
+    EXPECT_THAT(refusal("{" + two + sizes + "]}"), testing::StartsWith("m.json: asks for 8e+05 points"))
+        << "of every technique";
+    const std::string counted = hundred.substr(hundred.find(',') + 1); // from 1
+    EXPECT_THAT(refusal(one + R"("shadowSamples": [)" + counted +
+                        R"(], "environmentSamples": [1, 4, 16, 64, 1, 4, 16, 64, 1, 4, 16]})"),
+                testing::StartsWith("m.json: asks for 1.09e+03 combinations of settings"));
 }
 
 TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {

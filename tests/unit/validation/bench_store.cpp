@@ -107,11 +107,15 @@ TEST_F(BenchStoring, aSceneWhoseNameIsNotUtf8IsKeptAndResumed) {
     EXPECT_EQ(recordIn(out).groups.at(0).scene, "caf\xef\xbf\xbd.gltf") << "U+FFFD stands for what is none";
 }
 
-TEST_F(BenchStoring, aShardDoesNotReplaceAnotherOfItsRun) {
+TEST_F(BenchStoring, noOtherRunReplacesAShard) {
     const std::string out = finishedShard("a", 1, 2, 2);
     EXPECT_THAT(
         benchRefusal([&] { BenchStore(out, madeUpIdentity(2, 2), madeUpPlan(2), EarlierRun::Keep); }),
         testing::AllOf(HasSubstr("holds shard 1/2, which shard 2/2 would replace"), HasSubstr("another folder")));
+    for (const auto& [shard, shards] : {std::pair(1, 1), {1, 3}, {2, 3}})
+        EXPECT_THAT(
+            benchRefusal([&] { BenchStore(out, madeUpIdentity(shard, shards), madeUpPlan(2), EarlierRun::Keep); }),
+            HasSubstr("holds shard 1/2"));
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(1, 2), madeUpPlan(2), EarlierRun::Keep));
 }
 
