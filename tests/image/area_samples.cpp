@@ -101,14 +101,14 @@ scenes::Material sampledMatte() {
 TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
     scenes::Scene scene = pointOf(sampledMatte(), 1.0);
     engine::Renderer renderer(context(), scene);
-    const auto expect = [&](const scenes::Light& light, double factor, const std::string& what,
-                            double rounding = 2e-5) {
+    const auto expect = [&](const scenes::Light& light, double factor, const std::string& what, double rounding = 2e-5,
+                            int samples = 16) {
         SCOPED_TRACE(what);
-        SampledMean shown = seen(scene, renderer, light);
+        SampledMean shown = seen(scene, renderer, light, samples);
         // Of far lights few samples of the cosine hit the light, each by a part of `factor`, and each of these hits
         // adds the same. Their number is a Poisson variable; pixels without any do not show its variance.
-        constexpr double kSamples = 256.0 * 16.0;
-        shown.standardError = std::max(shown.standardError, pi * factor * std::sqrt(factor / kSamples));
+        shown.standardError =
+            std::max(shown.standardError, pi * factor * std::sqrt(factor / (256.0 * double(samples))));
         expectWithinThree(shown, pi * factor, rounding);
         EXPECT_LE(shown.standardError, 0.02 * pi * factor);
     };
@@ -122,6 +122,10 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
                                y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
                               (2.0 * pi);
         expect(light, 4.0 * corner, fmt::format("rectangle at {}", height));
+        // Rows that go with columns find the diagonal of the light alone.
+        if (height == 0.5)
+            for (const int samples : {1, 4})
+                expect(light, 4.0 * corner, fmt::format("rectangle by {}", samples), 2e-5, samples);
     }
     // Standing on the surface, or let down by half its height (B-3, twice).
     for (const double down : {0.0, 1.0}) {
@@ -138,6 +142,8 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
         expect(areaLight(LightType::Sphere, distance * glm::dvec3(std::sin(1.0), 0.0, std::cos(1.0)), {0.0, 0.0, -1.0},
                          1.0f),
                0.09 / (distance * distance) * std::cos(1.0), fmt::format("sphere at {}", distance));
+    EXPECT_EQ(seen(scene, renderer, areaLight(LightType::Sphere, {0.0, 0.1, 0.2}, {0.0, 0.0, -1.0}, 1.0f)).mean, 0.0)
+        << "within a sphere";
     // An endless tube: r/h, as a strip of its width, to what is missing at its ends.
     scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
@@ -160,6 +166,24 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
         sum += std::asin(glm::length(normal)) * glm::normalize(normal).z;
     }
     expect(triangle, std::abs(sum) / (2.0 * pi), "triangle");
+}
+
+/// The noise of several lights is not that of one: what they add to a pixel varies apart.
+TEST_F(AreaSamples, ofSeveralLightsAreTakenApart) {
+    scenes::Scene scene = pointOf(sampledMatte(), 1.0);
+    scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, 0.5}, {0.0, 0.0, -1.0}, 1.0f);
+    light.isSeen = false;
+    const auto found = [&](std::size_t lights) {
+        scene.lights.assign(lights, light);
+        engine::Renderer renderer(context(), scene);
+        const std::vector<float> radiance = renderer.render(Technique::Deferred, sampledSettings(32, 1)).radiance;
+        std::vector<double> values;
+        for (std::size_t i = 0; i < radiance.size(); i += 4) values.push_back(double(radiance[i]));
+        return meanOf(values);
+    };
+    const SampledMean one = found(1), four = found(4);
+    EXPECT_NEAR(four.mean, 4.0 * one.mean, 3.0 * std::hypot(four.standardError, 4.0 * one.standardError));
+    EXPECT_NEAR(four.standardError / one.standardError, 2.0, 0.3); // 4, were they alike
 }
 
 /// Above a floor that is seen flat, behind it as the viewer sees it, so that its highlight shows.

@@ -1,7 +1,9 @@
 // Where a picture's error comes from: each cause alone, in scenes that switch causes on one by one.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -42,7 +44,8 @@ protected:
     /// Lines of one point of `technique` per environment method, judged by the reference.
     std::vector<AttributionLine> linesOf(const scenes::Scene& scene, frame::FrameSettings settings,
                                          Technique technique = Technique::Forward,
-                                         std::vector<frame::EnvironmentLight> methods = {}) {
+                                         std::vector<frame::EnvironmentLight> methods = {},
+                                         const std::function<void(frame::FrameSettings&)>& choose = {}) {
         settings.filter = frame::TextureFilter::Exact;
         if (methods.empty()) methods = {settings.environment.light};
         engine::Renderer renderer(context(), scene);
@@ -54,11 +57,12 @@ protected:
             point.technique = technique;
             point.settings = settings;
             point.settings.environment.light = method;
+            if (choose) choose(point.settings);
             point.key.technique = infoOf(technique).name;
-            point.key.layout = settings.layout == frame::exactLayout().layout ? "exact" : "packed";
-            point.key.rangeTolerance = settings.rangeTolerance;
+            point.key.layout = point.settings.layout == frame::exactLayout().layout ? "exact" : "packed";
+            point.key.rangeTolerance = point.settings.rangeTolerance;
             const frame::PackedLights lights = engine::prepareView(scene, technique, point.settings).lights;
-            if (lights.shadowed != 0) point.key.shadow = validation::shadowKeyOf(lights, settings);
+            if (lights.shadowed != 0) point.key.shadow = validation::shadowKeyOf(lights, point.settings);
             point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
             if (scene.environment) point.key.environment = validation::environmentKeyOf(point.settings);
         }
@@ -182,6 +186,29 @@ TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {
     }
     ASSERT_EQ(wholes.size(), methods.size());
     for (const auto& [name, whole] : wholes) EXPECT_NEAR(sums[name] + arithmetic, whole, 0.1 * whole) << name;
+}
+/// What a point chooses otherwise than the truth: where lights end, how shadows are found, how the G-buffer is stored.
+TEST_F(Attribution, choicesOfAPointSumToTheWhole) {
+    scenes::Scene scene = sceneOf({});
+    scene.lights[0].falloff = scenes::Falloff::Attenuation;
+    scene.lights[0].attenuation = {0.0f, 0.0f, 1.0f};
+    frame::FrameSettings settings;
+    settings.sizePixels = {24, 18};
+    std::set<std::string> expected{"arithmetic"};
+    int choices = 0;
+    const auto choose = [&](frame::FrameSettings& own) {
+        if (choices > 0) own.rangeTolerance = 0.5;
+        if (choices > 1) own.shadowFilter = frame::ShadowFilter::Pcf;
+        if (choices > 2)
+            own.layout = std::ranges::find(frame::layoutTable(), "packed", &frame::LayoutInfo::name)->layout;
+    };
+    for (const char* cause : {"range", "shadow", "layout"}) {
+        fmt::print("with {}\n", cause);
+        SCOPED_TRACE(cause);
+        ++choices;
+        expected.insert(cause);
+        EXPECT_EQ(expectSound(linesOf(scene, settings, Technique::TiledDeferred, {}, choose)), expected);
+    }
 }
 TEST_F(AttributionSlow, causesThatAreSwitchedOnOneByOneSumToTheWhole) {
     expectSwitched(std::array{Switch{"environment", &Switches::environment}, Switch{"area", &Switches::area},

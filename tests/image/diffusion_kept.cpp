@@ -181,6 +181,30 @@ TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnoth
         "another map", [] {}, false);
 }
 
+TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
+    scenes::Scene ball = sphereScene(0.03, 12);
+    scenes::Light& panel = ball.lights.emplace_back();
+    panel.type = scenes::LightType::Rectangle;
+    panel.positionWS = {0.0, 0.5, 1.0};
+    panel.directionWS = glm::normalize(glm::dvec3(0.0, -0.5, -1.0));
+    frame::FrameSettings settings;
+    settings.sizePixels = {80, 45};
+    settings.diffusion.sideTexels = 64;
+    settings.area = {frame::AreaLights::Sampled, 4};
+    engine::Renderer renderer(context(), ball);
+    const auto spreadsWith = [&](const frame::AreaSettings& area) {
+        settings.area = area;
+        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen);
+        return !passesThatSpread(renderer).empty();
+    };
+    EXPECT_TRUE(spreadsWith({frame::AreaLights::Sampled, 4}));
+    EXPECT_FALSE(spreadsWith({frame::AreaLights::Sampled, 4}));
+    EXPECT_TRUE(spreadsWith({frame::AreaLights::Sampled, 16}));
+    EXPECT_TRUE(spreadsWith({frame::AreaLights::Ltc, 16}));
+    EXPECT_FALSE(spreadsWith({frame::AreaLights::Ltc, 4})) << "which takes no samples";
+}
+
 /// Of light spread at half the resolution and in one Gaussian: both, either and neither, or both and neither in every
 /// other step.
 void KeptDiffusion::expectAllLitAlike() {

@@ -150,6 +150,10 @@ TEST_F(GlassBehindTruth, withAFarSideBehindTheWallShowsWhereTheRayMeetsTheWallIn
             }
         }
     EXPECT_GT(met, kBehindPixels * kBehindPixels / 3);
+    // So rough glass spreads what is met inside by its near side alone.
+    deep.perceptualRoughness = 0.4f;
+    const Scene rough = coveredByGlass(rampWall(), deep, 0.0);
+    EXPECT_EQ(drawn(rough, settings), drawn(rough, seeing(Refraction::OneSide)));
 }
 
 /// Bent once, or moved aside by a far side, seen through a lens, with a far plane and without.

@@ -1,4 +1,7 @@
 // Rough glass that transmits hardly anything, beside other surfaces: its tolerance is its alone.
+#include <algorithm>
+#include <string>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -64,6 +67,39 @@ TEST_F(ReferenceGlass, aFaultOfTheLightBesideGlassThatTransmitsNothingIsFound) {
         EXPECT_EQ(right.tolerance.p999Rel, 6e-3);
         EXPECT_EQ(right.tolerance.bias, 5e-4);
     }
+}
+
+/// What such glass reflects is held as that of any surface.
+TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
+    const test::ShaderMutant shaders;
+    const std::string light = "layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;";
+    shaders.replace(
+        "lib/lighting/lighting.glsl", light,
+        light + "\n#if HAS_PASSING_LIGHT\nreflected *= seen.surface.transmission > 0.5 ? 1.02 : 1.0;\n#endif\n");
+    for (const float ior : {6.0f, 1000.0f, 0.0f}) {
+        SCOPED_TRACE(ior);
+        scenes::Scene scene = floorWithBall(ior);
+        scene.materials[1].perceptualRoughness = 0.6f; // a broad highlight
+        engine::Renderer renderer(context(), scene), brighter(context(), scene, shaders.tree());
+        const validation::ComparePair right = compared(renderer), wrong = compared(brighter);
+        fmt::print("index {}: relMse {:.1e}, with a fault {:.1e}\n", ior, right.figures.relMse, wrong.figures.relMse);
+        EXPECT_TRUE(right.verdict.ok) << testing::PrintToString(right.verdict.missed);
+        EXPECT_FALSE(wrong.verdict.ok);
+    }
+}
+
+/// A strong tint reflects nearly all red and lets nearly all green and blue pass.
+TEST_F(ReferenceGlass, channelsThatPassAreHeldToWhatTheyPass) {
+    scenes::Scene scene = floorWithBall(1.5f);
+    scene.materials[1].specularColor = {24.0f, 1.0f, 1.0f};
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    settings.refraction = frame::Refraction::Environment;
+    const auto weights = validation::referencePicture(
+                             scene, settings, [] {}, validation::Leeway::None)
+                             .errorWeights;
+    EXPECT_LT(std::ranges::min(weights, {}, &glm::vec3::r).r, 0.5f);
+    for (const glm::vec3& weight : weights) EXPECT_EQ(glm::vec2(weight.g, weight.b), glm::vec2(1.0f));
 }
 
 } // namespace

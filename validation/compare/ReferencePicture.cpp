@@ -17,21 +17,20 @@ namespace tessera::validation {
 namespace {
 
 /// Transmittance of rough glass at normal incidence, by its constants; metalness is ignored. 1 of other materials.
-double roughTransmittance(const scenes::Material& material) {
-    if (!frame::mayPassByLobe(material)) return 1.0;
+glm::dvec3 roughTransmittance(const scenes::Material& material) {
+    if (!frame::mayPassByLobe(material)) return glm::dvec3(1.0);
     const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    const glm::dvec3 tint(material.specularColor);
-    const double reflected =
-        std::min(contrast * contrast * std::max({tint.r, tint.g, tint.b}), 1.0) * double(material.specularFactor);
-    return 1.0 - reflected;
+    const glm::dvec3 reflected = glm::min(contrast * contrast * glm::dvec3(material.specularColor), 1.0);
+    return 1.0 - reflected * double(material.specularFactor);
 }
 
 /// Rough glass takes its reflectance from a table of lobes. The root of the mean square of the table's error is 1e-4 of
 /// the light: 1e-3 of the transmitted light where a tenth is transmitted, which is the root of the tolerance of relMse.
-/// Where less is, errors count in parts of a tenth of the light. An index of 0 stands for an infinite one.
-double tableErrorWeight(const scenes::Material& material) {
+/// Where less is, errors of the light that passes count in parts of a tenth of the light. An index of 0 stands for an
+/// infinite one.
+glm::dvec3 tableErrorWeight(const scenes::Material& material) {
     constexpr double kTransmittance = 0.1, kLeast = 1e-3;
-    return std::clamp(roughTransmittance(material), kLeast, kTransmittance) / kTransmittance;
+    return glm::clamp(roughTransmittance(material), kLeast, kTransmittance) / kTransmittance;
 }
 
 } // namespace
@@ -201,9 +200,11 @@ Picture ReferencePicture::nearestTo(const Picture& shown) const {
 
 Picture ReferencePicture::weighted(Picture truth, const Picture& shown) const {
     for (std::size_t i = 0; i < truth.pixelCount(); ++i) {
-        if (errorWeights[i] == 1.0f) continue;
-        for (std::size_t c = 4 * i; c < 4 * i + 3; ++c)
-            if (std::isfinite(shown.rgba[c])) truth.rgba[c] = std::lerp(shown.rgba[c], truth.rgba[c], errorWeights[i]);
+        for (int c = 0; c < 3; ++c) {
+            float& right = truth.rgba[4 * i + std::size_t(c)];
+            const float seen = shown.rgba[4 * i + std::size_t(c)], weight = errorWeights[i][c];
+            if (weight != 1.0f && std::isfinite(seen)) right = std::lerp(seen, right, weight);
+        }
     }
     return truth;
 }

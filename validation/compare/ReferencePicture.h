@@ -29,8 +29,8 @@ struct ReferencePicture {
     Picture nearestTo(const Picture& shown) const;
 
     /// As in reference::Rendered: below 1 where rough glass transmits so little that the error of the table of lobes is
-    /// a large part of it.
-    std::vector<float> errorWeights;
+    /// a large part of it, as far as that light is of the pixel's.
+    std::vector<glm::vec3> errorWeights;
 
     /// The picture that differs from `shown` by the error of `truth` times its weight. Tolerances hold for it.
     Picture weighted(Picture truth, const Picture& shown) const;

@@ -53,15 +53,15 @@ private:
         for (const Hit& hit : surfaces.transparent) {
             rendered.ids[at].transparent += transparentId(hit.object->number, hit.triangle);
             if (surfaceAt(hit, sight_.textures()).opacity > 0.0) rendered.covered[at] = 1;
-            if (settings_.errorWeight)
-                rendered.errorWeights[at] =
-                    std::min(rendered.errorWeights[at], float(settings_.errorWeight(*hit.object->material)));
         }
         Shown shown{ray, sight_.withLight(ray, surfaces), std::uint32_t(at), hookPoints, {}};
         if (shown.seen.light) rendered.covered[at] = 1;
         const Shading::Lit lit = shading_.shade(shown);
         rendered.radiance[at] = lit.radiance;
         rendered.areaLights[at] = lit.areaLights;
+        for (int c = 0; c < 3; ++c)
+            if (lit.leeway[c] > 0.0)
+                rendered.errorWeights[at][c] = float(lit.radiance[c] / (lit.radiance[c] + lit.leeway[c]));
         if (shown.seen.opaque && !shown.memos.empty()) {
             const SurfaceMemo& memo = shown.memos[0];
             if (memo.spread) rendered.spread[at] = *memo.spread;
@@ -160,7 +160,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.spread.resize(pixels);
     rendered.surroundings.resize(pixels);
     rendered.areaLights.resize(pixels);
-    rendered.errorWeights.assign(pixels, 1.0f);
+    rendered.errorWeights.assign(pixels, glm::vec3(1.0f));
     const Pixels picture(scene, settings);
     if (settings.runHook) {
         renderHooked(picture, settings.runHook, rendered, rowDone);

@@ -36,7 +36,9 @@ struct Rendered {
     std::vector<Diffusion::Answer> spread; ///< of opaque surfaces that light spreads over; all 0 elsewhere
     std::vector<Estimate> surroundings;    ///< of opaque surfaces in light of an environment; all 0 elsewhere
     std::vector<Estimate> areaLights;      ///< what all surfaces together show of area lights (AreaLights.h)
-    std::vector<float> errorWeights;       ///< least Settings::errorWeight of the transparent surfaces; 1 without any
+    /// Of an error of the pixel, by channel: radiance over what it would be if light that passed transparent surfaces
+    /// counted by the inverse of their Settings::errorWeight.
+    std::vector<glm::vec3> errorWeights;
 };
 
 /// Renders on all cores. `rowDone` is called once a row of the picture, from any thread. The scene must have passed

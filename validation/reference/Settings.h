@@ -75,9 +75,9 @@ struct Settings {
                                  ///< 0: nowhere
     /// Where the scene's hook changes surfaces, and only there. Called by the thread that renders, once in many rows.
     RunHook runHook;
-    /// Weight, from 0 to 1, of the error of pixels that show a transparent surface of a material; unset: 1
-    /// (Rendered::errorWeights).
-    std::function<double(const scenes::Material& material)> errorWeight;
+    /// Weight, above 0 and at most 1, of an error of the light that passes transparent surfaces of a material, by
+    /// channel; unset: 1 (Rendered::errorWeights).
+    std::function<glm::dvec3(const scenes::Material& material)> errorWeight;
 };
 
 } // namespace tessera::reference

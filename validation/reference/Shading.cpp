@@ -79,6 +79,10 @@ Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) c
     for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
         const Lit own = litSurface(shown, 1 + i, nudge, shadows);
         const glm::dvec3 before = 1.0 - own.opacity + own.opacity * own.passed;
+        const glm::dvec3 passing = own.opacity * (own.bent + own.passed * all.radiance);
+        all.leeway *= before;
+        if (settings_.errorWeight)
+            all.leeway += passing * (1.0 / settings_.errorWeight(*seen.transparent[i].object->material) - 1.0);
         all.radiance = own.opacity * own.radiance + before * all.radiance;
         all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // at most
         all.noise += own.noise.times(own.opacity);
@@ -151,7 +155,8 @@ void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint&
     if (!memo.throughBody) memo.throughBody = throughBody(point, shown, hit, toViewer, showsScene);
     glm::dvec3 wayMetres;
     for (int c = 0; c < 3; ++c) wayMetres[c] = memo.throughBody->wayMetres[c].value_or(point.bodyMetres);
-    lit.radiance += share * leftByBody(point, wayMetres) * memo.throughBody->radiance;
+    lit.bent = share * leftByBody(point, wayMetres) * memo.throughBody->radiance;
+    lit.radiance += lit.bent;
 }
 
 BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, const Hit& entry,

@@ -53,6 +53,8 @@ public:
         glm::dvec3 radiance{0.0};
         double opacity = 1.0;
         glm::dvec3 passed{0.0};   ///< what it shows, where it covers, of the radiance behind it, by channel
+        glm::dvec3 bent{0.0};     ///< of its radiance, what a body or a rough sheet passes
+        glm::dvec3 leeway{0.0};   ///< radiance more that errors count in parts of: Rendered::errorWeights
         Noise noise = {};         ///< as Rendered::shadowNoise
         Estimate areaLights = {}; ///< as Rendered::areaLights
     };

@@ -51,10 +51,14 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
         EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
         EXPECT_TRUE(computed) << at;
     }
-    // Another map of the same shape has another file.
-    computed = false;
-    cachedEnvironment(greyMap(32, 16, [](int x, int) { return x; }), folder.path(), note);
-    EXPECT_TRUE(computed);
+    // Another map of the same shape has another file, and so have the same texels in another shape.
+    scenes::Image upright = map;
+    std::swap(upright.width, upright.height);
+    for (const scenes::Image& other : {greyMap(32, 16, [](int x, int) { return x; }), upright}) {
+        computed = false;
+        cachedEnvironment(other, folder.path(), note);
+        EXPECT_TRUE(computed);
+    }
 }
 
 /// The hash of 64 bits that was the key of version 10, of the first words of a map's texels: each step can be undone.

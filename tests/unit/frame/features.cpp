@@ -261,6 +261,7 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
         // What hardly bends light hardly spreads it.
         {true, also(metal(0.5f), body(0.1f, 1.02f))},
         {false, also(metal(0.5f), body(0.1f, 1.5f))},
+        {true, also(metal(0.23f), body(0.1f, 1.5f))}, // alpha 0.053, of light that passes a sixth
         {false, also(metal(0.5f), body(0.1f, 0.0f))}, // an index without bound
         {true, also(metal(0.5f), body(0.0f, 1.02f))}, // sheets too
         {false, also(metal(0.5f), body(0.0f, 1.5f))},

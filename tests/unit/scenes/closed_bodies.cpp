@@ -39,6 +39,10 @@ TEST(ClosedBodies, meshesAreClosedWhoseEdgesAllHaveTwoSides) {
     moved.positionsOS[0].x += 1e-3f;
     EXPECT_FALSE(isClosed(moved)) << "a gap";
 
+    Mesh pane;
+    builtin::appendBox(pane, {-4.0, -4.0, 0.0}, {4.0, 4.0, 0.01});
+    EXPECT_TRUE(isClosed(pane));
+
     Mesh sheet;
     sheet.positionsOS = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.3f}};
     sheet.indices = {0, 1, 2, 2, 1, 0};

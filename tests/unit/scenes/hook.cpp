@@ -149,6 +149,7 @@ TEST(Hook, whatDriversBreakOnIsRefusedAtOnceWithItsLine) {
         {bodied("S s;\n" + repeated(200, "s.m = s.m * s.m;\n"), "struct S { mat4 m; };\n"), 2, "more than 20000"},
         {bodied(repeated(500, "x = atan(x, x);\n")), 1, "more than 20000 operations"},
         {bodied("int n = int(x);\n" + repeated(600, "n = n / 3;\n")), 1, "more than 20000 operations"},
+        {bodied(repeated(400, "x = pow(x, x);\n")), 1, "more than 20000 operations"},
         {bodied("float a[500], b[500];\n" + repeated(50, "a = b;\n")), 1, "more than 20000 operations"},
         {bodied("float a[500], b[500];\nx = float(a == b);"), 5, "names a value of more than 16 numbers"},
         {bodied("float a[500], b[500];\n" + repeated(50, "a[1] = b[2];\n")), 1, ""},
