@@ -57,6 +57,16 @@ scenes::Scene fromBehind(scenes::Scene scene) {
 
 enum class Verdict { Drawn, DrawsNothing, Refused, Wrong };
 
+bool hasArea(const scenes::Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [](const scenes::Mesh& mesh) {
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const auto corner = [&](std::size_t at) { return mesh.positionsOS[mesh.indices[i + at]]; };
+            if (glm::cross(corner(1) - corner(0), corner(2) - corner(0)) != glm::vec3(0.0f)) return true;
+        }
+        return false;
+    });
+}
+
 class Models : public test::GlTest {
 protected:
     /// Loads and draws one model and prints its line.
@@ -93,8 +103,8 @@ private:
             scenes::Scene scene = scenes::loadScene(model.string(), options);
             if (light == LitBy::Sun && scene.lights.empty()) addSun(scene);
             triangles = scenes::triangleCount(scene);
-            if (triangles == 0) {
-                why = "draws nothing: no triangles";
+            if (!hasArea(scene)) {
+                why = "draws nothing: no triangles with an area";
                 return Verdict::DrawsNothing;
             }
             return draw(scene, why);

@@ -56,6 +56,8 @@ protected:
         sun.intensity = 1.0f;
         scene.lights.push_back(sun);
         settings.sizePixels = {200, 112};
+        // Softened, no surface that faces away from a light by its triangle alone is behind it.
+        settings.shadowTerminator = frame::ShadowTerminator::Exact;
         settings.shadows = kAllLightsCast;
         settings.filter = frame::TextureFilter::Exact;
         truth.emplace(shadowReference(scene, settings));
