@@ -197,7 +197,7 @@ TEST_F(Attribution, choicesOfAPointSumToTheWhole) {
     std::set<std::string> expected{"arithmetic"};
     int choices = 0;
     const auto choose = [&](frame::FrameSettings& own) {
-        if (choices > 0) own.rangeTolerance = 0.5;
+        if (choices > 0) own.rangeTolerance = 0.02;
         if (choices > 1) own.shadowFilter = frame::ShadowFilter::Pcf;
         if (choices > 2)
             own.layout = std::ranges::find(frame::layoutTable(), "packed", &frame::LayoutInfo::name)->layout;

@@ -75,7 +75,7 @@ TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
     const std::string light = "layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;";
     shaders.replace(
         "lib/lighting/lighting.glsl", light,
-        light + "\n#if HAS_PASSING_LIGHT\nreflected *= seen.surface.transmission > 0.5 ? 1.02 : 1.0;\n#endif\n");
+        light + "\n#if HAS_PASSING_LIGHT\nreflected *= seen.surface.transmission > 0.5 ? 1.05 : 1.0;\n#endif\n");
     for (const float ior : {6.0f, 1000.0f, 0.0f}) {
         SCOPED_TRACE(ior);
         scenes::Scene scene = floorWithBall(ior);
@@ -98,7 +98,7 @@ TEST_F(ReferenceGlass, channelsThatPassAreHeldToWhatTheyPass) {
     const auto weights = validation::referencePicture(
                              scene, settings, [] {}, validation::Leeway::None)
                              .errorWeights;
-    EXPECT_LT(std::ranges::min(weights, {}, &glm::vec3::r).r, 0.5f);
+    EXPECT_LT(std::ranges::min(weights, {}, &glm::vec3::r).r, 0.7f);
     for (const glm::vec3& weight : weights) EXPECT_EQ(glm::vec2(weight.g, weight.b), glm::vec2(1.0f));
 }
 

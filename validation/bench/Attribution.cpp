@@ -153,7 +153,7 @@ public:
            std::span<const BenchPoint> points)
         : context_(context), truth_(truth), truthName_(truthName),
           points_(points), whole_{truth.renderer().scene(), truth.settings()}, in_(partsOf(whole_)),
-          exact_(truth.pictureOf(Technique::Forward, truth.settings())) {}
+          exact_(truth.pictureOf(Technique::Forward, truth.settings())), right_(truth.pictureFor(exact_)) {}
 
     std::vector<AttributionLine> find() {
         addParts();
@@ -167,20 +167,21 @@ public:
 
 private:
     void add(const AttributionLine& line) { lines_.push_back(line); }
-    /// Error figures of the truth plus a difference.
+    /// Error figures of the truth plus a difference. Where rounding decides what is shown, the truth is as forward.
     RadianceFigures figuresOf(const Difference& difference) const {
-        Picture off = truth_.picture();
+        Picture off = right_;
         for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] += difference[i];
-        return radianceFigures(off, truth_.picture(), truth_.excluded());
+        return radianceFigures(off, right_, truth_.excluded());
     }
     void addPart(const char* cause, const std::string& what, const Difference& difference) {
         differences_[what] = difference;
         add(lineOf(cause, what, truthName_, figuresOf(difference)));
     }
-    /// What a choice changes in the picture of forward.
+    /// What a choice adds to the error of forward.
     void addChoice(const char* cause, const std::string& what, const char* against, const Picture& shown) {
-        differences_[what] = differenceOf(shown, exact_);
-        add(lineOf(cause, what, against, radianceFigures(shown, exact_, truth_.excluded())));
+        const Difference added = differenceOf(shown, truth_.pictureFor(shown)) - differenceOf(exact_, right_);
+        differences_[what] = added;
+        add(lineOf(cause, what, against, figuresOf(added)));
     }
 
     /// Renders the ground with `settings` and subtracts the ground's own truth.
@@ -403,6 +404,7 @@ private:
     const Ground whole_;
     const std::vector<const Part*> in_; ///< those of the scene, in the order of the table
     const Picture exact_;               ///< of forward, by the settings of the truth
+    const Picture right_;               ///< the truth of that
     std::vector<AttributionLine> lines_;
     std::map<std::string, Difference> differences_; ///< by AttributionLine::what
 };

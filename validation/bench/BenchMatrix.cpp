@@ -214,7 +214,7 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
         if (points > double(kMostMatrixPoints)) continue; // reads no more, and counts on
         for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
-    if (matrix.techniques.empty()) points *= double(engine::techniqueTable().size());
+    if (!root.contains("technique")) points *= double(engine::techniqueTable().size());
     double variants = 1.0;
     for (const BenchMatrix::SettingValues& values : matrix.settings) variants *= double(values.texts.size());
     const bool asksForPoints = points > double(kMostMatrixPoints);

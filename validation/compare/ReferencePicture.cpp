@@ -14,27 +14,6 @@
 
 namespace tessera::validation {
 
-namespace {
-
-/// Transmittance of rough glass at normal incidence, by its constants; metalness is ignored. 1 of other materials.
-glm::dvec3 roughTransmittance(const scenes::Material& material) {
-    if (!frame::mayPassByLobe(material)) return glm::dvec3(1.0);
-    const double contrast = (double(material.ior) - 1.0) / (double(material.ior) + 1.0);
-    const glm::dvec3 reflected = glm::min(contrast * contrast * glm::dvec3(material.specularColor), 1.0);
-    return 1.0 - reflected * double(material.specularFactor);
-}
-
-/// Rough glass takes its reflectance from a table of lobes. The root of the mean square of the table's error is 1e-4 of
-/// the light: 1e-3 of the transmitted light where a tenth is transmitted, which is the root of the tolerance of relMse.
-/// Where less is, errors of the light that passes count in parts of a tenth of the light. An index of 0 stands for an
-/// infinite one.
-glm::dvec3 tableErrorWeight(const scenes::Material& material) {
-    constexpr double kTransmittance = 0.1, kLeast = 1e-3;
-    return glm::clamp(roughTransmittance(material), kLeast, kTransmittance) / kTransmittance;
-}
-
-} // namespace
-
 reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     reference::Settings result;
     result.sizePixels = settings.sizePixels;
@@ -63,7 +42,10 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =
         settings.filter == frame::TextureFilter::Exact ? reference::Filtering::Exact : reference::Filtering::Hardware;
-    result.errorWeight = tableErrorWeight;
+    // The product takes the reflectance of rough glass from a table of lobes. The root of the mean square of the
+    // table's error is 1e-4 of the light: 1e-3 of the transmitted light where a tenth is transmitted, which is the root
+    // of the tolerance of relMse.
+    result.leastRoughTransmittance = 0.1;
     return result;
 }
 

@@ -67,7 +67,7 @@ std::uint8_t* pixelAt(DisplayImage& image, int x, int y) {
 } // namespace
 
 std::string_view fontFile() {
-    return fontAssets().front().text;
+    return lettering::fontAssets().front().text;
 }
 
 int textWidth(std::string_view text, int scale) {

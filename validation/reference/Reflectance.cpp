@@ -273,15 +273,18 @@ glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const 
     return modelOf(point.model).entering(point, directions) * (-directions.cosLight * uncoated);
 }
 
-glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+glm::dvec3 transmittanceOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    return glm::max(1.0 - reflectedOfEvenLight(point, toViewer), glm::dvec3(0.0));
+}
+
+glm::dvec3 passingIfNoneReflected(const SurfacePoint& point, const glm::dvec3& toViewer) {
     const double cosView = glm::dot(point.normal, toViewer);
     const double strongest = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
     double share = point.transmission * (1.0 - point.passingMetallic.value_or(point.metallic));
     if (strongest > 0.0)
         share *= std::max(1.0 - strongest * sheenAlbedo(point.sheenAlpha, std::max(cosView, 0.0)), 0.0);
     if (point.coat > 0.0) share *= 1.0 - coatWeight(point, toViewer);
-    return share * point.passingColor.value_or(point.color) *
-           glm::max(1.0 - reflectedOfEvenLight(point, toViewer), glm::dvec3(0.0));
+    return share * point.passingColor.value_or(point.color);
 }
 
 glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres) {

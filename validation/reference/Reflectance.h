@@ -60,8 +60,14 @@ SurfacePoint withoutMirrors(const SurfacePoint& point);
 /// normal at which it meets it from below.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
-/// What shows through a surface that transmits of a radiance behind it, by channel, before what its body absorbs.
-glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer);
+/// What is left of light behind a surface by what the surface reflects, by channel.
+glm::dvec3 transmittanceOf(const SurfacePoint& point, const glm::dvec3& toViewer);
+/// What would show through a surface that reflected nothing, of a radiance behind it, before what its body absorbs.
+glm::dvec3 passingIfNoneReflected(const SurfacePoint& point, const glm::dvec3& toViewer);
+/// What shows through it.
+inline glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
+    return passingIfNoneReflected(point, toViewer) * transmittanceOf(point, toViewer);
+}
 
 /// What a body leaves of light that goes so far through it, in metres, by channel. Beer's law.
 glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres);

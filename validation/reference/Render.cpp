@@ -60,8 +60,8 @@ private:
         rendered.radiance[at] = lit.radiance;
         rendered.areaLights[at] = lit.areaLights;
         for (int c = 0; c < 3; ++c)
-            if (lit.leeway[c] > 0.0)
-                rendered.errorWeights[at][c] = float(lit.radiance[c] / (lit.radiance[c] + lit.leeway[c]));
+            if (lit.radianceMore[c] > 0.0)
+                rendered.errorWeights[at][c] = float(lit.radiance[c] / (lit.radiance[c] + lit.radianceMore[c]));
         if (shown.seen.opaque && !shown.memos.empty()) {
             const SurfaceMemo& memo = shown.memos[0];
             if (memo.spread) rendered.spread[at] = *memo.spread;

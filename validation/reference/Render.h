@@ -36,8 +36,8 @@ struct Rendered {
     std::vector<Diffusion::Answer> spread; ///< of opaque surfaces that light spreads over; all 0 elsewhere
     std::vector<Estimate> surroundings;    ///< of opaque surfaces in light of an environment; all 0 elsewhere
     std::vector<Estimate> areaLights;      ///< what all surfaces together show of area lights (AreaLights.h)
-    /// Of an error of the pixel, by channel: radiance over what it would be if light that passed transparent surfaces
-    /// counted by the inverse of their Settings::errorWeight.
+    /// Of an error of the pixel, by channel: radiance over what it would be if rough glass transmitted at least
+    /// Settings::leastRoughTransmittance.
     std::vector<glm::vec3> errorWeights;
 };
 

@@ -75,9 +75,9 @@ struct Settings {
                                  ///< 0: nowhere
     /// Where the scene's hook changes surfaces, and only there. Called by the thread that renders, once in many rows.
     RunHook runHook;
-    /// Weight, above 0 and at most 1, of an error of the light that passes transparent surfaces of a material, by
-    /// channel; unset: 1 (Rendered::errorWeights).
-    std::function<glm::dvec3(const scenes::Material& material)> errorWeight;
+    /// Errors of light that passes rough glass count in parts of at least so much of the light that enters
+    /// (Rendered::errorWeights).
+    double leastRoughTransmittance = 0.0;
 };
 
 } // namespace tessera::reference

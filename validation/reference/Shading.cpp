@@ -79,10 +79,7 @@ Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) c
     for (std::size_t i = 0; i < seen.transparent.size(); ++i) {
         const Lit own = litSurface(shown, 1 + i, nudge, shadows);
         const glm::dvec3 before = 1.0 - own.opacity + own.opacity * own.passed;
-        const glm::dvec3 passing = own.opacity * (own.bent + own.passed * all.radiance);
-        all.leeway *= before;
-        if (settings_.errorWeight)
-            all.leeway += passing * (1.0 / settings_.errorWeight(*seen.transparent[i].object->material) - 1.0);
+        all.radianceMore = before * all.radianceMore + own.opacity * (own.radianceMore + own.passedMore * all.radiance);
         all.radiance = own.opacity * own.radiance + before * all.radiance;
         all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // at most
         all.noise += own.noise.times(own.opacity);
@@ -145,18 +142,25 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
 /// that is asked for or an environment lights; else what lies straight behind.
 void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                          SurfaceMemo& memo, Lit& lit) const {
-    const glm::dvec3 share = transmitted(point, toViewer);
+    const glm::dvec3 entering = passingIfNoneReflected(point, toViewer);
+    const glm::dvec3 transmittance = transmittanceOf(point, toViewer), share = entering * transmittance;
+    glm::dvec3 more(0.0);
+    if (point.passingAlpha > kSmallestAlpha)
+        more = entering * glm::max(settings_.leastRoughTransmittance - transmittance, 0.0);
     const bool showsScene = settings_.bodiesShowScene && (sight_.hasOpaque() || glassLeft(shown) > 0);
     const bool looksBehind = point.hasBody || (settings_.bodiesShowScene && point.passingAlpha > kSmallestAlpha);
     if (!looksBehind || (!showsScene && !surroundings_.showsThroughBodies())) {
-        lit.passed = share * leftByBody(point, glm::dvec3(point.bodyMetres));
+        const glm::dvec3 left = leftByBody(point, glm::dvec3(point.bodyMetres));
+        lit.passed = share * left;
+        lit.passedMore = more * left;
         return;
     }
     if (!memo.throughBody) memo.throughBody = throughBody(point, shown, hit, toViewer, showsScene);
     glm::dvec3 wayMetres;
     for (int c = 0; c < 3; ++c) wayMetres[c] = memo.throughBody->wayMetres[c].value_or(point.bodyMetres);
-    lit.bent = share * leftByBody(point, wayMetres) * memo.throughBody->radiance;
-    lit.radiance += lit.bent;
+    const glm::dvec3 met = leftByBody(point, wayMetres) * memo.throughBody->radiance;
+    lit.radiance += share * met;
+    lit.radianceMore = more * met;
 }
 
 BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, const Hit& entry,

@@ -52,11 +52,11 @@ public:
     struct Lit {
         glm::dvec3 radiance{0.0};
         double opacity = 1.0;
-        glm::dvec3 passed{0.0};   ///< what it shows, where it covers, of the radiance behind it, by channel
-        glm::dvec3 bent{0.0};     ///< of its radiance, what a body or a rough sheet passes
-        glm::dvec3 leeway{0.0};   ///< radiance more that errors count in parts of: Rendered::errorWeights
-        Noise noise = {};         ///< as Rendered::shadowNoise
-        Estimate areaLights = {}; ///< as Rendered::areaLights
+        glm::dvec3 passed{0.0};       ///< what it shows, where it covers, of the radiance behind it, by channel
+        glm::dvec3 passedMore{0.0};   ///< besides, by Settings::leastRoughTransmittance
+        glm::dvec3 radianceMore{0.0}; ///< the same
+        Noise noise = {};             ///< as Rendered::shadowNoise
+        Estimate areaLights = {};     ///< as Rendered::areaLights
     };
     Lit shade(Shown& shown, const Nudge& nudge = {}, Shadows shadows = Shadows::Exact) const;
 

@@ -63,12 +63,12 @@ TEST_F(HookFault, aFieldThatIsNotThereIsAnsweredByThoseThatAre) {
 }
 
 TEST_F(HookFault, namesOfTheHookAreAsItsFileHasThemAndTheFilesIsItsOwn) {
-    const std::string file = folder.write("waterproofHook.glsl", "void hookSurface() { glow; }\n").string();
-    const ProgramDesc named{"lit", "a.vert", "a.frag", "", {{"HOOK_FILE", file}}};
-    const std::string log = file + ":1: error: `ofHookglow' undeclared";
+    const std::string odd = folder.write("waterproofHook.glsl", "void hookSurface() { glow; }\n").string();
+    const ProgramDesc named{"lit", "a.vert", "a.frag", "", {{"HOOK_FILE", odd}}};
+    const std::string log = odd + ":1: error: `ofHookglow' undeclared";
     EXPECT_TRUE(namesHook(named, log));
     EXPECT_THAT(hookFaultText(SourceTree::embedded(), named, log),
-                StartsWith(file + ": the driver refuses this hook: " + file + ":1: error: `glow' undeclared"));
+                StartsWith(odd + ": the driver refuses this hook: " + odd + ":1: error: `glow' undeclared"));
 }
 
 TEST_F(HookFault, onlyErrorsWithinTheHookNameIt) {
