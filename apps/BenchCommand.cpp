@@ -11,7 +11,7 @@
 #include "apps/Outputs.h"
 #include "apps/Shard.h"
 #include "base/Error.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 #include "validation/bench/BenchMachines.h"
 #include "validation/bench/BenchMerge.h"
 #include "validation/bench/BenchReport.h"

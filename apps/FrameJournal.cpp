@@ -12,7 +12,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 
 namespace tessera::app {
 

@@ -23,7 +23,7 @@ words() {
 }
 dictionaryOf() {
     case $1 in
-    gltf | glb | posed) words scenes/import/GltfProperties.h scenes/import/Gltf*.cpp ;;
+    gltf | glb | posed) words scenes/import/GltfSchema.cpp scenes/import/Gltf*.cpp ;;
     mtl) words /dev/null scenes/import/Mtl* scenes/import/ObjMaterials.cpp ;;
     scene) words scenes/schema/scene.schema.json scenes/import/SceneJson* engine/*.cpp renderer/frame/FrameSettings.cpp ;;
     bench | matrix) words /dev/null validation/bench/*.cpp engine/*.cpp renderer/frame/FrameSettings.cpp ;;

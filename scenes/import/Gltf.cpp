@@ -7,13 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "scenes/import/GltfCamerasAndLights.h"
-#include "scenes/import/GltfEnvironment.h"
-#include "scenes/import/GltfGeometry.h"
-#include "scenes/import/GltfHierarchy.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
-#include "scenes/import/GltfThickness.h"
+#include "scenes/import/GltfSteps.h"
 #include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/Importers.h"
 

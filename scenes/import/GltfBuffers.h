@@ -33,4 +33,41 @@ private:
     std::uint64_t heldBytes_ = 0;
 };
 
+/// An accessor's elements as floats: normalised integers in 0..1 or -1..1, other integers as their value.
+struct Elements {
+    std::size_t count = 0;
+    int components = 0; ///< 1..4 an element, or the 16 of a matrix, column by column
+    bool normalized = false;
+    int componentType = 0; ///< TINYGLTF_COMPONENT_TYPE_...
+    std::vector<float> values;
+};
+
+/// Of one component.
+inline std::size_t bytesOf(int componentType) {
+    return static_cast<std::size_t>(tiny::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType)));
+}
+
+/// Reads accessors of every form: interleaved, tightly packed, normalised, sparse, sparse without a buffer view. Every
+/// range is checked before it is read or memory is reserved for it; throws InputError naming the accessor.
+class Accessors {
+public:
+    Accessors(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
+
+    /// `packed`, where it has data, stands for the accessor's buffer view: as many elements as it says, one after
+    /// another.
+    Elements elements(int accessor, std::span<const std::byte> packed = {});
+    std::vector<std::uint32_t> indices(int accessor);
+
+private:
+    struct Source;
+    Source placed(int accessor, int bufferView, std::size_t byteOffset, std::size_t count, int type,
+                  std::size_t components, std::size_t byteStride);
+    const tiny::Accessor& accessorAt(int index) const;
+    template <typename Value, typename Convert>
+    std::vector<Value> read(int accessor, std::span<const std::byte> packed, Convert convert);
+
+    const Document& document_;
+    Buffers& buffers_;
+};
+
 } // namespace tessera::scenes::gltf

@@ -1,4 +1,4 @@
-#include "scenes/import/GltfCamerasAndLights.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
 #include <charconv>

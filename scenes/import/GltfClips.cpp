@@ -10,8 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/import/GltfHierarchy.h"
-#include "scenes/import/GltfPointers.h"
+#include "scenes/import/GltfSteps.h"
 
 namespace tessera::scenes::gltf {
 namespace {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "scenes/Scene.h"
-#include "scenes/import/GltfAccessors.h"
+#include "scenes/import/GltfBuffers.h"
 #include "scenes/import/GltfDraco.h"
 
 namespace tessera::scenes::gltf {

@@ -9,8 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "scenes/import/FileBytes.h"
-#include "scenes/import/GltfUri.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::scenes::gltf {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/LoadLedger.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/GltfModel.h"
 #include "scenes/import/Repairs.h"
 
@@ -28,7 +29,7 @@ struct Document {
     tiny::Model model = {};                            ///< without `buffers` and `materials`
     std::vector<BufferSource> buffers = {};
     std::vector<StoredMaterial> materials = {};
-    std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfCamerasAndLights.h)
+    std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfSteps.h)
 
     /// Warns of a flaw at a place, as Repairs::note() does.
     void repair(std::string_view place, std::string_view what, std::string_view repair) const {
@@ -52,5 +53,14 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Rep
 
 /// The optional extensions that the document uses and the importer leaves out.
 std::vector<std::string> ignoredExtensions(const Document& document);
+
+bool isDataUri(std::string_view uri);
+
+/// The bytes of "data:[media type][;base64],..." (RFC 2397). Throws InputError saying what is wrong with it.
+std::vector<std::byte> decodeDataUri(std::string_view uri);
+
+/// The file that a URI names: percent-decoded (RFC 3986) UTF-8, or as it stands where a file answers to that alone,
+/// relative to `folder`, in the spellings that fileNamed() knows. Throws InputError for a scheme other than `file`.
+NamedFile fileOfUri(std::string_view uri, const std::filesystem::path& folder);
 
 } // namespace tessera::scenes::gltf

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "scenes/import/GltfAccessors.h"
+#include "scenes/import/GltfBuffers.h"
 
 namespace tessera::scenes::gltf {
 namespace {

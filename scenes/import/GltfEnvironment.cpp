@@ -1,4 +1,4 @@
-#include "scenes/import/GltfEnvironment.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,7 @@
 
 #include "base/Srgb.h"
 #include "scenes/RadianceMap.h"
-#include "scenes/import/GltfImages.h"
-#include "scenes/import/StandIn.h"
+#include "scenes/import/MadeImages.h"
 
 namespace tessera::scenes::gltf {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/import/GltfGeometry.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "scenes/import/GltfThinSolids.h"
-#include "scenes/import/GltfTriangles.h"
 
 namespace tessera::scenes::gltf {
 namespace {

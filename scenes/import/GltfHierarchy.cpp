@@ -1,4 +1,4 @@
-#include "scenes/import/GltfHierarchy.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ namespace tessera::scenes::gltf {
 
 namespace tiny = tessera_tinygltf;
 
-/// Checks the properties of a document that its scene uses (GltfProperties.h): JSON types, ranges, choices, and that
+/// Checks the properties of a document that its scene uses (GltfSchema.cpp): JSON types, ranges, choices, and that
 /// each index names an element. Clamps numbers, and leaves out other flaws with the least that is nothing without them.
 /// Returns a document of these properties alone: tinygltf ignores values of a wrong type without a message, keeps the
 /// low 32 bits of integers, and copies all other values. Integers written with a decimal point (24.0) become integers.

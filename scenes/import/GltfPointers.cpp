@@ -1,4 +1,3 @@
-#include "scenes/import/GltfPointers.h"
 
 #include <algorithm>
 #include <charconv>

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "scenes/Rest.h"
-#include "scenes/import/GltfPointers.h"
 
 namespace tessera::scenes::gltf {
 namespace {

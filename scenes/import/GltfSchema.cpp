@@ -3,10 +3,136 @@
 #include <charconv>
 
 #include "scenes/import/GltfModel.h"
-#include "scenes/import/GltfProperties.h"
 
 namespace tessera::scenes::gltf {
 namespace {
+
+/// The properties that the importer reads. A line that is not indented begins an object, and properties of it follow:
+/// the path of keys to each, with "!" where it is required in the object above it, "?key=value" where it is in one with
+/// this text, or "+" where the object is nothing without it if it is there, and its type. Behind the name of an object
+/// stands what takes the place of a flawed one, if it needs anything. Types are text, label (a text that is empty where
+/// it is none), flag, object (whose content is not read), number, int (of 32 bits),
+/// size (up to 2^53), index of an element of an array, choice (a text) and code (an integer) of some, and objects.
+/// Behind a type stand the arrays of it, innermost first: [3] of three elements, [] of any number, [~] without the
+/// flawed ones, [?] with stand-ins for these, {} for an object of any keys. Behind a colon stand the bounds:
+/// least..most, >least, %divisor, an array, or the choices. Source: glTF 2.0 specification, section 5, and the
+/// extensions' schemas.
+constexpr std::string_view kProperties = R"(
+Document
+ asset/version text; asset/generator text; extensionsUsed text[~]; extensionsRequired text[~]
+ extensions/KHR_lights_punctual/lights Light[]; extensions/EXT_lights_image_based/lights ImageLight[]
+ extensions/KHR_materials_variants/variants Variant[]; scene index:scenes; scenes Scene[]; nodes Node[]; meshes Mesh[]
+ accessors Accessor[]; bufferViews BufferView[]; buffers Buffer[]; images Image[]; textures Texture[]
+ samplers Sampler[]; materials Material[]; cameras Camera[]; skins Skin[]; animations Animation[~]
+Variant {"name": ""}
+ name! text
+Scene
+ name label; nodes index[~]:nodes
+ extensions/EXT_lights_image_based/light! index:extensions/EXT_lights_image_based/lights
+Node
+ name label; children index[~]:nodes; mesh index:meshes; camera index:cameras; skin index:skins; weights number[]
+ matrix number[16]; translation number[3]; rotation number[4]; scale number[3]
+ extensions/KHR_lights_punctual/light! index:extensions/KHR_lights_punctual/lights
+ extensions/KHR_node_visibility/visible flag
+ extensions/EXT_mesh_gpu_instancing/attributes! index{}:accessors
+Mesh
+ name label; primitives! Primitive[~]; weights number[]
+Primitive
+ attributes! index{}:accessors; indices+ index:accessors; material index:materials; mode int:0..6
+ targets index{}[]:accessors; extensions/KHR_materials_variants/mappings VariantMapping[~]
+ extensions/KHR_draco_mesh_compression+ Draco
+Draco
+ bufferView! index:bufferViews; attributes! int{}:0..
+VariantMapping
+ material! index:materials; variants! index[~]:extensions/KHR_materials_variants/variants
+Accessor {"componentType": 5126, "count": 1, "type": "SCALAR"}
+ name label; bufferView+ index:bufferViews; byteOffset+ size:0..; componentType! code:5120|5121|5122|5123|5125|5126
+ count! size:1..; type! choice:SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4; normalized flag; sparse+ Sparse
+Sparse
+ count! int:0..; indices! object; indices/bufferView! index:bufferViews; indices/byteOffset int:0..
+ indices/componentType! code:5121|5123|5125; values! object; values/bufferView! index:bufferViews
+ values/byteOffset int:0..
+Buffer {"byteLength": 1}
+ byteLength! size:1..; uri+ text
+BufferView {"buffer": 0, "byteLength": 1}
+ buffer! index:buffers; byteOffset+ size:0..; byteLength! size:1..; byteStride+ size:4..252%4
+ extensions/EXT_meshopt_compression+ Meshopt
+Meshopt
+ buffer! index:buffers; byteOffset+ size:0..; byteLength! size:1..; byteStride! size:1..256; count! size:1..
+ mode! choice:ATTRIBUTES|TRIANGLES|INDICES; filter choice:NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL
+Image
+ name label; uri text; bufferView index:bufferViews; mimeType text
+Texture
+ name label; source index:images; extensions/EXT_texture_webp/source! index:images; sampler index:samplers
+Sampler
+ magFilter code:9728|9729; minFilter code:9728|9729|9984|9985|9986|9987
+ wrapS code:33071|33648|10497; wrapT code:33071|33648|10497
+TextureInfo
+ index! index:textures; texCoord int:0..; extensions/KHR_texture_transform TextureTransform
+TextureTransform
+ offset number[2]; scale number[2]; rotation number; texCoord int:0..
+Material
+ name label; pbrMetallicRoughness MetallicRoughness; normalTexture TextureInfo; normalTexture/scale number
+ occlusionTexture TextureInfo; occlusionTexture/strength number:0..1; alphaMode choice:OPAQUE|MASK|BLEND
+ alphaCutoff number:0..; doubleSided flag; emissiveTexture TextureInfo; emissiveFactor number[3]:0..1e30
+ extensions MaterialExtensions
+MetallicRoughness
+ baseColorFactor number[4]:0..1e6; metallicFactor number:0..1; roughnessFactor number:0..1
+ baseColorTexture TextureInfo; metallicRoughnessTexture TextureInfo
+MaterialExtensions
+ KHR_materials_unlit object; KHR_materials_pbrSpecularGlossiness SpecularGlossiness
+ KHR_materials_emissive_strength/emissiveStrength number:0..1e30; KHR_materials_ior/ior number:0..1e6
+ KHR_materials_specular Specular; KHR_materials_anisotropy Anisotropy; KHR_materials_clearcoat Clearcoat
+ KHR_materials_sheen Sheen; KHR_materials_iridescence Iridescence; KHR_materials_transmission Transmission
+ KHR_materials_volume Volume; KHR_materials_dispersion/dispersion number:0..
+SpecularGlossiness
+ diffuseFactor number[4]:0..1; specularFactor number[3]:0..1; glossinessFactor number:0..1
+ diffuseTexture TextureInfo; specularGlossinessTexture TextureInfo
+Specular
+ specularFactor number:0..1; specularColorFactor number[3]:0..1e6
+ specularTexture TextureInfo; specularColorTexture TextureInfo
+Anisotropy
+ anisotropyStrength number:0..1; anisotropyRotation number; anisotropyTexture TextureInfo
+Clearcoat
+ clearcoatFactor number:0..1; clearcoatRoughnessFactor number:0..1; clearcoatTexture TextureInfo
+ clearcoatRoughnessTexture TextureInfo; clearcoatNormalTexture TextureInfo; clearcoatNormalTexture/scale number
+Sheen
+ sheenColorFactor number[3]:0..1; sheenRoughnessFactor number:0..1
+ sheenColorTexture TextureInfo; sheenRoughnessTexture TextureInfo
+Iridescence
+ iridescenceFactor number:0..1; iridescenceIor number:1..1e6; iridescenceThicknessMinimum number:0..
+ iridescenceThicknessMaximum number:0..; iridescenceTexture TextureInfo; iridescenceThicknessTexture TextureInfo
+Transmission
+ transmissionFactor number:0..1; transmissionTexture TextureInfo
+Volume
+ thicknessFactor number:0..; attenuationColor number[3]:0..1; attenuationDistance number:>0
+ thicknessTexture TextureInfo
+Camera {"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}
+ name label; type! choice:perspective|orthographic
+ perspective?type=perspective Perspective; orthographic?type=orthographic Orthographic
+Perspective
+ yfov! number; znear! number; zfar number:>0
+Orthographic
+ xmag! number; ymag! number; znear! number; zfar! number
+Light {"type": "point"}
+ name label; type! choice:directional|point|spot; color number[3]:0..; intensity number:0..; range number:0..
+ spot?type=spot Spot
+Spot
+ innerConeAngle number:0..; outerConeAngle number:0..
+ImageLight {"type": "point"}
+ name label; intensity number:0..; rotation number[4]; irradianceCoefficients! number[3][]
+ specularImages! index[][]:images; specularImageSize! int:1..
+Skin {"joints": []}
+ name label; inverseBindMatrices+ index:accessors; skeleton index:nodes; joints! index[]:nodes
+Animation
+ name label; samplers! AnimationSampler[?]; channels! AnimationChannel[~]
+AnimationSampler {"input": -1, "output": -1}
+ input! index:accessors; output! index:accessors; interpolation+ choice:LINEAR|STEP|CUBICSPLINE
+AnimationChannel
+ sampler! int:0..; target! Target
+Target
+ path! text; node index:nodes; extensions/KHR_animation_pointer/pointer text
+)";
 
 std::string_view cut(std::string_view& text, std::string_view separators) {
     const std::string_view first = text.substr(0, text.find_first_of(separators));

@@ -10,7 +10,7 @@
 
 #include "scenes/import/GltfParser.h"
 
-/// The properties that the importer reads (GltfProperties.h), as objects that a document is checked by.
+/// The properties that the importer reads (GltfSchema.cpp), as objects that a document is checked by.
 namespace tessera::scenes::gltf {
 
 using Json = nlohmann::json;

@@ -1,4 +1,4 @@
-#include "scenes/import/GltfThickness.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scenes/Transform.h"
+#include "scenes/import/GltfMaterials.h"
 
 namespace tessera::scenes::gltf {
 namespace {

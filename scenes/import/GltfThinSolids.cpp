@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "scenes/Direction.h"
-#include "scenes/import/GltfTriangles.h"
+#include "scenes/import/GltfSteps.h"
 
 namespace tessera::scenes::gltf {
 namespace {

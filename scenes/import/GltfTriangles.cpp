@@ -1,4 +1,4 @@
-#include "scenes/import/GltfTriangles.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "scenes/import/GltfUri.h"
+#include "scenes/import/GltfDocument.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "scenes/import/MtlLibrary.h"
+#include "scenes/import/ObjMaterials.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "scenes/Material.h"
-#include "scenes/import/NamedFile.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/ObjLines.h"
 
 namespace tessera::scenes::obj {

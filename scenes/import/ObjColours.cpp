@@ -1,4 +1,4 @@
-#include "scenes/import/ObjColours.h"
+#include "scenes/import/ObjText.h"
 
 #include <algorithm>
 #include <cmath>

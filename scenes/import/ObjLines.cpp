@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 
 namespace tessera::scenes::obj {
 namespace {

@@ -6,10 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/Importers.h"
-#include "scenes/import/NamedFile.h"
-#include "scenes/import/PackChannels.h"
-#include "scenes/import/StandIn.h"
+#include "scenes/import/MadeImages.h"
 
 namespace tessera::scenes::obj {
 namespace {

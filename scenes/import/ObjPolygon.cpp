@@ -1,4 +1,4 @@
-#include "scenes/import/ObjPolygon.h"
+#include "scenes/import/ObjText.h"
 
 #include <algorithm>
 #include <cassert>

@@ -10,10 +10,8 @@
 
 #include "base/Error.h"
 #include "scenes/import/GltfThinSolids.h"
-#include "scenes/import/MtlLibrary.h"
-#include "scenes/import/ObjColours.h"
 #include "scenes/import/ObjLines.h"
-#include "scenes/import/ObjPolygon.h"
+#include "scenes/import/ObjMaterials.h"
 
 namespace tessera::scenes::obj {
 namespace {

@@ -1,18 +1,46 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "scenes/ImportWishes.h"
 #include "scenes/LoadLedger.h"
+#include "scenes/import/ObjLines.h"
 #include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::obj {
+
+/// The colours behind positions (v x y z r g b). Blender, three.js and MeshLab write them in sRGB, other programs in
+/// bytes.
+class VertexColours {
+public:
+    /// Reads the colour of the position that a 'v' statement defines.
+    void read(const Line& line, std::size_t position);
+
+    /// Linear, one a position, white where there is none; empty unless a used position has one.
+    std::vector<glm::vec3> take(const std::string& file, ObjColours encoding, const std::vector<bool>& isUsed,
+                                Repairs& repairs);
+
+private:
+    std::vector<glm::vec3> colours_; ///< as written; kMissing where there is none
+    std::string flaw_;               ///< the first of a colour
+    int flawLine_ = 0, largeLine_ = 0;
+};
+
+/// Cuts a polygon of n >= 3 corners into n - 2 triangles of its orientation by clipping ears, the one with the shortest
+/// cut first, so that a convex quad gets its shorter diagonal. Where a polygon that crosses itself or has no area has
+/// no ear left, a corner is clipped all the same. Raises `steps` by how often a corner is looked at; once they exceed
+/// `mostSteps` the rest is a fan. Source: Meisters 1975, "Polygons have ears"; corners are found by a grid.
+std::vector<std::array<std::size_t, 3>> cutPolygon(std::span<const glm::dvec3> corners, std::uint64_t& steps,
+                                                   std::uint64_t mostSteps);
 
 /// The attributes of a face's corner, counted from 0; kNone is absent.
 struct Corner {

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cstring>
+#include <initializer_list>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -46,6 +49,79 @@ void forEachSegment(std::span<const std::byte> bytes, Visit visit) {
         at += bigEndian16(bytes, at);
     }
 }
+
+constexpr std::size_t kEntryBytes = 12;
+
+/// Numbers of a TIFF file, in its order of bytes; 0 beyond its end. Source: Adobe 1992, TIFF revision 6.0, section 2.
+class Tiff {
+public:
+    explicit Tiff(std::span<const std::byte> bytes)
+        : bytes_(bytes), isBigEndian_(!bytes.empty() && bytes[0] == std::byte{'M'}) {}
+
+    bool isBigEndian() const { return isBigEndian_; }
+
+    std::uint64_t number(std::size_t at, int count) const {
+        std::uint64_t value = 0;
+        for (int i = 0; i < count; ++i) {
+            const std::size_t place = at + std::size_t(isBigEndian_ ? i : count - 1 - i);
+            value = value << 8 | (place < bytes_.size() ? std::to_integer<std::uint64_t>(bytes_[place]) : 0);
+        }
+        return value;
+    }
+
+    /// Where the first directory begins: with the number of its entries.
+    std::size_t directory() const { return number(4, 4); }
+
+    /// The entry of a tag in the first directory, or 0.
+    std::size_t entryOf(std::uint64_t tag) const {
+        const std::uint64_t entries = number(directory(), 2);
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            const std::size_t entry = directory() + 2 + kEntryBytes * i;
+            if (number(entry, 2) == tag) return entry;
+        }
+        return 0;
+    }
+
+    /// The first number that a tag has, or `otherwise`. Other types than these libtiff reads too, by other rules.
+    std::uint64_t valueOf(std::uint64_t tag, std::uint64_t otherwise) const {
+        constexpr std::uint64_t kByte = 1, kShort = 3, kLong = 4;
+        const std::size_t entry = entryOf(tag);
+        if (entry == 0) return otherwise;
+        const std::uint64_t type = number(entry + 2, 2);
+        if (type != kByte && type != kShort && type != kLong)
+            throw std::runtime_error(
+                fmt::format("its tag {} is of type {}, where 1 (BYTE), 3 (SHORT) or 4 (LONG) is needed", tag, type));
+        const int size = type == kByte ? 1 : type == kShort ? 2 : 4;
+        const bool isElsewhere = number(entry + 4, 4) * std::uint64_t(size) > 4;
+        return number(isElsewhere ? number(entry + 8, 4) : entry + 8, size);
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+    bool isBigEndian_;
+};
+
+/// The greatest number where it would be greater.
+std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t result = 1;
+    for (const std::uint64_t factor : factors)
+        result = factor != 0 && result > kMost / factor ? kMost : result * factor;
+    return result;
+}
+
+/// Those that decoding needs; of the others libtiff would copy each value, even one that thousands of tags share.
+/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301), SGI's
+/// (32996) and Esri's (50674).
+constexpr std::uint16_t kDecodingTags[] = {
+    254,   256,   257, 258, 259,   262,   266, // the picture's kind, sides, bits, compression, colours, order of bits
+    273,   274,   277, 278, 279,               // strips, orientation, samples
+    282,   283,   284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
+    305,   317,   318, 320, 322,   323,   324, 325, // software, predictor, white of Lab, palette, tiles
+    332,   338,   339, 347,                         // inks, alpha, numbers, tables of JPEG
+    529,   530,   531, 532, 33300, 33301,           // luma and chroma, the whole of which this is a part
+    32996, 50674,                                   // SGI's kind of numbers, what packs LERC
+};
 
 } // namespace
 
@@ -109,6 +185,63 @@ void requirePictureSize(const PictureSize& size, std::span<const std::byte> file
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 62; // more than any budget, and no overflow
     ledger.charge(static_cast<std::uint64_t>(texels) * size.bytesATexel + std::min(size.bytes, kMostBytes),
                   [&] { return fmt::format("{}: the picture of {}x{} texels", name, size.width, size.height); });
+}
+
+bool keepTiffTags(std::span<std::byte> bytes, std::span<const std::uint16_t> tags) {
+    constexpr std::size_t kHeaderBytes = 8;
+    const Tiff tiff(bytes);
+    const std::size_t directory = tiff.directory(), first = directory + 2;
+    const std::size_t end = first + kEntryBytes * tiff.number(directory, 2);
+    if (directory < kHeaderBytes || end > bytes.size()) return false;
+    std::vector<std::uint64_t> missing(tags.begin(), tags.end());
+    std::size_t keptEnd = first;
+    for (std::size_t entry = first; entry < end; entry += kEntryBytes) {
+        const auto tag = std::ranges::find(missing, tiff.number(entry, 2));
+        if (tag == missing.end()) continue;
+        missing.erase(tag);
+        std::memmove(bytes.data() + keptEnd, bytes.data() + entry, kEntryBytes);
+        keptEnd += kEntryBytes;
+    }
+    const std::size_t count = (keptEnd - first) / kEntryBytes;
+    bytes[directory + (tiff.isBigEndian() ? 1 : 0)] = std::byte(count & 0xff);
+    bytes[directory + (tiff.isBigEndian() ? 0 : 1)] = std::byte(count >> 8);
+    const std::span<std::byte> next = bytes.subspan(keptEnd);
+    std::ranges::fill(next.first(std::min<std::size_t>(next.size(), 4)), std::byte{0});
+    return true;
+}
+
+int orientationOfTiff(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t kOrientation = 274, kUpright = 1, kMost = 8;
+    try {
+        const std::uint64_t value = Tiff(bytes).valueOf(kOrientation, kUpright);
+        return value >= kUpright && value <= kMost ? int(value) : int(kUpright);
+    } catch (const std::runtime_error&) {
+        return int(kUpright);
+    }
+}
+
+void takeOutMetadataOfTiff(std::span<std::byte> bytes) {
+    if (!keepTiffTags(bytes, kDecodingTags)) throw std::runtime_error("its directory of tags is not in the file");
+}
+
+/// libtiff and OpenImageIO hold a row of tiles, or a strip, as it is stored and as it is handed over: whole, however
+/// small the picture is. Colours that OpenImageIO leaves to libtiff are converted for the whole picture at once.
+PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
+    constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259, kColours = 262,
+                            kSamples = 277, kRows = 278, kTileWidth = 322, kTileHeight = 323;
+    constexpr std::uint64_t kOldJpeg = 6, kJpeg = 7, kSeparated = 5, kCopies = 2, kConvertedBytes = 4;
+    const Tiff tiff(bytes);
+    const std::uint64_t width = tiff.valueOf(kWidth, 0), height = tiff.valueOf(kHeight, 0);
+    const std::uint64_t tileWidth = tiff.valueOf(kTileWidth, 0), tileHeight = tiff.valueOf(kTileHeight, 0);
+    const std::uint64_t columns = tileWidth == 0 ? width : (width + tileWidth - 1) / tileWidth * tileWidth;
+    const std::uint64_t rows = tileHeight == 0 ? std::min(tiff.valueOf(kRows, height), height) : tileHeight;
+    const std::uint64_t bytesASample = std::max<std::uint64_t>((tiff.valueOf(kBits, 1) + 7) / 8, 1);
+    const std::uint64_t samples = std::max<std::uint64_t>(tiff.valueOf(kSamples, 1), 1);
+    const std::uint64_t compression = tiff.valueOf(kCompression, 1);
+    if (compression == kOldJpeg) throw std::runtime_error("it is packed as JPEG in the way of TIFF before 1995");
+    const bool isConverted = tiff.valueOf(kColours, 0) > kSeparated || compression == kJpeg;
+    return {std::int64_t(width), std::int64_t(height), isConverted ? kConvertedBytes : 0,
+            product({kCopies, columns, rows, bytesASample, samples})};
 }
 
 } // namespace tessera::scenes

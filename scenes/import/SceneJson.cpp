@@ -11,14 +11,10 @@
 #include "scenes/Load.h"
 #include "scenes/RigLinks.h"
 #include "scenes/import/AppendScene.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/JsonText.h"
-#include "scenes/import/SceneJsonHook.h"
-#include "scenes/import/SceneJsonLights.h"
-#include "scenes/import/SceneJsonMaterials.h"
-#include "scenes/import/SceneJsonOverrides.h"
-#include "scenes/import/SceneJsonTransform.h"
+#include "scenes/import/SceneJsonParts.h"
 
 namespace tessera::scenes {
 namespace {

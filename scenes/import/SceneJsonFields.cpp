@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "scenes/import/SceneJsonNames.h"
-#include "scenes/import/SceneJsonTransform.h"
+#include "scenes/import/SceneJsonParts.h"
 
 namespace tessera::scenes::scenejson {
 namespace {

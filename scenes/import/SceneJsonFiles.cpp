@@ -1,4 +1,4 @@
-#include "scenes/import/SceneJsonFiles.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include <cstdlib>
 #include <system_error>

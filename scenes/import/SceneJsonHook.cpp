@@ -1,12 +1,11 @@
-#include "scenes/import/SceneJsonHook.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include <algorithm>
 #include <set>
 
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
-#include "scenes/import/FileBytes.h"
-#include "scenes/import/SceneJsonFiles.h"
+#include "scenes/import/Files.h"
 
 namespace tessera::scenes::scenejson {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include <algorithm>
 #include <array>

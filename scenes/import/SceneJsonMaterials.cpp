@@ -1,4 +1,4 @@
-#include "scenes/import/SceneJsonMaterials.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include <algorithm>
 #include <iterator>

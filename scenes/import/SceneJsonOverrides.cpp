@@ -1,10 +1,8 @@
-#include "scenes/import/SceneJsonOverrides.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include <algorithm>
 #include <numeric>
 #include <unordered_set>
-
-#include "scenes/import/SceneJsonMaterials.h"
 
 namespace tessera::scenes::scenejson {
 namespace {

@@ -1,5 +1,5 @@
 #include "scenes/MaterialLayers.h"
-#include "scenes/import/SceneJsonMaterials.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/import/SceneJsonNames.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/WithFields.h"

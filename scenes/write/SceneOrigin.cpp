@@ -6,9 +6,9 @@
 
 #include "base/Extension.h"
 #include "scenes/Rest.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/JsonText.h"
-#include "scenes/import/SceneJsonFiles.h"
+#include "scenes/import/SceneJsonParts.h"
 
 namespace tessera::scenes {
 namespace {

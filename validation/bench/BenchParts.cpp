@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
-#include "scenes/import/FileBytes.h"
+#include "scenes/import/Files.h"
 #include "scenes/import/JsonText.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchStore.h"

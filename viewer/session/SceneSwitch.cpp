@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "engine/ChooseView.h"
-#include "scenes/import/StandIn.h"
+#include "scenes/import/MadeImages.h"
 #include "viewer/session/MapChoices.h"
 #include "viewer/session/Remember.h"
 #include "viewer/session/SceneSource.h"

@@ -10,7 +10,7 @@
 #include "scenes/Fingerprint.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/import/Importers.h"
-#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/SceneText.h"
 #include "tests/support/LightPictures.h"

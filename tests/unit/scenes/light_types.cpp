@@ -7,7 +7,7 @@
 
 #include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
-#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 

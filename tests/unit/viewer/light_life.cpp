@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/Load.h"
-#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/SceneText.h"
 #include "tests/support/Random.h"

@@ -4,7 +4,7 @@
 
 #include "scenes/AreaLight.h"
 #include "scenes/Load.h"
-#include "scenes/import/SceneJsonLights.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "tests/support/Random.h"
 #include "tests/unit/scenes/json/SceneFiles.h"

@@ -1,4 +1,4 @@
-#include "scenes/import/SceneJsonOverrides.h"
+#include "scenes/import/SceneJsonParts.h"
 
 #include "tests/unit/scenes/json/SceneFiles.h"
 

@@ -1,5 +1,5 @@
 // Names of libraries and pictures in other spellings than their files.
-#include "scenes/import/NamedFile.h"
+#include "scenes/import/Files.h"
 #include "tests/unit/scenes/obj/ObjFiles.h"
 
 namespace tessera::scenes {

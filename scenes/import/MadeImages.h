@@ -2,9 +2,23 @@
 #include <array>
 #include <string>
 
+#include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 
+/// Images that importers make: stand-ins for those that cannot be read, and combinations of others.
 namespace tessera::scenes {
+
+/// A checkerboard of 8 x 8 squares, magenta and dark grey, opaque. Where a texture holds no colours, no picture can
+/// stand in: the texture is left out there, and the material's factor holds alone.
+Image standInPicture(LoadLedger& ledger, const std::string& who);
+
+/// Ends the warning of a picture that cannot be read, after the reason.
+inline constexpr const char* kStandInText = "; its colours are a checkerboard, and what else it holds is left out";
+
+/// Whether a picture at this slot shows colours.
+inline bool takesStandIn(TextureSlot slot) {
+    return infoOf(slot).isSrgb;
+}
 
 /// Where a channel of a packed picture comes from: offset + scale x a channel of a picture, or 1 where `image` is null.
 struct ChannelSource {
