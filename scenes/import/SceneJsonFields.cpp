@@ -8,15 +8,17 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
-void read(const JsonValue& value, LightKeys& keys);
-void read(const JsonValue& value, LightAnimation& animation);
-void read(const JsonValue& value, LightFlicker& flicker);
-void read(const JsonValue& value, TextureUse& use);
-void read(const JsonValue& value, DiffusionGaussian& gaussian);
-void read(const JsonValue& value, Subsurface& subsurface);
+/// A struct whose members SceneJsonFields.h names.
+template <typename Struct>
+concept HasMembers = requires(Struct& object) {
+    visitMembers([](const char*, auto&) {}, object);
+};
+
+template <HasMembers Struct>
+void read(const JsonValue& value, Struct& members);
 
 void read(const JsonValue& value, std::string& text) {
-    text = value.isText() ? value.textOrEmpty() : value.text();
+    text = value.textOrEmpty();
 }
 
 void read(const JsonValue& value, bool& flag) {
@@ -77,73 +79,35 @@ void read(const JsonValue& value, std::optional<Value>& optional) {
     if (!value.isNull()) read(value, optional.emplace());
 }
 
-/// A visitor that reads the members an object names.
-auto readerOf(JsonObject& object) {
-    return [&object](const char* key, auto& member) {
-        if (const auto value = object.find(key)) read(*value, member);
-    };
+/// Reads the members that an object names.
+template <HasMembers Struct>
+void readMembers(const JsonValue& value, const char* what, Struct& members) {
+    JsonObject object = value.object();
+    visitMembers(
+        [&](const char* key, auto& member) {
+            if (const auto found = object.find(key)) read(*found, member);
+        },
+        members);
+    object.done(what);
 }
 
-void read(const JsonValue& value, LightKeys& keys) {
-    JsonObject object = value.object();
-    visitKeys(readerOf(object), keys);
-    object.done("the fields of keyframes");
-}
-
-void read(const JsonValue& value, LightAnimation& animation) {
-    JsonObject object = value.object();
-    visitAnimation(readerOf(object), animation);
-    object.done("an animation's fields");
-}
-
-void read(const JsonValue& value, LightFlicker& flicker) {
-    JsonObject object = value.object();
-    visitFlicker(readerOf(object), flicker);
-    object.done("a flicker's fields");
-}
-
-void read(const JsonValue& value, TextureUse& use) {
-    JsonObject object = value.object();
-    visitTextureUse(readerOf(object), use);
-    object.done("a texture's fields");
-}
-
-void read(const JsonValue& value, DiffusionGaussian& gaussian) {
-    JsonObject object = value.object();
-    visitGaussian(readerOf(object), gaussian);
-    object.done("a Gaussian's fields");
-}
-
-void read(const JsonValue& value, Subsurface& subsurface) {
-    JsonObject object = value.object();
-    visitSubsurface(readerOf(object), subsurface);
-    object.done("a subsurface's fields");
+template <HasMembers Struct>
+void read(const JsonValue& value, Struct& members) {
+    readMembers(value, "an object of fields", members);
 }
 
 } // namespace
 
 void readFields(JsonObject& object, Light& light) {
-    const std::optional<JsonValue> value = object.find("fields");
-    if (!value) return;
-    JsonObject fields = value->object();
-    visitLight(readerOf(fields), light);
-    fields.done("a light's fields");
+    if (const auto value = object.find("fields")) readMembers(*value, "a light's fields", light);
 }
 
 void readFields(JsonObject& object, Camera& camera) {
-    const std::optional<JsonValue> value = object.find("fields");
-    if (!value) return;
-    JsonObject fields = value->object();
-    visitCamera(readerOf(fields), camera);
-    fields.done("a camera's fields");
+    if (const auto value = object.find("fields")) readMembers(*value, "a camera's fields", camera);
 }
 
 void readFields(JsonObject& object, Material& material) {
-    const std::optional<JsonValue> value = object.find("fields");
-    if (!value) return;
-    JsonObject fields = value->object();
-    visitMaterial(readerOf(fields), material);
-    fields.done("a material's fields");
+    if (const auto value = object.find("fields")) readMembers(*value, "a material's fields", material);
 }
 
 } // namespace tessera::scenes::scenejson

@@ -1,5 +1,6 @@
 #pragma once
-#include <array>
+#include <concepts>
+#include <type_traits>
 
 #include "scenes/Scene.h"
 #include "scenes/import/JsonReader.h"
@@ -8,8 +9,10 @@
 /// type or model. A visitor is called with a member's name and that member of each of the objects.
 namespace tessera::scenes::scenejson {
 
-template <typename Visitor, typename... Keys>
-void visitKeys(Visitor&& visit, Keys&... keys) {
+template <typename Element, typename Struct>
+concept Is = std::same_as<std::remove_const_t<Element>, Struct>;
+
+void visitMembers(auto&& visit, Is<LightKeys> auto&... keys) {
     visit("of", keys.of...);
     visit("timesSeconds", keys.timesSeconds...);
     visit("values", keys.values...);
@@ -19,8 +22,7 @@ void visitKeys(Visitor&& visit, Keys&... keys) {
     visit("outTangents", keys.outTangents...);
 }
 
-template <typename Visitor, typename... Animations>
-void visitAnimation(Visitor&& visit, Animations&... animation) {
+void visitMembers(auto&& visit, Is<LightAnimation> auto&... animation) {
     visit("kind", animation.kind...);
     visit("periodSeconds", animation.periodSeconds...);
     visit("phase", animation.phase...);
@@ -34,20 +36,17 @@ void visitAnimation(Visitor&& visit, Animations&... animation) {
     visit("keys", animation.keys...);
 }
 
-template <typename Visitor, typename... Flickers>
-void visitFlicker(Visitor&& visit, Flickers&... flicker) {
+void visitMembers(auto&& visit, Is<LightFlicker> auto&... flicker) {
     visit("amplitude", flicker.amplitude...);
     visit("frequencyHz", flicker.frequencyHz...);
     visit("seed", flicker.seed...);
 }
 
-template <typename Visitor, typename... Lights>
-void visitLight(Visitor&& visit, Lights&... light) {
+void visitMembers(auto&& visit, Is<Light> auto&... light) {
     visitFields(kLightFields, [&](const auto& field) { visit(field.name, light.*field.member...); });
 }
 
-template <typename Visitor, typename... Cameras>
-void visitCamera(Visitor&& visit, Cameras&... camera) {
+void visitMembers(auto&& visit, Is<Camera> auto&... camera) {
     visit("name", camera.name...);
     visit("projection", camera.projection...);
     visit("worldFromCamera", camera.worldFromCamera...);
@@ -57,19 +56,16 @@ void visitCamera(Visitor&& visit, Cameras&... camera) {
     visit("farMetres", camera.farMetres...);
 }
 
-template <typename Visitor, typename... Gaussians>
-void visitGaussian(Visitor&& visit, Gaussians&... gaussian) {
+void visitMembers(auto&& visit, Is<DiffusionGaussian> auto&... gaussian) {
     visit("varianceSquareMillimetres", gaussian.varianceSquareMillimetres...);
     visit("weight", gaussian.weight...);
 }
 
-template <typename Visitor, typename... Subsurfaces>
-void visitSubsurface(Visitor&& visit, Subsurfaces&... subsurface) {
+void visitMembers(auto&& visit, Is<Subsurface> auto&... subsurface) {
     visitFields(kSubsurfaceFields, [&](const auto& field) { visit(field.name, subsurface.*field.member...); });
 }
 
-template <typename Visitor, typename... Uses>
-void visitTextureUse(Visitor&& visit, Uses&... use) {
+void visitMembers(auto&& visit, Is<TextureUse> auto&... use) {
     visit("image", use.image...);
     visit("magnification", use.sampler.magnification...);
     visit("minification", use.sampler.minification...);
@@ -82,27 +78,26 @@ void visitTextureUse(Visitor&& visit, Uses&... use) {
 }
 
 /// "baseColorTexture" and so on, by slot.
-inline constexpr std::array<const char*, kTextureSlotCount> kTextureFields = {"baseColorTexture",
-                                                                              "normalTexture",
-                                                                              "metallicRoughnessTexture",
-                                                                              "emissiveTexture",
-                                                                              "specularFactorTexture",
-                                                                              "specularColorTexture",
-                                                                              "iorTexture",
-                                                                              "anisotropyTexture",
-                                                                              "clearcoatTexture",
-                                                                              "clearcoatRoughnessTexture",
-                                                                              "clearcoatNormalTexture",
-                                                                              "sheenColorTexture",
-                                                                              "sheenRoughnessTexture",
-                                                                              "occlusionTexture",
-                                                                              "transmissionTexture",
-                                                                              "thicknessTexture",
-                                                                              "iridescenceTexture",
-                                                                              "iridescenceThicknessTexture"};
+inline constexpr const char* kTextureFields[kTextureSlotCount] = {"baseColorTexture",
+                                                                  "normalTexture",
+                                                                  "metallicRoughnessTexture",
+                                                                  "emissiveTexture",
+                                                                  "specularFactorTexture",
+                                                                  "specularColorTexture",
+                                                                  "iorTexture",
+                                                                  "anisotropyTexture",
+                                                                  "clearcoatTexture",
+                                                                  "clearcoatRoughnessTexture",
+                                                                  "clearcoatNormalTexture",
+                                                                  "sheenColorTexture",
+                                                                  "sheenRoughnessTexture",
+                                                                  "occlusionTexture",
+                                                                  "transmissionTexture",
+                                                                  "thicknessTexture",
+                                                                  "iridescenceTexture",
+                                                                  "iridescenceThicknessTexture"};
 
-template <typename Visitor, typename... Materials>
-void visitMaterial(Visitor&& visit, Materials&... material) {
+void visitMembers(auto&& visit, Is<Material> auto&... material) {
     visitFields(kMaterialFields, [&](const auto& field) { visit(field.name, material.*field.member...); });
     for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot)
         visit(kTextureFields[slot], material.textures[slot]...);

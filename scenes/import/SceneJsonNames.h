@@ -2,6 +2,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "scenes/Scene.h"
@@ -12,113 +13,68 @@ namespace tessera::scenes::scenejson {
 template <typename Choice>
 using Named = std::pair<std::string_view, Choice>;
 
-inline constexpr std::array kWraps = {Named<Wrap>{"repeat", Wrap::Repeat},
-                                      Named<Wrap>{"clamp_to_edge", Wrap::ClampToEdge},
-                                      Named<Wrap>{"mirrored_repeat", Wrap::MirroredRepeat}};
-/// The first two are those of magnification.
-inline constexpr std::array kFilters = {Named<Filter>{"nearest", Filter::Nearest},
-                                        Named<Filter>{"linear", Filter::Linear},
-                                        Named<Filter>{"nearest_mipmap_nearest", Filter::NearestMipmapNearest},
-                                        Named<Filter>{"linear_mipmap_nearest", Filter::LinearMipmapNearest},
-                                        Named<Filter>{"nearest_mipmap_linear", Filter::NearestMipmapLinear},
-                                        Named<Filter>{"linear_mipmap_linear", Filter::LinearMipmapLinear}};
-inline constexpr auto kModels = [] {
-    std::array<Named<MaterialModel>, kMaterialModelCount> names;
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {materialModels()[i].name, materialModels()[i].model};
+/// The names of a table of descriptions, of which `choice` is described.
+template <std::size_t kCount, typename Info, typename Choice>
+constexpr std::array<Named<Choice>, kCount> namesOf(std::span<const Info> infos, Choice Info::*choice) {
+    std::array<Named<Choice>, kCount> names;
+    for (std::size_t i = 0; i < kCount; ++i) names[i] = {infos[i].name, infos[i].*choice};
     return names;
-}();
-/// The first two are those of isotropic microfacets.
-inline constexpr std::array kMaskings = {Named<Masking>{"walter", Masking::Walter},
-                                         Named<Masking>{"half_vector", Masking::HalfVector},
-                                         Named<Masking>{"directional", Masking::Directional}};
-inline constexpr std::array kAlphaModes = {Named<AlphaMode>{"opaque", AlphaMode::Opaque},
-                                           Named<AlphaMode>{"mask", AlphaMode::Mask},
-                                           Named<AlphaMode>{"blend", AlphaMode::Blend}};
-inline constexpr std::array kNormalMapSpaces = {Named<NormalMapSpace>{"tangent", NormalMapSpace::Tangent},
-                                                Named<NormalMapSpace>{"object", NormalMapSpace::Object}};
-inline constexpr std::array kTangentMethods = {Named<TangentMethod>{"mikktspace", TangentMethod::MikkTSpace},
-                                               Named<TangentMethod>{"lengyel", TangentMethod::Lengyel}};
-inline constexpr auto kSubsurfaceMethodNames = [] {
-    std::array<Named<SubsurfaceMethod>, kSubsurfaceMethods.size()> names;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        names[i] = {kSubsurfaceMethods[i].name, kSubsurfaceMethods[i].method};
-    return names;
-}();
-inline constexpr auto kLightTypes = [] {
-    std::array<Named<LightType>, kLightTypeCount> names;
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {lightTypes()[i].name, lightTypes()[i].type};
-    return names;
-}();
-inline constexpr std::array kFalloffs = {Named<Falloff>{"inverse_square", Falloff::InverseSquare},
-                                         Named<Falloff>{"attenuation", Falloff::Attenuation}};
-inline constexpr std::array kAnimations = {Named<LightAnimationKind>{"orbit", LightAnimationKind::Orbit},
-                                           Named<LightAnimationKind>{"wobble", LightAnimationKind::Wobble},
-                                           Named<LightAnimationKind>{"path", LightAnimationKind::Path},
-                                           Named<LightAnimationKind>{"keyframes", LightAnimationKind::Keyframes}};
-inline constexpr std::array kPathLines = {Named<PathLine>{"straight", PathLine::Straight},
-                                          Named<PathLine>{"catmull_rom", PathLine::CatmullRom}};
-inline constexpr std::array kInterpolations = {Named<Interpolation>{"linear", Interpolation::Linear},
-                                               Named<Interpolation>{"step", Interpolation::Step},
-                                               Named<Interpolation>{"cubic_spline", Interpolation::CubicSpline}};
-inline constexpr std::array kKeyRepeats = {Named<KeyRepeat>{"once", KeyRepeat::Once},
-                                           Named<KeyRepeat>{"loop", KeyRepeat::Loop},
-                                           Named<KeyRepeat>{"ping_pong", KeyRepeat::PingPong}};
-inline constexpr auto kKeyedMembers = [] {
-    std::array<Named<LightKeyed>, std::size_t(LightKeyed::Count)> names;
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = {keyedMembers()[i].name, keyedMembers()[i].member};
-    return names;
-}();
-inline constexpr std::array kProjections = {Named<Projection>{"perspective", Projection::Perspective},
-                                            Named<Projection>{"orthographic", Projection::Orthographic}};
+}
 
-/// The table of a type of choice, found by overload.
-inline std::span<const Named<Wrap>> choicesOf(Wrap) {
-    return kWraps;
-}
-inline std::span<const Named<Filter>> choicesOf(Filter) {
-    return kFilters;
-}
-inline std::span<const Named<MaterialModel>> choicesOf(MaterialModel) {
-    return kModels;
-}
-inline std::span<const Named<Masking>> choicesOf(Masking) {
-    return kMaskings;
-}
-inline std::span<const Named<AlphaMode>> choicesOf(AlphaMode) {
-    return kAlphaModes;
-}
-inline std::span<const Named<NormalMapSpace>> choicesOf(NormalMapSpace) {
-    return kNormalMapSpaces;
-}
-inline std::span<const Named<TangentMethod>> choicesOf(TangentMethod) {
-    return kTangentMethods;
-}
-inline std::span<const Named<SubsurfaceMethod>> choicesOf(SubsurfaceMethod) {
-    return kSubsurfaceMethodNames;
-}
-inline std::span<const Named<LightType>> choicesOf(LightType) {
-    return kLightTypes;
-}
-inline std::span<const Named<Falloff>> choicesOf(Falloff) {
-    return kFalloffs;
-}
-inline std::span<const Named<LightAnimationKind>> choicesOf(LightAnimationKind) {
-    return kAnimations;
-}
-inline std::span<const Named<PathLine>> choicesOf(PathLine) {
-    return kPathLines;
-}
-inline std::span<const Named<Interpolation>> choicesOf(Interpolation) {
-    return kInterpolations;
-}
-inline std::span<const Named<KeyRepeat>> choicesOf(KeyRepeat) {
-    return kKeyRepeats;
-}
-inline std::span<const Named<LightKeyed>> choicesOf(LightKeyed) {
-    return kKeyedMembers;
-}
-inline std::span<const Named<Projection>> choicesOf(Projection) {
-    return kProjections;
+inline constexpr Named<Wrap> kWraps[] = {
+    {"repeat", Wrap::Repeat}, {"clamp_to_edge", Wrap::ClampToEdge}, {"mirrored_repeat", Wrap::MirroredRepeat}};
+/// The first two are those of magnification.
+inline constexpr Named<Filter> kFilters[] = {{"nearest", Filter::Nearest},
+                                             {"linear", Filter::Linear},
+                                             {"nearest_mipmap_nearest", Filter::NearestMipmapNearest},
+                                             {"linear_mipmap_nearest", Filter::LinearMipmapNearest},
+                                             {"nearest_mipmap_linear", Filter::NearestMipmapLinear},
+                                             {"linear_mipmap_linear", Filter::LinearMipmapLinear}};
+inline constexpr auto kModels = namesOf<kMaterialModelCount>(materialModels(), &MaterialModelInfo::model);
+/// The first two are those of isotropic microfacets.
+inline constexpr Named<Masking> kMaskings[] = {
+    {"walter", Masking::Walter}, {"half_vector", Masking::HalfVector}, {"directional", Masking::Directional}};
+inline constexpr Named<AlphaMode> kAlphaModes[] = {
+    {"opaque", AlphaMode::Opaque}, {"mask", AlphaMode::Mask}, {"blend", AlphaMode::Blend}};
+inline constexpr Named<NormalMapSpace> kNormalMapSpaces[] = {{"tangent", NormalMapSpace::Tangent},
+                                                             {"object", NormalMapSpace::Object}};
+inline constexpr Named<TangentMethod> kTangentMethods[] = {{"mikktspace", TangentMethod::MikkTSpace},
+                                                           {"lengyel", TangentMethod::Lengyel}};
+inline constexpr auto kSubsurfaceMethodNames =
+    namesOf<kSubsurfaceMethods.size()>(subsurfaceMethods(), &SubsurfaceMethodInfo::method);
+inline constexpr auto kLightTypes = namesOf<kLightTypeCount>(lightTypes(), &LightTypeInfo::type);
+inline constexpr Named<Falloff> kFalloffs[] = {{"inverse_square", Falloff::InverseSquare},
+                                               {"attenuation", Falloff::Attenuation}};
+inline constexpr Named<LightAnimationKind> kAnimations[] = {{"orbit", LightAnimationKind::Orbit},
+                                                            {"wobble", LightAnimationKind::Wobble},
+                                                            {"path", LightAnimationKind::Path},
+                                                            {"keyframes", LightAnimationKind::Keyframes}};
+inline constexpr Named<PathLine> kPathLines[] = {{"straight", PathLine::Straight},
+                                                 {"catmull_rom", PathLine::CatmullRom}};
+inline constexpr Named<Interpolation> kInterpolations[] = {
+    {"linear", Interpolation::Linear}, {"step", Interpolation::Step}, {"cubic_spline", Interpolation::CubicSpline}};
+inline constexpr Named<KeyRepeat> kKeyRepeats[] = {
+    {"once", KeyRepeat::Once}, {"loop", KeyRepeat::Loop}, {"ping_pong", KeyRepeat::PingPong}};
+inline constexpr auto kKeyedMembers = namesOf<std::size_t(LightKeyed::Count)>(keyedMembers(), &LightKeyedInfo::member);
+inline constexpr Named<Projection> kProjections[] = {{"perspective", Projection::Perspective},
+                                                     {"orthographic", Projection::Orthographic}};
+
+namespace detail {
+template <typename... Choices>
+using Tables = std::tuple<std::span<const Named<Choices>>...>;
+inline constexpr Tables<Wrap, Filter, MaterialModel, Masking, AlphaMode, NormalMapSpace, TangentMethod,
+                        SubsurfaceMethod, LightType, Falloff, LightAnimationKind, PathLine, Interpolation, KeyRepeat,
+                        LightKeyed, Projection>
+    kTables{kWraps,          kFilters,         kModels,         kMaskings,
+            kAlphaModes,     kNormalMapSpaces, kTangentMethods, kSubsurfaceMethodNames,
+            kLightTypes,     kFalloffs,        kAnimations,     kPathLines,
+            kInterpolations, kKeyRepeats,      kKeyedMembers,   kProjections};
+} // namespace detail
+
+/// The table of a type of choice.
+template <typename Choice>
+constexpr std::span<const Named<Choice>> choicesOf(Choice) {
+    return std::get<std::span<const Named<Choice>>>(detail::kTables);
 }
 
 template <typename Choice>

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "scenes/import/SceneJsonParts.h"
 #include "scenes/import/SceneJsonNames.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/WithFields.h"
 

@@ -84,42 +84,41 @@ auto differencesInto(Json& json) {
 Json fieldOf(const LightKeys& keys) {
     Json json = Json::object();
     const LightKeys none;
-    scenejson::visitKeys(differencesInto(json), keys, none);
+    scenejson::visitMembers(differencesInto(json), keys, none);
     return json;
 }
 
 Json fieldOf(const LightAnimation& animation) {
     Json json = Json::object();
     const LightAnimation none;
-    scenejson::visitAnimation(differencesInto(json), animation, none);
+    scenejson::visitMembers(differencesInto(json), animation, none);
     return json;
 }
 
 Json fieldOf(const LightFlicker& flicker) {
     Json json = Json::object();
     const LightFlicker none;
-    scenejson::visitFlicker(differencesInto(json), flicker, none);
+    scenejson::visitMembers(differencesInto(json), flicker, none);
     return json;
 }
 
 Json fieldOf(const TextureUse& use) {
     Json json = Json::object();
     // All members: the existing object is changed, not recreated.
-    scenejson::visitTextureUse([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, use);
+    scenejson::visitMembers([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, use);
     return json;
 }
 
 // All members, as of textures.
 Json fieldOf(const DiffusionGaussian& gaussian) {
     Json json = Json::object();
-    scenejson::visitGaussian([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, gaussian);
+    scenejson::visitMembers([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, gaussian);
     return json;
 }
 
 Json fieldOf(const Subsurface& subsurface) {
     Json json = Json::object();
-    scenejson::visitSubsurface([&json](const char* key, const auto& member) { json[key] = fieldOf(member); },
-                               subsurface);
+    scenejson::visitMembers([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, subsurface);
     return json;
 }
 
@@ -148,19 +147,19 @@ Json numbers(const glm::dmat4& matrix) {
 
 Json fieldsThatDiffer(const Light& wanted, const Light& got) {
     Json json;
-    scenejson::visitLight(differencesInto(json), wanted, got);
+    scenejson::visitMembers(differencesInto(json), wanted, got);
     return json;
 }
 
 Json fieldsThatDiffer(const Camera& wanted, const Camera& got) {
     Json json;
-    scenejson::visitCamera(differencesInto(json), wanted, got);
+    scenejson::visitMembers(differencesInto(json), wanted, got);
     return json;
 }
 
 Json fieldsThatDiffer(const Material& wanted, const Material& got) {
     Json json;
-    scenejson::visitMaterial(differencesInto(json), wanted, got);
+    scenejson::visitMembers(differencesInto(json), wanted, got);
     return json;
 }
 

@@ -2,8 +2,8 @@
 
 #include "scenes/AreaLight.h"
 #include "scenes/Shadows.h"
-#include "scenes/import/SceneJsonParts.h"
 #include "scenes/import/SceneJsonNames.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/WithFields.h"
 

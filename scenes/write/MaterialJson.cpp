@@ -1,6 +1,6 @@
 #include "scenes/MaterialLayers.h"
-#include "scenes/import/SceneJsonParts.h"
 #include "scenes/import/SceneJsonNames.h"
+#include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/WithFields.h"
 
