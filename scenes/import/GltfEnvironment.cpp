@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include "base/Srgb.h"
 #include "scenes/RadianceMap.h"
 #include "scenes/import/MadeImages.h"
+#include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes::gltf {
 namespace {
@@ -62,11 +63,8 @@ public:
     }
 
     glm::dvec3 texel(std::size_t face, int x, int y) const {
-        glm::vec4 stored;
         const std::size_t row = face * std::size_t(side()) + std::size_t(y);
-        std::memcpy(&stored, faces_.texels.data() + (row * std::size_t(side()) + std::size_t(x)) * sizeof(stored),
-                    sizeof(stored));
-        return glm::dvec3(stored);
+        return glm::dvec3(texelsOf<glm::vec4>(faces_)[row * std::size_t(side()) + std::size_t(x)]);
     }
 
 private:
@@ -94,55 +92,40 @@ private:
 
 /// Linear light of a picture's texels as the extension holds it: whole numbers are sRGB, divided by their opacity
 /// (RGBD, which is 1 where a picture has none); floating point is light itself.
+template <typename Channel>
 class FaceLight {
 public:
-    explicit FaceLight(const Image& image) : image_(image) {
-        if (image.format == TexelFormat::Rgba32Float) return;
-        light_.resize(image.format == TexelFormat::Rgba8Unorm ? 1u << 8 : 1u << 16);
-        for (std::size_t code = 0; code < light_.size(); ++code)
-            light_[code] = linearFromSrgb(double(code) / double(light_.size() - 1));
+    explicit FaceLight(const Image& picture) : stored_(texelsOf<Channel>(picture)) {
+        for (std::size_t code = 0; std::is_integral_v<Channel> && code <= std::size_t(kOneOf<Channel>); ++code)
+            linear_.push_back(linearFromSrgb(double(code) / kOneOf<Channel>));
     }
 
-    glm::vec4 texel(int x, int y) const {
-        const std::size_t at = std::size_t(y) * std::size_t(image_.width) + std::size_t(x);
-        if (image_.format == TexelFormat::Rgba8Unorm) return decoded<std::uint8_t>(at);
-        if (image_.format == TexelFormat::Rgba16Unorm) return decoded<std::uint16_t>(at);
-        return stored<glm::vec4>(at);
+    glm::vec4 texel(std::size_t at) const {
+        const Channel* const codes = &stored_[4 * at];
+        if constexpr (!std::is_integral_v<Channel>) {
+            return {codes[0], codes[1], codes[2], codes[3]};
+        } else {
+            const double share = double(codes[3]) / kOneOf<Channel>;
+            return {glm::vec3(glm::dvec3(linear_[codes[0]], linear_[codes[1]], linear_[codes[2]]) / share), 1.0f};
+        }
     }
 
 private:
-    template <typename Texel>
-    Texel stored(std::size_t at) const {
-        Texel texel;
-        std::memcpy(&texel, image_.texels.data() + at * sizeof(texel), sizeof(texel));
-        return texel;
-    }
-
-    template <typename Code>
-    glm::vec4 decoded(std::size_t at) const {
-        const auto codes = stored<std::array<Code, 4>>(at);
-        const double share = double(codes[3]) / double(light_.size() - 1);
-        glm::dvec3 light;
-        for (int i = 0; i < 3; ++i) light[i] = light_[codes[std::size_t(i)]] / share;
-        return {glm::vec3(light), 1.0f};
-    }
-
-    const Image& image_;
-    std::vector<double> light_; ///< by code
+    std::span<const Channel> stored_;
+    std::vector<double> linear_; ///< by code
 };
 
 /// Stretched to the cube's side where a face is not as large.
 void put(const Image& picture, std::size_t face, Image& cube) {
-    const FaceLight light(picture);
-    const int side = cube.width;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            const auto source = [side](int place, int size) { return int(std::int64_t(place) * size / side); };
-            const glm::vec4 texel = light.texel(source(x, picture.width), source(y, picture.height));
-            const std::size_t row = face * std::size_t(side) + std::size_t(y);
-            std::memcpy(cube.texels.data() + (row * std::size_t(side) + std::size_t(x)) * sizeof(texel), &texel,
-                        sizeof(texel));
-        }
+    withChannel(picture.format, [&]<typename Channel>(Channel) {
+        const FaceLight<Channel> light(picture);
+        const auto side = std::size_t(cube.width), width = std::size_t(picture.width),
+                   height = std::size_t(picture.height);
+        for (std::size_t y = 0; y < side; ++y)
+            for (std::size_t x = 0; x < side; ++x)
+                texelsOf<glm::vec4>(cube)[(face * side + y) * side + x] =
+                    light.texel(y * height / side * width + x * width / side);
+    });
 }
 
 /// EXT_lights_image_based.
@@ -283,8 +266,7 @@ Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::st
     map.height = width / 2;
     map.texels.resize(std::size_t(map.width) * std::size_t(map.height) * sizeof(glm::vec4));
     tbb::parallel_for(0, map.height, [&](int y) {
-        std::byte* out = map.texels.data() + std::size_t(y) * std::size_t(map.width) * sizeof(glm::vec4);
-        for (int x = 0; x < map.width; ++x, out += sizeof(glm::vec4)) {
+        for (int x = 0; x < map.width; ++x) {
             glm::dvec3 sum(0.0);
             double weights = 0.0;
             for (int j = 0; j < places; ++j) {
@@ -295,8 +277,8 @@ Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::st
                     weights += weight;
                 }
             }
-            const glm::vec4 texel(glm::vec3(sum / weights), 1.0f);
-            std::memcpy(out, &texel, sizeof(texel));
+            texelsOf<glm::vec4>(map)[std::size_t(y) * std::size_t(map.width) + std::size_t(x)] =
+                glm::vec4(glm::vec3(sum / weights), 1.0f);
         }
     });
     return map;

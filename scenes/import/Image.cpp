@@ -8,6 +8,7 @@
 
 #include "base/Error.h"
 #include "base/Extension.h"
+#include "base/OneLine.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/PictureCodecs.h"
 
@@ -72,7 +73,16 @@ DecodedPicture decodePicture(std::span<const std::byte> bytes, const std::string
     if (bytes.empty()) throw InputError(fmt::format("{}: the picture is empty (0 bytes); save it again", name));
     const PictureFormat& format = formatOf(bytes, name);
     const std::uint64_t mark = ledger.usedBytes();
-    DecodedPicture decoded = format.decode(bytes, name, format, ledger);
+    const PictureSource source{bytes, name, format, ledger};
+    try {
+        const PictureSize claimed = format.claimedSize == nullptr ? PictureSize() : format.claimedSize(bytes);
+        if (claimed.width != 0 || claimed.height != 0) source.charge(claimed);
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        source.fail(error.what(), "cannot be decoded");
+    }
+    DecodedPicture decoded = format.decode(source);
     ledger.settle(mark, decoded.image.texels.size());
     return decoded;
 }
@@ -84,56 +94,24 @@ DecodedPicture readStored(const std::filesystem::path& file, LoadLedger& ledger)
     return decoded;
 }
 
-template <typename T>
-void divideByAlpha(Image& image) {
-    constexpr bool kIsInteger = std::is_integral_v<T>;
-    constexpr double kOne = kIsInteger ? double(std::numeric_limits<T>::max()) : 1.0;
-    const std::span texels(reinterpret_cast<T*>(image.texels.data()), image.texels.size() / sizeof(T));
+template <typename Channel>
+void divideByAlpha(std::span<Channel> texels) {
+    constexpr double kOne = kOneOf<Channel>;
     for (std::size_t i = 0; i < texels.size(); i += 4) {
         const double alpha = double(texels[i + 3]);
         if (!(alpha > 0.0)) continue;
-        for (std::size_t channel = i; channel < i + 3; ++channel) {
-            const double value = double(texels[channel]) * kOne / alpha;
-            texels[channel] = static_cast<T>(kIsInteger ? std::min(std::round(value), kOne) : value);
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const double value = double(texels[c]) * kOne / alpha;
+            texels[c] = Channel(std::is_integral_v<Channel> ? std::min(std::round(value), kOne) : value);
         }
     }
 }
 
 Image textureOf(DecodedPicture picture) {
     Image& image = picture.image;
-    if (picture.tags.isAssociated) {
-        switch (image.format) {
-        case TexelFormat::Rgba8Unorm:
-            divideByAlpha<std::uint8_t>(image);
-            break;
-        case TexelFormat::Rgba16Unorm:
-            divideByAlpha<std::uint16_t>(image);
-            break;
-        case TexelFormat::Rgba32Float:
-            divideByAlpha<float>(image);
-            break;
-        }
-    }
+    if (picture.tags.isAssociated)
+        withChannel(image.format, [&]<typename Channel>(Channel) { divideByAlpha(texelsOf<Channel>(image)); });
     return std::move(image);
-}
-
-/// Black: opaque where it is no part of an image with alpha.
-void fillBlack(Image& image, bool isOpaque) {
-    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    image.texels.assign(count * texelBytes(image.format), std::byte{0});
-    if (!isOpaque) return;
-    const auto setAlpha = [&]<typename T>(T one) {
-        for (std::size_t i = 1; i <= count; ++i)
-            std::memcpy(image.texels.data() + (4 * i - 1) * sizeof one, &one, sizeof one);
-    };
-    switch (image.format) {
-    case TexelFormat::Rgba8Unorm:
-        return setAlpha(std::uint8_t{0xff});
-    case TexelFormat::Rgba16Unorm:
-        return setAlpha(std::uint16_t{0xffff});
-    case TexelFormat::Rgba32Float:
-        return setAlpha(1.0f);
-    }
 }
 
 } // namespace
@@ -206,27 +184,35 @@ void turnUpright(Image& image, int orientation, LoadLedger& ledger) {
     image.height = static_cast<int>(height);
 }
 
-Image placedInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha) {
-    Image placed;
-    placed.name = image.name;
-    placed.format = image.format;
-    placed.width = window.width;
-    placed.height = window.height;
-    fillBlack(placed, !hasAlpha);
+void placeInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha, Image& placed) {
+    if (!hasAlpha)
+        withChannel(placed.format, [&]<typename Channel>(Channel) {
+            const std::span<Channel> texels = texelsOf<Channel>(placed);
+            for (std::size_t alpha = 3; alpha < texels.size(); alpha += 4) texels[alpha] = kOneOf<Channel>;
+        });
     // The overlap of both, counted in texels of the displayed image.
     const std::int64_t left = std::max<std::int64_t>(window.left, 0), top = std::max<std::int64_t>(window.top, 0);
     const std::int64_t right = std::min<std::int64_t>(window.left + image.width, window.width);
     const std::int64_t bottom = std::min<std::int64_t>(window.top + image.height, window.height);
-    if (left >= right) return placed;
+    if (left >= right) return;
     const std::size_t bytes = texelBytes(image.format);
     for (std::int64_t row = top; row < bottom; ++row)
         std::memcpy(placed.texels.data() + std::size_t(row * window.width + left) * bytes,
                     image.texels.data() + std::size_t((row - window.top) * image.width + left - window.left) * bytes,
                     std::size_t(right - left) * bytes);
-    return placed;
 }
 
-void noteRepair(const std::string& name, const std::string& flaw, const std::string& repair, LoadLedger& ledger) {
+void PictureSource::fail(std::string_view why, std::string_view what) const {
+    throw InputError(fmt::format("{}: the {} picture {} ({}); save it again", name, format.name, what, oneLine(why)));
+}
+
+DecodedPicture PictureSource::blank(int width, int height, TexelFormat texels, std::uint64_t bytesATexel) const {
+    charge({width, height, bytesATexel});
+    const std::size_t count = std::size_t(width) * std::size_t(height);
+    return {{name, texels, width, height, std::vector<std::byte>(count * texelBytes(texels))}, {}};
+}
+
+void PictureSource::noteRepair(const std::string& flaw, const std::string& repair) const {
     if (ledger.wishes().isStrict) throw InputError(fmt::format("{}: {}; save it again", name, flaw));
     ledger.warn(fmt::format("{}: {}; {}", name, flaw, repair));
 }

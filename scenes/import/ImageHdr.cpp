@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 
-#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
@@ -68,13 +67,13 @@ bool readResolution(std::string_view line, HdrHeader& header) {
 
 /// Source: Ward, "Radiance File Formats", "Picture Files": lines up to an empty one, then the resolution. Each EXPOSURE
 /// and COLORCORR multiplies; indented lines are those of the pictures that this one was made of.
-HdrHeader readHdrHeader(std::string_view text, const std::string& name, LoadLedger& ledger) {
+HdrHeader readHdrHeader(const PictureSource& source) {
     constexpr std::string_view kExposure = "EXPOSURE=", kCorrection = "COLORCORR=", kFormat = "FORMAT=";
     const auto withoutReturn = [](std::string_view line) {
         return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
     };
     HdrHeader header;
-    const std::size_t size = text.size();
+    std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
     while (!text.empty()) {
         std::string_view line = withoutReturn(takenUpTo(text, "\n"));
         if (line.empty()) break;
@@ -92,14 +91,13 @@ HdrHeader readHdrHeader(std::string_view text, const std::string& name, LoadLedg
             if (isGood)
                 header.exposure = product;
             else
-                noteRepair(name, fmt::format("'{}' of its header is no factor above 0", line.substr(0, 40)),
-                           "taken as 1", ledger);
+                source.noteRepair(fmt::format("'{}' of its header is no factor above 0", line.substr(0, 40)),
+                                  "taken as 1");
         }
     }
-    if (!readResolution(withoutReturn(takenUpTo(text, "\n")), header))
-        throw InputError(name + ": the hdr picture is broken or cut short (its header ends without a resolution such "
-                                "as -Y 8 +X 16); save it again");
-    header.bytes = size - text.size();
+    source.require(readResolution(withoutReturn(takenUpTo(text, "\n")), header),
+                   "its header ends without a resolution such as -Y 8 +X 16");
+    header.bytes = source.bytes.size() - text.size();
     return header;
 }
 
@@ -111,30 +109,27 @@ glm::dvec3 colourOfXyz(const glm::dvec3& xyz) {
 
 void undoHeader(const HdrHeader& header, Image& image) {
     if (header.exposure == glm::dvec3(1.0) && !header.isXyz) return;
-    for (std::size_t at = 0; at < image.texels.size(); at += sizeof(glm::vec4)) {
-        glm::vec4 texel;
-        std::memcpy(&texel, image.texels.data() + at, sizeof texel);
-        const glm::dvec3 value = glm::dvec3(glm::vec3(texel)) / header.exposure;
+    for (glm::vec4& texel : texelsOf<glm::vec4>(image)) {
+        const glm::dvec3 value = glm::dvec3(texel) / header.exposure;
         texel = glm::vec4(glm::vec3(header.isXyz ? colourOfXyz(value) : value), texel.w);
-        std::memcpy(image.texels.data() + at, &texel, sizeof texel);
     }
 }
 
 } // namespace
 
 /// OpenImageIO reads the texels behind a header of this program's own.
-DecodedPicture decodeHdr(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                         LoadLedger& ledger) {
-    const HdrHeader header = readHdrHeader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, ledger);
+DecodedPicture decodeHdr(const PictureSource& source) {
+    const HdrHeader header = readHdrHeader(source);
     const std::string plain =
         fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", header.scanlines, header.length);
-    ledger.charge(plain.size() + bytes.size(), [&] { return fmt::format("{}: a copy of the picture's file", name); });
-    std::vector<std::byte> file(plain.size() + bytes.size() - header.bytes);
-    std::memcpy(file.data(), plain.data(), plain.size());
-    std::ranges::copy(bytes.subspan(header.bytes), file.begin() + std::ptrdiff_t(plain.size()));
-    DecodedPicture decoded = decodeByOiio(file, name, format, ledger);
+    const std::span<const std::byte> first = std::as_bytes(std::span(plain)), rest = source.bytes.subspan(header.bytes);
+    source.ledger.charge(first.size() + source.bytes.size(),
+                         [&] { return source.name + ": a copy of the picture's file"; });
+    std::vector<std::byte> file(first.begin(), first.end());
+    file.insert(file.end(), rest.begin(), rest.end());
+    DecodedPicture decoded = decodeByOiio({file, source.name, source.format, source.ledger});
     undoHeader(header, decoded.image);
-    turnUpright(decoded.image, header.orientation, ledger);
+    turnUpright(decoded.image, header.orientation, source.ledger);
     return decoded;
 }
 

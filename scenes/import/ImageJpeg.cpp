@@ -1,11 +1,9 @@
 #include <csetjmp>
 #include <cstdio> // jpeglib.h needs it first
-#include <stdexcept>
 
 #include <fmt/format.h>
 #include <jpeglib.h>
 
-#include "base/Error.h"
 #include "base/OneLine.h"
 #include "scenes/import/PictureCodecs.h"
 
@@ -101,34 +99,16 @@ void mixInks(Image& image) {
 
 } // namespace
 
-DecodedPicture decodeJpeg(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                          LoadLedger& ledger) {
-    const auto refuse = [&](const std::string& why) {
-        throw InputError(fmt::format("{}: the jpeg picture is broken or cut short ({}); save it again", name, why));
-    };
-    try {
-        const PictureSize claimed = claimedSizeOfJpeg(bytes);
-        if (claimed.width != 0 || claimed.height != 0) requirePictureSize(claimed, bytes, name, format, ledger);
-    } catch (const InputError&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw InputError(fmt::format("{}: the jpeg picture cannot be decoded ({}); save it again", name, error.what()));
-    }
-    JpegReader reader(bytes);
-    if (!reader.readHeader()) refuse(reader.complaint());
-    DecodedPicture decoded;
-    decoded.tags.orientation = orientationOfJpeg(bytes);
-    Image& image = decoded.image;
-    image.name = name;
-    image.width = reader.width();
-    image.height = reader.height();
-    requirePictureSize({image.width, image.height, texelBytes(image.format)}, bytes, name, format, ledger);
-    image.texels.resize(std::size_t(image.width) * std::size_t(image.height) * texelBytes(image.format));
-    if (reader.readRows(image) == 0) refuse(reader.complaint());
+DecodedPicture decodeJpeg(const PictureSource& source) {
+    JpegReader reader(source.bytes);
+    if (!reader.readHeader()) source.fail(reader.complaint());
+    DecodedPicture decoded = source.blank(reader.width(), reader.height(), TexelFormat::Rgba8Unorm, 4);
+    decoded.tags.orientation = orientationOfJpeg(source.bytes);
+    if (reader.readRows(decoded.image) == 0) source.fail(reader.complaint());
     if (!reader.complaint().empty())
-        noteRepair(name, fmt::format("the jpeg picture is broken or cut short ({})", reader.complaint()),
-                   "drawn as far as it can be read", ledger);
-    if (reader.hasInks()) mixInks(image);
+        source.noteRepair(fmt::format("the jpeg picture is broken or cut short ({})", reader.complaint()),
+                          "drawn as far as it can be read");
+    if (reader.hasInks()) mixInks(decoded.image);
     return decoded;
 }
 

@@ -16,15 +16,8 @@ std::string reasonOf(const std::string& text) {
 }
 
 TexelFormat texelFormatOf(PictureHeader::Samples samples) {
-    switch (samples) {
-    case PictureHeader::Samples::Bits8:
-        return TexelFormat::Rgba8Unorm;
-    case PictureHeader::Samples::Bits16:
-        return TexelFormat::Rgba16Unorm;
-    case PictureHeader::Samples::Other:
-        break;
-    }
-    return TexelFormat::Rgba32Float;
+    if (samples == PictureHeader::Samples::Bits8) return TexelFormat::Rgba8Unorm;
+    return samples == PictureHeader::Samples::Bits16 ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba32Float;
 }
 
 bool isSameWord(std::string_view a, std::string_view b) {
@@ -53,89 +46,60 @@ Channels channelsOf(const PictureHeader& header) {
     return isGrey ? Channels{0, 0, 0, alpha} : Channels{0, 1, 2, alpha};
 }
 
-/// Grey is replicated, a missing alpha is `one`.
-template <typename T>
-bool readTexels(PictureInput& input, const Channels& channels, T one, Image& image) {
-    const std::size_t texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    const auto stride = static_cast<std::size_t>(channels.count());
-    std::vector<T> stored(texels * stride);
+/// Grey is replicated, a missing alpha is 1.
+template <typename Channel>
+bool readTexels(PictureInput& input, const Channels& channels, std::span<Channel> texels) {
+    const auto stride = std::size_t(channels.count());
+    std::vector<Channel> stored(texels.size() / 4 * stride);
     if (!input.read(channels.count(), stored.data())) return false;
-    image.texels.resize(texels * 4 * sizeof(T));
-    T* to = reinterpret_cast<T*>(image.texels.data());
-    for (const T* from = stored.data(); from != stored.data() + stored.size(); from += stride) {
+    Channel* to = texels.data();
+    for (const Channel* from = stored.data(); from != stored.data() + stored.size(); from += stride) {
         *to++ = from[channels.red];
         *to++ = from[channels.green];
         *to++ = from[channels.blue];
-        *to++ = channels.alpha >= 0 ? from[channels.alpha] : one;
+        *to++ = channels.alpha >= 0 ? from[channels.alpha] : kOneOf<Channel>;
     }
     return true;
 }
 
-bool readTexels(PictureInput& input, const Channels& channels, Image& image) {
-    switch (image.format) {
-    case TexelFormat::Rgba8Unorm:
-        return readTexels<std::uint8_t>(input, channels, 0xff, image);
-    case TexelFormat::Rgba16Unorm:
-        return readTexels<std::uint16_t>(input, channels, 0xffff, image);
-    case TexelFormat::Rgba32Float:
-        return readTexels<float>(input, channels, 1.0f, image);
-    }
-    return false;
-}
-
-PictureTags tagsOf(const PictureHeader& header) {
-    PictureTags tags;
-    tags.software = header.software;
-    tags.isLinear = header.isFloatingPoint || isSameWord(header.colorSpace, "linear");
-    tags.orientation = header.orientation;
-    tags.isAssociated = header.isAssociated;
-    return tags;
-}
-
-DecodedPicture decode(PictureInput& input, std::span<const std::byte> bytes, const std::string& name,
-                      const PictureFormat& format, LoadLedger& ledger) {
-    if (format.claimedSize != nullptr) {
-        const PictureSize claimed = format.claimedSize(bytes);
-        const bool isTold = claimed.width != 0 || claimed.height != 0; // else the reader says what is wrong
-        if (isTold) requirePictureSize(claimed, bytes, name, format, ledger);
-    }
+DecodedPicture decode(PictureInput& input, const PictureSource& source) {
     PictureHeader header;
     if (!input.open(header)) throw std::runtime_error(input.error());
-
     if (header.width <= 0 || header.height <= 0 || header.depth > 1 || header.channels <= 0 || header.isDeep)
         throw InputError(fmt::format("{}: the picture has {}x{}x{} texels of {} channels{}; a flat picture with at "
                                      "least one of each is needed",
-                                     name, header.width, header.height, header.depth, header.channels,
+                                     source.name, header.width, header.height, header.depth, header.channels,
                                      header.isDeep ? ", with several samples at different depths a texel" : ""));
-    DecodedPicture decoded{{}, tagsOf(header)};
-    Image& image = decoded.image;
-    image.name = name;
-    image.width = header.width;
-    image.height = header.height;
-    image.format = texelFormatOf(header.samples);
+    const TexelFormat texels = texelFormatOf(header.samples);
     // The reader's own copy, where its header did not tell it, what it hands over, and the texels made of that.
-    const std::uint64_t copies = format.claimedSize != nullptr ? 1 : 2;
-    const std::uint64_t bytesATexel =
-        copies * static_cast<std::uint64_t>(header.channels) * texelBytes(image.format) / 4 + texelBytes(image.format);
-    requirePictureSize({header.width, header.height, bytesATexel}, bytes, name, format, ledger);
-    if (!readTexels(input, channelsOf(header), image))
-        throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name, format.name,
-                                     reasonOf(input.error())));
+    const std::uint64_t copies = source.format.claimedSize != nullptr ? 1 : 2;
+    DecodedPicture decoded = source.blank(header.width, header.height, texels,
+                                          (copies * std::uint64_t(header.channels) + 4) * texelBytes(texels) / 4);
+    decoded.tags = {header.software, header.isFloatingPoint || isSameWord(header.colorSpace, "linear"),
+                    header.orientation, header.isAssociated};
+    Image& image = decoded.image;
+    const bool isRead = withChannel(texels, [&]<typename Channel>(Channel) {
+        return readTexels(input, channelsOf(header), texelsOf<Channel>(image));
+    });
+    if (!isRead) source.fail(reasonOf(input.error()));
     const DisplayWindow window{header.left, header.top, header.displayedWidth, header.displayedHeight};
     const bool isPlaced =
         window.left != 0 || window.top != 0 || window.width != image.width || window.height != image.height;
     if (window.width > 0 && window.height > 0 && isPlaced) {
-        PictureFormat blank = format;
-        blank.maxTexelsAByte = 0; // black around the texels takes no byte of the file
+        PictureFormat format = source.format;
+        format.maxTexelsAByte = 0; // black around the texels takes no byte of the file
         try {
-            requirePictureSize({window.width, window.height, texelBytes(image.format)}, bytes, name, blank, ledger);
-            image = placedInWindow(image, window, header.alphaChannel >= 0);
+            Image placed = PictureSource{source.bytes, source.name, format, source.ledger}
+                               .blank(window.width, window.height, texels, texelBytes(texels))
+                               .image;
+            placeInWindow(image, window, header.alphaChannel >= 0, placed);
+            image = std::move(placed);
         } catch (const MemoryRefused&) {
             throw;
         } catch (const InputError&) {
-            noteRepair(
-                name, fmt::format("its display window of {}x{} texels is too large", window.width, window.height),
-                fmt::format("the {}x{} texels of its data window are taken alone", image.width, image.height), ledger);
+            source.noteRepair(
+                fmt::format("its display window of {}x{} texels is too large", window.width, window.height),
+                fmt::format("the {}x{} texels of its data window are taken alone", image.width, image.height));
         }
     }
     return decoded;
@@ -143,30 +107,29 @@ DecodedPicture decode(PictureInput& input, std::span<const std::byte> bytes, con
 
 } // namespace
 
-DecodedPicture decodeByOiio(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                            LoadLedger& ledger) {
+DecodedPicture decodeByOiio(const PictureSource& source) {
+    std::span<const std::byte> bytes = source.bytes;
     std::vector<std::byte> reduced;
-    if (format.takeOutMetadata != nullptr) {
-        ledger.charge(bytes.size(), [&] { return fmt::format("{}: a copy of the picture's file", name); });
+    if (source.format.takeOutMetadata != nullptr) {
+        source.ledger.charge(bytes.size(), [&] { return source.name + ": a copy of the picture's file"; });
         reduced.assign(bytes.begin(), bytes.end());
         bytes = reduced;
     }
     std::unique_ptr<PictureInput> input;
     try {
-        input = PictureLibrary::get().input(std::string(format.name), bytes);
+        input = PictureLibrary::get().input(std::string(source.format.name), bytes);
     } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format("{}: {}", name, oneLine(error.what())));
+        throw std::runtime_error(fmt::format("{}: {}", source.name, oneLine(error.what())));
     }
     try {
-        if (format.takeOutMetadata != nullptr) format.takeOutMetadata(reduced);
-        return decode(*input, bytes, name, format, ledger);
+        if (source.format.takeOutMetadata != nullptr) source.format.takeOutMetadata(reduced);
+        return decode(*input, {bytes, source.name, source.format, source.ledger});
     } catch (const InputError&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) { // some readers throw their own
-        throw InputError(fmt::format("{}: the {} picture cannot be decoded ({}); save it again", name, format.name,
-                                     reasonOf(error.what())));
+        source.fail(reasonOf(error.what()), "cannot be decoded");
     }
 }
 

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include <fmt/format.h>
+#include <glm/glm.hpp>
 
-#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
@@ -48,32 +47,19 @@ bool readNumber(std::string_view word, Number& number) {
 
 /// Source: Debevec, "Portable FloatMap Image Format": PF or Pf (grey), width, height and scale; rows from the bottom.
 /// Texels are multiplied by the scale, whose sign tells the order of their bytes: below 0 is little-endian.
-DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                         LoadLedger& ledger) {
-    const auto require = [&](bool good, const char* why) {
-        if (!good)
-            throw InputError(fmt::format("{}: the pfm picture is broken or cut short ({}); save it again", name, why));
-    };
-    Header header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+DecodedPicture decodePfm(const PictureSource& source) {
+    Header header({reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size()});
     const std::size_t channels = header.word() == "PF" ? 3 : 1;
     std::int32_t width = 0, height = 0;
     float scale = 0.0f;
-    require(readNumber(header.word(), width) && readNumber(header.word(), height) && width > 0 && height > 0,
-            "it has no size");
-    require(readNumber(header.word(), scale) && std::isfinite(scale) && scale != 0.0f, "it has no scale");
-    requirePictureSize({width, height, texelBytes(TexelFormat::Rgba32Float)}, bytes, name, format, ledger);
-    const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-    const std::span<const std::byte> stored = bytes.subspan(header.end());
-    require(stored.size() / (channels * sizeof(float)) / columns >= rows, "it ends early");
-
-    DecodedPicture decoded;
+    source.require(readNumber(header.word(), width) && readNumber(header.word(), height) && width > 0 && height > 0,
+                   "it has no size");
+    source.require(readNumber(header.word(), scale) && std::isfinite(scale) && scale != 0.0f, "it has no scale");
+    const std::size_t columns = std::size_t(width), rows = std::size_t(height);
+    const std::span<const std::byte> stored = source.bytes.subspan(header.end());
+    source.require(stored.size() / (channels * sizeof(float)) / columns >= rows, "it ends early");
+    DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba32Float, sizeof(glm::vec4));
     decoded.tags.isLinear = true;
-    Image& image = decoded.image;
-    image.name = name;
-    image.width = width;
-    image.height = height;
-    image.format = TexelFormat::Rgba32Float;
-    image.texels.resize(columns * rows * 4 * sizeof(float));
     const bool isSwapped = (scale < 0.0f) != (std::endian::native == std::endian::little);
     const auto valueAt = [&](std::size_t index) {
         std::array<std::byte, sizeof(float)> value;
@@ -81,13 +67,13 @@ DecodedPicture decodePfm(std::span<const std::byte> bytes, const std::string& na
         if (isSwapped) std::ranges::reverse(value);
         return std::bit_cast<float>(value) * std::abs(scale);
     };
-    for (std::size_t row = 0; row < rows; ++row) {
+    const std::span<glm::vec4> texels = texelsOf<glm::vec4>(decoded.image);
+    for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t column = 0; column < columns; ++column) {
             const std::size_t first = ((rows - 1 - row) * columns + column) * channels;
-            const float texel[4] = {valueAt(first), valueAt(first + channels / 2), valueAt(first + channels - 1), 1.0f};
-            std::memcpy(image.texels.data() + (row * columns + column) * sizeof(texel), texel, sizeof(texel));
+            texels[row * columns + column] = {valueAt(first), valueAt(first + channels / 2),
+                                              valueAt(first + channels - 1), 1.0f};
         }
-    }
     return decoded;
 }
 

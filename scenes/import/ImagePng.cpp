@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "base/Error.h"
-
 namespace tessera::scenes {
 namespace {
 
 /// The bytes that libpng reads, and what it says is wrong with them.
-struct Source {
+struct PngBytes {
     std::span<const std::byte> bytes;
     bool isBroken = false; ///< so everything that can be read is wanted
     std::size_t at = 0;
@@ -22,7 +20,7 @@ struct Source {
 };
 
 void readBytes(png_structp png, png_bytep target, std::size_t count) {
-    auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+    auto& source = *static_cast<PngBytes*>(png_get_io_ptr(png));
     // libpng asks for kilobytes of compressed texels, and drops them where fewer are left.
     constexpr std::size_t kLastBytes = 65536;
     if (source.isBroken && source.bytes.size() - source.at < kLastBytes) png_set_compression_buffer_size(png, 1);
@@ -32,7 +30,7 @@ void readBytes(png_structp png, png_bytep target, std::size_t count) {
 }
 
 [[noreturn]] void onError(png_structp png, png_const_charp text) {
-    static_cast<Source*>(png_get_error_ptr(png))->problem = text;
+    static_cast<PngBytes*>(png_get_error_ptr(png))->problem = text;
     png_longjmp(png, 1);
 }
 
@@ -100,7 +98,7 @@ public:
     std::size_t rowsRead() const { return source_.rows; }
 
 private:
-    Source source_;
+    PngBytes source_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
     int passes_ = 1;
@@ -112,26 +110,16 @@ struct PngResult {
     std::string problem;  ///< empty: none
 };
 
-PngResult readPng(std::span<const std::byte> bytes, bool isBroken, const std::string& name, const PictureFormat& format,
-                  LoadLedger& ledger) {
-    Reader reader(bytes, isBroken);
+PngResult readPng(const PictureSource& source, bool isBroken) {
+    Reader reader(source.bytes, isBroken);
+    if (!reader.readHeader()) return {{}, 0, reader.problem()};
+    const TexelFormat texels = reader.has16Bits() ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba8Unorm;
     PngResult result;
-    if (!reader.readHeader()) {
-        result.problem = reader.problem();
-        return result;
-    }
-    DecodedPicture& decoded = result.picture;
-    decoded.tags.isLinear = reader.isLinear();
-    Image& image = decoded.image;
-    image.name = name;
-    image.width = reader.width();
-    image.height = reader.height();
-    image.format = reader.has16Bits() ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba8Unorm;
-    requirePictureSize({image.width, image.height, texelBytes(image.format)}, bytes, name, format, ledger);
-    image.texels.resize(reader.rowBytes() * static_cast<std::size_t>(image.height));
-    std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
-    for (std::size_t row = 0; row < rows.size(); ++row)
-        rows[row] = reinterpret_cast<png_bytep>(image.texels.data() + row * reader.rowBytes());
+    result.picture = source.blank(reader.width(), reader.height(), texels, texelBytes(texels));
+    result.picture.tags.isLinear = reader.isLinear();
+    std::vector<png_bytep> rows;
+    for (std::size_t row = 0; row < std::size_t(reader.height()); ++row)
+        rows.push_back(reinterpret_cast<png_bytep>(result.picture.image.texels.data() + row * reader.rowBytes()));
     if (!reader.readRows(rows)) result.problem = reader.problem();
     result.rows = reader.rowsRead();
     return result;
@@ -139,17 +127,17 @@ PngResult readPng(std::span<const std::byte> bytes, bool isBroken, const std::st
 
 } // namespace
 
-DecodedPicture decodePng(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                         LoadLedger& ledger) {
-    const std::uint64_t mark = ledger.usedBytes();
-    PngResult result = readPng(bytes, false, name, format, ledger);
+DecodedPicture decodePng(const PictureSource& source) {
+    const std::uint64_t mark = source.ledger.usedBytes();
+    PngResult result = readPng(source, false);
     if (result.problem.empty()) return std::move(result.picture);
-    const std::string flaw = fmt::format("the png picture is broken or cut short ({})", result.problem);
+    const std::string problem = result.problem;
     result = {};
-    ledger.settle(mark, 0);
-    if (!ledger.wishes().isStrict) result = readPng(bytes, true, name, format, ledger);
-    if (result.rows == 0) throw InputError(fmt::format("{}: {}; save it again", name, flaw));
-    noteRepair(name, flaw, "drawn as far as it can be read", ledger);
+    source.ledger.settle(mark, 0);
+    if (!source.ledger.wishes().isStrict) result = readPng(source, true);
+    source.require(result.rows > 0, problem);
+    source.noteRepair(fmt::format("the png picture is broken or cut short ({})", problem),
+                      "drawn as far as it can be read");
     return std::move(result.picture);
 }
 

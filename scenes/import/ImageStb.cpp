@@ -4,8 +4,6 @@
 #include <cstring>
 #include <memory>
 
-#include <fmt/format.h>
-
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -13,7 +11,6 @@
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
 
-#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
@@ -48,34 +45,28 @@ int isStreamAtEnd(void* user) {
 
 } // namespace
 
-DecodedPicture decodeByStb(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                           LoadLedger& ledger) {
+DecodedPicture decodeByStb(const PictureSource& source) {
     constexpr stbi_io_callbacks kCallbacks{readStream, skipStream, isStreamAtEnd};
     constexpr int kChannels = 4;
-    DecodedPicture decoded;
-    Image& image = decoded.image;
-    image.name = name;
-    const auto require = [&](bool good, const Stream& stream) {
-        if (!good || stream.endsEarly)
-            throw InputError(fmt::format("{}: the {} picture is broken or cut short ({}); save it again", name,
-                                         format.name,
-                                         stream.endsEarly ? "the file ends early" : stbi_failure_reason()));
+    const auto require = [&](bool isGood, const Stream& stream) {
+        if (stream.endsEarly) source.fail("the file ends early");
+        if (!isGood) source.fail(stbi_failure_reason());
     };
-    int stored = 0;
-    Stream header{bytes};
-    require(stbi_info_from_callbacks(&kCallbacks, &header, &image.width, &image.height, &stored) != 0, header);
-    image.height = static_cast<int>(std::min<std::int64_t>(std::abs(std::int64_t{image.height}), INT_MAX)); // top-down
+    int width = 0, height = 0, stored = 0;
+    Stream header{source.bytes};
+    require(stbi_info_from_callbacks(&kCallbacks, &header, &width, &height, &stored) != 0, header);
+    height = int(std::min<std::int64_t>(std::abs(std::int64_t{height}), INT_MAX)); // top-down
     // The picture as it is stored, with four channels, and as texels.
     constexpr std::uint64_t kCopies = 3;
-    requirePictureSize({image.width, image.height, kCopies * kChannels}, bytes, name, format, ledger);
-    Stream stream{bytes};
+    DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba8Unorm, kCopies * kChannels);
+    Stream stream{source.bytes};
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
-        stbi_load_from_callbacks(&kCallbacks, &stream, &image.width, &image.height, &stored, kChannels),
+        stbi_load_from_callbacks(&kCallbacks, &stream, &decoded.image.width, &decoded.image.height, &stored, kChannels),
         stbi_image_free);
     require(texels != nullptr, stream);
     const auto* first = reinterpret_cast<const std::byte*>(texels.get());
-    image.texels.assign(first, first + static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
-                                           kChannels);
+    const std::size_t count = std::size_t(decoded.image.width) * std::size_t(decoded.image.height);
+    decoded.image.texels.assign(first, first + count * kChannels);
     return decoded;
 }
 

@@ -1,11 +1,9 @@
 #include <cstring>
 #include <memory>
 
-#include <fmt/format.h>
 #include <webp/decode.h>
 #include <webp/demux.h>
 
-#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
@@ -31,36 +29,28 @@ int orientationOf(const WebPDemuxer& file) {
 
 } // namespace
 
-DecodedPicture decodeWebp(std::span<const std::byte> bytes, const std::string& name, const PictureFormat& format,
-                          LoadLedger& ledger) {
-    const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+DecodedPicture decodeWebp(const PictureSource& source) {
+    const WebPData data{reinterpret_cast<const std::uint8_t*>(source.bytes.data()), source.bytes.size()};
     const std::unique_ptr<WebPDemuxer, decltype(&WebPDemuxDelete)> file(WebPDemux(&data), WebPDemuxDelete);
-    const auto require = [&](bool isGood) {
-        if (!isGood) throw InputError(fmt::format("{}: the webp picture is broken or cut short; save it again", name));
-    };
-    require(file != nullptr);
-    DecodedPicture decoded;
-    Image& image = decoded.image;
-    image.name = name;
-    image.width = static_cast<int>(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_WIDTH));
-    image.height = static_cast<int>(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_HEIGHT));
-    image.format = TexelFormat::Rgba8Unorm;
-    decoded.tags.orientation = orientationOf(*file);
+    constexpr std::string_view kWhy = "libwebp cannot read it";
+    source.require(file != nullptr, kWhy);
+    constexpr std::size_t kTexelBytes = 4;
+    const auto width = int(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_WIDTH)),
+               height = int(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_HEIGHT));
     // libwebp holds as many texels again while it decodes.
-    requirePictureSize({image.width, image.height, 2 * texelBytes(image.format)}, bytes, name, format, ledger);
-    const std::size_t rowBytes = static_cast<std::size_t>(image.width) * texelBytes(image.format);
-    image.texels.resize(rowBytes * static_cast<std::size_t>(image.height));
+    DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba8Unorm, 2 * kTexelBytes);
+    decoded.tags.orientation = orientationOf(*file);
     // The only frame, or the first of an animation, which may cover a part of the canvas.
     WebPIterator frame;
-    require(WebPDemuxGetFrame(file.get(), 1, &frame) != 0);
-    const std::size_t offset = static_cast<std::size_t>(frame.y_offset) * rowBytes +
-                               static_cast<std::size_t>(frame.x_offset) * texelBytes(image.format);
-    const bool isDecoded = offset < image.texels.size() &&
-                           WebPDecodeRGBAInto(frame.fragment.bytes, frame.fragment.size,
-                                              reinterpret_cast<std::uint8_t*>(image.texels.data()) + offset,
-                                              image.texels.size() - offset, static_cast<int>(rowBytes)) != nullptr;
+    source.require(WebPDemuxGetFrame(file.get(), 1, &frame) != 0, kWhy);
+    const std::size_t rowBytes = std::size_t(width) * kTexelBytes,
+                      offset = std::size_t(frame.y_offset) * rowBytes + std::size_t(frame.x_offset) * kTexelBytes;
+    const std::span texels = texelsOf<std::uint8_t>(decoded.image);
+    const bool isDecoded =
+        offset < texels.size() && WebPDecodeRGBAInto(frame.fragment.bytes, frame.fragment.size, &texels[offset],
+                                                     texels.size() - offset, int(rowBytes)) != nullptr;
     WebPDemuxReleaseIterator(&frame);
-    require(isDecoded);
+    source.require(isDecoded, kWhy);
     return decoded;
 }
 

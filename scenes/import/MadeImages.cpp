@@ -4,50 +4,25 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstring>
+#include <type_traits>
+
+#include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
 namespace {
 
-template <typename T>
-T loadAt(const Image& image, std::size_t index) {
-    T value;
-    std::memcpy(&value, image.texels.data() + index * sizeof(T), sizeof(T));
-    return value;
+/// A stored channel, 0..1 for integer formats.
+double channelAt(const Image& image, std::size_t index) {
+    return withChannel(image.format, [&]<typename Channel>(Channel) {
+        return double(texelsOf<Channel>(image)[index]) / double(kOneOf<Channel>);
+    });
 }
 
-/// A stored value, 0..1 for integer formats.
-double valueAt(const Image& image, std::size_t texel, int channel) {
-    const std::size_t index = texel * 4 + static_cast<std::size_t>(channel);
-    switch (image.format) {
-    case TexelFormat::Rgba8Unorm:
-        return loadAt<std::uint8_t>(image, index) / 255.0;
-    case TexelFormat::Rgba16Unorm:
-        return loadAt<std::uint16_t>(image, index) / 65535.0;
-    case TexelFormat::Rgba32Float:
-        return static_cast<double>(loadAt<float>(image, index));
-    }
-    assert(false && "a texel format that cannot be read");
-    return 0.0;
-}
-
-template <typename T>
-void storeAt(Image& image, std::size_t index, T value) {
-    std::memcpy(image.texels.data() + index * sizeof(T), &value, sizeof(T));
-}
-
-void setValue(Image& image, std::size_t texel, std::size_t channel, double value) {
-    const std::size_t index = texel * 4 + channel;
-    const double unit = std::clamp(value, 0.0, 1.0);
-    switch (image.format) {
-    case TexelFormat::Rgba8Unorm:
-        return storeAt(image, index, static_cast<std::uint8_t>(std::lround(unit * 255.0)));
-    case TexelFormat::Rgba16Unorm:
-        return storeAt(image, index, static_cast<std::uint16_t>(std::lround(unit * 65535.0)));
-    case TexelFormat::Rgba32Float:
-        return storeAt(image, index, static_cast<float>(value));
-    }
-    assert(false && "a texel format that cannot be written");
+void setChannel(Image& image, std::size_t index, double value) {
+    withChannel(image.format, [&]<typename Channel>(Channel) {
+        if (std::is_integral_v<Channel>) value = std::round(std::clamp(value, 0.0, 1.0) * double(kOneOf<Channel>));
+        texelsOf<Channel>(image)[index] = Channel(value);
+    });
 }
 
 } // namespace
@@ -82,8 +57,7 @@ Image packChannels(const std::string& name, const std::array<ChannelSource, 4>& 
         packed.height = std::max(packed.height, source.image->height);
     }
     assert(packed.width > 0 && packed.height > 0 && "at least one channel comes from a picture");
-    packed.texels.resize(static_cast<std::size_t>(packed.width) * static_cast<std::size_t>(packed.height) *
-                         texelBytes(packed.format));
+    packed.texels.resize(std::size_t(packed.width) * std::size_t(packed.height) * texelBytes(packed.format));
     std::size_t texel = 0;
     for (std::int64_t y = 0; y < packed.height; ++y) {
         for (std::int64_t x = 0; x < packed.width; ++x, ++texel) {
@@ -92,11 +66,10 @@ Image packChannels(const std::string& name, const std::array<ChannelSource, 4>& 
                 if (const Image* from = sources[channel].image) {
                     const std::int64_t row = y * from->height / packed.height;
                     const std::int64_t column = x * from->width / packed.width;
-                    value =
-                        valueAt(*from, static_cast<std::size_t>(row * from->width + column), sources[channel].channel);
-                    value = sources[channel].offset + sources[channel].scale * value;
+                    const std::int64_t index = 4 * (row * from->width + column) + sources[channel].channel;
+                    value = sources[channel].offset + sources[channel].scale * channelAt(*from, std::size_t(index));
                 }
-                setValue(packed, texel, channel, value);
+                setChannel(packed, 4 * texel + channel, value);
             }
         }
     }
@@ -104,10 +77,9 @@ Image packChannels(const std::string& name, const std::array<ChannelSource, 4>& 
 }
 
 bool hasAlpha(const Image& image) {
-    const std::size_t texels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-    for (std::size_t texel = 0; texel < texels; ++texel) {
-        if (valueAt(image, texel, 3) < 1.0) return true;
-    }
+    const std::size_t texels = std::size_t(image.width) * std::size_t(image.height);
+    for (std::size_t texel = 0; texel < texels; ++texel)
+        if (channelAt(image, 4 * texel + 3) < 1.0) return true;
     return false;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "scenes/import/Importers.h"
 
@@ -10,16 +12,36 @@ namespace tessera::scenes {
 
 struct PictureFormat;
 
-/// Decodes the bytes of a picture; `name` serves messages. Throws InputError.
-using DecodePicture = DecodedPicture(std::span<const std::byte> bytes, const std::string& name,
-                                     const PictureFormat& format, LoadLedger& ledger);
-
 /// What a picture's header says of it.
 struct PictureSize {
     std::int64_t width = 0, height = 0; ///< texels
     std::uint64_t bytesATexel = 0;      ///< that decoding takes, copies counted
     std::uint64_t bytes = 0;            ///< that it takes besides, for a row of tiles or the like
 };
+
+/// A picture that is to be decoded.
+struct PictureSource {
+    std::span<const std::byte> bytes; ///< of its file
+    const std::string& name;          ///< in messages
+    const PictureFormat& format;
+    LoadLedger& ledger;
+
+    /// Throws InputError.
+    [[noreturn]] void fail(std::string_view why, std::string_view what = "is broken or cut short") const;
+    void require(bool isGood, std::string_view why) const {
+        if (!isGood) fail(why);
+    }
+    /// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or
+    /// that its file cannot hold; before memory is reserved for the texels.
+    void charge(const PictureSize& size) const;
+    /// A picture of black texels. `bytesATexel`: that decoding takes.
+    DecodedPicture blank(int width, int height, TexelFormat texels, std::uint64_t bytesATexel) const;
+    /// Makes a warning of the ledger of a flawed picture that is drawn. Throws InputError where the load is strict.
+    void noteRepair(const std::string& flaw, const std::string& repair) const;
+};
+
+/// Throws InputError.
+using DecodePicture = DecodedPicture(const PictureSource& source);
 
 /// Bytes that all files of a format have at one place.
 struct PictureSignature {
@@ -37,19 +59,14 @@ struct PictureFormat {
     /// Texels that a byte of a file may hold at most: a header that claims more is refused before memory is reserved
     /// for them. 0 where a codec packs one colour without a bound, and the ledger alone counts.
     std::int64_t maxTexelsAByte = 0;
-    /// The size that the header claims, for readers that reserve memory, or take seconds, as soon as they see it.
-    /// Throws std::runtime_error for claims that cannot be true.
+    /// The size that the header claims, for readers that reserve memory, or take seconds, as soon as they see it; 0 x 0
+    /// where they are to say what is wrong. Throws std::runtime_error for claims that cannot be true.
     PictureSize (*claimedSize)(std::span<const std::byte> bytes) = nullptr;
     /// Takes descriptions, profiles and the like, which the reader would keep or crash on, out of a copy of the file.
-    /// Comes before claimedSize, and throws like it.
+    /// Throws like claimedSize.
     void (*takeOutMetadata)(std::span<std::byte> bytes) = nullptr;
 };
 std::span<const PictureFormat> pictureFormats();
-
-/// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or that
-/// its file cannot hold; before memory is reserved for the texels.
-void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        const PictureFormat& format, LoadLedger& ledger);
 
 PictureSize claimedSizeOfExr(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
@@ -75,11 +92,29 @@ struct DisplayWindow {
     std::int64_t left, top; ///< of the first texel, which may lie outside
     int width, height;
 };
-/// The displayed image: black where the texels do not reach, and transparent there if `hasAlpha`.
-Image placedInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha);
+/// Copies an image into the black one that is displayed, which stays transparent where it does not reach if `hasAlpha`.
+void placeInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha, Image& placed);
 
-/// Makes a warning of the ledger of a flawed picture that is drawn. Throws InputError where the load is strict.
-void noteRepair(const std::string& name, const std::string& flaw, const std::string& repair, LoadLedger& ledger);
+/// Calls `use` with a number of the type of a texel's channels.
+template <typename Use>
+decltype(auto) withChannel(TexelFormat format, Use&& use) {
+    if (format == TexelFormat::Rgba8Unorm) return use(std::uint8_t{});
+    if (format == TexelFormat::Rgba16Unorm) return use(std::uint16_t{});
+    return use(float{});
+}
+/// 1 as a channel of this type stores it.
+template <typename Channel>
+inline constexpr Channel kOneOf = std::is_integral_v<Channel> ? std::numeric_limits<Channel>::max() : Channel(1);
+
+/// An image's texels, or their channels.
+template <typename Value>
+std::span<Value> texelsOf(Image& image) {
+    return {reinterpret_cast<Value*>(image.texels.data()), image.texels.size() / sizeof(Value)};
+}
+template <typename Value>
+std::span<const Value> texelsOf(const Image& image) {
+    return {reinterpret_cast<const Value*>(image.texels.data()), image.texels.size() / sizeof(Value)};
+}
 
 /// By OpenImageIO's reader of that format, and no other.
 DecodePicture decodeByOiio;

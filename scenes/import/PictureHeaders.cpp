@@ -169,8 +169,7 @@ int orientationOfJpeg(std::span<const std::byte> bytes) {
     return std::max(orientation, 1);
 }
 
-void requirePictureSize(const PictureSize& size, std::span<const std::byte> file, const std::string& name,
-                        const PictureFormat& format, LoadLedger& ledger) {
+void PictureSource::charge(const PictureSize& size) const {
     if (size.width <= 0 || size.height <= 0)
         throw InputError(
             fmt::format("{}: the header claims {}x{} texels; the file is broken", name, size.width, size.height));
@@ -178,10 +177,10 @@ void requirePictureSize(const PictureSize& size, std::span<const std::byte> file
         throw InputError(fmt::format("{}: the picture has {}x{} texels; at most {} a side and {} in all can be used",
                                      name, size.width, size.height, kMaxSide, kMaxTexels));
     const std::int64_t texels = size.width * size.height;
-    if (format.maxTexelsAByte != 0 && texels / format.maxTexelsAByte > static_cast<std::int64_t>(file.size()))
+    if (format.maxTexelsAByte != 0 && texels / format.maxTexelsAByte > std::int64_t(bytes.size()))
         throw InputError(
             fmt::format("{}: the header claims {}x{} texels, more than {} bytes can hold; the file is broken", name,
-                        size.width, size.height, file.size()));
+                        size.width, size.height, bytes.size()));
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 62; // more than any budget, and no overflow
     ledger.charge(static_cast<std::uint64_t>(texels) * size.bytesATexel + std::min(size.bytes, kMostBytes),
                   [&] { return fmt::format("{}: the picture of {}x{} texels", name, size.width, size.height); });

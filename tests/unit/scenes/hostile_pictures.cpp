@@ -21,7 +21,7 @@ TEST(HostilePicture, aReaderThatOpenImageIoLacksIsNoBrokenPicture) {
     const auto failureOf = [](const char* format) {
         LoadLedger ledger;
         try {
-            decodeByOiio({}, "a", PictureFormat{format, {}, {}, decodeByOiio}, ledger);
+            decodeByOiio({{}, "a", PictureFormat{format, {}, {}, decodeByOiio}, ledger});
         } catch (const InputError&) {
         } catch (const std::runtime_error& error) {
             return std::string(error.what());

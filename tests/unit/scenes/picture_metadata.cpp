@@ -52,7 +52,7 @@ std::string exifOf(int orientation, const std::string& software, ByteOrder order
 PictureTags tagsOf(const std::string& bytes, std::string_view formatName) {
     LoadLedger ledger;
     const auto format = std::ranges::find(pictureFormats(), formatName, &PictureFormat::name);
-    return format->decode(std::as_bytes(std::span(bytes)), "a", *format, ledger).tags;
+    return format->decode({std::as_bytes(std::span(bytes)), "a", *format, ledger}).tags;
 }
 
 /// A description that claims an orientation, which only Exif's and TIFF's own tags tell.
@@ -137,7 +137,7 @@ TEST(PictureMetadata, theTransferFunctionOfAPngIsRead) {
         constexpr std::size_t kHeaderEnd = 33;
         const std::string picture = std::string(png).insert(kHeaderEnd, chunks);
         LoadLedger ledger;
-        return decodePng(std::as_bytes(std::span(picture)), "a", {}, ledger).tags.isLinear;
+        return decodePng({std::as_bytes(std::span(picture)), "a", PictureFormat(), ledger}).tags.isLinear;
     };
     EXPECT_FALSE(isLinearWith(""));
     EXPECT_TRUE(isLinearWith(isLight));
