@@ -16,12 +16,12 @@ public:
     Parameters(JsonObject& object, Material& material, Images& images)
         : object_(object), material_(material), images_(images) {}
 
-    /// `readFactor` is called with the factor, where one is given.
+    /// `readFactor` is called with the factor, where one is given. Slot Count: none may have a texture.
     template <typename ReadFactor>
     void read(std::string_view key, TextureSlot slot, ReadFactor readFactor) {
         const std::optional<JsonValue> value = object_.find(key);
         if (!value) return;
-        if (!value->isObject()) return readFactor(*value);
+        if (slot == TextureSlot::Count || !value->isObject()) return readFactor(*value);
         JsonObject parts = value->object();
         if (const auto factor = parts.find("factor")) readFactor(*factor);
         if (const auto texture = parts.find("texture")) setTexture(*texture, slot);
@@ -30,13 +30,9 @@ public:
 
     /// One of the table's.
     void parameter(const MaterialParameter& parameter) {
-        const auto set = [&](const JsonValue& value) {
+        read(parameter.key, parameter.slot, [&](const JsonValue& value) {
             std::visit([&](auto member) { setFactor(value, parameter.kind, member); }, parameter.member);
-        };
-        if (parameter.slot != TextureSlot::Count)
-            read(parameter.key, parameter.slot, set);
-        else if (const auto value = object_.find(parameter.key))
-            set(*value);
+        });
     }
 
     /// RGB, or RGB and opacity.
@@ -49,9 +45,9 @@ public:
         });
     }
 
-    void metallicRoughnessTexture() {
-        if (const auto texture = object_.find("metallicRoughnessTexture"))
-            setTexture(*texture, TextureSlot::MetallicRoughness);
+    /// Null: none.
+    void texture(std::string_view key, TextureSlot slot) {
+        if (const auto value = object_.find(key)) setTexture(*value, slot);
     }
 
     void anisotropy() {
@@ -59,23 +55,17 @@ public:
             material_.anisotropyStrength = strength->single(0.0, 1.0);
         if (const auto rotation = object_.find("anisotropyRotationDegrees"))
             material_.anisotropyRotationRadians = static_cast<float>(glm::radians(rotation->number()));
-        if (const auto texture = object_.find("anisotropyTexture")) setTexture(*texture, TextureSlot::Anisotropy);
+        texture("anisotropyTexture", TextureSlot::Anisotropy);
     }
 
     void normalMap() {
         const std::optional<JsonValue> value = object_.find("normalMap");
         if (!value) return;
-        TextureUse& use = material_.texture(TextureSlot::Normal);
-        if (value->isNull()) {
-            use = TextureUse{};
-            return;
+        if (!value->isNull()) {
+            material_.normalMapSpace = NormalMapSpace::Tangent;
+            material_.normalScale = 1.0f;
         }
-        material_.normalMapSpace = NormalMapSpace::Tangent;
-        material_.normalScale = 1.0f;
-        if (value->isText()) {
-            use = readTexture(*value, images_);
-            return;
-        }
+        if (value->isNull() || value->isText()) return setTexture(*value, TextureSlot::Normal);
         JsonObject map = value->object();
         if (const auto space = map.find("space"))
             material_.normalMapSpace = space->oneOf<NormalMapSpace>("normal map space", kNormalMapSpaces);
@@ -84,19 +74,20 @@ public:
                 scale->fail("only a tangent-space normal map can be scaled; remove it");
             material_.normalScale = scale->single();
         }
-        use = readTexture(map, images_);
+        material_.texture(TextureSlot::Normal) = readTexture(map, images_);
         map.done("a normal map");
     }
 
-    void occlusionMap() {
-        const std::optional<JsonValue> value = object_.find("occlusionMap");
+    /// A map alone, or an object that has the key of its strength beside those of a texture.
+    void scaledMap(std::string_view key, TextureSlot slot, std::string_view strengthKey, float& strength) {
+        const std::optional<JsonValue> value = object_.find(key);
         if (!value) return;
-        material_.occlusionStrength = 1.0f;
-        if (!value->isObject()) return setTexture(*value, TextureSlot::Occlusion);
+        strength = 1.0f;
+        if (!value->isObject()) return setTexture(*value, slot);
         JsonObject map = value->object();
-        if (const auto strength = map.find("strength")) material_.occlusionStrength = strength->single();
-        material_.texture(TextureSlot::Occlusion) = readTexture(map, images_);
-        map.done("an occlusion map");
+        if (const auto stated = map.find(strengthKey)) strength = stated->single();
+        material_.texture(slot) = readTexture(map, images_);
+        map.done(fmt::format("the map '{}'", key));
     }
 
     void tangents() {
@@ -124,33 +115,16 @@ public:
         for (const MaterialLayer& layer : materialLayers())
             for (const LayerParameter& parameter : layer) {
                 if (parameter.isNormalMap)
-                    layerNormalMap(parameter);
+                    scaledMap(parameter.key, parameter.slot, "scale",
+                              material_.*std::get<float Material::*>(parameter.member));
                 else
-                    layerParameter(parameter);
+                    read(parameter.key, parameter.slot, [&](const JsonValue& value) {
+                        std::visit([&](auto member) { setBounded(value, member); }, parameter.member);
+                    });
             }
     }
 
 private:
-    void layerParameter(const LayerParameter& parameter) {
-        const auto set = [&](const JsonValue& value) {
-            std::visit([&](auto member) { setBounded(value, member); }, parameter.member);
-        };
-        if (parameter.slot != TextureSlot::Count)
-            read(parameter.key, parameter.slot, set);
-        else if (const auto value = object_.find(parameter.key))
-            set(*value);
-    }
-    void layerNormalMap(const LayerParameter& parameter) {
-        const std::optional<JsonValue> value = object_.find(parameter.key);
-        if (!value) return;
-        float& scaleOfMap = material_.*std::get<float Material::*>(parameter.member);
-        scaleOfMap = 1.0f;
-        if (!value->isObject()) return setTexture(*value, parameter.slot);
-        JsonObject map = value->object();
-        if (const auto scale = map.find("scale")) scaleOfMap = scale->single();
-        material_.texture(parameter.slot) = readTexture(map, images_);
-        map.done("a clearcoat normal map");
-    }
     void setBounded(const JsonValue& value, float Material::*member) {
         const auto field = fieldOf(kMaterialFields, member);
         material_.*member = value.single(field.least, field.most);
@@ -170,7 +144,7 @@ private:
                             value.single(fieldOf(kMaterialFields, member).least,
                                          kind == Kind::Number ? fieldOf(kMaterialFields, member).most : kAnyNumber);
         if (kind == Kind::IorOrPerfect && factor > 0.0f && factor < 1.0f)
-            value.fail(fmt::format("is {}; 0 or at least 1 is needed", factor));
+            value.fail("is {}; 0 or at least 1 is needed", factor);
     }
     void setFactor(const JsonValue& value, MaterialParameter::Kind, glm::vec3 Material::*member) {
         material_.*member = value.color();
@@ -243,12 +217,13 @@ void readModelParameters(JsonObject& object, Material& material, Images& images)
     const MaterialModelInfo& model = infoOf(material.model);
     parameters.baseColor(model.colorKey);
     for (const MaterialParameter& parameter : model.parameters) parameters.parameter(parameter);
-    if (model.microsurface == Microsurface::MetallicRoughness) parameters.metallicRoughnessTexture();
+    if (model.microsurface == Microsurface::MetallicRoughness)
+        parameters.texture("metallicRoughnessTexture", TextureSlot::MetallicRoughness);
     if (model.anisotropy == Anisotropy::Strength) parameters.anisotropy();
     if (model.hasLayers) parameters.layers();
     if (!model.isLit) return;
     parameters.normalMap();
-    parameters.occlusionMap();
+    parameters.scaledMap("occlusionMap", TextureSlot::Occlusion, "strength", material.occlusionStrength);
     parameters.tangents();
     if (const auto subsurface = object.find("subsurface")) readSubsurface(*subsurface, material.subsurface);
 }
