@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,9 +16,10 @@
 namespace tessera::scenes {
 namespace {
 
-template <typename Element>
-void moveAll(std::vector<Element>& from, std::vector<Element>& to) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+/// The elements of these lists.
+template <typename Owner>
+void moveAll(Owner& from, Owner& to, auto... lists) {
+    (std::ranges::move(from.*lists, std::back_inserter(to.*lists)), ...);
 }
 
 void shift(int& index, std::size_t offset) {
@@ -105,14 +105,14 @@ void shiftRig(Rig& rig, const Scene& whole, std::size_t nodes) {
         shift(deformed.skin, before.skins.size());
         shift(deformed.weights, before.weights.size());
     }
-    for (Carried& carried : rig.lights) {
-        shift(carried.element, whole.lights.size());
-        shift(carried.node, nodes);
-    }
-    for (Carried& carried : rig.cameras) {
-        shift(carried.element, whole.cameras.size());
-        shift(carried.node, nodes);
-    }
+    const auto shiftCarried = [nodes](std::vector<Carried>& all, std::size_t elements) {
+        for (Carried& carried : all) {
+            shift(carried.element, elements);
+            shift(carried.node, nodes);
+        }
+    };
+    shiftCarried(rig.lights, whole.lights.size());
+    shiftCarried(rig.cameras, whole.cameras.size());
     for (Clip& clip : rig.clips)
         for (AnimationChannel& channel : clip.channels) {
             const AnimatedOwner owner = infoOf(channel.property).owner;
@@ -156,27 +156,13 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
         whole.hook = std::move(part.hook);
     }
 
-    moveAll(part.images, whole.images);
-    moveAll(part.materials, whole.materials);
-    moveAll(part.meshes, whole.meshes);
-    moveAll(part.nodes, whole.nodes);
-    moveAll(part.lights, whole.lights);
-    moveAll(part.cameras, whole.cameras);
-    moveAll(part.rig.clips, whole.rig.clips);
-    moveAll(part.rig.playing, whole.rig.playing);
-    moveAll(part.rig.nodes, whole.rig.nodes);
-    moveAll(part.rig.weights, whole.rig.weights);
-    moveAll(part.rig.numbers, whole.rig.numbers);
-    moveAll(part.rig.skins, whole.rig.skins);
-    moveAll(part.rig.shapes, whole.rig.shapes);
-    moveAll(part.rig.deformed, whole.rig.deformed);
-    moveAll(part.rig.lights, whole.rig.lights);
-    moveAll(part.rig.cameras, whole.rig.cameras);
+    moveAll(part, whole, &Scene::images, &Scene::materials, &Scene::meshes, &Scene::nodes, &Scene::lights,
+            &Scene::cameras, &Scene::notes, &Scene::warnings);
+    moveAll(part.rig, whole.rig, &Rig::clips, &Rig::playing, &Rig::nodes, &Rig::weights, &Rig::numbers, &Rig::skins,
+            &Rig::shapes, &Rig::deformed, &Rig::lights, &Rig::cameras);
     for (std::string& variant : part.variants)
         if (std::ranges::find(whole.variants, variant) == whole.variants.end())
             whole.variants.push_back(std::move(variant));
-    moveAll(part.notes, whole.notes);
-    moveAll(part.warnings, whole.warnings);
 }
 
 } // namespace tessera::scenes

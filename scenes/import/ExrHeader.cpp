@@ -52,55 +52,49 @@ struct FixedSize {
     std::string_view type;
     std::uint32_t bytes;
 };
-constexpr FixedSize kFixedSizes[] = {
-    {"box2i", 16},
-    {"box2f", 16},
-    {"chromaticities", 32},
-    {"compression", 1},
-    {"deepImageState", 1},
-    {"double", 8},
-    {"envmap", 1},
-    {"float", 4},
-    {"int", 4},
-    {"keycode", 28},
-    {"lineOrder", 1},
-    {"m33f", 36},
-    {"m33d", 72},
-    {"m44f", 64},
-    {"m44d", 128},
-    {"rational", 8},
-    {"tiledesc", 9},
-    {"timecode", 8},
-    {"v2i", 8},
-    {"v2f", 8},
-    {"v2d", 16},
-    {"v3i", 12},
-    {"v3f", 12},
-    {"v3d", 24},
-};
+constexpr FixedSize kFixedSizes[] = {{"box2i", 16},
+                                     {"box2f", 16},
+                                     {"chromaticities", 32},
+                                     {"compression", 1},
+                                     {"deepImageState", 1},
+                                     {"double", 8},
+                                     {"envmap", 1},
+                                     {"float", 4},
+                                     {"int", 4},
+                                     {"keycode", 28},
+                                     {"lineOrder", 1},
+                                     {"m33f", 36},
+                                     {"m33d", 72},
+                                     {"m44f", 64},
+                                     {"m44d", 128},
+                                     {"rational", 8},
+                                     {"tiledesc", 9},
+                                     {"timecode", 8},
+                                     {"v2i", 8},
+                                     {"v2f", 8},
+                                     {"v2d", 16},
+                                     {"v3i", 12},
+                                     {"v3f", 12},
+                                     {"v3d", 24}};
 
 struct Attribute {
     std::string name, type;
     Cursor value;
 
-    void requireRoom(std::uint32_t claimedBytes, const Cursor& rest) const {
-        if (claimedBytes > rest.left())
-            throw std::runtime_error(fmt::format("its attribute '{}' of type {} claims {} bytes where {} are left",
-                                                 name, type, claimedBytes, rest.left()));
+    [[noreturn]] void fail(std::string_view flaw) const {
+        throw std::runtime_error(fmt::format("its attribute '{}' of type {} {}", name, type, flaw));
     }
 
-    void requireLength(bool good, std::string_view rule) const {
-        if (!good)
-            throw std::runtime_error(
-                fmt::format("its attribute '{}' of type {} has {} bytes: {}", name, type, value.left(), rule));
+    void requireRoom(std::uint32_t claimedBytes, const Cursor& rest) const {
+        if (claimedBytes > rest.left())
+            fail(fmt::format("claims {} bytes where {} are left", claimedBytes, rest.left()));
     }
 
     void check() const {
         const auto claimed = static_cast<std::uint32_t>(value.left());
         const auto* fixed = std::ranges::find(kFixedSizes, type, &FixedSize::type);
         if (fixed != std::end(kFixedSizes) && fixed->bytes != claimed)
-            throw std::runtime_error(fmt::format("its attribute '{}' of type {} claims {} bytes and has {}", name, type,
-                                                 claimed, fixed->bytes));
+            fail(fmt::format("claims {} bytes and has {}", claimed, fixed->bytes));
         Cursor rest = value;
         if (type == "stringvector") {
             while (!rest.isAtEnd()) {
@@ -108,15 +102,14 @@ struct Attribute {
                 requireRoom(textBytes, rest);
                 rest.skip(textBytes);
             }
-        } else if (type == "floatvector") {
-            requireLength(claimed % sizeof(float) == 0, "a number takes 4");
+        } else if (type == "floatvector" && claimed % sizeof(float) != 0) {
+            fail(fmt::format("has {} bytes: a number takes 4", claimed));
         } else if (type == "chlist") { // names with 16 bytes each, up to an empty one
             bool hasEnded = false;
-            while (!rest.isAtEnd() && !(hasEnded = rest.text().empty())) {
-                rest.skip(16);
-            }
-            requireLength(hasEnded, "its list of channels has no end");
-            requireLength(rest.isAtEnd(), "its list of channels ends earlier");
+            while (!rest.isAtEnd() && !(hasEnded = rest.text().empty())) rest.skip(16);
+            if (!hasEnded || !rest.isAtEnd())
+                fail(fmt::format("has {} bytes: its list of channels {}", claimed,
+                                 hasEnded ? "ends earlier" : "has no end"));
         }
     }
 };
