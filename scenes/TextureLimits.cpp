@@ -29,10 +29,9 @@ void averageLargeImages(Scene& scene, const std::string& source, LoadLedger& led
         Image& image = scene.images[i];
         if (!uses[i].isTexture || std::max(image.width, image.height) <= kMostTextureSide) continue;
         const int width = std::min(image.width, kMostTextureSide), height = std::min(image.height, kMostTextureSide);
-        repairs.note(source, 0, fmt::format("its averages in {}x{} texels are drawn", width, height), [&] {
-            return fmt::format("the picture '{}' has {}x{} texels, and textures have at most {} a side", image.name,
-                               image.width, image.height, kMostTextureSide);
-        });
+        repairs.note(source, 0, fmt::format("its averages in {}x{} texels are drawn", width, height),
+                     "the picture '{}' has {}x{} texels, and textures have at most {} a side", image.name, image.width,
+                     image.height, kMostTextureSide);
         const std::uint64_t mark = ledger.usedBytes();
         ledger.charge(std::uint64_t(width) * std::uint64_t(height) * texelBytes(image.format),
                       [&] { return fmt::format("{}: the averages of '{}'", source, image.name); });
@@ -88,9 +87,7 @@ bool keepPlaces(TextureUse& use, const Image& image, const Reach& reach) {
 }
 
 void keepTexturePlaces(Scene& scene, const std::string& source, Repairs& repairs) {
-    const auto note = [&](const std::string& what) {
-        repairs.note(source, 0, "drawn with fewer repeats", [&] { return what; });
-    };
+    const auto note = [&](const std::string& what) { repairs.note(source, 0, "drawn with fewer repeats", "{}", what); };
     std::vector<bool> isClamped;
     std::vector<Reach> ofMeshes, ofMaterials(scene.materials.size(), Reach{});
     for (Mesh& mesh : scene.meshes) {

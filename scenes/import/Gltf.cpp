@@ -76,8 +76,7 @@ std::string_view drawnInstead(std::string_view extension) {
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
 void warnOfIgnoredFeatures(Context& context) {
     for (const std::string& extension : ignoredExtensions(context.document))
-        context.warn(
-            fmt::format("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension)));
+        context.warn("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension));
 }
 
 } // namespace
@@ -120,9 +119,9 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
         const bool isDeformed = isMesh && rigging.deformsOf(placed.node) != Deforms();
         const bool isInstanced = isMesh && stored.extensions.contains("EXT_mesh_gpu_instancing");
         if (isInstanced && isDeformed)
-            context.warn(fmt::format("{}: its mesh is skinned or has morph targets that are used, so it is drawn once, "
-                                     "and its instances are left out",
-                                     placeOf(placed.node)));
+            context.warn("{}: its mesh is skinned or has morph targets that are used, so it is drawn once, "
+                         "and its instances are left out",
+                         placeOf(placed.node));
         const bool isRepeated = isInstanced && !isDeformed && repairs.attempt("it is drawn once", [&] {
             instancing[placed.node] = instanceTransforms(context, placed.node);
         });

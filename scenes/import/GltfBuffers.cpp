@@ -152,8 +152,8 @@ std::span<const std::byte> Buffers::buffer(int index) {
     }
     // The binary chunk and exporters' files may be padded at the end (glTF 2.0 section 4.4.3.3).
     if (bytes.size() < stored.byteLength)
-        document_.repair(place, fmt::format("says {} bytes, but its data has only {}", stored.byteLength, bytes.size()),
-                         "what lies beyond is left out");
+        document_.repair(place, "what lies beyond is left out", "says {} bytes, but its data has only {}",
+                         stored.byteLength, bytes.size());
     return bytes.first(std::min(stored.byteLength, bytes.size()));
 }
 
@@ -163,9 +163,8 @@ std::span<const std::byte> Buffers::slice(int index, std::size_t byteOffset, std
     // Both are at most 2^53 (GltfSchema.cpp), so their sum does not wrap.
     const std::size_t end = byteOffset + byteLength;
     if (end > bytes.size())
-        document_.fail(place,
-                       fmt::format("reads {} bytes past the end of buffer {} (byteOffset {} + byteLength {} > {})",
-                                   end - bytes.size(), index, byteOffset, byteLength, bytes.size()));
+        document_.fail(place, "reads {} bytes past the end of buffer {} (byteOffset {} + byteLength {} > {})",
+                       end - bytes.size(), index, byteOffset, byteLength, bytes.size());
     return bytes.subspan(byteOffset, byteLength);
 }
 
@@ -211,16 +210,16 @@ Accessors::Source Accessors::placed(int accessor, int bufferView, std::size_t by
     const std::size_t stride = byteStride == 0 ? elementBytes : byteStride;
     const std::string place = fmt::format("/accessors/{}", accessor);
     if (stride < elementBytes)
-        document_.fail(place, fmt::format("has elements of {} bytes, but buffer view {} steps only {} bytes",
-                                          elementBytes, bufferView, stride));
+        document_.fail(place, "has elements of {} bytes, but buffer view {} steps only {} bytes", elementBytes,
+                       bufferView, stride);
     const std::span<const std::byte> bytes = buffers_.view(bufferView);
     // Offset and count are at most 2^53 and the stride at most 256 (GltfSchema.cpp), so nothing wraps in 64 bits.
     const std::size_t end = byteOffset + (count - 1) * stride + elementBytes;
     if (end > bytes.size())
-        document_.fail(
-            place, fmt::format("reads {} bytes past the end of buffer view {} (byteOffset {}, {} elements of {} "
-                               "bytes, {} apart, in {} bytes)",
-                               end - bytes.size(), bufferView, byteOffset, count, elementBytes, stride, bytes.size()));
+        document_.fail(place,
+                       "reads {} bytes past the end of buffer view {} (byteOffset {}, {} elements of {} "
+                       "bytes, {} apart, in {} bytes)",
+                       end - bytes.size(), bufferView, byteOffset, count, elementBytes, stride, bytes.size());
     return {bytes.data() + byteOffset, stride, bytesEach};
 }
 
@@ -256,8 +255,8 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
         for (std::size_t i = 0; i < accessor.count; ++i) copyElement(source, i, i);
     } else {
         if (accessor.count > kMaxCountWithoutView)
-            document_.fail(place, fmt::format("has {} elements but no buffer view; at most {} are supported then",
-                                              accessor.count, kMaxCountWithoutView));
+            document_.fail(place, "has {} elements but no buffer view; at most {} are supported then", accessor.count,
+                           kMaxCountWithoutView);
         reserve();
     }
     if (!accessor.sparse.isSparse) return values;
@@ -265,8 +264,7 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
     const auto& [sparseCount, isSparse, targetsAt, replacementsAt] = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparseCount);
     if (count == 0) return values;
-    if (count > accessor.count)
-        document_.fail(place, fmt::format("replaces {} elements, but has only {}", count, accessor.count));
+    if (count > accessor.count) document_.fail(place, "replaces {} elements, but has only {}", count, accessor.count);
     const Source targets = placed(index, targetsAt.bufferView, static_cast<std::size_t>(targetsAt.byteOffset), count,
                                   targetsAt.componentType, 1, 0);
     const Source replacements =
@@ -275,8 +273,7 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, targetsAt.componentType);
         if (target >= accessor.count)
-            document_.fail(
-                place, fmt::format("sparse index {} is {}, but there are only {} elements", i, target, accessor.count));
+            document_.fail(place, "sparse index {} is {}, but there are only {} elements", i, target, accessor.count);
         copyElement(replacements, i, target);
     }
     return values;

@@ -30,10 +30,9 @@ void setRange(const Document& document, double nearMetres, double farMetres, dou
         camera.nearMetres = nearMetres;
         camera.farMetres = farMetres;
     } else {
-        document.repair(place,
-                        fmt::format("has znear {} and zfar {}; znear must be {} 0 and less than zfar", nearMetres,
-                                    farMetres, least > 0.0 ? "more than" : "at least"),
-                        "what it sees has no end");
+        document.repair(place, "what it sees has no end",
+                        "has znear {} and zfar {}; znear must be {} 0 and less than zfar", nearMetres, farMetres,
+                        least > 0.0 ? "more than" : "at least");
     }
 }
 
@@ -42,8 +41,8 @@ void setPerspective(const Document& document, const tiny::PerspectiveCamera& len
     if (lens.yfov > 0.0 && lens.yfov < std::numbers::pi)
         camera.fovYRadians = lens.yfov;
     else
-        document.repair(place + "/perspective/yfov",
-                        fmt::format("is {}; it must be between 0 and pi radians", lens.yfov), "pi/4 is taken");
+        document.repair(place + "/perspective/yfov", "pi/4 is taken", "is {}; it must be between 0 and pi radians",
+                        lens.yfov);
     const double far = lens.zfar > 0.0 ? lens.zfar : std::numeric_limits<double>::infinity();
     setRange(document, lens.znear, far, kNearestPlaneMetres, place + "/perspective", camera);
 }
@@ -53,7 +52,7 @@ void setOrthographic(const Document& document, const tiny::OrthographicCamera& l
     if (lens.ymag != 0.0 && std::abs(lens.ymag) <= kFarthestMetres)
         camera.halfHeightMetres = std::abs(lens.ymag);
     else
-        document.repair(place + "/orthographic/ymag", fmt::format("is {}", lens.ymag), "1 is taken");
+        document.repair(place + "/orthographic/ymag", "1 is taken", "is {}", lens.ymag);
     setRange(document, lens.znear, lens.zfar, 0.0, place + "/orthographic", camera);
 }
 
@@ -69,14 +68,13 @@ void setCones(const Document& document, const tiny::SpotLight& stored, const std
     constexpr double kRoundingRadians = 1e-6;
     double outer = stored.outerConeAngle;
     if (outer > kWidestRadians + kRoundingRadians) {
-        document.repair(place + "/spot/outerConeAngle",
-                        fmt::format("is {}; it must be at most pi/2 radians", stored.outerConeAngle), "pi/2 is taken");
+        document.repair(place + "/spot/outerConeAngle", "pi/2 is taken", "is {}; it must be at most pi/2 radians",
+                        stored.outerConeAngle);
         outer = kWidestRadians;
     }
     if (stored.innerConeAngle > outer)
-        document.repair(place + "/spot/innerConeAngle",
-                        fmt::format("is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer),
-                        "the outer angle is taken");
+        document.repair(place + "/spot/innerConeAngle", "the outer angle is taken",
+                        "is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer);
     light.innerConeRadians = static_cast<float>(std::min(stored.innerConeAngle, outer));
     light.outerConeRadians = static_cast<float>(outer);
 }
@@ -96,8 +94,8 @@ void importCamera(Context& context, int nodeIndex, const glm::dmat4& worldFromNo
     bool isDegenerate = false;
     camera.worldFromCamera = rigidOf(worldFromNode, isDegenerate);
     if (isDegenerate)
-        context.warn(fmt::format("/nodes/{}: its scale of zero leaves camera '{}' no direction; it looks along -Z",
-                                 nodeIndex, camera.name));
+        context.warn("/nodes/{}: its scale of zero leaves camera '{}' no direction; it looks along -Z", nodeIndex,
+                     camera.name);
     camera.projection = stored.type == "perspective" ? Projection::Perspective : Projection::Orthographic;
     if (camera.projection == Projection::Perspective)
         setPerspective(document, stored.perspective, place, camera);
@@ -122,15 +120,14 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     light.intensity = static_cast<float>(static_cast<float>(stored.intensity) * document.wattsPerUnit[at]);
     light.falloff = Falloff::InverseSquare;
     if (!placeAtNode(light, worldFromNode) && infoOf(light.type).hasDirection)
-        context.warn(fmt::format("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex,
-                                 light.name));
+        context.warn("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex, light.name);
     if (infoOf(light.type).hasPosition()) {
         const auto values = elementsOf(valueAt(document.model.extensions, "KHR_lights_punctual/lights"));
         // three.js writes 0 for a light without an end.
         if (static_cast<float>(stored.range) > 0.0f)
             light.rangeMetres = static_cast<float>(stored.range);
         else if (values[at].Has("range"))
-            document.repair(place + "/range", "is 0; it must be greater than 0", "the light has no end");
+            document.repair(place + "/range", "the light has no end", "is 0; it must be greater than 0");
     }
     if (light.type == LightType::Spot) setCones(document, stored.spot, place, light);
     context.scene.lights.push_back(std::move(light));

@@ -178,7 +178,7 @@ private:
                 continue;
             }
             if (i + 1 == property.keys.size() && isRequired(checked, property))
-                fail(i == 0 ? place : Place(place, above()), fmt::format("the required property '{}' is missing", key));
+                fail(i == 0 ? place : Place(place, above()), "the required property '{}' is missing", key);
             return nullptr;
         }
         return value;
@@ -235,9 +235,9 @@ private:
         std::from_chars(size.data(), size.data() + size.size(), length);
         if (value.size() == length) return;
         const bool isOpaque = length == 4 && value.size() == 3 && type.least == 0.0;
-        const auto flaw = [&] { return fmt::format("must hold {} numbers, but holds {}", length, value.size()); };
-        if (value.size() < length && !isOpaque) fail(place, flaw());
-        note(place, isOpaque ? "its alpha is 1" : "the numbers beyond are left out", flaw);
+        const std::string flaw = fmt::format("must hold {} numbers, but holds {}", length, value.size());
+        if (value.size() < length && !isOpaque) fail(place, "{}", flaw);
+        note(place, isOpaque ? "its alpha is 1" : "the numbers beyond are left out", "{}", flaw);
         if (isOpaque)
             value.push_back(1.0);
         else
@@ -253,8 +253,7 @@ private:
             return Json::object();
         case Kind::Flag:
             if (value == 0 || value == 1) {
-                note(place, "1 is taken as true, 0 as false",
-                     [&] { return fmt::format("must be true or false, but is {}", value.dump()); });
+                note(place, "1 is taken as true, 0 as false", "must be true or false, but is {}", value.dump());
                 return value == 1;
             }
             require(value.is_boolean(), "true or false", value, place);
@@ -266,8 +265,8 @@ private:
             require(value.is_string(), "a string", value, place);
             if (type.kind == Kind::Choice &&
                 std::ranges::find(type.choices, value.get_ref<const std::string&>()) == type.choices.end())
-                fail(place, fmt::format("is '{:.40}'; valid are {}", value.get_ref<const std::string&>(),
-                                        fmt::join(type.choices, ", ")));
+                fail(place, "is '{:.40}'; valid are {}", value.get_ref<const std::string&>(),
+                     fmt::join(type.choices, ", "));
             return std::move(value);
         case Kind::Number:
             return number(value, type, place);
@@ -276,7 +275,7 @@ private:
         }
         const std::int64_t number = integer(value, type, place);
         if (type.kind == Kind::Code && std::ranges::find(type.choices, std::to_string(number)) == type.choices.end())
-            fail(place, fmt::format("is {}; valid are {}", number, fmt::join(type.choices, ", ")));
+            fail(place, "is {}; valid are {}", number, fmt::join(type.choices, ", "));
         if (type.kind == Kind::Index) requireElement(static_cast<std::size_t>(number), type.array, place);
         // tinygltf keeps the low 32 bits of integers in extensions.
         if (isValue && number > std::int64_t(kMaxInt)) return static_cast<double>(number);
@@ -286,12 +285,10 @@ private:
     void requireElement(std::size_t index, std::string_view path, const Place& place) {
         Array& array = arrays_.find(path)->second;
         if (!array.missing.empty())
-            fail(place, fmt::format("points at /{}/{}, but the document has no {}", path, index, array.missing));
-        if (!array.type.empty()) fail(array.place, fmt::format("must be an array, but is {}", array.type));
-        const std::size_t size = array.states.size();
-        if (index >= size)
-            fail(place, size == 0 ? fmt::format("points at /{}/{}, but /{} is empty", path, index, path)
-                                  : fmt::format("points at /{}/{}, but there are only {}", path, index, size));
+            fail(place, "points at /{}/{}, but the document has no {}", path, index, array.missing);
+        if (!array.type.empty()) fail(array.place, "must be an array, but is {}", array.type);
+        if (index >= array.states.size())
+            fail(place, "points at /{}/{}, but there are only {}", path, index, array.states.size());
         use(array, index);
     }
 
@@ -299,12 +296,11 @@ private:
     double number(const Json& value, const Type& type, const Place& place) const {
         require(value.is_number(), "a number", value, place);
         const double number = value.get<double>();
-        if (!(std::abs(number) <= kMaxFloat))
-            fail(place, fmt::format("is {}, which no 32-bit number can hold", value.dump()));
+        if (!(std::abs(number) <= kMaxFloat)) fail(place, "is {}, which no 32-bit number can hold", value.dump());
         const std::string flaw = outOfBounds(number, type);
         if (flaw.empty()) return number;
-        if (type.isMoreThanLeast) fail(place, flaw);
-        note(place, kClamped, [&] { return flaw; });
+        if (type.isMoreThanLeast) fail(place, "{}", flaw);
+        note(place, kClamped, "{}", flaw);
         return std::clamp(number, type.least, type.most);
     }
 
@@ -312,13 +308,12 @@ private:
         require(value.is_number(), "an integer", value, place);
         const double number = value.get<double>();
         if (!std::isfinite(number) || number != std::floor(number))
-            fail(place, fmt::format("must be an integer, but is {}", value.dump()));
+            fail(place, "must be an integer, but is {}", value.dump());
         if (std::abs(number) > kMaxInteger)
-            fail(place, fmt::format("is {}, farther from 0 than {}", value.dump(), std::int64_t(kMaxInteger)));
-        if (const std::string flaw = outOfBounds(number, type); !flaw.empty()) fail(place, flaw);
+            fail(place, "is {}, farther from 0 than {}", value.dump(), std::int64_t(kMaxInteger));
+        if (const std::string flaw = outOfBounds(number, type); !flaw.empty()) fail(place, "{}", flaw);
         const auto whole = static_cast<std::int64_t>(number);
-        if (whole % type.divisor != 0)
-            fail(place, fmt::format("is {}; it must be a multiple of {}", whole, type.divisor));
+        if (whole % type.divisor != 0) fail(place, "is {}; it must be a multiple of {}", whole, type.divisor);
         return whole;
     }
 
@@ -331,15 +326,19 @@ private:
     }
 
     void require(bool isGood, std::string_view type, const Json& value, const Place& place) const {
-        if (!isGood) fail(place, fmt::format("must be {}, but is {}", type, value.type_name()));
+        if (!isGood) fail(place, "must be {}, but is {}", type, value.type_name());
     }
 
-    void note(const Place& place, std::string_view repair, auto&& flaw) const {
-        repairs_.note(file_, place.text(), repair, flaw);
+    template <typename... Values>
+    void note(const Place& place, std::string_view repair, fmt::format_string<Values...> flaw,
+              Values&&... values) const {
+        repairs_.note(file_, place.text(), repair, flaw, std::forward<Values>(values)...);
     }
 
-    [[noreturn]] void fail(const Place& place, std::string_view what) const {
-        throw InputError(fmt::format("{}: {}: {}", file_, place.text(), what));
+    template <typename... Values>
+    [[noreturn]] void fail(const Place& place, fmt::format_string<Values...> what, Values&&... values) const {
+        throw InputError(
+            fmt::format("{}: {}: {}", file_, place.text(), fmt::format(what, std::forward<Values>(values)...)));
     }
 
     void charge(std::uint64_t bytes, const Place& place, std::size_t count) const {

@@ -65,7 +65,7 @@ void Rigging::warnOfMorphless() {
     if (node.mesh != kNone)
         why = fmt::format("its {} has no morph targets",
                           named("mesh", elementAt(model.meshes, node.mesh).name, node.mesh));
-    context_.warn(fmt::format("/animations: weights of {} are animated, but {}; they are left out", which, why));
+    context_.warn("/animations: weights of {} are animated, but {}; they are left out", which, why);
 }
 
 void Rigging::leaveOut(const std::string& pointer, std::size_t channels) {
@@ -84,9 +84,9 @@ void Rigging::warnOfLeftOut() {
     std::vector<std::string_view> paths;
     for (const auto& [kind, path] : leftOutPaths_) paths.push_back(path);
     if (hasMoreLeftOut_) paths.push_back("and others");
-    context_.warn(fmt::format("/animations: {} {} that cannot be animated, and {} left out: {}", leftOut_,
-                              leftOut_ == 1 ? "channel changes something" : "channels change things",
-                              leftOut_ == 1 ? "is" : "are", fmt::join(paths, ", ")));
+    context_.warn("/animations: {} {} that cannot be animated, and {} left out: {}", leftOut_,
+                  leftOut_ == 1 ? "channel changes something" : "channels change things", leftOut_ == 1 ? "is" : "are",
+                  fmt::join(paths, ", "));
 }
 
 AnimationSampler Rigging::sampler(int animation, int index, const Animated& animated) {
@@ -103,7 +103,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
 
     Elements times = context_.accessors.elements(stored.input);
     const auto failTimes = [&](const std::string& what) {
-        document.fail(place + "/input", fmt::format("accessor {} {}", stored.input, what));
+        document.fail(place + "/input", "accessor {} {}", stored.input, what);
     };
     if (times.components != 1 || times.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
         failTimes("holds key times, so it must be SCALAR of FLOAT");
@@ -116,7 +116,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
             const std::string what =
                 fmt::format("has key {} at {} s and key {} at {} s; key times must ascend", key - 1, before, key, time);
             if (time < before) failTimes(what);
-            document.repair(place + "/input", what, "the clip jumps from one to the other");
+            document.repair(place + "/input", "the clip jumps from one to the other", "{}", what);
             times.values[key] = std::nextafter(times.values[key - 1], std::numeric_limits<float>::infinity());
             if (!std::isfinite(times.values[key])) failTimes(what);
         }
@@ -126,7 +126,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
 
     Elements values = context_.accessors.elements(stored.output);
     const auto failValues = [&](const std::string& what) {
-        document.fail(place + "/output", fmt::format("accessor {} {}", stored.output, what));
+        document.fail(place + "/output", "accessor {} {}", stored.output, what);
     };
     const AnimatedPropertyInfo& info = infoOf(animated.property);
     const bool isOneByOne = info.owner == AnimatedOwner::Weights;
@@ -144,7 +144,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
                                              sampler.timesSeconds.size(), info.path, needed);
         if (each == 0 || values.count < each) failValues(what);
         const std::size_t keys = std::min(values.count / each, sampler.timesSeconds.size());
-        document.repair(place + "/output", what, "what has no partner is left out");
+        document.repair(place + "/output", "what has no partner is left out", "{}", what);
         sampler.timesSeconds.resize(keys);
         values.values.resize(keys * each * static_cast<std::size_t>(components));
     }
@@ -163,7 +163,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
                 (key * sampler.valuesPerKey() + (sampler.valuesPerKey() > 1 ? 1 : 0)) * animated.width;
             const auto numbers = std::span(sampler.values).subspan(first, animated.width);
             if (std::ranges::any_of(numbers, [](float number) { return number != 0.0f; })) continue;
-            document.repair(place + "/output", fmt::format("key {} {}", key, kZeroQuaternion), kNotRotated);
+            document.repair(place + "/output", kNotRotated, "key {} {}", key, kZeroQuaternion);
             numbers.back() = 1.0f;
         }
     return sampler;
@@ -233,10 +233,9 @@ Clip Rigging::clip(int index) {
             }
             const int width = clip.samplers[static_cast<std::size_t>(entry->second)].width;
             if (static_cast<std::size_t>(width) != what->width)
-                document.fail(
-                    fmt::format("/animations/{}/channels/{}", index, number),
-                    fmt::format("takes values of {} numbers from sampler {}, which another channel takes as of {}",
-                                what->width, channel.sampler, width));
+                document.fail(fmt::format("/animations/{}/channels/{}", index, number),
+                              "takes values of {} numbers from sampler {}, which another channel takes as of {}",
+                              what->width, channel.sampler, width);
         });
         if (!isGood) {
             failed.insert(read);

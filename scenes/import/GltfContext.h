@@ -82,11 +82,14 @@ struct Context {
         if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;
     }
 
-    /// Warns that the value at a JSON pointer was repaired; throws InputError instead where the load is strict. `what`
-    /// names the flaw, `repair` begins with its punctuation and names what is drawn.
-    void repair(const std::string& place, const std::string& what, std::string_view repair) {
+    /// Warns that the value at a JSON pointer was repaired; throws InputError instead where the load is strict.
+    /// `repair` begins with its punctuation and names what is drawn.
+    template <typename... Values>
+    void repair(const std::string& place, std::string_view repair, fmt::format_string<Values...> flaw,
+                Values&&... values) {
+        const std::string what = fmt::format(flaw, std::forward<Values>(values)...);
         if (document.ledger.wishes().isStrict) document.fail(place, what);
-        warn(fmt::format("{}: {}{}", place, what, repair));
+        warn("{}: {}{}", place, what, repair);
     }
 
     /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.
@@ -96,6 +99,10 @@ struct Context {
         document.ledger.charge(2 * (line.size() + kWarningBytes), [&] { return document.file + ": its warnings"; });
         warned.insert(line);
         scene.warnings.push_back(std::move(line));
+    }
+    template <typename First, typename... Values>
+    void warn(fmt::format_string<First, Values...> text, First&& first, Values&&... values) {
+        warn(fmt::format(text, std::forward<First>(first), std::forward<Values>(values)...));
     }
 
 private:

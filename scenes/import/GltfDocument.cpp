@@ -134,8 +134,8 @@ nlohmann::json parseDocument(const std::string& text, const std::string& file, L
         ledger.charge(parsedJsonBytes(mended.text), [&] { return file + ": its JSON"; });
         nlohmann::json parsed = nlohmann::json::parse(mended.text, nullptr, false);
         if (mended.line != 0 && !parsed.is_discarded()) {
-            repairs.note(file, mended.line, "words of no JSON value are null, and the rest is left out",
-                         [&] { return mended.flaw; });
+            repairs.note(file, mended.line, "words of no JSON value are null, and the rest is left out", "{}",
+                         mended.flaw);
             return parsed;
         }
         std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line ..."
@@ -173,7 +173,7 @@ void checkRequiredExtensions(const Document& document) {
             fmt::format("the model requires {}, which is not supported; export it without", extension);
         // Its data cannot be read; others' can, and most change how a surface shines.
         if (extension.find("compression") != extension.npos) document.fail("/extensionsRequired", what);
-        document.repair("/extensionsRequired", what, "it is drawn without");
+        document.repair("/extensionsRequired", "it is drawn without", "{}", what);
     }
 }
 
@@ -197,14 +197,17 @@ std::filesystem::path Document::fileAt(std::string_view place, const std::string
         fail(place, error);
     }
     if (!named.isAsNamed)
-        repair(place,
-               fmt::format("names '{}', which is there as '{}'", uri, named.path.lexically_relative(folder).string()),
-               "that one is read");
+        repair(place, "that one is read", "names '{}', which is there as '{}'", uri,
+               named.path.lexically_relative(folder).string());
     return named.path;
 }
 
 void Document::charge(std::uint64_t bytes, std::string_view kind, int index) const {
     ledger.charge(bytes, [&] { return fmt::format("{}: /{}/{}", file, kind, index); });
+}
+
+void Document::charge(std::uint64_t bytes, std::string_view place) const {
+    ledger.charge(bytes, [&] { return fmt::format("{}: {}", file, place); });
 }
 
 const tiny::Scene* Document::scene() const {

@@ -32,19 +32,27 @@ struct Document {
     std::vector<double> wattsPerUnit = {}; ///< of each light's intensity (GltfSteps.h)
 
     /// Warns of a flaw at a place, as Repairs::note() does.
-    void repair(std::string_view place, std::string_view what, std::string_view repair) const {
-        repairs.note(file, place, repair, [&] { return what; });
+    template <typename... Values>
+    void repair(std::string_view place, std::string_view repair, fmt::format_string<Values...> flaw,
+                Values&&... values) const {
+        repairs.note(file, place, repair, flaw, std::forward<Values>(values)...);
     }
     /// The file that the URI at a place names. Throws InputError as fileOfUri() does.
     std::filesystem::path fileAt(std::string_view place, const std::string& uri) const;
     /// Throws InputError "file: place: what".
     [[noreturn]] void fail(std::string_view place, std::string_view what) const;
+    template <typename First, typename... Values>
+    [[noreturn]] void fail(std::string_view place, fmt::format_string<First, Values...> what, First&& first,
+                           Values&&... values) const {
+        fail(place, fmt::format(what, std::forward<First>(first), std::forward<Values>(values)...));
+    }
     /// The same with the text of an error, which stays a MemoryRefused if it is one.
     [[noreturn]] void fail(std::string_view place, const InputError& error) const;
     /// The default scene; null where the document has none.
     const tiny::Scene* scene() const;
-    /// Charges the ledger for what `kind` `index`, such as accessors 3, is about to take.
+    /// Charges the ledger for what `kind` `index`, such as accessors 3, or a place is about to take.
     void charge(std::uint64_t bytes, std::string_view kind, int index) const;
+    void charge(std::uint64_t bytes, std::string_view place) const;
 };
 
 /// Reads a .gltf or .glb; which one it is follows from its first bytes, not from its name. Throws InputError when the

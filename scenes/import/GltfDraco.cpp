@@ -98,9 +98,7 @@ public:
         }
     }
 
-    void charge(std::uint64_t bytes) const {
-        document_.ledger.charge(bytes, [&] { return fmt::format("{}: {}", document_.file, place_); });
-    }
+    void charge(std::uint64_t bytes) const { document_.charge(bytes, place_); }
 
 private:
     const tiny::Accessor& accessor(int index) const { return elementAt(document_.model.accessors, index); }
@@ -301,8 +299,8 @@ DracoGeometry DracoStreams::decode(const tiny::Primitive& primitive, const std::
     } catch (const MemoryRefused&) {
         throw; // names the place already
     } catch (const InputError& error) {
-        document_.fail(stream, fmt::format("the stream of mesh '{}' {}; compress the mesh anew, or leave it plain",
-                                           meshName, error.what()));
+        document_.fail(stream, "the stream of mesh '{}' {}; compress the mesh anew, or leave it plain", meshName,
+                       error.what());
     }
     document_.ledger.settle(mark, keptBytes);
     return geometry;

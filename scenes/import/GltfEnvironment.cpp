@@ -181,16 +181,15 @@ Image readCube(Context& context, const ImageLight& light) {
         std::optional<Image> picture = readableImage(context, image, kInstead);
         // A line of texels would ask for a square of them, six times.
         if (picture && picture->width != picture->height) {
-            context.repair(fmt::format("/images/{}", image),
-                           fmt::format("has {}x{} texels, and is a face of an environment, which is square",
-                                       picture->width, picture->height),
-                           kInstead);
+            context.repair(fmt::format("/images/{}", image), kInstead,
+                           "has {}x{} texels, and is a face of an environment, which is square", picture->width,
+                           picture->height);
             picture.reset();
         }
         if (picture && (picture->width != light.sideTexels || picture->height != light.sideTexels))
-            context.warn(fmt::format("the environment '{}' has faces of other sizes than {}x{} texels, its "
-                                     "specularImageSize; all are stretched to the largest",
-                                     name, light.sideTexels, light.sideTexels));
+            context.warn("the environment '{}' has faces of other sizes than {}x{} texels, its "
+                         "specularImageSize; all are stretched to the largest",
+                         name, light.sideTexels, light.sideTexels);
         if (!picture) picture = standInPicture(document.ledger, who);
         side = std::max({side, picture->width, picture->height});
         pictures[face] = std::move(*picture);

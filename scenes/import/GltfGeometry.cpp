@@ -27,9 +27,9 @@ public:
         if (dracoOf(primitive_) == nullptr) return;
         if (primitive_.mode == kFan || isThin(primitive_))
             context_.document.fail(place_ + "/mode",
-                                   fmt::format("is {}, {}; KHR_draco_mesh_compression holds lists or "
-                                               "strips of triangles",
-                                               primitive_.mode, isThin(primitive_) ? "points or lines" : "a fan"));
+                                   "is {}, {}; KHR_draco_mesh_compression holds lists or "
+                                   "strips of triangles",
+                                   primitive_.mode, isThin(primitive_) ? "points or lines" : "a fan");
         decoded_ = context_.streams.decode(primitive_, place_, meshName_);
     }
 
@@ -96,7 +96,7 @@ public:
                 ? fmt::format("vertex {} of mesh '{}' has a position that is not finite", *first, meshName_)
                 : fmt::format("index {} of mesh '{}' is no vertex; there are {}", *first, meshName_, vertexCount_);
         if (each == 0) context_.document.fail(place_, what);
-        context_.document.repair(place_, what, "what it would be a corner of is left out");
+        context_.document.repair(place_, "what it would be a corner of is left out", "{}", what);
         std::size_t kept = 0;
         for (std::size_t element = 0; element + each <= corners.size(); element += each) {
             const auto begin = corners.begin() + static_cast<std::ptrdiff_t>(element),
@@ -113,9 +113,9 @@ public:
             const bool isExtraSet = (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1") ||
                                     (name.starts_with("COLOR_") && name != "COLOR_0");
             if (isExtraSet)
-                context_.warn(fmt::format("vertex attribute {} is left out (only TEXCOORD_0, TEXCOORD_1 and "
-                                          "COLOR_0 are supported)",
-                                          name));
+                context_.warn("vertex attribute {} is left out (only TEXCOORD_0, TEXCOORD_1 and "
+                              "COLOR_0 are supported)",
+                              name);
         }
     }
 
@@ -163,8 +163,8 @@ private:
         for (std::size_t set = 0; set < sets; ++set) {
             const std::string jointsName = fmt::format("JOINTS_{}", set), weightsName = fmt::format("WEIGHTS_{}", set);
             if (!has(weightsName))
-                context_.document.fail(fmt::format("{}/attributes", place_),
-                                       fmt::format("has {} but no {}", jointsName, weightsName));
+                context_.document.fail(fmt::format("{}/attributes", place_), "has {} but no {}", jointsName,
+                                       weightsName);
             const Elements joints = readVertices(jointsName, {4});
             const bool areIntegers = joints.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                                      joints.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
@@ -183,20 +183,19 @@ private:
                     shape.joints[at] = static_cast<std::uint32_t>(joints.values[v * kSet + i]);
                 }
         }
-        if (hasNonsense)
-            context_.warn(fmt::format("{}: weights of joints that are negative or not finite count as 0", place_));
-        if (has("JOINTS_2"))
-            context_.warn(fmt::format("{}: JOINTS_2 and further are left out; a vertex follows 8 joints", place_));
+        if (hasNonsense) context_.warn("{}: weights of joints that are negative or not finite count as 0", place_);
+        if (has("JOINTS_2")) context_.warn("{}: JOINTS_2 and further are left out; a vertex follows 8 joints", place_);
     }
 
     static constexpr std::string_view kAttributeLeftOut = "the attribute is left out";
 
     std::string placeInFile() const { return fmt::format("{}: {}", context_.document.file, place_); }
 
-    [[noreturn]] void fail(const std::string& attribute, const std::string& what) const {
-        const int accessor = attributes_->at(attribute);
-        context_.document.fail(fmt::format("{}/{}/{}", place_, inPlace_, attribute),
-                               fmt::format("accessor {} of mesh '{}' {}", accessor, meshName_, what));
+    template <typename... Values>
+    [[noreturn]] void fail(const std::string& attribute, fmt::format_string<Values...> what, Values&&... values) const {
+        context_.document.fail(fmt::format("{}/{}/{}", place_, inPlace_, attribute), "accessor {} of mesh '{}' {}",
+                               attributes_->at(attribute), meshName_,
+                               fmt::format(what, std::forward<Values>(values)...));
     }
 
     /// The elements of an attribute that the stream holds, else nothing. Morph targets are never in it.
@@ -213,10 +212,10 @@ private:
         const tiny::Accessor& accessor = elementAt(context_.document.model.accessors, index);
         const int width = componentsOf(accessor);
         if (width != 0 && std::ranges::find(components, width) == components.end())
-            fail(attribute, fmt::format("has {} components an element; {} needs {}", width, attribute,
-                                        components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4"));
+            fail(attribute, "has {} components an element; {} needs {}", width, attribute,
+                 components.size() == 1 ? fmt::format("{}", *components.begin()) : "3 or 4");
         if (count && accessor.count != *count)
-            fail(attribute, fmt::format("has {} elements, but there are {} positions", accessor.count, *count));
+            fail(attribute, "has {} elements, but there are {} positions", accessor.count, *count);
         return context_.accessors.elements(index, decoded(attribute));
     }
 
@@ -231,9 +230,8 @@ private:
         if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
             const double largest = std::exp2(8.0 * static_cast<double>(bytesOf(elements.componentType))) - 1.0;
             for (float& value : elements.values) value = static_cast<float>(value / largest);
-            context_.warn(
-                fmt::format("{}/{}/COLOR_0: holds integers that are not marked normalized; read as if they were",
-                            place_, inPlace_));
+            context_.warn("{}/{}/COLOR_0: holds integers that are not marked normalized; read as if they were", place_,
+                          inPlace_);
         }
         if (elements.components == 4) return elements;
         context_.document.charge(elements.count * sizeof(glm::vec4), "accessors", attributes_->at("COLOR_0"));
@@ -256,8 +254,7 @@ private:
             for (int c = 0; c < kWidth; ++c) {
                 const float value = elements.values[i * static_cast<std::size_t>(kWidth) + static_cast<std::size_t>(c)];
                 if (mustBeFinite && !std::isfinite(value))
-                    fail(attribute,
-                         fmt::format("holds {} in element {}; every {} must be finite", value, i, attribute));
+                    fail(attribute, "holds {} in element {}; every {} must be finite", value, i, attribute);
                 result[i][c] = value;
             }
         return result;
@@ -285,9 +282,10 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
         thinElements(mode, std::move(corners), mesh.positionsOS, deforms.byTargets || deforms.byJoints);
     const std::size_t solids = elements.size() / (mode == kPoints ? 1 : kEnds);
     if (solids > std::numeric_limits<std::uint32_t>::max() / kCornersOfSolid)
-        context.document.fail(place, fmt::format("draws {} points or lines, whose solids have more corners than 32-bit "
-                                                 "indices can name; split the mesh",
-                                                 solids));
+        context.document.fail(place,
+                              "draws {} points or lines, whose solids have more corners than 32-bit "
+                              "indices can name; split the mesh",
+                              solids);
     ledger.charge(solids * kCornersOfSolid * sizeof(std::uint32_t), who);
     mesh.indices = cornersOfSolids(mode, elements);
     mesh.normalsOS.clear();
@@ -312,7 +310,7 @@ std::optional<Shape> readPrimitive(Context& context, int meshIndex, int primitiv
     const std::uint64_t mark = ledger.usedBytes() - heldBytes();
     PrimitiveReader reader(context, primitive, place, mesh.name);
     if (!reader.has("POSITION")) {
-        context.warn(fmt::format("{}: mesh '{}' has no POSITION and is left out", place, mesh.name));
+        context.warn("{}: mesh '{}' has no POSITION and is left out", place, mesh.name);
         return std::nullopt;
     }
     reader.decode();
@@ -322,8 +320,8 @@ std::optional<Shape> readPrimitive(Context& context, int meshIndex, int primitiv
     std::vector<std::uint32_t> corners = reader.corners();
     const std::size_t each = reader.mode() == kTriangles ? 3 : reader.mode() == kLines ? 2 : 1;
     if (corners.size() % each != 0)
-        context.warn(fmt::format("{}: mesh '{}' has {} corners, which is no multiple of {}; the last {} is left out",
-                                 place, mesh.name, corners.size(), each, each == 3 ? "triangle" : "line"));
+        context.warn("{}: mesh '{}' has {} corners, which is no multiple of {}; the last {} is left out", place,
+                     mesh.name, corners.size(), each, each == 3 ? "triangle" : "line");
     if (isThin(primitive)) {
         reader.leaveOutLost(corners, each == 1 && primitive.mode != kPoints ? 0 : each);
         makeThin(context, place, primitive.mode, std::move(corners), deforms, mesh);
@@ -338,10 +336,10 @@ std::optional<Shape> readPrimitive(Context& context, int meshIndex, int primitiv
     finishNormals(context, place, shape);
     ledger.settle(mark, heldBytes() + bytesOf(shape));
     if (mesh.indices.empty()) {
-        context.warn(fmt::format("{}: mesh '{}' has no {} and is left out", place, mesh.name,
-                                 !isThin(primitive)          ? "triangle"
-                                 : primitive.mode == kPoints ? "point"
-                                                             : "line of any length"));
+        context.warn("{}: mesh '{}' has no {} and is left out", place, mesh.name,
+                     !isThin(primitive)          ? "triangle"
+                     : primitive.mode == kPoints ? "point"
+                                                 : "line of any length");
         return std::nullopt;
     }
     return shape;

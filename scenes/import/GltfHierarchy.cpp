@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -43,13 +41,13 @@ glm::dmat4 parentFromNodeOf(const Document& document, int index) {
         glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
         const glm::dvec4 last = glm::row(matrix, 3), affine(0.0, 0.0, 0.0, 1.0);
         if (last == affine) return matrix;
-        document.repair(placeOf(index) + "/matrix", "is not affine; its last row must be 0 0 0 1",
-                        "it is divided by its last number, and the row is taken so");
+        document.repair(placeOf(index) + "/matrix", "it is divided by its last number, and the row is taken so",
+                        "is not affine; its last row must be 0 0 0 1");
         return glm::row(last.w == 0.0 ? matrix : matrix / last.w, 3, affine);
     }
     glm::dvec4 rotation = rotationOf(node);
     if (glm::dot(rotation, rotation) == 0.0) {
-        document.repair(placeOf(index) + "/rotation", kZeroQuaternion, kNotRotated);
+        document.repair(placeOf(index) + "/rotation", kNotRotated, "{}", kZeroQuaternion);
         rotation = kNoRotation;
     }
     return transformOf(translationOf(node), rotation, scaleOf(node));
@@ -80,7 +78,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     std::vector<Waiting> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
     const auto wait = [&](const std::vector<int>& nodes, int parent, bool isVisible) {
         constexpr std::size_t kCopies = 3; // while it grows; any number of entries may be of one node
-        document.ledger.charge(kCopies * nodes.size() * sizeof(Waiting), [&] { return document.file + ": /nodes"; });
+        document.charge(kCopies * nodes.size() * sizeof(Waiting), "/nodes");
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.push_back({*node, parent, isVisible});
     };
     std::vector<bool> isPlaced(parents.size());
@@ -94,8 +92,8 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
             next.isVisible = waiting.back().isVisible;
             waiting.pop_back();
             if (isPlaced[static_cast<std::size_t>(next.node)]) {
-                document.repair(placeOf(next.node), "has several parents, or is a root as well",
-                                "the first place counts");
+                document.repair(placeOf(next.node), "the first place counts",
+                                "has several parents, or is a root as well");
                 continue;
             }
             isPlaced[static_cast<std::size_t>(next.node)] = true;
@@ -105,8 +103,8 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
                 next.parent >= 0 ? placed[static_cast<std::size_t>(next.parent)].worldFromNode : glm::dmat4(1.0);
             next.worldFromNode = worldFromParent * next.parentFromNode;
             if (!isFinite(next.worldFromNode)) {
-                document.repair(placeOf(next.node), "its transform, with its ancestors', is not finite",
-                                "it is hidden with all below it");
+                document.repair(placeOf(next.node), "it is hidden with all below it",
+                                "its transform, with its ancestors', is not finite");
                 next.isVisible = false;
                 next.parentFromNode = glm::dmat4(1.0);
                 next.worldFromNode = worldFromParent;
@@ -142,75 +140,45 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
 
 // ---- Instances ------------------------------------------------------------------------------------------------------
 
-namespace {
-
-/// Reads the attributes that place the instances of one node.
-class InstanceReader {
-public:
-    InstanceReader(Context& context, int node)
-        : context_(context),
-          attributes_(integersByName(
-              valueAt(elementAt(context.document.model.nodes, node).extensions, "EXT_mesh_gpu_instancing/attributes"))),
-          place_(fmt::format("/nodes/{}/extensions/EXT_mesh_gpu_instancing/attributes", node)) {
-        if (attributes_.empty()) context_.document.fail(place_, "holds nothing that says how many instances there are");
-        const auto& [name, accessor] = *attributes_.begin();
-        count_ = elementAt(context_.document.model.accessors, accessor).count;
-    }
-
-    std::vector<glm::dmat4> read() {
-        const std::optional<Elements> translations = elements("TRANSLATION", 3), rotations = elements("ROTATION", 4),
-                                      scales = elements("SCALE", 3);
-        context_.document.ledger.charge(count_ * sizeof(glm::dmat4),
-                                        [&] { return fmt::format("{}: {}", context_.document.file, place_); });
-        std::vector<glm::dmat4> transforms;
-        transforms.reserve(count_);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const auto vector = [&](const std::optional<Elements>& stored, glm::dvec3 otherwise) {
-                return stored ? glm::dvec3(stored->values[3 * i], stored->values[3 * i + 1], stored->values[3 * i + 2])
-                              : otherwise;
-            };
-            glm::dvec4 rotation = kNoRotation;
-            for (glm::length_t c = 0; rotations && c < 4; ++c)
-                rotation[c] = rotations->values[4 * i + static_cast<std::size_t>(c)];
-            if (glm::dot(rotation, rotation) == 0.0) {
-                context_.document.repair(place_ + "/ROTATION", fmt::format("element {} {}", i, kZeroQuaternion),
-                                         kNotRotated);
-                rotation = kNoRotation;
-            }
-            transforms.push_back(
-                transformOf(vector(translations, glm::dvec3(0.0)), rotation, vector(scales, glm::dvec3(1.0))));
-            for (glm::length_t entry = 0; entry < 16; ++entry)
-                if (!std::isfinite(transforms.back()[entry / 4][entry % 4]))
-                    context_.document.fail(place_, fmt::format("the transform of instance {} is not finite", i));
-        }
-        return transforms;
-    }
-
-private:
-    std::optional<Elements> elements(const char* name, int components) {
-        const auto found = attributes_.find(name);
-        if (found == attributes_.end()) return std::nullopt;
-        Elements read = context_.accessors.elements(found->second);
-        const auto fail = [&](const std::string& what) {
-            context_.document.fail(fmt::format("{}/{}", place_, name),
-                                   fmt::format("accessor {} has {}", found->second, what));
-        };
-        if (read.components != components)
-            fail(fmt::format("{} components an element; {} needs {}", read.components, name, components));
-        if (read.count != count_) fail(fmt::format("{} elements, but there are {} instances", read.count, count_));
-        return read;
-    }
-
-    Context& context_;
-    const std::map<std::string, int> attributes_;
-    std::string place_;
-    std::size_t count_ = 0;
-};
-
-} // namespace
-
 std::vector<glm::dmat4> instanceTransforms(Context& context, int node) {
-    return InstanceReader(context, node).read();
+    const Document& document = context.document;
+    const std::string place = placeOf(node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
+    const std::map<std::string, int> attributes =
+        integersByName(valueAt(elementAt(document.model.nodes, node).extensions, "EXT_mesh_gpu_instancing/attributes"));
+    if (attributes.empty()) document.fail(place, "holds nothing that says how many instances there are");
+    const std::size_t count = elementAt(document.model.accessors, attributes.begin()->second).count;
+    // Empty where the attribute is not there.
+    const auto valuesOf = [&](const char* name, int components) {
+        const auto found = attributes.find(name);
+        if (found == attributes.end()) return std::vector<float>();
+        Elements read = context.accessors.elements(found->second);
+        const std::string attribute = fmt::format("{}/{}", place, name);
+        if (read.components != components)
+            document.fail(attribute, "accessor {} has {} components an element; {} needs {}", found->second,
+                          read.components, name, components);
+        if (read.count != count)
+            document.fail(attribute, "accessor {} has {} elements, but there are {} instances", found->second,
+                          read.count, count);
+        return std::move(read.values);
+    };
+    const std::vector<float> translations = valuesOf("TRANSLATION", 3), rotations = valuesOf("ROTATION", 4),
+                             scales = valuesOf("SCALE", 3);
+    document.charge(count * sizeof(glm::dmat4), place);
+    std::vector<glm::dmat4> transforms;
+    transforms.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto vector = [&](const std::vector<float>& values, double otherwise) {
+            return values.empty() ? glm::dvec3(otherwise) : glm::dvec3(glm::make_vec3(&values[3 * i]));
+        };
+        glm::dvec4 rotation = rotations.empty() ? kNoRotation : glm::dvec4(glm::make_vec4(&rotations[4 * i]));
+        if (glm::dot(rotation, rotation) == 0.0) {
+            document.repair(place + "/ROTATION", kNotRotated, "element {} {}", i, kZeroQuaternion);
+            rotation = kNoRotation;
+        }
+        transforms.push_back(transformOf(vector(translations, 0.0), rotation, vector(scales, 1.0)));
+        if (!isFinite(transforms.back())) document.fail(place, "the transform of instance {} is not finite", i);
+    }
+    return transforms;
 }
 
 } // namespace tessera::scenes::gltf

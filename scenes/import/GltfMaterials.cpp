@@ -124,9 +124,9 @@ std::optional<Image> readableImage(Context& context, int index, const char* inst
         context.unreadableBytes += document.ledger.usedBytes() - context.buffers.heldBytes() - mark;
         if (context.unreadableBytes > kMostUnreadableBytes)
             document.fail(fmt::format("/images/{}", index),
-                          fmt::format("the pictures up to here that cannot be read took {} of memory, and {} at most "
-                                      "are spent on them; mend the model's pictures, or take them out",
-                                      sizeText(context.unreadableBytes), sizeText(kMostUnreadableBytes)));
+                          "the pictures up to here that cannot be read took {} of memory, and {} at most "
+                          "are spent on them; mend the model's pictures, or take them out",
+                          sizeText(context.unreadableBytes), sizeText(kMostUnreadableBytes));
         document.ledger.settle(mark, context.buffers.heldBytes());
         const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
         context.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);
@@ -222,8 +222,8 @@ Material Materials::convert(ShownMaterial shown) {
         return material;
     }
     if (material.ior != 0.0f && material.ior < 1.0f) {
-        context_.document.repair(place + "/extensions/KHR_materials_ior/ior",
-                                 fmt::format("is {}; it must be 0 or at least 1", material.ior), "1 is taken");
+        context_.document.repair(place + "/extensions/KHR_materials_ior/ior", "1 is taken",
+                                 "is {}; it must be 0 or at least 1", material.ior);
         material.ior = 1.0f;
     }
     if (stored.specularGlossiness)
@@ -299,11 +299,10 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
     if (info.texture == kNone) return {};
     if (lostSets & bitOf(info.texCoordSet)) {
         context_.repair(
-            place,
+            place, kStandInText, "{}",
             info.texCoordSet < kTexCoordSets
                 ? fmt::format("needs TEXCOORD_{}, which a mesh lacks", info.texCoordSet)
-                : fmt::format("uses texture coordinate set {}; only 0 and 1 are supported", info.texCoordSet),
-            kStandInText);
+                : fmt::format("uses texture coordinate set {}; only 0 and 1 are supported", info.texCoordSet));
         if (!takesStandIn(slot)) return {};
         return {standIn(), {}, (lostSets & 3u) == 1u ? 1 : 0, {}};
     }
@@ -315,8 +314,8 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
         picture = image(webp, texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
     if (picture == kNone && texture.source != kNone) picture = image(texture.source, kStandInText);
     if (texture.source == kNone && webp == kNone)
-        context_.repair(fmt::format("/textures/{}", info.texture),
-                        "has no source in a supported format; store it as PNG or JPEG", kStandInText);
+        context_.repair(fmt::format("/textures/{}", info.texture), kStandInText,
+                        "has no source in a supported format; store it as PNG or JPEG");
     if (picture == kNone && !takesStandIn(slot)) return {};
     TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
     if (texture.sampler != kNone) use.sampler = samplerOf(elementAt(model.samplers, texture.sampler));
@@ -351,8 +350,7 @@ void importVariant(Context& context, Materials& materials) {
     for (const tiny::Value& variant : elementsOf(variants)) {
         const std::string& name = variant.Get("name").Get<std::string>();
         if (name.empty() || !known.insert(name).second) continue;
-        context.document.ledger.charge(2 * (sizeof(std::string) + name.size()),
-                                       [&] { return context.document.file + ": its variants"; });
+        context.document.charge(2 * (sizeof(std::string) + name.size()), "its variants");
         names.push_back(name);
     }
     if (names.empty()) return;

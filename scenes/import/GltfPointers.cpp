@@ -140,10 +140,9 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
         const bool hasEmission =
             !isUnlit && shown == MaterialModel::SingleColor && stored.surface.emissive != glm::vec3(0.0f);
         if (hasEmission && info->property == AnimatedProperty::BaseColor) {
-            context_.warn(
-                fmt::format("/materials/{}: a clip of its base colour is left out at points and lines without "
-                            "normals, whose colour has its emission too",
-                            index));
+            context_.warn("/materials/{}: a clip of its base colour is left out at points and lines without "
+                          "normals, whose colour has its emission too",
+                          index);
             continue;
         }
         animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, material));

@@ -84,16 +84,14 @@ void Rigging::readMatrices(int accessor, int skin, std::vector<glm::dmat4>& join
     const std::string place = fmt::format("/skins/{}/inverseBindMatrices", skin);
     const Elements matrices = context_.accessors.elements(accessor);
     constexpr std::size_t kEntries = 16;
-    if (matrices.components != kEntries) document.fail(place, fmt::format("accessor {} must be of MAT4", accessor));
+    if (matrices.components != kEntries) document.fail(place, "accessor {} must be of MAT4", accessor);
     if (matrices.count < jointFromBind.size())
-        document.repair(
-            place,
-            fmt::format("accessor {} has {} matrices for {} joints", accessor, matrices.count, jointFromBind.size()),
-            kIdentity);
+        document.repair(place, kIdentity, "accessor {} has {} matrices for {} joints", accessor, matrices.count,
+                        jointFromBind.size());
     for (std::size_t joint = 0; joint < std::min(jointFromBind.size(), matrices.count); ++joint) {
         const auto numbers = std::span(matrices.values).subspan(joint * kEntries, kEntries);
         if (!std::ranges::all_of(numbers, [](float number) { return std::isfinite(number); })) {
-            document.repair(place, fmt::format("the matrix of joint {} is not finite", joint), kIdentity);
+            document.repair(place, kIdentity, "the matrix of joint {} is not finite", joint);
             continue;
         }
         for (std::size_t i = 0; i < kEntries; ++i) {
@@ -131,11 +129,9 @@ void Rigging::mendInfluences(Shape& shape, int mesh, int skin, std::size_t joint
         float sum = 0.0f;
         for (std::size_t i = first; i < first + shape.influences; ++i) {
             if (shape.weights[i] > 0.0f && shape.joints[i] >= joints) {
-                context_.document.repair(
-                    fmt::format("/meshes/{}", mesh),
-                    fmt::format("vertex {} of mesh '{}' follows joint {}, but /skins/{} has only {}",
-                                first / shape.influences, shape.rest.name, shape.joints[i], skin, joints),
-                    "its weight counts as 0");
+                context_.document.repair(fmt::format("/meshes/{}", mesh), "its weight counts as 0",
+                                         "vertex {} of mesh '{}' follows joint {}, but /skins/{} has only {}",
+                                         first / shape.influences, shape.rest.name, shape.joints[i], skin, joints);
                 shape.weights[i] = 0.0f;
             }
             sum += shape.weights[i];

@@ -130,10 +130,9 @@ void placeThicknesses(Context& context, const Materials& materials) {
             if (scale)
                 placed.thicknessMetres = scaledThickness(placed, *scale);
             else if (hasBody(placed) && !splitByScale(context, index, imported))
-                context.warn(
-                    fmt::format("the thickness of material {} is taken in metres, since the nodes that show it "
-                                "do not share one scale that is the same in all directions",
-                                index));
+                context.warn("the thickness of material {} is taken in metres, since the nodes that show it "
+                             "do not share one scale that is the same in all directions",
+                             index);
         }
 }
 

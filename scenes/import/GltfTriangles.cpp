@@ -110,17 +110,14 @@ void finishNormals(Context& context, const std::string& place, Shape& shape) {
         constexpr std::size_t kMostVertexBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
         const std::size_t mostBytes =
             (1 + shape.targets.size()) * kMostVertexBytes + shape.influences * (sizeof(std::uint32_t) + sizeof(float));
-        context.document.ledger.charge(mesh.indices.size() * mostBytes,
-                                       [&] { return fmt::format("{}: {}", context.document.file, place); });
+        context.document.charge(mesh.indices.size() * mostBytes, place);
         return makeFlat(shape);
     }
     if (const std::size_t broken = repairNormals(mesh); broken > 0)
-        context.warn(fmt::format("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place,
-                                 broken));
+        context.warn("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place, broken);
     if (!normalizeTangents(mesh)) {
         mesh.tangentsOS.clear();
-        context.warn(fmt::format(
-            "{}/attributes/TANGENT: holds tangents without a direction; tangents are derived instead", place));
+        context.warn("{}/attributes/TANGENT: holds tangents without a direction; tangents are derived instead", place);
     }
     if (mesh.tangentsOS.empty())
         for (MorphTarget& target : shape.targets) target.tangentsOS.clear();

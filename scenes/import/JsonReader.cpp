@@ -26,18 +26,18 @@ void JsonValue::fail(const std::string& what) const {
 
 void JsonValue::failUnknown(std::string_view what, std::string_view name,
                             std::span<const std::string_view> known) const {
-    fail(fmt::format("there is no {} '{}'; {}", what, name, suggestNames(name, known)));
+    fail("there is no {} '{}'; {}", what, name, suggestNames(name, known));
 }
 
 void JsonValue::failType(std::string_view needed) const {
-    fail(fmt::format("is {}; {} is needed", typeOf(*value_), needed));
+    fail("is {}; {} is needed", typeOf(*value_), needed);
 }
 
 double JsonValue::number(double least, double most) const {
     if (!value_->is_number()) failType("a number");
     const double number = value_->get<double>();
-    if (number < least) fail(fmt::format("is {}; at least {} is needed", number, least));
-    if (number > most) fail(fmt::format("is {}; at most {} is allowed", number, most));
+    if (number < least) fail("is {}; at least {} is needed", number, least);
+    if (number > most) fail("is {}; at most {} is allowed", number, most);
     return number;
 }
 
@@ -47,13 +47,13 @@ float JsonValue::single(double least, double most) const {
 
 double JsonValue::positive() const {
     const double value = number();
-    if (!(value > 0.0)) fail(fmt::format("is {}; more than 0 is needed", value));
+    if (!(value > 0.0)) fail("is {}; more than 0 is needed", value);
     return value;
 }
 
 int JsonValue::integer(int least, int most) const {
     const double value = number(least, most);
-    if (value != std::floor(value)) fail(fmt::format("is {}; a whole number is needed", value));
+    if (value != std::floor(value)) fail("is {}; a whole number is needed", value);
     return static_cast<int>(value);
 }
 
@@ -76,9 +76,9 @@ std::string JsonValue::text() const {
 std::vector<JsonValue> JsonValue::elements(std::size_t least, std::size_t most) const {
     if (!value_->is_array()) failType(least == most ? fmt::format("an array of {}", least) : "an array");
     const std::size_t count = value_->size();
-    if (least == most && count != least) fail(fmt::format("has {} elements; exactly {} are needed", count, least));
-    if (count < least) fail(fmt::format("has {} elements; at least {} are needed", count, least));
-    if (count > most) fail(fmt::format("has {} elements; at most {} are allowed", count, most));
+    if (least == most && count != least) fail("has {} elements; exactly {} are needed", count, least);
+    if (count < least) fail("has {} elements; at least {} are needed", count, least);
+    if (count > most) fail("has {} elements; at most {} are allowed", count, most);
     std::vector<JsonValue> elements;
     elements.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -138,15 +138,15 @@ JsonValue JsonObject::require(std::string_view key) {
     for (const std::string& other : there)
         if (std::ranges::find(known_, other) == known_.end()) others.push_back(other);
     if (const std::vector<std::string_view> nearest = nearestNames(key, others); !nearest.empty())
-        value_.fail(fmt::format("has the unknown key '{}'; did you mean '{}'?", nearest.front(), key));
-    value_.fail(fmt::format("lacks the key '{}'; add it", key));
+        value_.fail("has the unknown key '{}'; did you mean '{}'?", nearest.front(), key);
+    value_.fail("lacks the key '{}'; add it", key);
 }
 
 void JsonObject::done(std::string_view what) const {
     const std::vector<std::string_view> known(known_.begin(), known_.end());
     for (const auto& [key, ignored] : value_.value_->items()) {
         if (std::ranges::find(known_, key) == known_.end())
-            value_.fail(fmt::format("{} has no key '{}'; {}", what, key, suggestNames(key, known)));
+            value_.fail("{} has no key '{}'; {}", what, key, suggestNames(key, known));
     }
 }
 

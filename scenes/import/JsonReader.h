@@ -64,6 +64,10 @@ public:
     }
 
     [[noreturn]] void fail(const std::string& what) const;
+    template <typename First, typename... Values>
+    [[noreturn]] void fail(fmt::format_string<First, Values...> what, First&& first, Values&&... values) const {
+        fail(fmt::format(what, std::forward<First>(first), std::forward<Values>(values)...));
+    }
     /// "there is no WHAT 'name'; did you mean ...".
     [[noreturn]] void failUnknown(std::string_view what, std::string_view name,
                                   std::span<const std::string_view> known) const;

@@ -107,8 +107,7 @@ private:
         const bool isKnown = keyword != std::end(kKeywords);
         if (isKnown && std::holds_alternative<WithoutEffect>(keyword->value)) return;
         if (materials_.empty())
-            repairs_.note(file_, line.number, kStatementLeftOut,
-                          [&] { return fmt::format("'{}' stands before the first newmtl", line.keyword); });
+            repairs_.note(file_, line.number, kStatementLeftOut, "'{}' stands before the first newmtl", line.keyword);
         else if (!isKnown)
             addUnsupported(line, std::string(line.keyword));
         else if (const PictureValue* picture = std::get_if<PictureValue>(&keyword->value))
@@ -282,11 +281,11 @@ public:
 
     void read(const std::string& statement) {
         if (withoutComment(statement).empty())
-            return repairs_.note(objFile_.string(), 0, kStatementLeftOut, [] { return "'mtllib' names no file"; });
+            return repairs_.note(objFile_.string(), 0, kStatementLeftOut, "'mtllib' names no file");
         for (const NamedFile& file : librariesOf(statement, objFile_.parent_path())) {
             if (!visited_.insert(file.path.string()).second) continue;
             const auto note = [&](std::string_view repair, const std::string& flaw) {
-                repairs_.note(objFile_.string(), 0, repair, [&] { return flaw; });
+                repairs_.note(objFile_.string(), 0, repair, "{}", flaw);
             };
             const std::string name = file.path.lexically_relative(objFile_.parent_path()).string();
             if (!file.isFound) {
@@ -355,10 +354,10 @@ std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, co
         undefined.name = withoutComment(name);
         std::optional<MtlMaterial> material = definitions.named(name);
         if (!material && undefined.name.empty())
-            repairs.note(objFile.string(), 0, "a default material is used", [] { return "'usemtl' gives no name"; });
+            repairs.note(objFile.string(), 0, "a default material is used", "'usemtl' gives no name");
         else if (!material)
             repairs.note(objFile.string(), 0, "a default material of that name is used",
-                         [&] { return fmt::format("no material library defines '{}'", undefined.name); });
+                         "no material library defines '{}'", undefined.name);
         found.push_back(material ? std::move(*material) : std::move(undefined));
     }
     return found;

@@ -182,7 +182,7 @@ public:
         gltf::sizeThinSolids(scene_, thinModes_);
         if (lacksSomeTexCoords_)
             repairs_.note(file_.string(), 0, "they get (0, 0)",
-                          [] { return "corners have no texture coordinates, beside others that have them"; });
+                          "corners have no texture coordinates, beside others that have them");
         std::ranges::move(repairs_.warnings(), std::back_inserter(scene_.warnings));
         return std::move(scene_);
     }

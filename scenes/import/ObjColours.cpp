@@ -56,23 +56,20 @@ std::vector<glm::vec3> VertexColours::take(const std::string& file, ObjColours e
     }
     if (missing == used) return {};
     if (missing > 0)
-        repairs.note(file, flawLine_, "these are white", [&] {
-            return fmt::format("{} of {} vertices have no colour{}{}", missing, used, flaw_.empty() ? "" : ": ", flaw_);
-        });
+        repairs.note(file, flawLine_, "these are white", "{} of {} vertices have no colour{}{}", missing, used,
+                     flaw_.empty() ? "" : ": ", flaw_);
     const bool isBytes = largest >= kLeastByte;
     if (isBytes)
-        repairs.note(file, largeLine_, "they are divided by 255",
-                     [&] { return fmt::format("colours of vertices are up to {}, not 0 to 1", largest); });
+        repairs.note(file, largeLine_, "they are divided by 255", "colours of vertices are up to {}, not 0 to 1",
+                     largest);
     for (std::size_t i = 0; i < isUsed.size(); ++i) {
         glm::vec3& colour = colours_[i];
         if (isMissing(colour)) colour = glm::vec3(isBytes ? kMostByte : 1.0f);
         const glm::vec3 written = isBytes ? colour / kMostByte : colour;
         colour = glm::clamp(written, 0.0f, 1.0f);
         if (isUsed[i] && colour != written)
-            repairs.note(file, 0, "the nearest bound is taken", [&] {
-                return fmt::format("the colour {} {} {} of vertex {} is not within {}", written.x, written.y, written.z,
-                                   i + 1, isBytes ? "0 to 255" : "0 to 1");
-            });
+            repairs.note(file, 0, "the nearest bound is taken", "the colour {} {} {} of vertex {} is not within {}",
+                         written.x, written.y, written.z, i + 1, isBytes ? "0 to 255" : "0 to 1");
         if (encoding == ObjColours::Linear) continue;
         for (glm::length_t c = 0; c < 3; ++c) colour[c] = static_cast<float>(linearFromSrgb(double(colour[c])));
     }

@@ -50,8 +50,7 @@ Material unlitOf(const Material& lit) {
 int MaterialConverter::add(const MtlMaterial* mtl, bool isUnlit) {
     Material material;
     if (mtl != nullptr && !mtl->file.empty()) {
-        for (const auto& [line, text, repair] : mtl->flaws)
-            repairs_.note(mtl->file, line, repair, [&text = text] { return text; });
+        for (const auto& [line, text, repair] : mtl->flaws) repairs_.note(mtl->file, line, repair, "{}", text);
         unsupported_[mtl->file].insert(mtl->unsupported.begin(), mtl->unsupported.end());
         warnOfNothingShown(*mtl);
         material = converted(*mtl);
@@ -127,10 +126,8 @@ int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) 
     const NamedFile file = fileNamed(folder, picture.name);
     const auto [same, isFirst] = imageOfFile_.try_emplace(file.path.lexically_normal().string(), kNone);
     if (!file.isAsNamed)
-        repairs_.note(mtl.file, picture.line, "that one is read", [&] {
-            return fmt::format("'{}' names '{}', which is there as '{}'", picture.keyword, picture.name,
-                               file.path.lexically_relative(folder).string());
-        });
+        repairs_.note(mtl.file, picture.line, "that one is read", "'{}' names '{}', which is there as '{}'",
+                      picture.keyword, picture.name, file.path.lexically_relative(folder).string());
     if (same != entry && !isFirst) return entry->second = same->second;
     const std::uint64_t mark = ledger_.usedBytes();
     const auto textOf = [&](const InputError& error) {

@@ -190,8 +190,7 @@ private:
 
     void readFace(const Line& line) {
         if (!readCorners(line, 3)) return;
-        if (badSmoothing_)
-            repairs_.note(file_, badSmoothing_->line, "its faces are flat", [&] { return badSmoothing_->text; });
+        if (badSmoothing_) repairs_.note(file_, badSmoothing_->line, "its faces are flat", "{}", badSmoothing_->text);
         charge((corners_.size() - 2) * kTriangleBytes, line);
         cornersOfFile_ += corners_.size();
         facePositions_.clear();
@@ -199,9 +198,8 @@ private:
         const std::uint64_t mostSteps = kMostSteps + kStepsACorner * cornersOfFile_;
         const std::vector<std::array<std::size_t, 3>> cut = cutPolygon(facePositions_, steps_, mostSteps);
         if (steps_ > mostSteps)
-            repairs_.note(file_, line.number, "the rest is cut as if they were convex", [] {
-                return "the faces up to here take too long to cut into triangles; export the model with triangles";
-            });
+            repairs_.note(file_, line.number, "the rest is cut as if they were convex",
+                          "the faces up to here take too long to cut into triangles; export the model with triangles");
         Group& group = this->group(gltf::kTriangles);
         for (const auto& [a, b, c] : cut)
             group.triangles.push_back({{corners_[a], corners_[b], corners_[c]}, material_, smoothingGroup_});
@@ -229,7 +227,7 @@ private:
         }
         if (!obj_.groups.empty())
             repairs_.note(file_, 0, "its vertices are drawn as points",
-                          [] { return "has no faces, lines or points ('f', 'l' or 'p' statements)"; });
+                          "has no faces, lines or points ('f', 'l' or 'p' statements)");
     }
 
     static std::size_t index(int number) { return static_cast<std::size_t>(number); }
@@ -243,7 +241,7 @@ private:
         hasElements_ = true;
         corners_.clear();
         const auto leaveOut = [&](const std::string& flaw) {
-            repairs_.note(file_, line.number, kLeftOut, [&] { return flaw; });
+            repairs_.note(file_, line.number, kLeftOut, "{}", flaw);
             return false;
         };
         if (line.words.size() < fewest)
@@ -260,7 +258,7 @@ private:
                 if (!part.empty()) *members[i] = indexFromStart(part, static_cast<Attribute>(i), flaw);
                 if (i == kPosition && part.empty()) flaw = fmt::format("the corner '{}' has no position", word);
                 if (!flaw.empty() && i == kPosition) return leaveOut(flaw);
-                if (!flaw.empty()) repairs_.note(file_, line.number, kWithoutIt, [&] { return flaw; });
+                if (!flaw.empty()) repairs_.note(file_, line.number, kWithoutIt, "{}", flaw);
                 if (!isUsable(static_cast<Attribute>(i), *members[i])) return false;
             }
             if (!left.empty()) return leaveOut(fmt::format("the corner '{}' has more than three parts", word));
@@ -292,7 +290,7 @@ private:
         const auto flaw = flaws_[attribute].find(index(used));
         if (flaw == flaws_[attribute].end()) return true;
         if (!std::exchange(flaw->second.isNoted, true))
-            repairs_.note(file_, flaw->second.line, kAttributes[attribute].repair, [&] { return flaw->second.text; });
+            repairs_.note(file_, flaw->second.line, kAttributes[attribute].repair, "{}", flaw->second.text);
         if (attribute == kNormal) used = kNone;
         return attribute != kPosition;
     }

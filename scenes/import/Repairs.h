@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
+#include "scenes/LoadLedger.h"
 
 namespace tessera::scenes {
 
@@ -19,17 +19,22 @@ class Repairs {
 public:
     explicit Repairs(bool isStrict) : isStrict_(isStrict) {}
 
-    /// `flaw` returns the flaw at a line of the file (0: at none), `repair` names what is drawn instead. Throws
-    /// InputError "file:line: flaw" when strict.
-    template <typename Flaw>
-    void note(const std::string& file, int line, std::string_view repair, Flaw&& flaw) {
-        add(file, repair,
-            [&] { return fmt::format("{}{}: {}", file, line == 0 ? "" : fmt::format(":{}", line), flaw()); });
+    /// A flaw at a line of the file (0: at none); `repair` names what is drawn instead. Throws InputError
+    /// "file:line: flaw" when strict.
+    template <typename... Values>
+    void note(const std::string& file, int line, std::string_view repair, fmt::format_string<Values...> flaw,
+              Values&&... values) {
+        add(file, repair, [&] {
+            return fmt::format("{}{}: {}", file, line == 0 ? "" : fmt::format(":{}", line),
+                               fmt::format(flaw, std::forward<Values>(values)...));
+        });
     }
     /// The same at a place in the file: "file: place: flaw".
-    template <typename Flaw>
-    void note(const std::string& file, std::string_view place, std::string_view repair, Flaw&& flaw) {
-        add(file, repair, [&] { return fmt::format("{}: {}: {}", file, place, flaw()); });
+    template <typename... Values>
+    void note(const std::string& file, std::string_view place, std::string_view repair,
+              fmt::format_string<Values...> flaw, Values&&... values) {
+        add(file, repair,
+            [&] { return fmt::format("{}: {}: {}", file, place, fmt::format(flaw, std::forward<Values>(values)...)); });
     }
 
     /// Calls `read`. A flaw that it throws is noted, unless the load is strict or memory does not suffice. Returns

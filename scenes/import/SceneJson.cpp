@@ -41,7 +41,7 @@ public:
     /// Throws InputError at `value` where the name is taken.
     void add(const std::string& name, const JsonValue& value) {
         const auto [taken, isNew] = elements_.try_emplace(name, elements_.size());
-        if (!isNew) value.fail(fmt::format("the name '{}' is taken by element {}; give another", name, taken->second));
+        if (!isNew) value.fail("the name '{}' is taken by element {}; give another", name, taken->second);
     }
 
 private:
@@ -127,7 +127,7 @@ private:
     static void readHeader(JsonObject& document, const std::filesystem::path& file, Scene& scene) {
         const JsonValue version = document.require("tessera");
         if (!version.isNumber() || version.number() != kVersion)
-            version.fail(fmt::format("must be {}, the version of the format that this program reads", kVersion));
+            version.fail("must be {}, the version of the format that this program reads", kVersion);
         if (const auto schema = document.find("$schema")) schema->text();
         scene.name = file.stem().string();
         if (const auto name = document.find("name")) scene.name = name->text();
@@ -245,8 +245,7 @@ private:
 
     void countIncludes(const JsonValue& file, int more) {
         if ((includes_ += more) > kMostIncludes)
-            file.fail(fmt::format("is include number {} of the scene; at most {} are read", kMostIncludes + 1,
-                                  kMostIncludes));
+            file.fail("is include number {} of the scene; at most {} are read", kMostIncludes + 1, kMostIncludes);
     }
 
     /// A file that is included again and again is read twice, and the second one kept for the rest.
@@ -285,13 +284,12 @@ private:
         if (extension == ".gltf" || extension == ".glb") return importGltf(file, ledger_);
         if (extension == ".obj") return importObj(file, ledger_);
         if (extension != ".json")
-            name.fail(fmt::format("'{}' is not a scene file; give a .gltf, .glb, .obj or .json file", name.text()));
+            name.fail("'{}' is not a scene file; give a .gltf, .glb, .obj or .json file", name.text());
         refuseCycle(name, file);
         if (chain_.size() == kMostNested)
-            name.fail(
-                fmt::format("is document {} of a chain in which each includes or is based on the next; at most {} "
-                            "are read",
-                            chain_.size() + 1, kMostNested));
+            name.fail("is document {} of a chain in which each includes or is based on the next; at most {} "
+                      "are read",
+                      chain_.size() + 1, kMostNested);
         return import(file);
     }
 
@@ -313,7 +311,7 @@ private:
         if (start == chain_.end()) return;
         std::string text;
         for (auto open = start; open != chain_.end(); ++open) text += open->filename().string() + " -> ";
-        name.fail(fmt::format("includes itself: {}{}; remove one of the includes", text, file.filename().string()));
+        name.fail("includes itself: {}{}; remove one of the includes", text, file.filename().string());
     }
 
     void addMaterials(const std::vector<JsonValue>& materials, const std::vector<JsonValue>& overrides,
@@ -355,7 +353,7 @@ private:
         JsonObject object = value.object();
         SceneOptions& options = scene.options;
         if (value.size() > kMostOptions)
-            value.fail(fmt::format("has {} members; at most {} are allowed", value.size(), kMostOptions));
+            value.fail("has {} members; at most {} are allowed", value.size(), kMostOptions);
         for (const std::string& key : object.keys()) {
             const JsonValue option = object.require(key);
             if (key == "defaultLight") {

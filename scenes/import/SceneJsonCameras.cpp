@@ -119,7 +119,7 @@ Camera readCamera(const JsonValue& value, std::size_t index) {
     if (camera.projection == Projection::Perspective) {
         if (const auto fov = object.find("fovYDegrees")) {
             const double degrees = fov->positive();
-            if (degrees >= 180.0) fov->fail(fmt::format("is {}; less than 180 is needed", degrees));
+            if (degrees >= 180.0) fov->fail("is {}; less than 180 is needed", degrees);
             camera.fovYRadians = glm::radians(degrees);
         }
         if (const auto near = object.find("near")) camera.nearMetres = near->positive();
@@ -130,8 +130,7 @@ Camera readCamera(const JsonValue& value, std::size_t index) {
     if (const auto far = object.find("far")) {
         camera.farMetres = far->number();
         if (!(camera.farMetres > camera.nearMetres))
-            far->fail(fmt::format("is {}, not beyond the near plane at {}; move it away", camera.farMetres,
-                                  camera.nearMetres));
+            far->fail("is {}, not beyond the near plane at {}; move it away", camera.farMetres, camera.nearMetres);
     }
     readFields(object, camera);
     object.done(fmt::format("a {} camera", type));

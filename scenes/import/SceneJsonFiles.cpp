@@ -49,11 +49,11 @@ std::filesystem::path resolveFile(const JsonValue& name) {
         text.replace(at, kVariable.size(), folder);
     }
     if (text.find("${") != std::string::npos)
-        name.fail(fmt::format("'{}': only ${{TESSERA_ASSETS}} is replaced in file names, once", name.text()));
+        name.fail("'{}': only ${{TESSERA_ASSETS}} is replaced in file names, once", name.text());
     const std::filesystem::path file = name.file().parent_path() / text;
     std::error_code failure;
     if (!std::filesystem::exists(file, failure))
-        name.fail(fmt::format("there is no file '{}'; names are relative to the document's folder", file.string()));
+        name.fail("there is no file '{}'; names are relative to the document's folder", file.string());
     return file;
 }
 

@@ -13,8 +13,8 @@ namespace {
 float valueWithin(const HookParameter& parameter, const JsonValue& number) {
     const float value = number.single();
     if (!parameter.allows(value))
-        number.fail(fmt::format("is {:g}, and must lie between its least, {:g}, and its most, {:g}", value,
-                                parameter.least, parameter.most));
+        number.fail("is {:g}, and must lie between its least, {:g}, and its most, {:g}", value, parameter.least,
+                    parameter.most);
     return value;
 }
 
@@ -51,7 +51,7 @@ std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
             if (scene.materials[i].name == name) materials.insert(int(i));
         if (materials.size() > before) continue;
         if (std::ranges::find(scene.materials, name, &Material::name) != scene.materials.end())
-            value.fail(fmt::format("'{}' is in the list already; remove it", name));
+            value.fail("'{}' is in the list already; remove it", name);
         std::vector<std::string_view> names;
         for (const Material& material : scene.materials) names.push_back(material.name);
         value.failUnknown("material", name, names);
@@ -93,7 +93,7 @@ void readHook(const JsonValue& value, Scene& scene, LoadLedger& ledger) {
             const auto last = hook.parameters.end() - 1;
             if (std::find_if(hook.parameters.begin(), last,
                              [&](const HookParameter& other) { return other.name == last->name; }) != last)
-                parameter.fail(fmt::format("the name '{}' is taken; give another", last->name));
+                parameter.fail("the name '{}' is taken; give another", last->name);
         }
     }
     object.done("a hook");

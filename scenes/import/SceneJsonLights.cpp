@@ -20,7 +20,7 @@ LightType readType(const JsonValue& value) {
         std::vector<std::string_view> areas;
         for (const LightTypeInfo& info : lightTypes())
             if (info.isArea) areas.push_back(info.name);
-        value.fail(fmt::format("'area' names no shape; types of area lights are {}", fmt::join(areas, ", ")));
+        value.fail("'area' names no shape; types of area lights are {}", fmt::join(areas, ", "));
     }
     if (name == "environment")
         value.fail("light from everywhere is no light of this list; give the document a key 'environment'");
@@ -31,7 +31,7 @@ float readCoefficient(JsonObject& object, std::string_view key) {
     const std::optional<JsonValue> value = object.find(key);
     if (!value) return 0.0f;
     if (value->number() < 0.0)
-        value->fail(fmt::format("the attenuation coefficient {} is {}; it must not be negative", key, value->number()));
+        value->fail("the attenuation coefficient {} is {}; it must not be negative", key, value->number());
     return value->single();
 }
 
@@ -41,9 +41,9 @@ void readFalloff(const JsonValue& value, Light& light) {
     light.falloff = type.oneOf<Falloff>("falloff", kFalloffs);
     const LightTypeInfo& info = infoOf(light.type);
     if (info.isArea && light.falloff != Falloff::InverseSquare)
-        type.fail(fmt::format("a {} light has no falloff '{}', since its shape decides how its light falls off; "
-                              "inverse_square may end it by a range",
-                              info.name, type.text()));
+        type.fail("a {} light has no falloff '{}', since its shape decides how its light falls off; "
+                  "inverse_square may end it by a range",
+                  info.name, type.text());
     if (light.falloff == Falloff::InverseSquare) {
         if (const auto range = object.find("range")) light.rangeMetres = range->single(0.0);
         object.done("an inverse_square falloff");
@@ -81,16 +81,15 @@ LightKeys readKeys(JsonObject& object, LightKeyed of, const char* valuesKey) {
         keys.timesSeconds.push_back(time.number());
         const std::size_t count = keys.timesSeconds.size();
         if (count > 1 && !(keys.timesSeconds[count - 1] > keys.timesSeconds[count - 2]))
-            time.fail(fmt::format("is {}, which does not follow {}; times must ascend", keys.timesSeconds[count - 1],
-                                  keys.timesSeconds[count - 2]));
+            time.fail("is {}, which does not follow {}; times must ascend", keys.timesSeconds[count - 1],
+                      keys.timesSeconds[count - 2]);
     }
     const auto readByKey = [&](const char* key, bool isTangent) {
         const JsonValue value = object.require(key);
         std::vector<glm::dvec3> values;
         for (const JsonValue& element : value.elements(1)) values.push_back(readKey(element, infoOf(of), isTangent));
         if (values.size() != keys.timesSeconds.size())
-            value.fail(fmt::format("has {} elements for {} times; give one for each", values.size(),
-                                   keys.timesSeconds.size()));
+            value.fail("has {} elements for {} times; give one for each", values.size(), keys.timesSeconds.size());
         return values;
     };
     keys.values = readByKey(valuesKey, false);
@@ -145,7 +144,7 @@ LightAnimation readAnimation(const JsonValue& value, const Light& light) {
         if (const auto ahead = object.find("lookAhead")) {
             animation.looksAhead = ahead->boolean();
             if (animation.looksAhead && !infoOf(light.type).hasDirection)
-                ahead->fail(fmt::format("a {} light has no direction; leave this out", infoOf(light.type).name));
+                ahead->fail("a {} light has no direction; leave this out", infoOf(light.type).name);
             if (animation.looksAhead && hasKeys(light, LightKeyed::Direction))
                 ahead->fail("the light's direction has keyframes; keep one of both");
         }
@@ -174,9 +173,8 @@ void readAlong(JsonObject& object, Light& light) {
     const std::optional<glm::dvec3> across = acrossFrom(light.directionWS, along->direction());
     if (!across) {
         const glm::dvec3 given = along->vector3();
-        along->fail(
-            fmt::format("is ({:g}, {:g}, {:g}), which runs along the light's direction; give a vector across it",
-                        given.x, given.y, given.z));
+        along->fail("is ({:g}, {:g}, {:g}), which runs along the light's direction; give a vector across it", given.x,
+                    given.y, given.z);
     }
     light.alongWS = *across;
 }
@@ -203,9 +201,8 @@ void readParameters(JsonObject& object, Light& light) {
     for (const LightParameter& parameter : parameters) {
         if (parameter.within == nullptr || !(light.*parameter.member > light.*parameter.within)) continue;
         if (const auto value = object.find(parameter.key))
-            value->fail(fmt::format("is {}, wider than {} of {} degrees; make it narrower", value->number(),
-                                    fieldOf(kLightFields, parameter.within).what,
-                                    glm::degrees(light.*parameter.within)));
+            value->fail("is {}, wider than {} of {} degrees; make it narrower", value->number(),
+                        fieldOf(kLightFields, parameter.within).what, glm::degrees(light.*parameter.within));
     }
 }
 
@@ -216,7 +213,7 @@ LightFlicker readFlicker(const JsonValue& value) {
     if (const auto frequency = object.find("frequencyHz")) {
         flicker.frequencyHz = frequency->positive();
         if (flicker.frequencyHz > LightFlicker::kMostHertz)
-            frequency->fail(fmt::format("is {}; at most {} is allowed", flicker.frequencyHz, LightFlicker::kMostHertz));
+            frequency->fail("is {}; at most {} is allowed", flicker.frequencyHz, LightFlicker::kMostHertz);
     }
     if (const auto seed = object.find("seed")) flicker.seed = seed->integer(0, std::numeric_limits<int>::max());
     object.done("a flicker");
@@ -263,10 +260,10 @@ Light readLight(const JsonValue& value, std::size_t index, const ReadLightTextur
     if (info.isFlat)
         texture = object.find("texture");
     else if (info.isArea && object.has("texture"))
-        object.require("texture").fail(fmt::format(
+        object.require("texture").fail(
             "a {} light has no texture: a picture has no one way to lie around it; rectangles, disks and polygons take "
             "one",
-            info.name));
+            info.name);
     if (const auto casts = object.find("castsShadow")) light.castsShadow = casts->boolean();
     if (const LightParameter* size = sizeParameter(info)) {
         if (info.isArea) object.require(size->key);

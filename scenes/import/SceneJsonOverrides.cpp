@@ -97,8 +97,7 @@ private:
         const std::vector<std::size_t> matches = matching(nodes_, pattern);
         if (matches.empty()) pattern.failUnknown("node", pattern.text(), nodes_.names());
         if (std::ranges::none_of(matches, [&](std::size_t node) { return isDrawn_[node]; }))
-            pattern.fail(
-                fmt::format("nothing is drawn at or below the nodes '{}'; name one that has a mesh", pattern.text()));
+            pattern.fail("nothing is drawn at or below the nodes '{}'; name one that has a mesh", pattern.text());
         for (const std::size_t node : matches) {
             if (bound.material) materialBinding_[node] = static_cast<int>(bound_.size());
             if (bound.castsShadow) shadowBinding_[node] = static_cast<int>(bound_.size());
@@ -150,9 +149,9 @@ private:
     /// Many overrides that match as many, or patterns that begin again at every character, would take very long.
     void charge(std::size_t steps, const JsonValue& pattern) {
         if ((steps_ += steps) > kMostSteps)
-            pattern.fail(fmt::format("the overrides up to here take more than {} steps to find and change nodes and "
-                                     "materials; give fewer, or names without * and ?",
-                                     kMostSteps));
+            pattern.fail("the overrides up to here take more than {} steps to find and change nodes and "
+                         "materials; give fewer, or names without * and ?",
+                         kMostSteps);
     }
 
     Scene& scene_;
