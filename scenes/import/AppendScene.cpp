@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -23,7 +22,7 @@ void moveAll(Owner& from, Owner& to, auto... lists) {
 }
 
 void shift(int& index, std::size_t offset) {
-    if (index != kNone) index += static_cast<int>(offset);
+    if (index != kNone) index += int(offset);
 }
 
 glm::dvec3 movedPoint(const glm::dmat4& worldFromPart, const glm::dvec3& point) {
@@ -132,7 +131,7 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
     Node root;
     root.name = name;
     root.parentFromNode = worldFromPart;
-    const int rootIndex = static_cast<int>(whole.nodes.size());
+    const int rootIndex = int(whole.nodes.size());
     whole.nodes.push_back(std::move(root));
 
     for (Material& material : part.materials)
@@ -141,13 +140,13 @@ void appendScene(Scene& whole, Scene part, const std::string& name, const glm::d
         if (node.parent == kNone)
             node.parent = rootIndex;
         else
-            shift(node.parent, static_cast<std::size_t>(rootIndex) + 1);
+            shift(node.parent, std::size_t(rootIndex) + 1);
         for (MeshInstance& instance : node.instances) {
             shift(instance.mesh, whole.meshes.size());
             shift(instance.material, whole.materials.size());
         }
     }
-    shiftRig(part.rig, whole, static_cast<std::size_t>(rootIndex) + 1);
+    shiftRig(part.rig, whole, std::size_t(rootIndex) + 1);
     for (Light& light : part.lights) moveLight(light, worldFromPart);
     for (Camera& camera : part.cameras) moveCamera(camera, worldFromPart);
 

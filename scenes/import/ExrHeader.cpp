@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <stdexcept>
 
@@ -91,7 +90,7 @@ struct Attribute {
     }
 
     void check() const {
-        const auto claimed = static_cast<std::uint32_t>(value.left());
+        const auto claimed = std::uint32_t(value.left());
         const auto* fixed = std::ranges::find(kFixedSizes, type, &FixedSize::type);
         if (fixed != std::end(kFixedSizes) && fixed->bytes != claimed)
             fail(fmt::format("claims {} bytes and has {}", claimed, fixed->bytes));

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <fstream>
-#include <optional>
-#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
+#include "base/Utf8.h"
 
 namespace tessera::scenes {
 namespace {
@@ -24,17 +21,12 @@ bool isFile(const fs::path& path) {
 
 /// Takes a UTF-8 character off `text`; bytes that are none are Latin-1.
 std::uint32_t takeCharacter(std::string_view& text) {
-    const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byteAt(0);
-    const std::size_t size = lead < 0xc2 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : lead < 0xf5 ? 4 : 1;
-    std::uint32_t character = size == 1 ? lead : lead & (0x7fu >> size);
-    bool isWhole = size <= text.size();
-    for (std::size_t i = 1; isWhole && i < size; ++i) {
-        isWhole = (byteAt(i) & 0xc0) == 0x80;
-        character = character << 6 | (byteAt(i) & 0x3fu);
-    }
-    text.remove_prefix(isWhole ? size : 1);
-    return isWhole ? character : lead;
+    const std::size_t size = std::max<std::size_t>(letterBytes(text), 1);
+    const auto byteAt = [&](std::size_t i) -> std::uint32_t { return static_cast<unsigned char>(text[i]); };
+    std::uint32_t character = size == 1 ? byteAt(0) : byteAt(0) & (0x7fu >> size);
+    for (std::size_t i = 1; i < size; ++i) character = character << 6 | (byteAt(i) & 0x3fu);
+    text.remove_prefix(size);
+    return character;
 }
 
 /// Lower case of ASCII, Latin-1, Greek and Cyrillic letters, and of Latin Extended-A, whose cases alternate.
@@ -101,7 +93,7 @@ std::vector<std::byte> readFileBytes(const std::filesystem::path& file, LoadLedg
     if (error || !stream) throw InputError(fmt::format("{}: cannot be opened; check its permissions", file.string()));
     ledger.addFile(file);
     ledger.charge(size, [&] { return file.string(); });
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    std::vector<std::byte> bytes(size);
     if (size > 0 && !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
         throw InputError(
             fmt::format("{}: only {} of its {} bytes could be read", file.string(), stream.gcount(), size));

@@ -1,12 +1,5 @@
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
 
-#include "base/Error.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/GltfSteps.h"
@@ -28,9 +21,9 @@ public:
         if (!isNew) return entry->second;
         const auto& primitives = elementAt(context_.document.model.meshes, mesh).primitives;
         for (std::size_t i = 0; i < primitives.size(); ++i) {
-            std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i));
+            std::optional<Shape> imported = importPrimitive(context_, mesh, int(i));
             if (!imported) continue;
-            const int sceneMesh = static_cast<int>(context_.scene.meshes.size());
+            const int sceneMesh = int(context_.scene.meshes.size());
             const ShownMaterial shown = materials_.shownBy(primitives[i], imported->rest);
             context_.scene.meshes.push_back(std::move(imported->rest));
             context_.noteMesh(sceneMesh, primitives[i], shown.lostSets);
@@ -50,8 +43,8 @@ private:
 void addInstances(Context& context, Meshes& meshes, const Instancing& instancing, const std::vector<int>& sceneNodes) {
     std::vector<Node>& nodes = context.scene.nodes;
     for (const auto& [index, transforms] : instancing) {
-        const int parent = sceneNodes[static_cast<std::size_t>(index)];
-        const std::string name = nodes[static_cast<std::size_t>(parent)].name;
+        const int parent = sceneNodes[std::size_t(index)];
+        const std::string name = nodes[std::size_t(parent)].name;
         const std::vector<MeshInstance>& drawn =
             meshes.instancesOf(elementAt(context.document.model.nodes, index).mesh);
         constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
@@ -88,10 +81,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     Scene scene;
     takeLightUnits(document, scene.notes);
     scene.name = file.stem().string();
-    Buffers buffers(document);
-    Accessors accessors(document, buffers);
-    DracoStreams streams(document, buffers);
-    Context context{document, buffers, accessors, streams, scene};
+    Context context{document, scene};
     warnOfIgnoredFeatures(context);
 
     constexpr std::size_t kCopies = 2; // while a vector grows
@@ -102,8 +92,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     Meshes meshes(context, materials);
     const std::vector<PlacedNode> allPlaced = placeNodes(document);
     std::vector<int> sceneNodes(nodeCount, kNone);
-    for (std::size_t i = 0; i < allPlaced.size(); ++i)
-        sceneNodes[static_cast<std::size_t>(allPlaced[i].node)] = static_cast<int>(i);
+    for (std::size_t i = 0; i < allPlaced.size(); ++i) sceneNodes[std::size_t(allPlaced[i].node)] = int(i);
     Rigging rigging(context, materials, sceneNodes);
     Instancing instancing;
     bool hasMeshes = false;
@@ -162,10 +151,7 @@ Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger&
     Repairs repairs(ledger.wishes().isStrict);
     Document document = loadDocument(file, ledger, repairs);
     Scene scene;
-    Buffers buffers(document);
-    Accessors accessors(document, buffers);
-    DracoStreams streams(document, buffers);
-    Context context{document, buffers, accessors, streams, scene};
+    Context context{document, scene};
     importEnvironment(context);
     if (!scene.environment)
         throw InputError(fmt::format("{}: its scene has no light of EXT_lights_image_based; name a picture, or a model "

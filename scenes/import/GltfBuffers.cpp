@@ -4,13 +4,11 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
-#include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include "base/Error.h"
 #include "scenes/import/Files.h"
-#include "scenes/import/GltfDocument.h"
 
 namespace tessera::scenes::gltf {
 namespace {
@@ -30,22 +28,22 @@ constexpr std::size_t kBlockBytes = 8192;
 
 /// Throws InputError with the reason when the layout breaks a rule of the extension.
 void checkLayout(const Meshopt& layout, std::size_t encodedBytes) {
-    const bool attributes = layout.mode == "ATTRIBUTES";
-    if (attributes && layout.byteStride % 4 != 0)
-        throw InputError(fmt::format("mode ATTRIBUTES needs a byteStride divisible by 4, not {}", layout.byteStride));
-    if (!attributes && layout.byteStride != 2 && layout.byteStride != 4)
-        throw InputError(fmt::format("mode {} needs a byteStride of 2 or 4, not {}", layout.mode, layout.byteStride));
+    const std::size_t stride = layout.byteStride;
+    const bool isOfAttributes = layout.mode == "ATTRIBUTES";
+    if (isOfAttributes ? stride % 4 != 0 : stride != 2 && stride != 4)
+        throw InputError(fmt::format("mode {} needs a byteStride {}, not {}", layout.mode,
+                                     isOfAttributes ? "divisible by 4" : "of 2 or 4", stride));
     if (layout.mode == "TRIANGLES" && layout.count % 3 != 0)
         throw InputError(fmt::format("mode TRIANGLES needs a count divisible by 3, not {}", layout.count));
-    if (layout.filter != "NONE" && !attributes)
+    if (layout.filter != "NONE" && !isOfAttributes)
         throw InputError(fmt::format("filter {} works with mode ATTRIBUTES only", layout.filter));
-    if (layout.filter == "OCTAHEDRAL" && layout.byteStride != 4 && layout.byteStride != 8)
-        throw InputError(fmt::format("filter OCTAHEDRAL needs a byteStride of 4 or 8, not {}", layout.byteStride));
-    if (layout.filter == "QUATERNION" && layout.byteStride != 8)
-        throw InputError(fmt::format("filter QUATERNION needs a byteStride of 8, not {}", layout.byteStride));
-    if (layout.count > (encodedBytes * kMaxRatio + kBlockBytes) / layout.byteStride)
+    const bool isOctahedral = layout.filter == "OCTAHEDRAL", isQuaternion = layout.filter == "QUATERNION";
+    if ((isOctahedral || isQuaternion) && stride != 8 && !(isOctahedral && stride == 4))
+        throw InputError(fmt::format("filter {} needs a byteStride of {}8, not {}", layout.filter,
+                                     isOctahedral ? "4 or " : "", stride));
+    if (layout.count > (encodedBytes * kMaxRatio + kBlockBytes) / stride)
         throw InputError(
-            fmt::format("{} bytes cannot hold {} elements of {} bytes", encodedBytes, layout.count, layout.byteStride));
+            fmt::format("{} bytes cannot hold {} elements of {} bytes", encodedBytes, layout.count, stride));
 }
 
 /// The bytes that the layout says, as far as `encodedBytes` can hold them.
@@ -86,28 +84,12 @@ T stored(const std::byte* bytes) {
 }
 
 /// glTF 2.0 section 3.11: f = c / max, and at least -1 for signed types.
-template <typename T>
-float converted(const std::byte* bytes, bool normalized) {
-    const double value = static_cast<double>(stored<T>(bytes));
-    if (!normalized) return static_cast<float>(value);
-    return static_cast<float>(std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0));
-}
-
 float toFloat(const std::byte* bytes, int type, bool normalized) {
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return converted<std::int8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return converted<std::uint8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return converted<std::int16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return converted<std::uint16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return converted<std::uint32_t>(bytes, normalized);
-    default:
-        return stored<float>(bytes);
-    }
+    return withComponent(type, [&]<typename Component>(Component) {
+        const double value = double(stored<Component>(bytes));
+        if (!std::is_integral_v<Component> || !normalized) return float(value);
+        return float(std::max(value / double(std::numeric_limits<Component>::max()), -1.0));
+    });
 }
 
 std::uint32_t toUnsigned(const std::byte* bytes, int type) {
@@ -120,7 +102,7 @@ std::uint32_t toUnsigned(const std::byte* bytes, int type) {
 
 std::span<const std::byte> Buffers::buffer(int index) {
     const std::string place = fmt::format("/buffers/{}", index);
-    const BufferSource& stored = document_.buffers[static_cast<std::size_t>(index)];
+    const BufferSource& stored = document_.buffers[std::size_t(index)];
     std::span<const std::byte> bytes;
     if (stored.uri) {
         auto found = buffers_.find(index);
@@ -169,7 +151,7 @@ std::span<const std::byte> Buffers::slice(int index, std::size_t byteOffset, std
 }
 
 std::vector<std::byte> Buffers::decompress(int bufferView, const tiny::Value& stored) {
-    const auto size = [&](const char* key) { return static_cast<std::size_t>(numberOf(valueAt(&stored, key), 0.0)); };
+    const auto size = [&](const char* key) { return std::size_t(numberOf(valueAt(&stored, key), 0.0)); };
     const tiny::Value* const filter = valueAt(&stored, "filter");
     const Meshopt meshopt{size("count"), size("byteStride"), stringOf(valueAt(&stored, "mode")),
                           filter != nullptr ? stringOf(filter) : "NONE"};
@@ -227,7 +209,7 @@ template <typename Value, typename Convert>
 std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed, Convert convert) {
     const tiny::Accessor& accessor = accessorAt(index);
     const std::string place = fmt::format("/accessors/{}", index);
-    const auto width = static_cast<std::size_t>(componentsOf(accessor));
+    const auto width = std::size_t(componentsOf(accessor));
     std::vector<Value> values;
 
     // Once here, once for the caller's copy.
@@ -262,14 +244,13 @@ std::vector<Value> Accessors::read(int index, std::span<const std::byte> packed,
     if (!accessor.sparse.isSparse) return values;
 
     const auto& [sparseCount, isSparse, targetsAt, replacementsAt] = accessor.sparse;
-    const auto count = static_cast<std::size_t>(sparseCount);
+    const auto count = std::size_t(sparseCount);
     if (count == 0) return values;
     if (count > accessor.count) document_.fail(place, "replaces {} elements, but has only {}", count, accessor.count);
-    const Source targets = placed(index, targetsAt.bufferView, static_cast<std::size_t>(targetsAt.byteOffset), count,
-                                  targetsAt.componentType, 1, 0);
-    const Source replacements =
-        placed(index, replacementsAt.bufferView, static_cast<std::size_t>(replacementsAt.byteOffset), count,
-               accessor.componentType, width, 0);
+    const Source targets =
+        placed(index, targetsAt.bufferView, std::size_t(targetsAt.byteOffset), count, targetsAt.componentType, 1, 0);
+    const Source replacements = placed(index, replacementsAt.bufferView, std::size_t(replacementsAt.byteOffset), count,
+                                       accessor.componentType, width, 0);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t target = toUnsigned(targets.first + i * targets.byteStride, targetsAt.componentType);
         if (target >= accessor.count)

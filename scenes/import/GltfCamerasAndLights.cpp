@@ -4,10 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "scenes/Transform.h"
 
@@ -75,8 +71,26 @@ void setCones(const Document& document, const tiny::SpotLight& stored, const std
     if (stored.innerConeAngle > outer)
         document.repair(place + "/spot/innerConeAngle", "the outer angle is taken",
                         "is {}; it must be less than the outer angle, {}", stored.innerConeAngle, outer);
-    light.innerConeRadians = static_cast<float>(std::min(stored.innerConeAngle, outer));
-    light.outerConeRadians = static_cast<float>(outer);
+    light.innerConeRadians = float(std::min(stored.innerConeAngle, outer));
+    light.outerConeRadians = float(outer);
+}
+
+// ---- Units of lights ------------------------------------------------------------------------------------------------
+
+using ExporterVersion = std::pair<int, int>; ///< major, minor
+
+/// Of Blender's exporter, where a text such as "Khronos glTF Blender I/O v4.2.57" names it; 0.0 where it says none.
+std::optional<ExporterVersion> blenderVersion(std::string_view generator) {
+    constexpr std::string_view kBlender = "glTF Blender I/O";
+    const std::size_t at = generator.find(kBlender);
+    if (at == std::string_view::npos) return std::nullopt;
+    ExporterVersion version{0, 0};
+    const std::size_t digits = generator.find_first_of("0123456789", at + kBlender.size());
+    if (digits == std::string_view::npos) return version;
+    const char* const end = generator.data() + generator.size();
+    const char* const dot = std::from_chars(generator.data() + digits, end, version.first).ptr;
+    if (dot != end && *dot == '.') std::from_chars(dot + 1, end, version.second);
+    return version;
 }
 
 } // namespace
@@ -108,7 +122,7 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     const Document& document = context.document;
     const int index = lightOf(elementAt(document.model.nodes, nodeIndex));
     if (index == kNone) return;
-    const auto at = static_cast<std::size_t>(index);
+    const auto at = std::size_t(index);
     const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
     const tiny::Light& stored = document.model.lights[at];
 
@@ -117,43 +131,21 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
     document.charge(kCopies * (sizeof(Light) + light.name.size()), "nodes", nodeIndex);
     light.type = typeOf(stored);
     light.color = vectorOf(stored.color, glm::vec3(1.0f));
-    light.intensity = static_cast<float>(static_cast<float>(stored.intensity) * document.wattsPerUnit[at]);
+    light.intensity = float(float(stored.intensity) * document.wattsPerUnit[at]);
     light.falloff = Falloff::InverseSquare;
     if (!placeAtNode(light, worldFromNode) && infoOf(light.type).hasDirection)
         context.warn("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex, light.name);
     if (infoOf(light.type).hasPosition()) {
         const auto values = elementsOf(valueAt(document.model.extensions, "KHR_lights_punctual/lights"));
         // three.js writes 0 for a light without an end.
-        if (static_cast<float>(stored.range) > 0.0f)
-            light.rangeMetres = static_cast<float>(stored.range);
+        if (float(stored.range) > 0.0f)
+            light.rangeMetres = float(stored.range);
         else if (values[at].Has("range"))
             document.repair(place + "/range", "the light has no end", "is 0; it must be greater than 0");
     }
     if (light.type == LightType::Spot) setCones(document, stored.spot, place, light);
     context.scene.lights.push_back(std::move(light));
 }
-
-// ---- Units of lights ------------------------------------------------------------------------------------------------
-
-namespace {
-
-using ExporterVersion = std::pair<int, int>; ///< major, minor
-
-/// Of Blender's exporter, where a text such as "Khronos glTF Blender I/O v4.2.57" names it; 0.0 where it says none.
-std::optional<ExporterVersion> blenderVersion(std::string_view generator) {
-    constexpr std::string_view kBlender = "glTF Blender I/O";
-    const std::size_t at = generator.find(kBlender);
-    if (at == std::string_view::npos) return std::nullopt;
-    ExporterVersion version{0, 0};
-    const std::size_t digits = generator.find_first_of("0123456789", at + kBlender.size());
-    if (digits == std::string_view::npos) return version;
-    const char* const end = generator.data() + generator.size();
-    const char* const dot = std::from_chars(generator.data() + digits, end, version.first).ptr;
-    if (dot != end && *dot == '.') std::from_chars(dot + 1, end, version.second);
-    return version;
-}
-
-} // namespace
 
 void takeLightUnits(Document& document, std::vector<std::string>& notes) {
     if (document.model.lights.empty()) return;

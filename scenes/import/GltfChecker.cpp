@@ -1,12 +1,9 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/Error.h"
 #include "scenes/import/GltfSchema.h"
 
 namespace tessera::scenes::gltf {
@@ -241,7 +238,7 @@ private:
         if (isOpaque)
             value.push_back(1.0);
         else
-            value.erase(value.begin() + static_cast<std::ptrdiff_t>(length), value.end());
+            value.erase(value.begin() + std::ptrdiff_t(length), value.end());
     }
 
     Json single(Json& value, const Type& type, bool isValue, const Place& place) {
@@ -276,10 +273,10 @@ private:
         const std::int64_t number = integer(value, type, place);
         if (type.kind == Kind::Code && std::ranges::find(type.choices, std::to_string(number)) == type.choices.end())
             fail(place, "is {}; valid are {}", number, fmt::join(type.choices, ", "));
-        if (type.kind == Kind::Index) requireElement(static_cast<std::size_t>(number), type.array, place);
+        if (type.kind == Kind::Index) requireElement(std::size_t(number), type.array, place);
         // tinygltf keeps the low 32 bits of integers in extensions.
-        if (isValue && number > std::int64_t(kMaxInt)) return static_cast<double>(number);
-        return number < 0 ? Json(number) : Json(static_cast<std::uint64_t>(number));
+        if (isValue && number > std::int64_t(kMaxInt)) return double(number);
+        return number < 0 ? Json(number) : Json(std::uint64_t(number));
     }
 
     void requireElement(std::size_t index, std::string_view path, const Place& place) {
@@ -312,7 +309,7 @@ private:
         if (std::abs(number) > kMaxInteger)
             fail(place, "is {}, farther from 0 than {}", value.dump(), std::int64_t(kMaxInteger));
         if (const std::string flaw = outOfBounds(number, type); !flaw.empty()) fail(place, "{}", flaw);
-        const auto whole = static_cast<std::int64_t>(number);
+        const auto whole = std::int64_t(number);
         if (whole % type.divisor != 0) fail(place, "is {}; it must be a multiple of {}", whole, type.divisor);
         return whole;
     }

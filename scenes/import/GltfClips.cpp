@@ -1,14 +1,9 @@
 #include "scenes/import/GltfRig.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "scenes/import/GltfSteps.h"
 
@@ -25,19 +20,18 @@ struct Rivals {
 
 int Rigging::restNode(int index) {
     Rig& rig = context_.scene.rig;
-    const auto [entry, isNew] = nodes_.try_emplace(index, static_cast<int>(rig.nodes.size()));
+    const auto [entry, isNew] = nodes_.try_emplace(index, int(rig.nodes.size()));
     if (isNew) {
         const tiny::Node& node = elementAt(context_.document.model.nodes, index);
         context_.document.charge(2 * sizeof(RestNode), "nodes", index);
-        rig.nodes.push_back(
-            {sceneNodes_[static_cast<std::size_t>(index)], translationOf(node), rotationOf(node), scaleOf(node)});
+        rig.nodes.push_back({sceneNodes_[std::size_t(index)], translationOf(node), rotationOf(node), scaleOf(node)});
     }
     return entry->second;
 }
 
 int Rigging::restNumber(AnimatedProperty property, int element, TextureSlot slot) {
     std::vector<RestNumber>& numbers = context_.scene.rig.numbers;
-    const auto [entry, isNew] = numbers_.try_emplace({property, element, slot}, static_cast<int>(numbers.size()));
+    const auto [entry, isNew] = numbers_.try_emplace({property, element, slot}, int(numbers.size()));
     if (isNew) numbers.push_back({property, element, glm::dvec4(0.0), slot});
     return entry->second;
 }
@@ -46,8 +40,8 @@ std::optional<int> Rigging::nodeWithoutTargets(const tiny::AnimationChannel& cha
     const std::optional<std::size_t> node = nodeOfWeights(channel);
     if (!node || *node >= sceneNodes_.size()) return {};
     const int mesh = context_.document.model.nodes[*node].mesh;
-    const bool hasTargets = mesh != kNone && targetCounts_[static_cast<std::size_t>(mesh)] > 0;
-    return hasTargets ? std::nullopt : std::optional(static_cast<int>(*node));
+    const bool hasTargets = mesh != kNone && targetCounts_[std::size_t(mesh)] > 0;
+    return hasTargets ? std::nullopt : std::optional(int(*node));
 }
 
 void Rigging::warnOfMorphless() {
@@ -94,12 +88,12 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     const std::vector<tiny::AnimationSampler>& samplers = elementAt(document.model.animations, animation).samplers;
     const std::string place = fmt::format("/animations/{}/samplers/{}", animation, index);
     const tiny::AnimationSampler stored =
-        static_cast<std::size_t>(index) < samplers.size() ? elementAt(samplers, index) : tiny::AnimationSampler();
+        std::size_t(index) < samplers.size() ? elementAt(samplers, index) : tiny::AnimationSampler();
     if (stored.input == kNone || stored.output == kNone) document.fail(place, "is not there, or left out");
     AnimationSampler sampler;
     if (stored.interpolation != "LINEAR")
         sampler.interpolation = stored.interpolation == "STEP" ? Interpolation::Step : Interpolation::CubicSpline;
-    sampler.width = static_cast<int>(animated.width);
+    sampler.width = int(animated.width);
 
     Elements times = context_.accessors.elements(stored.input);
     const auto failTimes = [&](const std::string& what) {
@@ -146,17 +140,16 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
         const std::size_t keys = std::min(values.count / each, sampler.timesSeconds.size());
         document.repair(place + "/output", "what has no partner is left out", "{}", what);
         sampler.timesSeconds.resize(keys);
-        values.values.resize(keys * each * static_cast<std::size_t>(components));
+        values.values.resize(keys * each * std::size_t(components));
     }
     for (std::size_t i = 0; i < values.values.size(); ++i)
         if (!std::isfinite(values.values[i]))
             failValues(fmt::format("holds {} in element {}; every value must be finite", values.values[i],
-                                   i / static_cast<std::size_t>(components)));
+                                   i / std::size_t(components)));
     sampler.values = std::move(values.values);
     constexpr double kMost = std::numeric_limits<float>::max();
     if (animated.scale != 1.0)
-        for (float& value : sampler.values)
-            value = static_cast<float>(std::clamp(value * animated.scale, -kMost, kMost));
+        for (float& value : sampler.values) value = float(std::clamp(value * animated.scale, -kMost, kMost));
     if (animated.property == AnimatedProperty::Rotation)
         for (std::size_t key = 0; key < sampler.timesSeconds.size(); ++key) {
             const std::size_t first =
@@ -218,21 +211,17 @@ Clip Rigging::clip(int index) {
         document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
                         "animations", index);
         const std::size_t number = i; // clang captures no structured binding
-        const std::array<int, 4> read{index, channel.sampler, static_cast<int>(what->property),
-                                      static_cast<int>(what->width)};
+        const std::array<int, 4> read{index, channel.sampler, int(what->property), int(what->width)};
         if (failed.contains(read)) continue;
         auto entry = samplers.find({channel.sampler, what->scale});
         const std::uint64_t usedBefore = used();
         const bool isGood = document.repairs.attempt("the channel is left out", [&] {
             if (entry == samplers.end()) {
                 clip.samplers.push_back(sampler(index, channel.sampler, *what));
-                entry =
-                    samplers
-                        .emplace(std::pair(channel.sampler, what->scale), static_cast<int>(clip.samplers.size()) - 1)
-                        .first;
+                entry = samplers.emplace(std::pair(channel.sampler, what->scale), int(clip.samplers.size()) - 1).first;
             }
-            const int width = clip.samplers[static_cast<std::size_t>(entry->second)].width;
-            if (static_cast<std::size_t>(width) != what->width)
+            const int width = clip.samplers[std::size_t(entry->second)].width;
+            if (std::size_t(width) != what->width)
                 document.fail(fmt::format("/animations/{}/channels/{}", index, number),
                               "takes values of {} numbers from sampler {}, which another channel takes as of {}",
                               what->width, channel.sampler, width);
@@ -249,7 +238,7 @@ Clip Rigging::clip(int index) {
             if (isFirst && isStrength) { // of a factor that stays as it is, unless another channel changes it too
                 document.charge(2 * sizeof(AnimationSampler) + 4 * sizeof(float), "animations", index);
                 const glm::vec3& factor = what->emissiveFactor;
-                clip.channels.push_back({changes, target, static_cast<int>(clip.samplers.size())});
+                clip.channels.push_back({changes, target, int(clip.samplers.size())});
                 clip.samplers.push_back({Interpolation::Linear, 3, {0.0f}, {factor.x, factor.y, factor.z}});
             } else if (isFirst) {
                 clip.channels.push_back({changes, target, entry->second});

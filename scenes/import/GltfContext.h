@@ -1,17 +1,9 @@
 #pragma once
 #include <compare>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
 #include <unordered_map>
 #include <unordered_set>
 
-#include <fmt/format.h>
-
-#include "scenes/Scene.h"
 #include "scenes/import/GltfBuffers.h"
-#include "scenes/import/GltfDraco.h"
 
 namespace tessera::scenes::gltf {
 
@@ -48,10 +40,10 @@ struct ShownMaterial {
 /// What every part of one import works on.
 struct Context {
     const Document& document;
-    Buffers& buffers;
-    Accessors& accessors;
-    DracoStreams& streams;
     Scene& scene;
+    Buffers buffers{document};
+    Accessors accessors{document, buffers};
+    DracoStreams streams{document, buffers};
     /// By meshes of the scene, in the variant that is shown.
     std::map<int, ShownMaterial> variantMaterials = {};
     std::map<int, int> thinModes = {}; ///< the glTF modes of meshes of the scene that draw points or lines
@@ -70,7 +62,7 @@ struct Context {
         const auto variants = elementsOf(valueAt(document.model.extensions, "KHR_materials_variants/variants"));
         for (const tiny::Value& mapping : elementsOf(valueAt(primitive.extensions, "KHR_materials_variants/mappings")))
             for (const tiny::Value& variant : elementsOf(valueAt(&mapping, "variants")))
-                if (const auto index = static_cast<std::size_t>(integerOf(&variant));
+                if (const auto index = std::size_t(integerOf(&variant));
                     index < variants.size() && stringOf(valueAt(&variants[index], "name")) == *wish)
                     return integerOf(valueAt(&mapping, "material"));
         return std::nullopt;

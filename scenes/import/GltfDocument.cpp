@@ -2,18 +2,85 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
+#include <charconv>
 #include <cstring>
-#include <span>
+#include <system_error>
 #include <unordered_set>
 
-#include <fmt/format.h>
-
-#include "base/Error.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/JsonText.h"
 
 namespace tessera::scenes::gltf {
 namespace {
+
+/// A '%' that two hexadecimal digits do not follow stands for itself.
+std::string percentDecoded(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view digits = text.substr(i + 1, 2);
+        unsigned char character = 0;
+        const bool isEscape = text[i] == '%' && digits.size() == 2 &&
+                              std::from_chars(digits.data(), digits.data() + 2, character, 16).ptr == digits.data() + 2;
+        decoded.push_back(isEscape ? char(character) : text[i]);
+        if (isEscape) i += 2;
+    }
+    return decoded;
+}
+
+/// Value of a base64 digit (RFC 4648, both alphabets), or -1.
+int base64Digit(char c) {
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+' || c == '-') return 62;
+    if (c == '/' || c == '_') return 63;
+    return -1;
+}
+
+std::vector<std::byte> base64Decoded(std::string_view text) {
+    std::vector<std::byte> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    std::uint32_t bits = 0;
+    int bitCount = 0;
+    std::size_t digits = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (std::isspace(static_cast<unsigned char>(c))) continue;
+        if (c == '=') {
+            if (text.find_first_not_of("= \t\r\n", i) != std::string_view::npos)
+                throw InputError("its base64 goes on after the padding '='");
+            break;
+        }
+        const int digit = base64Digit(c);
+        if (digit < 0) throw InputError(fmt::format("its base64 has an invalid character at position {}", i));
+        ++digits;
+        bits = (bits << 6 | std::uint32_t(digit)) & 0xffffffu;
+        bitCount += 6;
+        if (bitCount >= 8) {
+            bitCount -= 8;
+            bytes.push_back(static_cast<std::byte>(bits >> bitCount & 0xffu));
+        }
+    }
+    if (digits % 4 == 1) throw InputError("its base64 is cut short");
+    return bytes;
+}
+
+/// In any case of letters.
+bool startsWith(std::string_view text, std::string_view lowerCase) {
+    const auto lowered = [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); };
+    return std::ranges::equal(text.substr(0, lowerCase.size()), lowerCase, {}, lowered);
+}
+
+/// RFC 3986: a letter, then letters, digits, '+', '-' or '.', then ':'. One letter alone is a Windows drive.
+bool hasScheme(std::string_view uri) {
+    const std::size_t colon = uri.find(':');
+    if (colon == std::string_view::npos || colon < 2 || !std::isalpha(static_cast<unsigned char>(uri[0]))) return false;
+    for (const char c : uri.substr(0, colon))
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '+' && c != '-' && c != '.') return false;
+    return true;
+}
 
 // ---- Container -----------------------------------------------------------------------------------------------------
 
@@ -93,31 +160,29 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
 
 // ---- JSON ----------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view kSupportedExtensions[] = {
-    "EXT_lights_image_based",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "KHR_texture_transform",
-};
+constexpr std::string_view kSupportedExtensions[] = {"EXT_lights_image_based",
+                                                     "EXT_mesh_gpu_instancing",
+                                                     "EXT_meshopt_compression",
+                                                     "EXT_texture_webp",
+                                                     "KHR_animation_pointer",
+                                                     "KHR_draco_mesh_compression",
+                                                     "KHR_lights_punctual",
+                                                     "KHR_materials_anisotropy",
+                                                     "KHR_materials_clearcoat",
+                                                     "KHR_materials_dispersion",
+                                                     "KHR_materials_emissive_strength",
+                                                     "KHR_materials_ior",
+                                                     "KHR_materials_iridescence",
+                                                     "KHR_materials_pbrSpecularGlossiness",
+                                                     "KHR_materials_sheen",
+                                                     "KHR_materials_specular",
+                                                     "KHR_materials_transmission",
+                                                     "KHR_materials_unlit",
+                                                     "KHR_materials_variants",
+                                                     "KHR_materials_volume",
+                                                     "KHR_mesh_quantization",
+                                                     "KHR_node_visibility",
+                                                     "KHR_texture_transform"};
 
 bool isSupported(std::string_view extension) {
     return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
@@ -179,6 +244,40 @@ void checkRequiredExtensions(const Document& document) {
 
 } // namespace
 
+bool isDataUri(std::string_view uri) {
+    return startsWith(uri, "data:");
+}
+
+std::vector<std::byte> decodeDataUri(std::string_view uri) {
+    const std::size_t comma = uri.find(',');
+    if (!isDataUri(uri) || comma == std::string_view::npos)
+        throw InputError("its data URI has no comma before the data");
+    std::string header(uri.substr(0, comma));
+    std::erase(header, ' ');
+    const std::string data = percentDecoded(uri.substr(comma + 1));
+    constexpr std::string_view kBase64 = ";base64";
+    if (header.size() >= kBase64.size() &&
+        startsWith(std::string_view(header).substr(header.size() - kBase64.size()), kBase64))
+        return base64Decoded(data);
+    const auto* first = reinterpret_cast<const std::byte*>(data.data());
+    return {first, first + data.size()};
+}
+
+NamedFile fileOfUri(std::string_view uri, const std::filesystem::path& folder) {
+    constexpr std::string_view kFile = "file:";
+    if (startsWith(uri, kFile)) uri.remove_prefix(kFile.size());
+    if (uri.empty()) throw InputError("its uri is empty");
+    if ((uri.starts_with("//") && !uri.starts_with("///")) || hasScheme(uri))
+        throw InputError(
+            fmt::format("its uri '{}' is not a relative path; put the file beside the model", uri.substr(0, 80)));
+    const std::string decoded = percentDecoded(uri);
+    if (decoded.find('\0') != std::string::npos) throw InputError("its uri holds a zero character");
+    const NamedFile file = fileNamed(folder, decoded);
+    if (file.isFound && file.isAsNamed) return file;
+    const NamedFile literal = fileNamed(folder, std::string(uri));
+    return literal.isFound && (literal.isAsNamed || !file.isFound) ? literal : file;
+}
+
 void Document::fail(std::string_view place, std::string_view what) const {
     throw InputError(fmt::format("{}: {}: {}", file, place, what));
 }
@@ -211,7 +310,7 @@ void Document::charge(std::uint64_t bytes, std::string_view place) const {
 }
 
 const tiny::Scene* Document::scene() const {
-    return model.scenes.empty() ? nullptr : &model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))];
+    return model.scenes.empty() ? nullptr : &model.scenes[std::size_t(std::max(model.defaultScene, 0))];
 }
 
 Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs) {

@@ -1,15 +1,6 @@
 #pragma once
-#include <cstddef>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "scenes/LoadLedger.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/GltfModel.h"
-#include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::gltf {
 

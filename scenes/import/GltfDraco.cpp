@@ -1,21 +1,12 @@
-#include "scenes/import/GltfDraco.h"
+#include "scenes/import/GltfBuffers.h"
 
-#include <array>
 #include <cstring>
 #include <exception>
 #include <limits>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <utility>
 
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
-#include <fmt/format.h>
-
-#include "base/Error.h"
-#include "scenes/import/GltfBuffers.h"
 
 namespace tessera::scenes::gltf {
 namespace {
@@ -40,7 +31,7 @@ std::uint64_t pointBytes(const draco::PointCloud& points) {
     std::uint64_t bytesEach = 0; // of a point; the stream may hold attributes that nobody names
     for (int i = 0; i < points.num_attributes(); ++i) {
         const draco::PointAttribute& stored = *points.attribute(i);
-        const auto componentBytes = static_cast<std::uint64_t>(draco::DataTypeLength(stored.data_type()));
+        const auto componentBytes = std::uint64_t(draco::DataTypeLength(stored.data_type()));
         bytesEach += kPointBytes + stored.num_components() * (componentBytes + kPortableBytes);
     }
     const std::uint64_t count = points.num_points(), most = std::numeric_limits<std::uint64_t>::max();
@@ -85,7 +76,7 @@ public:
             const auto named = primitive_.attributes.find(name);
             if (named == primitive_.attributes.end()) continue;
             const tiny::Accessor& wanted = accessor(named->second);
-            const draco::PointAttribute* stored = points.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+            const draco::PointAttribute* stored = points.GetAttributeByUniqueId(std::uint32_t(id));
             if (stored == nullptr) throw InputError(fmt::format("holds no attribute {}, which {} names", id, name));
             if (!isComponentType(stored->data_type()))
                 throw InputError(fmt::format("holds {} in a component type that glTF does not have", name));
@@ -114,7 +105,7 @@ private:
 std::optional<std::pair<std::uint32_t, std::uint8_t>> claimedTriangles(const draco::DecoderBuffer& stream,
                                                                        bool isEdgebreaker) {
     draco::DecoderBuffer head; // reads on its own
-    head.Init(stream.data_head(), static_cast<std::size_t>(stream.remaining_size()), stream.bitstream_version());
+    head.Init(stream.data_head(), std::size_t(stream.remaining_size()), stream.bitstream_version());
     std::uint8_t seamTables = 0;
     std::uint32_t vertices = 0, faces = 0;
     const bool isWhole = isEdgebreaker ? draco::DecodeVarint(&vertices, &head) && draco::DecodeVarint(&faces, &head) &&
@@ -191,38 +182,21 @@ void decodeStream(std::span<const std::byte> bytes, const Claims& claims, draco:
         throw InputError(fmt::format("is of the unknown method {}", header.encoder_method));
 }
 
-template <typename Component>
-bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, std::size_t components,
-                  std::byte* to) {
-    std::array<Component, kMostComponents> converted{};
-    if (!stored.ConvertValue<Component>(value, static_cast<std::int8_t>(components), converted.data())) return false;
-    std::memcpy(to, converted.data(), components * sizeof(Component));
-    return true;
-}
-
 bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueIndex value, const tiny::Accessor& wanted,
                   std::byte* to) {
-    const auto components = static_cast<std::size_t>(componentsOf(wanted));
-    switch (wanted.componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return convertPoint<std::int8_t>(stored, value, components, to);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return convertPoint<std::uint8_t>(stored, value, components, to);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return convertPoint<std::int16_t>(stored, value, components, to);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return convertPoint<std::uint16_t>(stored, value, components, to);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return convertPoint<std::uint32_t>(stored, value, components, to);
-    default:
-        return convertPoint<float>(stored, value, components, to);
-    }
+    const auto components = std::size_t(componentsOf(wanted));
+    return withComponent(wanted.componentType, [&]<typename Component>(Component) {
+        std::array<Component, kMostComponents> converted{};
+        if (!stored.ConvertValue<Component>(value, std::int8_t(components), converted.data())) return false;
+        std::memcpy(to, converted.data(), components * sizeof(Component));
+        return true;
+    });
 }
 
 /// The values of an attribute, which is as its accessor says (Claims::checkAttributes).
 std::vector<std::byte> packedElements(const draco::Mesh& mesh, const draco::PointAttribute& stored,
                                       const std::string& name, const tiny::Accessor& wanted) {
-    const std::size_t elementBytes = bytesOf(wanted.componentType) * static_cast<std::size_t>(componentsOf(wanted));
+    const std::size_t elementBytes = bytesOf(wanted.componentType) * std::size_t(componentsOf(wanted));
     std::vector<std::byte> bytes(mesh.num_points() * elementBytes);
     for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
         const draco::AttributeValueIndex value = stored.mapped_index(draco::PointIndex(i));
@@ -283,9 +257,9 @@ DracoGeometry DracoStreams::decode(const tiny::Primitive& primitive, const std::
         for (const auto& [name, id] : attributesOf(primitive)) {
             const auto named = primitive.attributes.find(name);
             if (named == primitive.attributes.end()) continue;
-            const tiny::Accessor& wanted = document_.model.accessors[static_cast<std::size_t>(named->second)];
-            keep(wanted.count * bytesOf(wanted.componentType) * static_cast<std::size_t>(componentsOf(wanted)));
-            const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+            const tiny::Accessor& wanted = document_.model.accessors[std::size_t(named->second)];
+            keep(wanted.count * bytesOf(wanted.componentType) * std::size_t(componentsOf(wanted)));
+            const draco::PointAttribute& stored = *mesh.GetAttributeByUniqueId(std::uint32_t(id));
             geometry.attributes[name] = packedElements(mesh, stored, name, wanted);
         }
         keep(3 * std::uint64_t{mesh.num_faces()} * sizeof(std::uint32_t));

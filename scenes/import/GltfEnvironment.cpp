@@ -1,14 +1,10 @@
 #include "scenes/import/GltfSteps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <type_traits>
-#include <utility>
 
-#include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <tbb/parallel_for.h>
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "scenes/import/GltfThinSolids.h"
 
 namespace tessera::scenes::gltf {
@@ -99,10 +97,9 @@ public:
         context_.document.repair(place_, "what it would be a corner of is left out", "{}", what);
         std::size_t kept = 0;
         for (std::size_t element = 0; element + each <= corners.size(); element += each) {
-            const auto begin = corners.begin() + static_cast<std::ptrdiff_t>(element),
-                       end = begin + static_cast<std::ptrdiff_t>(each);
+            const auto begin = corners.begin() + std::ptrdiff_t(element), end = begin + std::ptrdiff_t(each);
             if (std::any_of(begin, end, isLost)) continue;
-            std::copy(begin, end, corners.begin() + static_cast<std::ptrdiff_t>(kept));
+            std::copy(begin, end, corners.begin() + std::ptrdiff_t(kept));
             kept += each;
         }
         corners.resize(kept);
@@ -174,13 +171,13 @@ private:
                 vectors<glm::vec4>(weightsName, readVertices(weightsName, {4}), false);
             for (std::size_t v = 0; v < vertexCount_; ++v)
                 for (std::size_t i = 0; i < kSet; ++i) {
-                    const float weight = weights[v][static_cast<glm::length_t>(i)];
+                    const float weight = weights[v][glm::length_t(i)];
                     const bool counts = weight >= 0.0f && std::isfinite(weight);
                     hasNonsense = hasNonsense || !counts;
                     const std::size_t at = v * shape.influences + set * kSet + i;
                     if (!counts || weight == 0.0f) continue;
                     shape.weights[at] = weight;
-                    shape.joints[at] = static_cast<std::uint32_t>(joints.values[v * kSet + i]);
+                    shape.joints[at] = std::uint32_t(joints.values[v * kSet + i]);
                 }
         }
         if (hasNonsense) context_.warn("{}: weights of joints that are negative or not finite count as 0", place_);
@@ -228,8 +225,8 @@ private:
     Elements colors(float alpha) {
         Elements elements = readVertices("COLOR_0", {3, 4});
         if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-            const double largest = std::exp2(8.0 * static_cast<double>(bytesOf(elements.componentType))) - 1.0;
-            for (float& value : elements.values) value = static_cast<float>(value / largest);
+            const double largest = std::exp2(8.0 * double(bytesOf(elements.componentType))) - 1.0;
+            for (float& value : elements.values) value = float(value / largest);
             context_.warn("{}/{}/COLOR_0: holds integers that are not marked normalized; read as if they were", place_,
                           inPlace_);
         }
@@ -252,7 +249,7 @@ private:
         std::vector<Vector> result(elements.count);
         for (std::size_t i = 0; i < elements.count; ++i)
             for (int c = 0; c < kWidth; ++c) {
-                const float value = elements.values[i * static_cast<std::size_t>(kWidth) + static_cast<std::size_t>(c)];
+                const float value = elements.values[i * std::size_t(kWidth) + std::size_t(c)];
                 if (mustBeFinite && !std::isfinite(value))
                     fail(attribute, "holds {} in element {}; every {} must be finite", value, i, attribute);
                 result[i][c] = value;
@@ -292,13 +289,9 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
     mesh.tangentsOS.clear();
 }
 
-} // namespace
-
-namespace {
-
 std::optional<Shape> readPrimitive(Context& context, int meshIndex, int primitiveIndex, Deforms deforms) {
     const tiny::Mesh& stored = elementAt(context.document.model.meshes, meshIndex);
-    const tiny::Primitive& primitive = stored.primitives[static_cast<std::size_t>(primitiveIndex)];
+    const tiny::Primitive& primitive = stored.primitives[std::size_t(primitiveIndex)];
     const std::string place = fmt::format("/meshes/{}/primitives/{}", meshIndex, primitiveIndex);
     Shape shape;
     Mesh& mesh = shape.rest;

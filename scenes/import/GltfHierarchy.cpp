@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -18,7 +17,7 @@ std::vector<int> parentsOf(const Document& document) {
     const std::vector<tiny::Node>& nodes = document.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
     for (std::size_t node = 0; node < nodes.size(); ++node)
-        for (const int child : nodes[node].children) parents[static_cast<std::size_t>(child)] = static_cast<int>(node);
+        for (const int child : nodes[node].children) parents[std::size_t(child)] = int(node);
     return parents;
 }
 
@@ -26,7 +25,7 @@ std::vector<int> parentsOf(const Document& document) {
 std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
     std::vector<int> roots(parents.size());
     std::iota(roots.begin(), roots.end(), 0);
-    const auto isRoot = [&](int node) { return parents[static_cast<std::size_t>(node)] < 0; };
+    const auto isRoot = [&](int node) { return parents[std::size_t(node)] < 0; };
     if (document.scene() == nullptr)
         std::erase_if(roots, [&](int node) { return !isRoot(node); });
     else
@@ -91,16 +90,16 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
             next.isDrawn = isDrawn;
             next.isVisible = waiting.back().isVisible;
             waiting.pop_back();
-            if (isPlaced[static_cast<std::size_t>(next.node)]) {
+            if (isPlaced[std::size_t(next.node)]) {
                 document.repair(placeOf(next.node), "the first place counts",
                                 "has several parents, or is a root as well");
                 continue;
             }
-            isPlaced[static_cast<std::size_t>(next.node)] = true;
+            isPlaced[std::size_t(next.node)] = true;
             next.isVisible = next.isVisible && isVisible(elementAt(document.model.nodes, next.node));
             next.parentFromNode = parentFromNodeOf(document, next.node);
             const glm::dmat4 worldFromParent =
-                next.parent >= 0 ? placed[static_cast<std::size_t>(next.parent)].worldFromNode : glm::dmat4(1.0);
+                next.parent >= 0 ? placed[std::size_t(next.parent)].worldFromNode : glm::dmat4(1.0);
             next.worldFromNode = worldFromParent * next.parentFromNode;
             if (!isFinite(next.worldFromNode)) {
                 document.repair(placeOf(next.node), "it is hidden with all below it",
@@ -110,8 +109,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
                 next.worldFromNode = worldFromParent;
             }
             placed.push_back(next);
-            wait(elementAt(document.model.nodes, next.node).children, static_cast<int>(placed.size()) - 1,
-                 next.isVisible);
+            wait(elementAt(document.model.nodes, next.node).children, int(placed.size()) - 1, next.isVisible);
         }
     };
     placeTrees(rootsOf(document, parents), true);
@@ -119,17 +117,16 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     std::vector<bool> isFollowed(document.model.skins.size()); // once each
     std::vector<int> climbedFrom(parents.size(), kNone);
     for (std::size_t i = 0; i < drawn; ++i) {
-        const tiny::Node& node = document.model.nodes[static_cast<std::size_t>(placed[i].node)];
-        if (node.skin == kNone || node.mesh == kNone || isFollowed[static_cast<std::size_t>(node.skin)]) continue;
-        isFollowed[static_cast<std::size_t>(node.skin)] = true;
+        const tiny::Node& node = document.model.nodes[std::size_t(placed[i].node)];
+        if (node.skin == kNone || node.mesh == kNone || isFollowed[std::size_t(node.skin)]) continue;
+        isFollowed[std::size_t(node.skin)] = true;
         for (int joint : elementAt(document.model.skins, node.skin).joints) {
-            if (isPlaced[static_cast<std::size_t>(joint)]) continue;
+            if (isPlaced[std::size_t(joint)]) continue;
             const int start = joint;
-            climbedFrom[static_cast<std::size_t>(joint)] = start;
-            for (int parent = parents[static_cast<std::size_t>(joint)];
-                 parent >= 0 && !isPlaced[static_cast<std::size_t>(parent)];
-                 parent = parents[static_cast<std::size_t>(joint)]) {
-                if (std::exchange(climbedFrom[static_cast<std::size_t>(parent)], start) == start) break; // a cycle
+            climbedFrom[std::size_t(joint)] = start;
+            for (int parent = parents[std::size_t(joint)]; parent >= 0 && !isPlaced[std::size_t(parent)];
+                 parent = parents[std::size_t(joint)]) {
+                if (std::exchange(climbedFrom[std::size_t(parent)], start) == start) break; // a cycle
                 joint = parent;
             }
             placeTrees({joint}, false);

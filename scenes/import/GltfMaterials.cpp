@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
-#include <string_view>
 #include <unordered_set>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/Error.h"
-#include "scenes/import/GltfDocument.h"
 #include "scenes/import/GltfSteps.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/MadeImages.h"
@@ -23,7 +17,7 @@ namespace {
 /// and any number of them may name one file or one buffer; of those that can be read the ledger bounds the number.
 constexpr std::uint64_t kMostUnreadableBytes = std::uint64_t{1} << 32;
 
-Image decoded(const Context& context, int index) {
+Image decoded(Context& context, int index) {
     const Document& document = context.document;
     const tiny::Image& stored = elementAt(document.model.images, index);
     const std::string& uri = stored.uri;
@@ -136,7 +130,7 @@ std::optional<Image> readableImage(Context& context, int index, const char* inst
 
 unsigned Materials::neededSets(const ShownMaterial& shown) const {
     if (shown.index < 0) return 0;
-    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(shown.index)];
+    const StoredMaterial& stored = context_.document.materials[std::size_t(shown.index)];
     unsigned needed = 0;
     const auto add = [&](const TextureInfo& info) {
         if (info.texture != kNone) needed |= bitOf(info.texCoordSet);
@@ -157,7 +151,7 @@ unsigned Materials::neededSets(const ShownMaterial& shown) const {
 ShownMaterial Materials::shownBy(const tiny::Primitive& primitive, Mesh& mesh) const {
     ShownMaterial shown{primitive.material, shadingOf(primitive), bitOf(kTexCoordSets)};
     for (int set = 0; set < kTexCoordSets; ++set)
-        if (mesh.texCoords[static_cast<std::size_t>(set)].empty()) shown.lostSets |= bitOf(set);
+        if (mesh.texCoords[std::size_t(set)].empty()) shown.lostSets |= bitOf(set);
     const ShownMaterial ofVariant{context_.variantMaterial(primitive).value_or(kNone), shown.shading};
     const unsigned needed = neededSets(shown) | neededSets(ofVariant);
     if (shown.lostSets == 2 * bitOf(kTexCoordSets) - 1 && needed != 0) {
@@ -172,7 +166,7 @@ ShownMaterial Materials::distinct(ShownMaterial shown) const {
     const ShownMaterial asStated{shown.index, Shading::AsStated, shown.lostSets};
     if (shown.shading == Shading::AsStated) return asStated;
     if (shown.index < 0) return shown.shading == Shading::Unlit ? shown : asStated;
-    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(shown.index)];
+    const StoredMaterial& stored = context_.document.materials[std::size_t(shown.index)];
     if (stored.surface.model == MaterialModel::SingleColor) return asStated;
     const auto hasTexture = [&](TextureSlot slot) { return storedTexture(stored, slot).texture != kNone; };
     const bool hasNormalMap = hasTexture(TextureSlot::Normal) || hasTexture(TextureSlot::ClearcoatNormal);
@@ -191,12 +185,12 @@ int Materials::material(ShownMaterial asked) {
         if (shown.shading == Shading::Unlit) material = unlitOf(material);
     }
     context_.scene.materials.push_back(std::move(material));
-    return materials_[shown] = static_cast<int>(context_.scene.materials.size()) - 1;
+    return materials_[shown] = int(context_.scene.materials.size()) - 1;
 }
 
 Material Materials::convert(ShownMaterial shown) {
     const int index = shown.index;
-    const StoredMaterial& stored = context_.document.materials[static_cast<std::size_t>(index)];
+    const StoredMaterial& stored = context_.document.materials[std::size_t(index)];
     const std::string place = fmt::format("/materials/{}", index);
     const std::string suffix = suffixOf(shown);
     constexpr std::size_t kCopies = 2; // while a vector grows
@@ -239,7 +233,7 @@ void Materials::addEmission(const StoredMaterial& stored, const std::string& pla
     if (hasTexture)
         return context_.warn(place + ": its emission is left out at points and lines without normals, since it or the "
                                      "base colour has a texture");
-    const float most = static_cast<float>(fieldOf(kMaterialFields, &Material::baseColor).most);
+    const float most = float(fieldOf(kMaterialFields, &Material::baseColor).most);
     material.baseColor = glm::vec4(glm::min(glm::vec3(material.baseColor) + emissive, most), material.baseColor.a);
 }
 
@@ -278,14 +272,14 @@ int Materials::roughnessOf(int image, float glossiness) {
     const auto [entry, isNew] = roughness_.try_emplace({image, glossiness}, kNone);
     if (!isNew) return entry->second;
     std::vector<Image>& images = context_.scene.images;
-    const Image& alpha = images[static_cast<std::size_t>(image)];
+    const Image& alpha = images[std::size_t(image)];
     context_.document.ledger.charge(alpha.texels.size(), [&] {
         return fmt::format("{}: the roughness of '{}'", context_.document.file, alpha.name);
     });
     const ChannelSource roughness{&alpha, 3, -double(glossiness), 1.0};
     Image packed = packChannels(alpha.name + " as roughness", {ChannelSource{}, roughness, ChannelSource{}, {}});
     images.push_back(std::move(packed));
-    return entry->second = static_cast<int>(images.size()) - 1;
+    return entry->second = int(images.size()) - 1;
 }
 
 std::vector<int> Materials::imported(int index) const {
@@ -328,14 +322,14 @@ int Materials::image(int index, const char* instead) {
     std::optional<Image> readable = readableImage(context_, index, instead);
     if (!readable) return kNone;
     context_.scene.images.push_back(std::move(*readable));
-    return entry->second = static_cast<int>(context_.scene.images.size()) - 1;
+    return entry->second = int(context_.scene.images.size()) - 1;
 }
 
 int Materials::standIn() {
     if (standIn_ == kNone) {
         const std::string& file = context_.document.file;
         context_.scene.images.push_back(standInPicture(context_.document.ledger, file + ": a stand-in"));
-        standIn_ = static_cast<int>(context_.scene.images.size()) - 1;
+        standIn_ = int(context_.scene.images.size()) - 1;
     }
     return standIn_;
 }

@@ -1,10 +1,4 @@
 #pragma once
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "scenes/import/GltfContext.h"
 
 namespace tessera::scenes::gltf {

@@ -70,7 +70,7 @@ std::string pointerOf(const tiny::AnimationChannel& channel) {
 
 int componentsOf(const tiny::Accessor& accessor) {
     if (accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3) return 0;
-    return tiny::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    return tiny::GetNumComponentsInType(std::uint32_t(accessor.type));
 }
 
 Sampler samplerOf(const tiny::Sampler& stored) {
@@ -102,7 +102,7 @@ TextureInfo textureInfo(int texture, int texCoordSet, const tiny::Value* transfo
     TextureInfo info{texture, integerOf(valueAt(transform, "texCoord"), texCoordSet), {}};
     info.transform.offset = vectorOf(numbersOf(valueAt(transform, "offset")), info.transform.offset);
     info.transform.scale = vectorOf(numbersOf(valueAt(transform, "scale")), info.transform.scale);
-    info.transform.rotationRadians = static_cast<float>(numberOf(valueAt(transform, "rotation"), 0.0));
+    info.transform.rotationRadians = float(numberOf(valueAt(transform, "rotation"), 0.0));
     return info;
 }
 
@@ -131,8 +131,8 @@ TextureInfo textureAt(const tiny::Material& stored, const TexturePlace& place) {
 SpecularGlossiness specularGlossinessOf(const tiny::Value* stored) {
     return {vectorOf(numbersOf(valueAt(stored, "diffuseFactor")), glm::vec4(1.0f)),
             vectorOf(numbersOf(valueAt(stored, "specularFactor")), glm::vec3(1.0f)),
-            static_cast<float>(numberOf(valueAt(stored, "glossinessFactor"), 1.0)),
-            textureInfo(valueAt(stored, "diffuseTexture")), textureInfo(valueAt(stored, "specularGlossinessTexture"))};
+            float(numberOf(valueAt(stored, "glossinessFactor"), 1.0)), textureInfo(valueAt(stored, "diffuseTexture")),
+            textureInfo(valueAt(stored, "specularGlossinessTexture"))};
 }
 
 /// Takes all numbers of extensions that a member of the material holds.
@@ -142,7 +142,7 @@ void readExtensions(const tiny::ExtensionMap& extensions, Material& material) {
         const tiny::Value* const value = valueAt(extensions, property.path.substr(kExtensions.size()));
         if (value == nullptr) continue;
         if (const auto* number = std::get_if<float Material::*>(&property.member))
-            material.*(*number) = static_cast<float>(value->GetNumberAsDouble());
+            material.*(*number) = float(value->GetNumberAsDouble());
         if (const auto* color = std::get_if<glm::vec3 Material::*>(&property.member))
             material.*(*color) = vectorOf(numbersOf(value), material.*(*color));
     }
@@ -156,18 +156,18 @@ StoredMaterial::StoredMaterial(const tiny::Material& stored) {
     const tiny::PbrMetallicRoughness& metallicRoughness = stored.pbrMetallicRoughness;
     surface.name = stored.name;
     surface.baseColor = vectorOf(metallicRoughness.baseColorFactor, surface.baseColor);
-    surface.metallic = static_cast<float>(metallicRoughness.metallicFactor);
-    surface.perceptualRoughness = static_cast<float>(metallicRoughness.roughnessFactor);
-    surface.normalScale = static_cast<float>(stored.normalTexture.scale);
-    surface.occlusionStrength = static_cast<float>(stored.occlusionTexture.strength);
+    surface.metallic = float(metallicRoughness.metallicFactor);
+    surface.perceptualRoughness = float(metallicRoughness.roughnessFactor);
+    surface.normalScale = float(stored.normalTexture.scale);
+    surface.occlusionStrength = float(stored.occlusionTexture.strength);
     if (stored.alphaMode != "OPAQUE")
         surface.alphaMode = stored.alphaMode == "MASK" ? AlphaMode::Mask : AlphaMode::Blend;
-    surface.alphaCutoff = static_cast<float>(stored.alphaCutoff);
+    surface.alphaCutoff = float(stored.alphaCutoff);
     surface.doubleSided = stored.doubleSided;
     for (std::size_t i = 0; i < textures.size(); ++i) textures[i] = textureAt(stored, kTexturePlaces[i]);
     emissiveFactor = vectorOf(stored.emissiveFactor, emissiveFactor);
-    emissiveStrength = static_cast<float>(
-        numberOf(valueAt(stored.extensions, "KHR_materials_emissive_strength/emissiveStrength"), 1.0));
+    emissiveStrength =
+        float(numberOf(valueAt(stored.extensions, "KHR_materials_emissive_strength/emissiveStrength"), 1.0));
     // An unlit material is its base colour; the rest is a fallback for programs that do not know the extension.
     if (stored.extensions.contains("KHR_materials_unlit")) {
         surface.model = MaterialModel::SingleColor;

@@ -1,16 +1,4 @@
 #pragma once
-#include <array>
-#include <cstddef>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <glm/glm.hpp>
-
-#include "scenes/Scene.h"
 #include "scenes/import/GltfParser.h"
 
 /// What the importer makes of tinygltf's objects, which checkedProperties() checked (GltfParser.h). Indices are kNone
@@ -19,7 +7,7 @@ namespace tessera::scenes::gltf {
 
 template <typename Element>
 const Element& elementAt(const std::vector<Element>& elements, int index) {
-    return elements[static_cast<std::size_t>(index)];
+    return elements[std::size_t(index)];
 }
 
 // ---- Values of extensions ------------------------------------------------------------------------------------------
@@ -41,7 +29,7 @@ std::map<std::string, int> integersByName(const tiny::Value* value);
 template <glm::length_t kLength, typename Number>
 glm::vec<kLength, Number> vectorOf(const std::vector<double>& numbers, glm::vec<kLength, Number> otherwise) {
     for (glm::length_t i = 0; i < kLength && !numbers.empty(); ++i)
-        otherwise[i] = static_cast<Number>(numbers[static_cast<std::size_t>(i)]);
+        otherwise[i] = static_cast<Number>(numbers[std::size_t(i)]);
     return otherwise;
 }
 

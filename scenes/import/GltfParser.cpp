@@ -2,11 +2,6 @@
 
 #include <fstream> // which tiny_gltf.h leaves out with TINYGLTF_NO_FS
 #include <limits>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "base/Error.h"
 
 #define tinygltf tessera_tinygltf
 #define TINYGLTF_IMPLEMENTATION
@@ -66,12 +61,11 @@ tiny::Model tinyModel(Json document, const std::string& file, LoadLedger& ledger
     if (text.size() > std::numeric_limits<unsigned>::max())
         throw InputError(fmt::format("{}: its JSON is larger than 4 GiB; split the model", file));
     std::string error, warning;
-    if (!tiny::TinyGLTF().LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
-                                              ""))
+    if (!tiny::TinyGLTF().LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), ""))
         throw InputError(fmt::format("{}: {}", file, error));
     if (hasExtraView) {
         model.bufferViews.pop_back();
-        const int extra = static_cast<int>(model.bufferViews.size());
+        const int extra = int(model.bufferViews.size());
         for (tiny::Accessor& accessor : model.accessors)
             if (accessor.bufferView == extra) accessor.bufferView = kNone;
     }

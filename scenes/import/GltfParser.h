@@ -1,9 +1,6 @@
 #pragma once
-#include <string>
-
 #include <nlohmann/json.hpp>
 
-#include "scenes/LoadLedger.h"
 #include "scenes/import/Repairs.h"
 
 // Renamed: a program that links this library may contain its own tinygltf, built with other options.

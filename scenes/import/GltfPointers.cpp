@@ -3,8 +3,6 @@
 #include <charconv>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "scenes/import/GltfRig.h"
 
 namespace tessera::scenes::gltf {
@@ -12,15 +10,10 @@ namespace {
 
 constexpr std::string_view kArrays[] = {kNodesPointer, kMaterialsPointer, kLightsPointer, kCamerasPointer};
 
-const AnimatedPropertyInfo* propertyAt(std::string_view path, auto isOwner) {
-    const auto rows = animatedProperties();
-    const auto found = std::ranges::find_if(
-        rows, [&](const AnimatedPropertyInfo& row) { return row.path == path && isOwner(row.owner); });
-    return found == rows.end() ? nullptr : &*found;
-}
-
 const AnimatedPropertyInfo* propertyOf(AnimatedOwner owner, std::string_view path) {
-    return propertyAt(path, [&](AnimatedOwner of) { return of == owner; });
+    for (const AnimatedPropertyInfo& row : animatedProperties())
+        if (row.path == path && row.owner == owner) return &row;
+    return nullptr;
 }
 
 /// KHR_materials_pbrSpecularGlossiness has others in the place of these (Materials::convertSpecularGlossiness).
@@ -86,16 +79,16 @@ std::string kindOf(std::string_view pointer) {
 // ---- What they are in the scene ------------------------------------------------------------------------------------
 
 std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_view path) {
-    const AnimatedPropertyInfo* const info = propertyAt(
-        path, [](AnimatedOwner owner) { return owner == AnimatedOwner::Node || owner == AnimatedOwner::Weights; });
+    const AnimatedPropertyInfo* info = propertyOf(AnimatedOwner::Node, path);
+    if (info == nullptr) info = propertyOf(AnimatedOwner::Weights, path);
     if (info == nullptr) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
-    if (sceneNodes_[static_cast<std::size_t>(index)] == kNone) return animated; // nothing of the scene moves
+    Animated animated{info->property, std::size_t(info->width)};
+    if (sceneNodes_[std::size_t(index)] == kNone) return animated; // nothing of the scene moves
     if (info->owner == AnimatedOwner::Weights) {
         const auto rest = weights_.find(index);
         if (rest == weights_.end()) return {};
         animated.targets.push_back(rest->second);
-        animated.width = context_.scene.rig.weights[static_cast<std::size_t>(rest->second)].size();
+        animated.width = context_.scene.rig.weights[std::size_t(rest->second)].size();
         return animated;
     }
     if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no parts to change
@@ -107,10 +100,9 @@ std::optional<Rigging::Animated> Rigging::animatedOfLight(std::size_t index, std
     const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Light, path);
     const std::vector<double>& wattsPerUnit = context_.document.wattsPerUnit;
     if (info == nullptr || index >= wattsPerUnit.size()) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+    Animated animated{info->property, std::size_t(info->width)};
     if (info->property == AnimatedProperty::LightIntensity) animated.scale = wattsPerUnit[index];
-    for (const int light : lights_[static_cast<int>(index)])
-        animated.targets.push_back(restNumber(info->property, light));
+    for (const int light : lights_[int(index)]) animated.targets.push_back(restNumber(info->property, light));
     return animated;
 }
 
@@ -119,7 +111,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     if (index >= materials.size()) return {};
     const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Material, path);
     if (info == nullptr) return animatedOfTexture(index, path);
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+    Animated animated{info->property, std::size_t(info->width)};
     const StoredMaterial& stored = materials[index];
     const bool isOfEmission =
         info->property == AnimatedProperty::Emissive || info->property == AnimatedProperty::EmissiveStrength;
@@ -131,11 +123,11 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
     animated.emissiveFactor = stored.emissiveFactor;
     if (info->property == AnimatedProperty::Thickness) {
-        const auto scale = context_.thicknessScales.find(static_cast<int>(index));
+        const auto scale = context_.thicknessScales.find(int(index));
         if (scale != context_.thicknessScales.end()) animated.scale = scale->second.value_or(1.0);
     }
-    for (const int material : materials_.imported(static_cast<int>(index))) {
-        const MaterialModel shown = context_.scene.materials[static_cast<std::size_t>(material)].model;
+    for (const int material : materials_.imported(int(index))) {
+        const MaterialModel shown = context_.scene.materials[std::size_t(material)].model;
         if (shown == MaterialModel::SingleColor && !isOfUnlit) continue;
         const bool hasEmission =
             !isUnlit && shown == MaterialModel::SingleColor && stored.surface.emissive != glm::vec3(0.0f);
@@ -158,10 +150,10 @@ std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, s
         if (!path.starts_with(place) || path.size() == place.size() || path[place.size()] != '/') continue;
         const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Texture, path.substr(place.size() + 1));
         if (info == nullptr || stored.textures[i].texture == kNone) return {};
-        Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+        Animated animated{info->property, std::size_t(info->width)};
         if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // has another texture there
-        for (const int material : materials_.imported(static_cast<int>(index)))
-            if (context_.scene.materials[static_cast<std::size_t>(material)].texture(slot).image != kNone)
+        for (const int material : materials_.imported(int(index)))
+            if (context_.scene.materials[std::size_t(material)].texture(slot).image != kNone)
                 animated.targets.push_back(restNumber(info->property, material, slot));
         return animated;
     }
@@ -174,29 +166,24 @@ std::optional<Rigging::Animated> Rigging::animatedOfCamera(std::size_t index, st
     if (info == nullptr || index >= cameras.size()) return {};
     const bool isPerspective = cameras[index].type == "perspective";
     if (info->path.starts_with("perspective/") != isPerspective) return {};
-    Animated animated{info->property, {}, static_cast<std::size_t>(info->width)};
+    Animated animated{info->property, std::size_t(info->width)};
     const bool isUpsideDown =
         info->property == AnimatedProperty::CameraHalfHeight && cameras[index].orthographic.ymag < 0;
     if (isUpsideDown) animated.scale = -1.0; // its size counts, as where it is imported
-    for (const int camera : cameras_[static_cast<int>(index)])
-        animated.targets.push_back(restNumber(info->property, camera));
+    for (const int camera : cameras_[int(index)]) animated.targets.push_back(restNumber(info->property, camera));
     return animated;
-}
-
-std::optional<Rigging::Animated> Rigging::animatedByPointer(const std::string& pointer) {
-    std::string_view path = pointer;
-    if (const auto node = cutIndex(path, kNodesPointer))
-        return *node < sceneNodes_.size() ? animatedOfNode(static_cast<int>(*node), path) : std::nullopt;
-    if (const auto light = cutIndex(path, kLightsPointer)) return animatedOfLight(*light, path);
-    if (const auto material = cutIndex(path, kMaterialsPointer)) return animatedOfMaterial(*material, path);
-    if (const auto camera = cutIndex(path, kCamerasPointer)) return animatedOfCamera(*camera, path);
-    return {};
 }
 
 /// None where the scene has no such thing that can change.
 std::optional<Rigging::Animated> Rigging::animated(const tiny::AnimationChannel& channel) {
-    if (channel.target_path == "pointer") return animatedByPointer(pointerOf(channel));
-    return channel.target_node == kNone ? std::nullopt : animatedOfNode(channel.target_node, channel.target_path);
+    const std::string changed = changedBy(channel);
+    std::string_view path = changed;
+    if (const auto node = cutIndex(path, kNodesPointer))
+        return *node < sceneNodes_.size() ? animatedOfNode(int(*node), path) : std::nullopt;
+    if (const auto light = cutIndex(path, kLightsPointer)) return animatedOfLight(*light, path);
+    if (const auto material = cutIndex(path, kMaterialsPointer)) return animatedOfMaterial(*material, path);
+    if (const auto camera = cutIndex(path, kCamerasPointer)) return animatedOfCamera(*camera, path);
+    return {};
 }
 
 } // namespace tessera::scenes::gltf

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "scenes/Rest.h"
 
 namespace tessera::scenes::gltf {
 namespace {
 
+constexpr std::string_view kIdentity = "what is not there counts as the identity";
+
 bool anyMorphs(const std::vector<double>& weights, std::size_t targets) {
     const auto counted = std::span(weights).first(std::min(weights.size(), targets));
-    return std::ranges::any_of(counted, [](double weight) { return static_cast<float>(weight) != 0.0f; });
+    return std::ranges::any_of(counted, [](double weight) { return float(weight) != 0.0f; });
 }
 
 } // namespace
@@ -43,19 +41,19 @@ std::vector<float> Rigging::restWeights(int index) const {
     const tiny::Node& node = elementAt(model.nodes, index);
     const tiny::Mesh& mesh = elementAt(model.meshes, node.mesh);
     const std::vector<double>& stated = node.weights.empty() ? mesh.weights : node.weights;
-    const std::size_t targets = targetCounts_[static_cast<std::size_t>(node.mesh)];
+    const std::size_t targets = targetCounts_[std::size_t(node.mesh)];
     std::vector<float> weights(targets, 0.0f);
-    std::transform(stated.begin(), stated.begin() + static_cast<std::ptrdiff_t>(std::min(stated.size(), targets)),
-                   weights.begin(), [](double weight) { return static_cast<float>(weight); });
+    std::transform(stated.begin(), stated.begin() + std::ptrdiff_t(std::min(stated.size(), targets)), weights.begin(),
+                   [](double weight) { return float(weight); });
     return weights;
 }
 
 /// Takes no time that grows with the mesh: all nodes of a file may show the same large one.
 Deforms Rigging::deformsOf(int index) const {
     const tiny::Node& node = elementAt(context_.document.model.nodes, index);
-    const auto mesh = static_cast<std::size_t>(node.mesh);
+    const auto mesh = std::size_t(node.mesh);
     const bool isMorphed = node.weights.empty() ? isMorphed_[mesh] : anyMorphs(node.weights, targetCounts_[mesh]);
-    const bool mayMorph = targetCounts_[mesh] > 0 && hasAnimatedWeights_[static_cast<std::size_t>(index)];
+    const bool mayMorph = targetCounts_[mesh] > 0 && hasAnimatedWeights_[std::size_t(index)];
     return {isMorphed || mayMorph, node.skin != kNone};
 }
 
@@ -64,19 +62,14 @@ const std::vector<Rigging::Drawn>& Rigging::shapesOf(int mesh, Deforms deforms, 
     if (!isNew) return entry->second;
     const auto& primitives = elementAt(context_.document.model.meshes, mesh).primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        std::optional<Shape> imported = importPrimitive(context_, mesh, static_cast<int>(i), deforms);
+        std::optional<Shape> imported = importPrimitive(context_, mesh, int(i), deforms);
         if (!imported) continue;
         std::vector<Shape>& shapes = context_.scene.rig.shapes;
         const ShownMaterial shown = materials_.shownBy(primitives[i], imported->rest);
         shapes.push_back(std::move(*imported));
-        entry->second.push_back(
-            {static_cast<int>(shapes.size()) - 1, materials_.material(shown), &primitives[i], shown.lostSets});
+        entry->second.push_back({int(shapes.size()) - 1, materials_.material(shown), &primitives[i], shown.lostSets});
     }
     return entry->second;
-}
-
-namespace {
-constexpr std::string_view kIdentity = "what is not there counts as the identity";
 }
 
 void Rigging::readMatrices(int accessor, int skin, std::vector<glm::dmat4>& jointFromBind) const {
@@ -95,14 +88,14 @@ void Rigging::readMatrices(int accessor, int skin, std::vector<glm::dmat4>& join
             continue;
         }
         for (std::size_t i = 0; i < kEntries; ++i) {
-            const auto column = static_cast<glm::length_t>(i / 4), row = static_cast<glm::length_t>(i % 4);
+            const auto column = glm::length_t(i / 4), row = glm::length_t(i % 4);
             if (row < 3) jointFromBind[joint][column][row] = numbers[i];
         }
     }
 }
 
 int Rigging::skinOf(int index) {
-    const auto [entry, isNew] = skins_.try_emplace(index, static_cast<int>(context_.scene.rig.skins.size()));
+    const auto [entry, isNew] = skins_.try_emplace(index, int(context_.scene.rig.skins.size()));
     if (!isNew) return entry->second;
     const Document& document = context_.document;
     const tiny::Skin& stored = elementAt(document.model.skins, index);
@@ -110,7 +103,7 @@ int Rigging::skinOf(int index) {
     document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4) + sizeof(glm::dmat4x3)), "skins", index);
     Skin skin;
     skin.name = nameOr(stored.name, "skin", index);
-    for (const int joint : stored.joints) skin.joints.push_back(sceneNodes_[static_cast<std::size_t>(joint)]);
+    for (const int joint : stored.joints) skin.joints.push_back(sceneNodes_[std::size_t(joint)]);
     skin.jointFromBind.assign(skin.joints.size(), glm::dmat4(1.0));
     if (stored.inverseBindMatrices != kNone)
         document.repairs.attempt(kIdentity,
@@ -148,22 +141,22 @@ void Rigging::addDeformed(int index) {
     Scene& scene = context_.scene;
     const Deforms deforms = deformsOf(index);
     Deformed deformed;
-    deformed.node = deformed.standsAt = sceneNodes_[static_cast<std::size_t>(index)];
+    deformed.node = deformed.standsAt = sceneNodes_[std::size_t(index)];
     if (deforms.byTargets) {
         std::vector<float> rest = restWeights(index);
         // A pose has them too, in double precision.
         document.charge(2 * sizeof(rest) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
-        deformed.weights = weights_[index] = static_cast<int>(scene.rig.weights.size());
+        deformed.weights = weights_[index] = int(scene.rig.weights.size());
         scene.rig.weights.push_back(std::move(rest));
     }
     if (deforms.byJoints) deformed.skin = skinOf(node.skin);
     const std::size_t joints = deformed.skin == kNone ? 0 : scene.rig.skins[std::size_t(deformed.skin)].joints.size();
     for (const Drawn& drawn : shapesOf(node.mesh, deforms, joints)) {
-        Shape& shape = scene.rig.shapes[static_cast<std::size_t>(drawn.shape)];
+        Shape& shape = scene.rig.shapes[std::size_t(drawn.shape)];
         document.charge(bytesOf(shape.rest) + 2 * (sizeof(Deformed) + sizeof(Standing) + sizeof(Node)), "nodes", index);
         if (deformed.skin != kNone) mendInfluences(shape, node.mesh, node.skin, joints);
         deformed.shape = drawn.shape;
-        deformed.mesh = static_cast<int>(scene.meshes.size());
+        deformed.mesh = int(scene.meshes.size());
         context_.noteMesh(deformed.mesh, *drawn.primitive, drawn.lostSets);
         scene.meshes.push_back(shape.rest);
         MeshInstance instance;
@@ -172,7 +165,7 @@ void Rigging::addDeformed(int index) {
         if (deforms.byJoints)
             standing_.push_back({scene.rig.deformed.size(), instance});
         else
-            scene.nodes[static_cast<std::size_t>(deformed.node)].instances.push_back(instance);
+            scene.nodes[std::size_t(deformed.node)].instances.push_back(instance);
         scene.rig.deformed.push_back(deformed);
     }
 }
@@ -183,9 +176,9 @@ void Rigging::addSkinnedNodes() {
     for (const Standing& standing : standing_) {
         Deformed& deformed = scene.rig.deformed[standing.deformed];
         Node node;
-        node.name = scene.nodes[static_cast<std::size_t>(deformed.node)].name;
+        node.name = scene.nodes[std::size_t(deformed.node)].name;
         node.instances.push_back(standing.instance);
-        deformed.standsAt = static_cast<int>(scene.nodes.size());
+        deformed.standsAt = int(scene.nodes.size());
         scene.nodes.push_back(std::move(node));
     }
 }
@@ -193,14 +186,14 @@ void Rigging::addSkinnedNodes() {
 // ---- Lights and cameras --------------------------------------------------------------------------------------------
 
 void Rigging::addLight(int index) {
-    const int element = static_cast<int>(context_.scene.lights.size()) - 1;
-    carriedLights_.push_back({element, sceneNodes_[static_cast<std::size_t>(index)]});
+    const int element = int(context_.scene.lights.size()) - 1;
+    carriedLights_.push_back({element, sceneNodes_[std::size_t(index)]});
     lights_[lightOf(elementAt(context_.document.model.nodes, index))].push_back(element);
 }
 
 void Rigging::addCamera(int index) {
-    const int element = static_cast<int>(context_.scene.cameras.size()) - 1;
-    carriedCameras_.push_back({element, sceneNodes_[static_cast<std::size_t>(index)]});
+    const int element = int(context_.scene.cameras.size()) - 1;
+    carriedCameras_.push_back({element, sceneNodes_[std::size_t(index)]});
     cameras_[elementAt(context_.document.model.nodes, index).camera].push_back(element);
 }
 
@@ -208,15 +201,14 @@ void Rigging::addCamera(int index) {
 void Rigging::carryAll() {
     Scene& scene = context_.scene;
     std::vector<bool> moves(scene.nodes.size());
-    for (const RestNode& rest : scene.rig.nodes) moves[static_cast<std::size_t>(rest.node)] = true;
+    for (const RestNode& rest : scene.rig.nodes) moves[std::size_t(rest.node)] = true;
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const int parent = scene.nodes[i].parent;
-        if (parent != kNone && moves[static_cast<std::size_t>(parent)]) moves[i] = true;
+        if (parent != kNone && moves[std::size_t(parent)]) moves[i] = true;
     }
     const auto keep = [&](const std::vector<Carried>& all, std::vector<Carried>& kept) {
-        std::ranges::copy_if(all, std::back_inserter(kept), [&](const Carried& carried) {
-            return static_cast<bool>(moves[static_cast<std::size_t>(carried.node)]);
-        });
+        std::ranges::copy_if(all, std::back_inserter(kept),
+                             [&](const Carried& carried) { return bool(moves[std::size_t(carried.node)]); });
     };
     keep(carriedLights_, scene.rig.lights);
     keep(carriedCameras_, scene.rig.cameras);
@@ -225,8 +217,7 @@ void Rigging::carryAll() {
 void Rigging::finish() {
     addSkinnedNodes();
     Rig& rig = context_.scene.rig;
-    for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i)
-        rig.clips.push_back(clip(static_cast<int>(i)));
+    for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i) rig.clips.push_back(clip(int(i)));
     takeRest(context_.scene);
     if (!rig.clips.empty()) rig.playing.push_back(0);
     warnOfMorphless();

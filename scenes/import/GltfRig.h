@@ -1,14 +1,7 @@
 #pragma once
-#include <map>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
-#include <vector>
 
-#include "scenes/import/GltfContext.h"
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfSteps.h"
 
@@ -67,9 +60,9 @@ private:
     /// What a channel changes.
     struct Animated {
         AnimatedProperty property{};
-        std::vector<int> targets; ///< as AnimationChannel::target
-        std::size_t width = 0;    ///< numbers of a value
-        double scale = 1.0;       ///< of the document's values
+        std::size_t width = 0;         ///< numbers of a value
+        std::vector<int> targets = {}; ///< as AnimationChannel::target
+        double scale = 1.0;            ///< of the document's values
         /// Of the channel that AnimatedProperty::EmissiveStrength makes: what its values multiply.
         glm::vec3 emissiveFactor{0.0f};
     };
@@ -84,7 +77,6 @@ private:
 
     Clip clip(int index);
     std::optional<Animated> animated(const tiny::AnimationChannel& channel);
-    std::optional<Animated> animatedByPointer(const std::string& pointer);
     std::optional<Animated> animatedOfNode(int node, std::string_view path);
     std::optional<Animated> animatedOfLight(std::size_t index, std::string_view path);
     std::optional<Animated> animatedOfMaterial(std::size_t index, std::string_view path);

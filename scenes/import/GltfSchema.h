@@ -1,10 +1,6 @@
 #pragma once
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <map>
-#include <string_view>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 

@@ -1,14 +1,5 @@
 #pragma once
 #include <compare>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-#include <glm/glm.hpp>
 
 #include "scenes/import/GltfContext.h"
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
-
 #include "scenes/Transform.h"
 #include "scenes/import/GltfMaterials.h"
 
@@ -42,7 +40,7 @@ void addUse(std::map<int, SharedScale>& scales, int index, const SharedScale& us
 
 float scaledThickness(const Material& material, double scale) {
     const double most = fieldOf(kMaterialFields, &Material::thicknessMetres).most;
-    return static_cast<float>(std::min(double(material.thicknessMetres) * scale, most));
+    return float(std::min(double(material.thicknessMetres) * scale, most));
 }
 
 /// Of the instances that show a material, where nodes show it at several scales.
@@ -83,16 +81,16 @@ bool splitByScale(Context& context, int index, int material) {
     for (const ScaledUse& use : *uses)
         if (scales.empty() || use.scale > scales.back() * (1.0 + kSameScale)) scales.push_back(use.scale);
     if (scales.size() > kMostScales) return false;
-    const Material original = scene.materials[static_cast<std::size_t>(material)];
+    const Material original = scene.materials[std::size_t(material)];
     constexpr std::size_t kWhileGrowing = 2, kDigits = 24; // copies of the vector; behind the name
     context.document.charge(kWhileGrowing * scales.size() * (sizeof(Material) + original.name.size() + kDigits),
                             "materials", index);
     auto use = uses->begin();
     for (const double scale : scales) {
         const bool isFirst = scale == scales.front();
-        const int own = isFirst ? material : static_cast<int>(scene.materials.size());
+        const int own = isFirst ? material : int(scene.materials.size());
         if (!isFirst) scene.materials.push_back(original);
-        Material& placed = scene.materials[static_cast<std::size_t>(own)];
+        Material& placed = scene.materials[std::size_t(own)];
         if (!isFirst) placed.name = fmt::format("{} at scale {:g}", original.name, scale);
         placed.thicknessMetres = scaledThickness(original, scale);
         for (; use != uses->end() && use->scale <= scale * (1.0 + kSameScale); ++use) use->instance->material = own;
@@ -126,7 +124,7 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
 void placeThicknesses(Context& context, const Materials& materials) {
     for (const auto& [index, scale] : context.thicknessScales)
         for (const int imported : materials.imported(index)) {
-            Material& placed = context.scene.materials[static_cast<std::size_t>(imported)];
+            Material& placed = context.scene.materials[std::size_t(imported)];
             if (scale)
                 placed.thicknessMetres = scaledThickness(placed, *scale);
             else if (hasBody(placed) && !splitByScale(context, index, imported))

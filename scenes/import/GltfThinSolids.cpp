@@ -1,16 +1,10 @@
 #include "scenes/import/GltfThinSolids.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <optional>
 #include <set>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "scenes/Direction.h"
 #include "scenes/import/GltfSteps.h"
@@ -48,7 +42,7 @@ glm::vec3 roundedPlace(const glm::dvec3& place) {
 std::array<glm::dvec3, 6> octahedron(double width) {
     std::array<glm::dvec3, 6> corners{};
     for (std::size_t i = 0; i < corners.size(); ++i)
-        corners[i][static_cast<glm::length_t>(i / 2)] = i % 2 == 0 ? 0.5 * width : -0.5 * width;
+        corners[i][glm::length_t(i / 2)] = i % 2 == 0 ? 0.5 * width : -0.5 * width;
     return corners;
 }
 
@@ -61,7 +55,7 @@ std::array<glm::dvec3, 6> prism(const glm::dvec3& along, double width) {
     const glm::dvec3 across = glm::normalize(glm::cross(axis, direction)), up = glm::cross(direction, across);
     std::array<glm::dvec3, 6> corners{};
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const double angle = 2.0 * std::numbers::pi / 3.0 * static_cast<double>(i % 3);
+        const double angle = 2.0 * std::numbers::pi / 3.0 * double(i % 3);
         corners[i] = width / std::numbers::sqrt3 * (std::cos(angle) * across + std::sin(angle) * up);
     }
     return corners;
@@ -94,7 +88,7 @@ void inflate(Mesh& mesh, int mode, double lineWidthOS) {
             placesOS[i] = roundedPlace(solid[i]);
         }
         for (std::size_t i = 0; i < kCornersOfSolid; i += 3)
-            std::fill_n(mesh.normalsOS.begin() + static_cast<std::ptrdiff_t>(first + i), 3,
+            std::fill_n(mesh.normalsOS.begin() + std::ptrdiff_t(first + i), 3,
                         glm::vec3(normalOfTriangle(solid[i], solid[i + 1], solid[i + 2])));
     }
 }
@@ -116,17 +110,16 @@ Sizes sizesOf(const Scene& scene) {
     std::map<int, glm::dmat4> skinned; // world-from-mesh of what follows the first joint
     for (const Deformed& deformed : scene.rig.deformed) {
         if (deformed.skin == kNone) continue;
-        const Skin& skin = scene.rig.skins[static_cast<std::size_t>(deformed.skin)];
+        const Skin& skin = scene.rig.skins[std::size_t(deformed.skin)];
         if (!skin.joints.empty())
-            skinned[deformed.mesh] =
-                worldFromNode[static_cast<std::size_t>(skin.joints.front())] * skin.jointFromBind.front();
+            skinned[deformed.mesh] = worldFromNode[std::size_t(skin.joints.front())] * skin.jointFromBind.front();
     }
     std::vector<std::optional<Box3>> boxesOS(scene.meshes.size()); // once a mesh, however many nodes show it
     const auto boxOf = [&](int mesh) -> const Box3& {
-        std::optional<Box3>& box = boxesOS[static_cast<std::size_t>(mesh)];
+        std::optional<Box3>& box = boxesOS[std::size_t(mesh)];
         if (box) return *box;
         box.emplace();
-        const Mesh& shown = scene.meshes[static_cast<std::size_t>(mesh)];
+        const Mesh& shown = scene.meshes[std::size_t(mesh)];
         for (const std::uint32_t index : shown.indices) box->extend(glm::dvec3(shown.positionsOS[index]));
         return *box;
     };
@@ -145,6 +138,75 @@ Sizes sizesOf(const Scene& scene) {
             }
         }
     return sizes;
+}
+
+glm::vec3 faceNormalOS(const Mesh& mesh, std::size_t firstCorner) {
+    const auto corner = [&](std::size_t i) { return glm::dvec3(mesh.positionsOS[mesh.indices[firstCorner + i]]); };
+    return glm::vec3(normalOfTriangle(corner(0), corner(1), corner(2)));
+}
+
+template <typename T>
+void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices, std::size_t each = 1) {
+    if (values.empty()) return;
+    std::vector<T> own;
+    own.reserve(indices.size() * each);
+    for (const std::uint32_t index : indices)
+        for (std::size_t i = 0; i < each; ++i) own.push_back(values[index * each + i]);
+    values = std::move(own);
+}
+
+/// Gives every triangle three vertices of its own and its geometric normal; tangents are dropped, as they belonged to
+/// other normals. A triangle without area gets an arbitrary unit normal.
+void makeFlat(Shape& shape) {
+    Mesh& mesh = shape.rest;
+    shape.isFlat = true;
+    for (MorphTarget& target : shape.targets) {
+        unshare(target.positionsOS, mesh.indices);
+        for (auto& set : target.texCoords) unshare(set, mesh.indices);
+        unshare(target.colors, mesh.indices);
+        target.normalsOS.clear();
+        target.tangentsOS.clear();
+    }
+    unshare(shape.joints, mesh.indices, shape.influences);
+    unshare(shape.weights, mesh.indices, shape.influences);
+    std::vector<glm::vec3> normalsOS;
+    normalsOS.reserve(mesh.indices.size());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        normalsOS.insert(normalsOS.end(), 3, faceNormalOS(mesh, i));
+    unshare(mesh.positionsOS, mesh.indices);
+    for (auto& set : mesh.texCoords) unshare(set, mesh.indices);
+    unshare(mesh.colors, mesh.indices);
+    mesh.normalsOS = std::move(normalsOS);
+    mesh.tangentsOS.clear();
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = std::uint32_t(i);
+}
+
+/// Makes normals unit length. Those that cannot be (zero, not finite) become the normal of a triangle at the vertex.
+/// Returns how many these were.
+std::size_t repairNormals(Mesh& mesh) {
+    std::vector<bool> isBroken(mesh.normalsOS.size(), false);
+    std::size_t brokenCount = 0;
+    for (std::size_t i = 0; i < mesh.normalsOS.size(); ++i) {
+        const std::optional<glm::dvec3> normalOS = directionOf(mesh.normalsOS[i]);
+        mesh.normalsOS[i] = normalOS.value_or(glm::dvec3(0.0, 0.0, 1.0));
+        isBroken[i] = !normalOS;
+        brokenCount += normalOS ? 0 : 1;
+    }
+    for (std::size_t corner = 0; brokenCount > 0 && corner < mesh.indices.size(); ++corner) {
+        const std::uint32_t vertex = mesh.indices[corner];
+        if (isBroken[vertex]) mesh.normalsOS[vertex] = faceNormalOS(mesh, corner / 3 * 3);
+    }
+    return brokenCount;
+}
+
+/// Makes tangents unit length and their w +1 or -1. False when one cannot be.
+bool normalizeTangents(Mesh& mesh) {
+    for (glm::vec4& tangentOS : mesh.tangentsOS) {
+        const std::optional<glm::dvec3> direction = directionOf(glm::vec3(tangentOS));
+        if (!direction || !(std::abs(tangentOS.w) > 0.0f)) return false;
+        tangentOS = glm::vec4(glm::vec3(*direction), tangentOS.w > 0.0f ? 1.0f : -1.0f);
+    }
+    return true;
 }
 
 } // namespace
@@ -199,13 +261,13 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     for (const Deformed& deformed : scene.rig.deformed) shapes[deformed.mesh] = deformed.shape;
     std::set<int> inflated; // shapes
     for (const auto& [mesh, mode] : thinModes) {
-        Mesh& drawn = scene.meshes[static_cast<std::size_t>(mesh)];
+        Mesh& drawn = scene.meshes[std::size_t(mesh)];
         const auto shape = shapes.find(mesh);
         if (shape == shapes.end()) {
             inflateAt(drawn, mode, scaleOf(mesh));
             continue;
         }
-        Mesh& rest = scene.rig.shapes[static_cast<std::size_t>(shape->second)].rest;
+        Mesh& rest = scene.rig.shapes[std::size_t(shape->second)].rest;
         if (inflated.insert(shape->second).second) inflateAt(rest, mode, shapeScales[shape->second]);
         std::ranges::copy(rest.positionsOS, drawn.positionsOS.begin());
         std::ranges::copy(rest.normalsOS, drawn.normalsOS.begin());
@@ -219,6 +281,47 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
                     : hasPoints ? "points and lines"
                                 : "lines",
                     100.0 * kLineWidthShare, 100.0 * kLineWidthShare * kPointLineWidths));
+}
+
+std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corners) {
+    if (mode != kStrip && mode != kFan) {
+        corners.resize(corners.size() / 3 * 3);
+        return corners;
+    }
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+        const bool isOdd = i % 2 == 1;
+        const std::uint32_t a = mode == kFan ? corners[i + 1] : corners[i];
+        const std::uint32_t b = mode == kFan ? corners[i + 2] : corners[i + (isOdd ? 2 : 1)];
+        const std::uint32_t c = mode == kFan ? corners[0] : corners[i + (isOdd ? 1 : 2)];
+        if (a != b && b != c && c != a) triangles.insert(triangles.end(), {a, b, c});
+    }
+    return triangles;
+}
+
+void finishNormals(Context& context, const std::string& place, Shape& shape) {
+    Mesh& mesh = shape.rest;
+    // What is added to attributes that are not there is nothing.
+    for (MorphTarget& target : shape.targets) {
+        if (mesh.colors.empty()) target.colors.clear();
+        for (std::size_t set = 0; set < mesh.texCoords.size(); ++set)
+            if (mesh.texCoords[set].empty()) target.texCoords[set].clear();
+    }
+    if (mesh.normalsOS.empty()) {
+        constexpr std::size_t kMostVertexBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
+        const std::size_t mostBytes =
+            (1 + shape.targets.size()) * kMostVertexBytes + shape.influences * (sizeof(std::uint32_t) + sizeof(float));
+        context.document.charge(mesh.indices.size() * mostBytes, place);
+        return makeFlat(shape);
+    }
+    if (const std::size_t broken = repairNormals(mesh); broken > 0)
+        context.warn("{}/attributes/NORMAL: {} normals have no direction; their triangles' are used", place, broken);
+    if (!normalizeTangents(mesh)) {
+        mesh.tangentsOS.clear();
+        context.warn("{}/attributes/TANGENT: holds tangents without a direction; tangents are derived instead", place);
+    }
+    if (mesh.tangentsOS.empty())
+        for (MorphTarget& target : shape.targets) target.tangentsOS.clear();
 }
 
 } // namespace tessera::scenes::gltf

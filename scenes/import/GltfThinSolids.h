@@ -1,8 +1,4 @@
 #pragma once
-#include <cstdint>
-#include <map>
-#include <vector>
-
 #include "scenes/import/GltfContext.h"
 
 /// Points and lines, which are drawn as thin solids of triangles: a point as an octahedron, each segment of a line as a

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
 #include "base/Extension.h"
 #include "base/OneLine.h"
 #include "scenes/import/Files.h"
@@ -168,7 +166,7 @@ void turnUpright(Image& image, int orientation, LoadLedger& ledger) {
     const bool fromRight = orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7;
     const bool fromBottom = orientation == 3 || orientation == 4 || orientation == 7 || orientation == 8;
     ledger.charge(image.texels.size(), [&] { return image.name + ": the picture turned upright"; });
-    const auto columns = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(image.height);
+    const auto columns = std::size_t(image.width), rows = std::size_t(image.height);
     const std::size_t width = hasColumns ? rows : columns, height = hasColumns ? columns : rows;
     const std::size_t bytes = texelBytes(image.format);
     std::vector<std::byte> turned(image.texels.size());
@@ -180,8 +178,8 @@ void turnUpright(Image& image, int orientation, LoadLedger& ledger) {
                         bytes);
         }
     image.texels = std::move(turned);
-    image.width = static_cast<int>(width);
-    image.height = static_cast<int>(height);
+    image.width = int(width);
+    image.height = int(height);
 }
 
 void placeInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha, Image& placed) {

@@ -1,11 +1,10 @@
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 
 #include <fmt/format.h>
-#include <glm/glm.hpp>
 
 #include "scenes/import/PictureCodecs.h"
 
@@ -33,7 +32,7 @@ std::string_view takenUpTo(std::string_view& text, std::string_view ends) {
 bool readHdrNumber(std::string_view& text, double& number) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+    text.remove_prefix(std::size_t(rest - text.data()));
     return error == std::errc();
 }
 
@@ -60,8 +59,8 @@ bool readResolution(std::string_view line, HdrHeader& header) {
     if (x.name != 'X' || y.name != 'Y') return false;
     const bool fromRight = x.sign == '-', fromBottom = y.sign == '+';
     header.orientation = 1 + (fromBottom ? (fromRight ? 2 : 3) : (fromRight ? 1 : 0)) + (hasColumns ? 4 : 0);
-    header.scanlines = static_cast<int>(axes[0].size);
-    header.length = static_cast<int>(axes[1].size);
+    header.scanlines = int(axes[0].size);
+    header.length = int(axes[1].size);
     return true;
 }
 
@@ -115,6 +114,24 @@ void undoHeader(const HdrHeader& header, Image& image) {
     }
 }
 
+/// The next word of a PFM's header, with the one space after it, which are taken; empty where the text ends, or goes on
+/// for longer than a number does.
+std::string_view takenWord(std::string_view& text) {
+    constexpr std::string_view kSpaces = " \t\n\r";
+    constexpr std::size_t kMostCharacters = 64;
+    text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
+    const std::size_t end = text.substr(0, kMostCharacters + 1).find_first_of(kSpaces);
+    const std::string_view word = end == text.npos ? std::string_view() : text.substr(0, end);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    return word;
+}
+
+template <typename Number>
+bool readWord(std::string_view word, Number& number) {
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && rest == word.data() + word.size();
+}
+
 } // namespace
 
 /// OpenImageIO reads the texels behind a header of this program's own.
@@ -130,6 +147,38 @@ DecodedPicture decodeHdr(const PictureSource& source) {
     DecodedPicture decoded = decodeByOiio({file, source.name, source.format, source.ledger});
     undoHeader(header, decoded.image);
     turnUpright(decoded.image, header.orientation, source.ledger);
+    return decoded;
+}
+
+/// Source: Debevec, "Portable FloatMap Image Format": PF or Pf (grey), width, height and scale; rows from the bottom.
+/// Texels are multiplied by the scale, whose sign tells the order of their bytes: below 0 is little-endian.
+DecodedPicture decodePfm(const PictureSource& source) {
+    std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
+    const std::size_t channels = takenWord(text) == "PF" ? 3 : 1;
+    std::int32_t width = 0, height = 0;
+    float scale = 0.0f;
+    source.require(readWord(takenWord(text), width) && readWord(takenWord(text), height) && width > 0 && height > 0,
+                   "it has no size");
+    source.require(readWord(takenWord(text), scale) && std::isfinite(scale) && scale != 0.0f, "it has no scale");
+    const std::size_t columns = std::size_t(width), rows = std::size_t(height);
+    const std::span<const std::byte> stored = std::as_bytes(std::span(text));
+    source.require(stored.size() / (channels * sizeof(float)) / columns >= rows, "it ends early");
+    DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba32Float, sizeof(glm::vec4));
+    decoded.tags.isLinear = true;
+    const bool isSwapped = (scale < 0.0f) != (std::endian::native == std::endian::little);
+    const auto valueAt = [&](std::size_t index) {
+        std::array<std::byte, sizeof(float)> value;
+        std::memcpy(value.data(), stored.data() + index * sizeof(float), sizeof(float));
+        if (isSwapped) std::ranges::reverse(value);
+        return std::bit_cast<float>(value) * std::abs(scale);
+    };
+    const std::span<glm::vec4> texels = texelsOf<glm::vec4>(decoded.image);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::size_t first = ((rows - 1 - row) * columns + column) * channels;
+            texels[row * columns + column] = {valueAt(first), valueAt(first + channels / 2),
+                                              valueAt(first + channels - 1), 1.0f};
+        }
     return decoded;
 }
 

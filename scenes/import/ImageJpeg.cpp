@@ -75,8 +75,8 @@ public:
         return jpeg_.output_scanline;
     }
 
-    int width() const { return static_cast<int>(jpeg_.image_width); }
-    int height() const { return static_cast<int>(jpeg_.image_height); }
+    int width() const { return int(jpeg_.image_width); }
+    int height() const { return int(jpeg_.image_height); }
     bool hasInks() const { return hasInks_; }
     std::string complaint() const { return oneLine(complaint_.text); }
 

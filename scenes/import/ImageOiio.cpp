@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
 #include "base/OneLine.h"
 #include "base/PictureLibrary.h"
 #include "scenes/import/PictureCodecs.h"
@@ -36,7 +35,7 @@ struct Channels {
 Channels channelsOf(const PictureHeader& header) {
     const auto named = [&](std::string_view name) {
         for (std::size_t i = 0; i < header.channelNames.size(); ++i)
-            if (isSameWord(header.channelNames[i], name)) return static_cast<int>(i);
+            if (isSameWord(header.channelNames[i], name)) return int(i);
         return -1;
     };
     const int alpha = header.alphaChannel < header.channels ? header.alphaChannel : -1;

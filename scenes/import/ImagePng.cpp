@@ -90,8 +90,8 @@ public:
         return png_get_sRGB(png_, info_, &intent) == 0 && png_get_gAMA(png_, info_, &gamma) != 0 &&
                std::abs(gamma - 1.0) < kClose;
     }
-    int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
-    int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
+    int width() const { return int(png_get_image_width(png_, info_)); }
+    int height() const { return int(png_get_image_height(png_, info_)); }
     bool has16Bits() const { return png_get_bit_depth(png_, info_) == 16; }
     std::size_t rowBytes() const { return png_get_rowbytes(png_, info_); }
     const std::string& problem() const { return source_.problem; }

@@ -26,17 +26,17 @@ struct Stream {
 int readStream(void* user, char* target, int count) {
     auto& stream = *static_cast<Stream*>(user);
     if (stream.ahead == nullptr) stream.ahead = target;
-    const std::size_t given = std::min(static_cast<std::size_t>(count), stream.bytes.size());
-    const std::size_t needed = target == stream.ahead ? 1 : static_cast<std::size_t>(count);
+    const std::size_t given = std::min(std::size_t(count), stream.bytes.size());
+    const std::size_t needed = target == stream.ahead ? 1 : std::size_t(count);
     stream.endsEarly |= given < needed;
     std::memcpy(target, stream.bytes.data(), given);
     stream.bytes = stream.bytes.subspan(given);
-    return static_cast<int>(given);
+    return int(given);
 }
 
 void skipStream(void* user, int count) {
     auto& stream = *static_cast<Stream*>(user);
-    stream.bytes = stream.bytes.subspan(std::min(static_cast<std::size_t>(count), stream.bytes.size()));
+    stream.bytes = stream.bytes.subspan(std::min(std::size_t(count), stream.bytes.size()));
 }
 
 int isStreamAtEnd(void* user) {

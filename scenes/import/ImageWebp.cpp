@@ -1,4 +1,3 @@
-#include <cstring>
 #include <memory>
 
 #include <webp/decode.h>
@@ -18,15 +17,6 @@ std::span<const std::byte> chunkOf(const WebPDemuxer& file, const char* name) {
     return bytes; // of the file itself
 }
 
-/// Writers put TIFF tags into the chunk EXIF with or without JPEG's six bytes ahead of them.
-int orientationOf(const WebPDemuxer& file) {
-    constexpr std::string_view kJpegPrefix("Exif\0\0", 6);
-    std::span<const std::byte> exif = chunkOf(file, "EXIF");
-    if (exif.size() > kJpegPrefix.size() && std::memcmp(exif.data(), kJpegPrefix.data(), kJpegPrefix.size()) == 0)
-        exif = exif.subspan(kJpegPrefix.size());
-    return orientationOfTiff(exif);
-}
-
 } // namespace
 
 DecodedPicture decodeWebp(const PictureSource& source) {
@@ -39,7 +29,7 @@ DecodedPicture decodeWebp(const PictureSource& source) {
                height = int(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_HEIGHT));
     // libwebp holds as many texels again while it decodes.
     DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba8Unorm, 2 * kTexelBytes);
-    decoded.tags.orientation = orientationOf(*file);
+    decoded.tags.orientation = orientationOfTiff(chunkOf(*file, "EXIF"));
     // The only frame, or the first of an animation, which may cover a part of the canvas.
     WebPIterator frame;
     source.require(WebPDemuxGetFrame(file.get(), 1, &frame) != 0, kWhy);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/Error.h"
 #include "base/Names.h"
 #include "scenes/import/JsonText.h"
 
@@ -42,7 +41,7 @@ double JsonValue::number(double least, double most) const {
 }
 
 float JsonValue::single(double least, double most) const {
-    return static_cast<float>(number(least, most));
+    return float(number(least, most));
 }
 
 double JsonValue::positive() const {
@@ -54,7 +53,7 @@ double JsonValue::positive() const {
 int JsonValue::integer(int least, int most) const {
     const double value = number(least, most);
     if (value != std::floor(value)) fail("is {}; a whole number is needed", value);
-    return static_cast<int>(value);
+    return int(value);
 }
 
 bool JsonValue::boolean() const {

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <set>
-#include <vector>
 
 #include <fmt/format.h>
-
-#include "base/Error.h"
 
 namespace tessera::scenes {
 namespace {
@@ -125,8 +122,7 @@ MendedJson mendedJson(std::string_view text) {
     std::size_t comma = text.npos; // in the mended text, with blanks alone behind it
     const auto replace = [&](std::size_t at, std::string_view flaw, std::string_view by) {
         if (mended.line == 0) {
-            mended.line =
-                1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+            mended.line = 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
             constexpr std::size_t kMostShown = 40;
             mended.flaw = fmt::format("'{}' is not JSON", flaw.substr(0, kMostShown));
         }

@@ -1,7 +1,6 @@
 #include "scenes/import/MadeImages.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <type_traits>

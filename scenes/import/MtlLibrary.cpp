@@ -1,13 +1,10 @@
 #include "scenes/import/ObjMaterials.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
-#include <span>
 #include <system_error>
 #include <variant>
 
@@ -173,7 +170,7 @@ private:
                 addFlaw(line, fmt::format("'{}' is {}; it must not exceed {:g}", keyword, words[i], most),
                         "that bound is taken");
             }
-            values[static_cast<glm::length_t>(i)] = static_cast<float>(std::clamp(number, 0.0, most));
+            values[glm::length_t(i)] = float(std::clamp(number, 0.0, most));
         }
         if (flaw.empty()) return values;
         addFlaw(line, std::move(flaw), kStatementLeftOut);
@@ -197,8 +194,8 @@ private:
         const auto option = isFile(name) ? words.end() : std::ranges::find_if(words, isOption);
         if (option != words.end()) {
             const std::string_view& last = *(&*option - 1);
-            name = name.substr(0, static_cast<std::size_t>(last.data() + last.size() - name.data()));
-            takeOptions(line, static_cast<std::size_t>(&*option - line.words.data()), picture);
+            name = name.substr(0, std::size_t(last.data() + last.size() - name.data()));
+            takeOptions(line, std::size_t(&*option - line.words.data()), picture);
         }
         picture.keyword = keyword;
         picture.line = line.number;
@@ -207,7 +204,7 @@ private:
     }
 
     static std::size_t offsetOf(const Line& line, std::size_t word) {
-        return static_cast<std::size_t>(line.words[word].data() - line.rest.data());
+        return std::size_t(line.words[word].data() - line.rest.data());
     }
 
     bool isFile(std::string_view name) const {
@@ -228,8 +225,7 @@ private:
             std::string flaw;
             for (const std::size_t most = isKnown ? option->mostNumbers : 3;
                  count < most && word < line.words.size() && parseNumber(line.words[word]); ++count, ++word)
-                numbers[static_cast<glm::length_t>(count)] =
-                    static_cast<float>(finiteNumber(line.keyword, line.words[word], flaw).value_or(0.0));
+                numbers[glm::length_t(count)] = float(finiteNumber(line.keyword, line.words[word], flaw).value_or(0.0));
             if (isKnown && option->mostNumbers > 0 && count == 0)
                 flaw = fmt::format("the option '{}' needs a number", name);
             if (!flaw.empty())

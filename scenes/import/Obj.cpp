@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/import/GltfThinSolids.h"
@@ -30,8 +27,8 @@ struct CornerKey {
 struct CornerKeyHash {
     std::size_t operator()(const CornerKey& key) const {
         // Odd constants with well-mixed bits, 2^64 divided by the golden ratio and by the plastic number.
-        std::uint64_t hash = static_cast<std::uint64_t>(key.position) * 0x9e3779b97f4a7c15u;
-        hash ^= (static_cast<std::uint64_t>(key.texCoord) + hash) * 0xc13fa9a902a6328fu;
+        std::uint64_t hash = std::uint64_t(key.position) * 0x9e3779b97f4a7c15u;
+        hash ^= (std::uint64_t(key.texCoord) + hash) * 0xc13fa9a902a6328fu;
         hash ^= (key.normal + (hash >> 29)) * 0x9e3779b97f4a7c15u;
         return hash ^ (hash >> 32);
     }
@@ -74,7 +71,7 @@ public:
     /// The number of a corner's normal: equal numbers are equal normals.
     std::size_t indexAt(const Triangle& triangle, std::size_t corner) {
         const Corner& index = triangle.corners[corner];
-        if (index.normal != kNone) return static_cast<std::size_t>(index.normal);
+        if (index.normal != kNone) return std::size_t(index.normal);
         if (triangle.smoothingGroup != 0) return smooth_.at(keyOf(index.position, triangle.smoothingGroup));
         if (flatTriangle_ != &triangle) {
             const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
@@ -89,14 +86,12 @@ public:
 
 private:
     static std::uint64_t keyOf(int position, std::uint32_t smoothingGroup) {
-        return static_cast<std::uint64_t>(position) << 32 | smoothingGroup;
+        return std::uint64_t(position) << 32 | smoothingGroup;
     }
 
     /// The triangle's unit normal times its angle at each corner; zero without area.
     std::array<glm::dvec3, 3> weightedNormals(const Triangle& triangle) const {
-        const auto at = [&](std::size_t i) {
-            return obj_.positions[static_cast<std::size_t>(triangle.corners[i % 3].position)];
-        };
+        const auto at = [&](std::size_t i) { return obj_.positions[std::size_t(triangle.corners[i % 3].position)]; };
         std::array<glm::dvec3, 3> normals{};
         const glm::dvec3 areaNormal = glm::cross(at(1) - at(0), at(2) - at(0));
         const double length = glm::length(areaNormal);
@@ -123,8 +118,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             const Corner& corner = triangle.corners[i];
             const CornerKey key{corner.position, corner.texCoord, normals_.indexAt(triangle, i)};
-            const auto [entry, isNew] =
-                vertices_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positionsOS.size()));
+            const auto [entry, isNew] = vertices_.try_emplace(key, std::uint32_t(mesh_.positionsOS.size()));
             if (isNew) addVertex(corner, normals_[key.normal]);
             mesh_.indices.push_back(entry->second);
         }
@@ -135,7 +129,7 @@ public:
         std::vector<std::uint32_t> elements(ends.size());
         std::iota(elements.begin(), elements.end(), 0u);
         for (const std::uint32_t end : gltf::cornersOfSolids(mode, elements)) {
-            mesh_.indices.push_back(static_cast<std::uint32_t>(mesh_.positionsOS.size()));
+            mesh_.indices.push_back(std::uint32_t(mesh_.positionsOS.size()));
             addVertex(ends[end], kUp);
         }
     }
@@ -149,12 +143,12 @@ public:
 
 private:
     void addVertex(const Corner& corner, const glm::vec3& normalOS) {
-        const auto position = static_cast<std::size_t>(corner.position);
+        const auto position = std::size_t(corner.position);
         mesh_.positionsOS.emplace_back(obj_.positions[position] - obj_.origin);
         mesh_.normalsOS.push_back(normalOS);
         if (!obj_.colors.empty()) mesh_.colors.emplace_back(obj_.colors[position], 1.0f);
         glm::vec2 uv(0.0f); // of a corner without, beside others that have them
-        if (corner.texCoord != kNone) uv = obj_.texCoords[static_cast<std::size_t>(corner.texCoord)];
+        if (corner.texCoord != kNone) uv = obj_.texCoords[std::size_t(corner.texCoord)];
         (corner.texCoord != kNone ? hasTexCoords_ : lacksTexCoords_) = true;
         mesh_.texCoords[0].emplace_back(uv.x, 1.0f - uv.y); // the file's origin is the bottom-left corner
     }
@@ -210,10 +204,10 @@ private:
             const int material = materialOf(part.second, isThin);
             lacksSomeTexCoords_ = lacksSomeTexCoords_ || builder.lacksSomeTexCoords();
             Mesh mesh = builder.take();
-            mesh.name = builders.size() == 1 ? node.name
-                                             : fmt::format("{}, {}", node.name,
-                                                           scene_.materials[static_cast<std::size_t>(material)].name);
-            const int index = static_cast<int>(scene_.meshes.size());
+            mesh.name = builders.size() == 1
+                            ? node.name
+                            : fmt::format("{}, {}", node.name, scene_.materials[std::size_t(material)].name);
+            const int index = int(scene_.meshes.size());
             if (isThin) thinModes_[index] = part.first;
             node.instances.push_back({index, material});
             scene_.meshes.push_back(std::move(mesh));
@@ -223,7 +217,7 @@ private:
 
     /// Materials are converted, and their pictures read, when the first element uses them.
     int materialOf(int number, bool isUnlit) {
-        const MtlMaterial* mtl = number == kNone ? nullptr : &mtl_[static_cast<std::size_t>(number)];
+        const MtlMaterial* mtl = number == kNone ? nullptr : &mtl_[std::size_t(number)];
         const auto [entry, isNew] = materialOfName_.try_emplace({mtl ? mtl->name : "", mtl != nullptr, isUnlit}, kNone);
         if (isNew) entry->second = materials_.add(mtl, isUnlit);
         return entry->second;

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "base/Error.h"
+#include "base/Srgb.h"
 #include "scenes/import/Files.h"
+#include "scenes/import/ObjText.h"
 
 namespace tessera::scenes::obj {
 namespace {
@@ -60,8 +58,8 @@ std::optional<Value> parseWhole(std::string_view word) {
 void appendUtf8(std::string& text, std::uint32_t c) {
     const std::uint32_t size = c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
     constexpr std::uint32_t kLead[] = {0x00, 0xc0, 0xe0, 0xf0};
-    text.push_back(static_cast<char>(kLead[size - 1] | c >> 6 * (size - 1)));
-    for (std::uint32_t i = size - 1; i-- > 0;) text.push_back(static_cast<char>(0x80 | (c >> 6 * i & 0x3f)));
+    text.push_back(char(kLead[size - 1] | c >> 6 * (size - 1)));
+    for (std::uint32_t i = size - 1; i-- > 0;) text.push_back(char(0x80 | (c >> 6 * i & 0x3f)));
 }
 
 /// Half of a pair without its other half becomes U+FFFD.
@@ -81,6 +79,18 @@ std::string utf8OfUtf16(std::string_view bytes, bool isBigEndian) {
         appendUtf8(text, c >> 11 == 0x1b ? 0xfffd : c);
     }
     return text;
+}
+
+const glm::vec3 kMissing(std::numeric_limits<float>::quiet_NaN());
+/// Colours of 0..1 are rounded above 1, but never this far.
+constexpr float kLeastByte = 2.0f;
+constexpr float kMostByte = 255.0f;
+
+bool isMissing(const glm::vec3& colour) {
+    return std::isnan(colour.x);
+}
+float largestOf(const glm::vec3& colour) {
+    return std::max({colour.x, colour.y, colour.z});
 }
 
 } // namespace
@@ -158,6 +168,58 @@ std::string readText(const std::filesystem::path& file, LoadLedger& ledger) {
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
     if (text.empty()) throw InputError(file.string() + ": the file is empty; export the model again");
     return text;
+}
+
+void VertexColours::read(const Line& line, std::size_t position) {
+    constexpr std::size_t kFirst = 3, kCount = 3;
+    if (line.words.size() < kFirst + kCount) return; // five numbers are a position and no colour
+    glm::vec3 colour;
+    std::string flaw;
+    for (std::size_t i = 0; i < kCount; ++i)
+        colour[glm::length_t(i)] = float(finiteNumber(line.keyword, line.words[kFirst + i], flaw).value_or(0.0));
+    if (!flaw.empty()) {
+        if (flaw_.empty()) flawLine_ = line.number, flaw_ = flaw;
+        return;
+    }
+    if (largeLine_ == 0 && largestOf(colour) >= kLeastByte) largeLine_ = line.number;
+    colours_.resize(position, kMissing);
+    colours_.push_back(colour);
+}
+
+std::vector<glm::vec3> VertexColours::take(const std::string& file, ObjColours encoding,
+                                           const std::vector<bool>& isUsed, Repairs& repairs) {
+    if (colours_.empty()) return {};
+    colours_.resize(isUsed.size(), kMissing);
+    std::size_t missing = 0, used = 0;
+    float largest = 0.0f;
+    for (std::size_t i = 0; i < isUsed.size(); ++i) {
+        if (!isUsed[i]) continue;
+        ++used;
+        if (isMissing(colours_[i]))
+            ++missing;
+        else
+            largest = std::max(largest, largestOf(colours_[i]));
+    }
+    if (missing == used) return {};
+    if (missing > 0)
+        repairs.note(file, flawLine_, "these are white", "{} of {} vertices have no colour{}{}", missing, used,
+                     flaw_.empty() ? "" : ": ", flaw_);
+    const bool isBytes = largest >= kLeastByte;
+    if (isBytes)
+        repairs.note(file, largeLine_, "they are divided by 255", "colours of vertices are up to {}, not 0 to 1",
+                     largest);
+    for (std::size_t i = 0; i < isUsed.size(); ++i) {
+        glm::vec3& colour = colours_[i];
+        if (isMissing(colour)) colour = glm::vec3(isBytes ? kMostByte : 1.0f);
+        const glm::vec3 written = isBytes ? colour / kMostByte : colour;
+        colour = glm::clamp(written, 0.0f, 1.0f);
+        if (isUsed[i] && colour != written)
+            repairs.note(file, 0, "the nearest bound is taken", "the colour {} {} {} of vertex {} is not within {}",
+                         written.x, written.y, written.z, i + 1, isBytes ? "0 to 255" : "0 to 1");
+        if (encoding == ObjColours::Linear) continue;
+        for (glm::length_t c = 0; c < 3; ++c) colour[c] = float(linearFromSrgb(double(colour[c])));
+    }
+    return std::move(colours_);
 }
 
 } // namespace tessera::scenes::obj

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "base/Error.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/MadeImages.h"
@@ -39,7 +36,7 @@ Material unlitOf(const Material& lit) {
     unlit.name = lit.name + ", unlit";
     unlit.model = MaterialModel::SingleColor;
     const glm::vec3 colour = glm::vec3(lit.baseColor) + lit.emissive;
-    unlit.baseColor = glm::vec4(glm::min(colour, static_cast<float>(kMostColor)), lit.baseColor.w);
+    unlit.baseColor = glm::vec4(glm::min(colour, float(kMostColor)), lit.baseColor.w);
     unlit.texture(TextureSlot::BaseColor) = lit.texture(TextureSlot::BaseColor);
     unlit.alphaMode = lit.alphaMode;
     return unlit;
@@ -61,7 +58,7 @@ int MaterialConverter::add(const MtlMaterial* mtl, bool isUnlit) {
         material.perceptualRoughness = 0.5f;
     }
     scene_.materials.push_back(isUnlit ? unlitOf(material) : std::move(material));
-    return static_cast<int>(scene_.materials.size()) - 1;
+    return int(scene_.materials.size()) - 1;
 }
 
 void MaterialConverter::finish() {
@@ -106,7 +103,7 @@ TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPictur
 int MaterialConverter::standIn(const MtlMaterial& mtl) {
     if (standIn_ == kNone) {
         scene_.images.push_back(standInPicture(ledger_, mtl.file + ": a stand-in"));
-        standIn_ = static_cast<int>(scene_.images.size()) - 1;
+        standIn_ = int(scene_.images.size()) - 1;
     }
     return standIn_;
 }
@@ -143,7 +140,7 @@ int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) 
         scene_.warnings.push_back(textOf(error) + kStandInText);
         return kNone;
     }
-    return entry->second = same->second = static_cast<int>(scene_.images.size()) - 1;
+    return entry->second = same->second = int(scene_.images.size()) - 1;
 }
 
 void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
@@ -166,7 +163,7 @@ void MaterialConverter::setOpacity(const MtlMaterial& mtl, Material& material) {
     } else if (colour.transform != opacity.transform || colour.sampler != opacity.sampler) {
         warn(mtl, "map_d is placed as map_Kd is; its own options are left out");
     }
-    colour.image = packed(mtl, scene_.images[static_cast<std::size_t>(opacity.image)].name + " as opacity",
+    colour.image = packed(mtl, scene_.images[std::size_t(opacity.image)].name + " as opacity",
                           {{{colour.image, 0}, {colour.image, 1}, {colour.image, 2}, {opacity.image, kMatte}}});
 }
 
@@ -230,18 +227,18 @@ int MaterialConverter::packed(const MtlMaterial& mtl, const std::string& name, c
     std::uint64_t width = 0, height = 0, bytes = 0;
     for (std::size_t i = 0; i < channels.size(); ++i) {
         if (channels[i].first == kNone) continue;
-        const Image& part = scene_.images[static_cast<std::size_t>(channels[i].first)];
+        const Image& part = scene_.images[std::size_t(channels[i].first)];
         const int channel = channels[i].second;
         sources[i] = {&part, channel == kMatte ? hasAlpha(part) ? 3 : 0 : channel};
-        width = std::max(width, static_cast<std::uint64_t>(part.width));
-        height = std::max(height, static_cast<std::uint64_t>(part.height));
+        width = std::max(width, std::uint64_t(part.width));
+        height = std::max(height, std::uint64_t(part.height));
         bytes = std::max<std::uint64_t>(bytes, texelBytes(part.format));
     }
     ledger_.charge(width * height * bytes, [&] {
         return fmt::format("{}: material '{}', a picture of {}x{} texels", mtl.file, mtl.name, width, height);
     });
     scene_.images.push_back(packChannels(name, sources));
-    return entry->second = static_cast<int>(scene_.images.size()) - 1;
+    return entry->second = int(scene_.images.size()) - 1;
 }
 
 /// Files mean other things by these, and nothing else says why nothing is seen.

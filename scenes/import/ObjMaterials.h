@@ -1,18 +1,6 @@
 #pragma once
-#include <array>
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include <glm/glm.hpp>
-
-#include "scenes/LoadLedger.h"
-#include "scenes/Scene.h"
 #include "scenes/import/Repairs.h"
 
 namespace tessera::scenes::obj {
@@ -70,17 +58,8 @@ std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, co
                                        const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger);
 
 /// Adds materials of MTL files to a scene, with the pictures they name; a picture used twice is decoded once.
-///
 /// Every material becomes metallic_roughness, so that those of one file keep their relative brightness (`lambert` has
-/// no 1/pi), except for illum 0, MTL's constant colour, which becomes single_color.
-///   base colour   Kd x map_Kd, white where not stated
-///   opacity       d (or 1 - Tr) x map_d; alpha mode Mask with map_d, else Blend where d < 1
-///   roughness     Pr x map_Pr, else from Ns (Blinn-Phong exponent to GGX alpha), else 0.5
-///   metalness     Pm x map_Pm, else 0
-///   specular      Ks x map_Ks tints the dielectric reflectance; illum 1 has none
-///   ior           Ni where it exceeds 1 (exporters write 1 for "not set"), else 1.5
-///   emission      Ke x map_Ke
-///   normals       norm, else map_bump or bump taken for a tangent-space normal map, with a warning
+/// no 1/pi), except for illum 0, MTL's constant colour, which becomes single_color. docs/scene-format.md has the table.
 class MaterialConverter {
 public:
     MaterialConverter(Scene& scene, Repairs& repairs, LoadLedger& ledger)

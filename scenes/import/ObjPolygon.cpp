@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <queue>
-#include <utility>
 
 namespace tessera::scenes::obj {
 namespace {
@@ -38,15 +36,15 @@ class Clipper {
 public:
     Clipper(std::span<const glm::dvec3> corners, std::uint64_t& steps, std::uint64_t mostSteps)
         : corners_(corners), flat_(flattened(corners)), links_(corners.size()), steps_(steps), mostSteps_(mostSteps) {
-        const auto size = static_cast<double>(corners.size());
-        side_ = static_cast<std::size_t>(std::sqrt(size));
+        const auto size = double(corners.size());
+        side_ = std::size_t(std::sqrt(size));
         cells_.assign(side_ * side_, kNoCorner);
         glm::dvec2 most = least_ = flat_[0];
         for (const glm::dvec2& corner : flat_) {
             least_ = glm::min(least_, corner);
             most = glm::max(most, corner);
         }
-        cellsPerLength_ = static_cast<double>(side_) / glm::max(most - least_, glm::dvec2(1e-300));
+        cellsPerLength_ = double(side_) / glm::max(most - least_, glm::dvec2(1e-300));
         for (std::size_t at = 0; at < corners.size(); ++at) {
             links_[at].after = (at + 1) % corners.size();
             links_[at].before = (at + corners.size() - 1) % corners.size();
@@ -79,9 +77,7 @@ private:
         bool operator>(const Offer& other) const { return std::pair(cut, at) > std::pair(other.cut, other.at); }
     };
 
-    std::size_t columnOf(double length) const {
-        return static_cast<std::size_t>(std::clamp(length, 0.0, static_cast<double>(side_ - 1)));
-    }
+    std::size_t columnOf(double length) const { return std::size_t(std::clamp(length, 0.0, double(side_ - 1))); }
     std::size_t cellOf(const glm::dvec2& place) const {
         const glm::dvec2 cell = (place - least_) * cellsPerLength_;
         return columnOf(cell.y) * side_ + columnOf(cell.x);

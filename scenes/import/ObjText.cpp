@@ -1,14 +1,9 @@
 #include "scenes/import/ObjText.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <set>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
-#include "base/Error.h"
 #include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjMaterials.h"
@@ -110,7 +105,7 @@ private:
             flaw = fmt::format("'{}' has {} of the {} numbers it needs", line.keyword, line.words.size(), info.needed);
         glm::dvec3 numbers(0.0);
         for (std::size_t i = 0; i < std::min(line.words.size(), info.numbers); ++i)
-            numbers[static_cast<glm::length_t>(i)] = finiteNumber(line.keyword, line.words[i], flaw).value_or(0.0);
+            numbers[glm::length_t(i)] = finiteNumber(line.keyword, line.words[i], flaw).value_or(0.0);
         if (*attribute == kNormal && flaw.empty() && glm::vec3(numbers) == glm::vec3(0.0f))
             flaw = "the normal has no length";
         if (!flaw.empty()) {
@@ -166,8 +161,7 @@ private:
     /// Called for elements that are drawn: a material without one is not looked for.
     void useMaterial(const Line& line) {
         if (!nextMaterial_) return;
-        const auto [entry, isNew] =
-            materialOfName_.try_emplace(*nextMaterial_, static_cast<int>(obj_.materials.size()));
+        const auto [entry, isNew] = materialOfName_.try_emplace(*nextMaterial_, int(obj_.materials.size()));
         material_ = entry->second;
         if (isNew) {
             charge(kMaterialBytes + kGrown * nextMaterial_->size() + file_.size(), line);
@@ -223,14 +217,14 @@ private:
             if (flaws_[kPosition].contains(i)) continue;
             ledger_.charge(kThinBytes, [&] { return file_ + ": its vertices as points"; });
             isUsed_[i] = true;
-            group(kPoints).thin[{kPoints, material_}].push_back({static_cast<int>(i), kNone, kNone});
+            group(kPoints).thin[{kPoints, material_}].push_back({int(i), kNone, kNone});
         }
         if (!obj_.groups.empty())
             repairs_.note(file_, 0, "its vertices are drawn as points",
                           "has no faces, lines or points ('f', 'l' or 'p' statements)");
     }
 
-    static std::size_t index(int number) { return static_cast<std::size_t>(number); }
+    static std::size_t index(int number) { return std::size_t(number); }
 
     void charge(std::uint64_t bytes, const Line& line) const {
         ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_, line.number); });
@@ -278,7 +272,7 @@ private:
         }
         const auto defined = static_cast<long long>(*written > 0 ? sizeOf(attribute) : above_[attribute]);
         const long long found = *written > 0 ? *written - 1 : defined + *written;
-        if (found >= 0 && found < defined) return static_cast<int>(found);
+        if (found >= 0 && found < defined) return int(found);
         flaw = fmt::format("the {} {} is used, but {} {} defined {}", kAttributes[attribute].name, *written, defined,
                            defined == 1 ? "is" : "are", *written > 0 ? "in the file" : "above it");
         return kNone;
@@ -299,7 +293,7 @@ private:
         const std::string_view word = line.words.empty() ? "off" : line.words.front();
         const std::optional<long long> number = parseInteger(word);
         const bool isNumber = number && *number >= 0 && *number <= 0xffffffff;
-        smoothingGroup_ = word == "on" ? 1 : isNumber ? static_cast<std::uint32_t>(*number) : 0;
+        smoothingGroup_ = word == "on" ? 1 : isNumber ? std::uint32_t(*number) : 0;
         badSmoothing_.reset();
         if (!isNumber && word != "on" && word != "off")
             badSmoothing_ = {line.number,

@@ -1,18 +1,5 @@
 #pragma once
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <glm/glm.hpp>
-
 #include "scenes/ImportWishes.h"
-#include "scenes/LoadLedger.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/Repairs.h"
 

@@ -1,9 +1,5 @@
 #pragma once
-#include <cstdint>
 #include <limits>
-#include <span>
-#include <string>
-#include <string_view>
 #include <type_traits>
 
 #include "scenes/import/Importers.h"
@@ -81,7 +77,7 @@ void takeOutMetadataOfTiff(std::span<std::byte> bytes);
 /// changed, where the file does not hold it.
 bool keepTiffTags(std::span<std::byte> tiff, std::span<const std::uint16_t> tags);
 
-/// The tag Orientation; 1, upright, where there is none that can be read.
+/// The tag Orientation, also behind the bytes with which Exif begins; 1, upright, where there is none that can be read.
 int orientationOfTiff(std::span<const std::byte> tiff);
 
 /// Turns an image as stored with this Exif orientation, 1 to 8, upright. Charges the ledger for the copy.

@@ -3,11 +3,9 @@
 #include <initializer_list>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "base/Error.h"
 #include "scenes/import/PictureCodecs.h"
 
 namespace tessera::scenes {
@@ -17,17 +15,26 @@ constexpr int kMaxSide = 1 << 20;                          ///< libpng stops a l
 constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28; ///< 16384 x 16384
 constexpr std::string_view kExifBegin("Exif\0\0", 6);      ///< a TIFF without a picture follows
 
-/// 0 beyond the end.
+/// A number of `count` bytes; those beyond the end are 0.
+std::uint64_t numberAt(std::span<const std::byte> bytes, std::size_t at, int count, bool isBigEndian) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < count; ++i) {
+        const std::size_t place = at + std::size_t(isBigEndian ? i : count - 1 - i);
+        value = value << 8 | (place < bytes.size() ? std::to_integer<std::uint64_t>(bytes[place]) : 0);
+    }
+    return value;
+}
+
 std::uint32_t byteAt(std::span<const std::byte> bytes, std::size_t at) {
-    return at < bytes.size() ? std::to_integer<std::uint32_t>(bytes[at]) : 0;
+    return std::uint32_t(numberAt(bytes, at, 1, true));
 }
 
 std::uint32_t bigEndian16(std::span<const std::byte> bytes, std::size_t at) {
-    return byteAt(bytes, at) << 8 | byteAt(bytes, at + 1);
+    return std::uint32_t(numberAt(bytes, at, 2, true));
 }
 
-std::uint32_t littleEndian16(std::span<const std::byte> bytes, std::size_t at) {
-    return byteAt(bytes, at) | byteAt(bytes, at + 1) << 8;
+bool beginsWithExif(std::span<const std::byte> bytes) {
+    return bytes.size() > kExifBegin.size() && std::memcmp(bytes.data(), kExifBegin.data(), kExifBegin.size()) == 0;
 }
 
 constexpr std::uint32_t kFrame = 0xc0, kRestart = 0xd0, kEnd = 0xd9, kScan = 0xda;
@@ -60,14 +67,7 @@ public:
 
     bool isBigEndian() const { return isBigEndian_; }
 
-    std::uint64_t number(std::size_t at, int count) const {
-        std::uint64_t value = 0;
-        for (int i = 0; i < count; ++i) {
-            const std::size_t place = at + std::size_t(isBigEndian_ ? i : count - 1 - i);
-            value = value << 8 | (place < bytes_.size() ? std::to_integer<std::uint64_t>(bytes_[place]) : 0);
-        }
-        return value;
-    }
+    std::uint64_t number(std::size_t at, int count) const { return numberAt(bytes_, at, count, isBigEndian_); }
 
     /// Where the first directory begins: with the number of its entries.
     std::size_t directory() const { return number(4, 4); }
@@ -127,7 +127,7 @@ constexpr std::uint16_t kDecodingTags[] = {
 
 /// Source: GIF89a specification, section 18, "Logical Screen Descriptor".
 PictureSize claimedSizeOfGif(std::span<const std::byte> bytes) {
-    return {littleEndian16(bytes, 6), littleEndian16(bytes, 8), 4};
+    return {std::int64_t(numberAt(bytes, 6, 2, false)), std::int64_t(numberAt(bytes, 8, 2, false)), 4};
 }
 
 /// Where texels need more than one scan, libjpeg reads all scans at once and keeps the coefficients, 2 bytes each, of
@@ -162,9 +162,7 @@ int orientationOfJpeg(std::span<const std::byte> bytes) {
         if (marker != kApp1 || orientation != 0 || at + 2 > bytes.size()) return;
         const std::size_t length = std::min<std::size_t>(bigEndian16(bytes, at), bytes.size() - at);
         const std::span<const std::byte> segment = bytes.subspan(at + 2, length - std::min<std::size_t>(length, 2));
-        if (segment.size() > kExifBegin.size() &&
-            std::memcmp(segment.data(), kExifBegin.data(), kExifBegin.size()) == 0)
-            orientation = orientationOfTiff(segment.subspan(kExifBegin.size()));
+        if (beginsWithExif(segment)) orientation = orientationOfTiff(segment);
     });
     return std::max(orientation, 1);
 }
@@ -182,7 +180,7 @@ void PictureSource::charge(const PictureSize& size) const {
             fmt::format("{}: the header claims {}x{} texels, more than {} bytes can hold; the file is broken", name,
                         size.width, size.height, bytes.size()));
     constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 62; // more than any budget, and no overflow
-    ledger.charge(static_cast<std::uint64_t>(texels) * size.bytesATexel + std::min(size.bytes, kMostBytes),
+    ledger.charge(std::uint64_t(texels) * size.bytesATexel + std::min(size.bytes, kMostBytes),
                   [&] { return fmt::format("{}: the picture of {}x{} texels", name, size.width, size.height); });
 }
 
@@ -212,7 +210,8 @@ bool keepTiffTags(std::span<std::byte> bytes, std::span<const std::uint16_t> tag
 int orientationOfTiff(std::span<const std::byte> bytes) {
     constexpr std::uint64_t kOrientation = 274, kUpright = 1, kMost = 8;
     try {
-        const std::uint64_t value = Tiff(bytes).valueOf(kOrientation, kUpright);
+        const Tiff tiff(beginsWithExif(bytes) ? bytes.subspan(kExifBegin.size()) : bytes);
+        const std::uint64_t value = tiff.valueOf(kOrientation, kUpright);
         return value >= kUpright && value <= kMost ? int(value) : int(kUpright);
     } catch (const std::runtime_error&) {
         return int(kUpright);

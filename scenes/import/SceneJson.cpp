@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <system_error>
 #include <unordered_map>
 
-#include "base/Error.h"
 #include "base/Extension.h"
 #include "scenes/Clips.h"
 #include "scenes/Limits.h"
@@ -336,7 +334,7 @@ private:
                                 Images& images, Scene& scene) {
         if (base.materials == 0) replaces.fail("there is no material of a base to replace; remove it");
         if (base.isInOtherVariant) {
-            const auto there = static_cast<std::size_t>(replaces.integer(0, std::numeric_limits<int>::max()));
+            const auto there = std::size_t(replaces.integer(0, std::numeric_limits<int>::max()));
             const std::string name = material.object().require("name").text();
             if (there >= base.materials || scene.materials[there].name != name) {
                 scene.warnings.push_back(
@@ -345,7 +343,7 @@ private:
                 return;
             }
         }
-        const auto index = static_cast<std::size_t>(replaces.integer(0, static_cast<int>(base.materials) - 1));
+        const auto index = std::size_t(replaces.integer(0, int(base.materials) - 1));
         scene.materials[index] = readMaterial(material, images);
     }
 

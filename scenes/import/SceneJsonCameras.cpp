@@ -81,8 +81,7 @@ glm::dmat4 readMatrix(const JsonValue& value) {
     const std::vector<JsonValue> numbers = value.elements(16, 16);
     glm::dmat4 matrix(1.0);
     for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            matrix[column][row] = numbers[static_cast<std::size_t>(column * 4 + row)].number();
+        for (int row = 0; row < 4; ++row) matrix[column][row] = numbers[std::size_t(column * 4 + row)].number();
     if (glm::dvec4(matrix[0].w, matrix[1].w, matrix[2].w, matrix[3].w) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
         value.fail("is not affine: its fourth row, every fourth number, must be 0, 0, 0, 1; write it column by column");
     return matrix;

@@ -41,7 +41,7 @@ void read(const JsonValue& value, float& number) {
 template <glm::length_t Length, typename Number>
 void read(const JsonValue& value, glm::vec<Length, Number>& vector) {
     const std::vector<JsonValue> numbers = value.elements(std::size_t(Length), std::size_t(Length));
-    for (glm::length_t i = 0; i < Length; ++i) read(numbers[static_cast<std::size_t>(i)], vector[i]);
+    for (glm::length_t i = 0; i < Length; ++i) read(numbers[std::size_t(i)], vector[i]);
 }
 
 void read(const JsonValue& value, glm::dmat4& matrix) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "base/Error.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/import/Files.h"
 

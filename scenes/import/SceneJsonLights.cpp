@@ -1,7 +1,6 @@
 #include "scenes/import/SceneJsonParts.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/ranges.h>

@@ -49,8 +49,7 @@ public:
           shadowBinding_(scene.nodes.size(), kNone), isDrawn_(scene.nodes.size(), false) {
         for (std::size_t i = scene.nodes.size(); i-- > 0;) {
             if (!scene.nodes[i].instances.empty()) isDrawn_[i] = true;
-            if (isDrawn_[i] && scene.nodes[i].parent != kNone)
-                isDrawn_[static_cast<std::size_t>(scene.nodes[i].parent)] = true;
+            if (isDrawn_[i] && scene.nodes[i].parent != kNone) isDrawn_[std::size_t(scene.nodes[i].parent)] = true;
         }
     }
 
@@ -68,14 +67,13 @@ public:
             Node& node = scene_.nodes[i];
             for (std::vector<int>* binding : {&materialBinding_, &shadowBinding_}) {
                 // A parent stands before its children, so it has its own already.
-                if (node.parent != kNone)
-                    (*binding)[i] = std::max((*binding)[i], (*binding)[static_cast<std::size_t>(node.parent)]);
+                if (node.parent != kNone) (*binding)[i] = std::max((*binding)[i], (*binding)[std::size_t(node.parent)]);
             }
             for (MeshInstance& instance : node.instances) {
                 if (materialBinding_[i] != kNone)
-                    instance.material = *bound_[static_cast<std::size_t>(materialBinding_[i])].material;
+                    instance.material = *bound_[std::size_t(materialBinding_[i])].material;
                 if (shadowBinding_[i] != kNone)
-                    instance.castsShadow = *bound_[static_cast<std::size_t>(shadowBinding_[i])].castsShadow;
+                    instance.castsShadow = *bound_[std::size_t(shadowBinding_[i])].castsShadow;
             }
         }
     }
@@ -99,8 +97,8 @@ private:
         if (std::ranges::none_of(matches, [&](std::size_t node) { return isDrawn_[node]; }))
             pattern.fail("nothing is drawn at or below the nodes '{}'; name one that has a mesh", pattern.text());
         for (const std::size_t node : matches) {
-            if (bound.material) materialBinding_[node] = static_cast<int>(bound_.size());
-            if (bound.castsShadow) shadowBinding_[node] = static_cast<int>(bound_.size());
+            if (bound.material) materialBinding_[node] = int(bound_.size());
+            if (bound.castsShadow) shadowBinding_[node] = int(bound_.size());
         }
         bound_.push_back(bound);
     }
@@ -111,7 +109,7 @@ private:
         const std::span<const std::size_t> called = materials_.called(name);
         if (called.empty()) value.failUnknown("material", name, materials_.names());
         const auto own = std::ranges::lower_bound(called, included_.size());
-        return static_cast<int>(own != called.end() ? *own : called.front());
+        return int(own != called.end() ? *own : called.front());
     }
 
     void changeMaterials(const JsonValue& value, const JsonValue& pattern) {
@@ -164,6 +162,20 @@ private:
     std::size_t steps_ = 0;
 };
 
+/// Removes the other elements. Returns the new index of each, kNone where it is removed.
+template <typename Element>
+std::vector<int> keepOnly(std::vector<Element>& elements, const std::vector<bool>& isKept) {
+    std::vector<int> newIndex(elements.size(), kNone);
+    std::vector<Element> kept;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (!isKept[i]) continue;
+        newIndex[i] = int(kept.size());
+        kept.push_back(std::move(elements[i]));
+    }
+    elements = std::move(kept);
+    return newIndex;
+}
+
 } // namespace
 
 PatternMatch matchesPattern(std::string_view pattern, std::string_view name) {
@@ -199,51 +211,39 @@ void applyOverrides(const std::vector<JsonValue>& overrides, Scene& scene, std::
 std::vector<bool> usedMaterials(const Scene& scene) {
     std::vector<bool> used(scene.materials.size(), false);
     for (const Node& node : scene.nodes)
-        for (const MeshInstance& instance : node.instances) used[static_cast<std::size_t>(instance.material)] = true;
+        for (const MeshInstance& instance : node.instances) used[std::size_t(instance.material)] = true;
     return used;
 }
 
 void dropReplacedMaterials(Scene& scene, std::size_t ownMaterials, const std::vector<bool>& wasUsed,
                            const std::filesystem::path& file) {
     const std::vector<bool> used = usedMaterials(scene);
-    std::vector<int> newMaterial(scene.materials.size(), kNone);
-    std::vector<bool> imageIsKept(scene.images.size(), true);
-    std::vector<Material> kept;
+    std::vector<bool> materialIsKept(scene.materials.size(), true), imageIsKept(scene.images.size(), true);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        Material& material = scene.materials[i];
+        const Material& material = scene.materials[i];
         if (i < ownMaterials && wasUsed[i] && !used[i]) {
+            materialIsKept[i] = false;
             for (const TextureUse& use : material.textures)
-                if (use.image != kNone) imageIsKept[static_cast<std::size_t>(use.image)] = false;
-            continue;
-        }
-        if (i >= ownMaterials && !used[i])
+                if (use.image != kNone) imageIsKept[std::size_t(use.image)] = false;
+        } else if (i >= ownMaterials && !used[i]) {
             scene.warnings.push_back(
                 fmt::format("{}: nothing is drawn with the material '{}'", file.string(), material.name));
-        newMaterial[i] = static_cast<int>(kept.size());
-        kept.push_back(std::move(material));
+        }
     }
-    scene.materials = std::move(kept);
+    const std::vector<int> newMaterial = keepOnly(scene.materials, materialIsKept);
     for (Node& node : scene.nodes)
-        for (MeshInstance& instance : node.instances)
-            instance.material = newMaterial[static_cast<std::size_t>(instance.material)];
+        for (MeshInstance& instance : node.instances) instance.material = newMaterial[std::size_t(instance.material)];
     for (RestNumber& rest : scene.rig.numbers)
         if (isOfMaterial(infoOf(rest.property).owner) && rest.element != kNone)
-            rest.element = newMaterial[static_cast<std::size_t>(rest.element)];
+            rest.element = newMaterial[std::size_t(rest.element)];
 
     for (const Material& material : scene.materials)
         for (const TextureUse& use : material.textures)
-            if (use.image != kNone) imageIsKept[static_cast<std::size_t>(use.image)] = true;
-    std::vector<int> newImage(scene.images.size(), kNone);
-    std::vector<Image> keptImages;
-    for (std::size_t i = 0; i < scene.images.size(); ++i) {
-        if (!imageIsKept[i]) continue;
-        newImage[i] = static_cast<int>(keptImages.size());
-        keptImages.push_back(std::move(scene.images[i]));
-    }
-    scene.images = std::move(keptImages);
+            if (use.image != kNone) imageIsKept[std::size_t(use.image)] = true;
+    const std::vector<int> newImage = keepOnly(scene.images, imageIsKept);
     for (Material& material : scene.materials)
         for (TextureUse& use : material.textures)
-            if (use.image != kNone) use.image = newImage[static_cast<std::size_t>(use.image)];
+            if (use.image != kNone) use.image = newImage[std::size_t(use.image)];
 }
 
 } // namespace tessera::scenes::scenejson

@@ -1,9 +1,6 @@
 #pragma once
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <string>
-#include <string_view>
 
 #include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"

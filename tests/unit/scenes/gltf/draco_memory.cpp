@@ -1,6 +1,6 @@
 // What streams of Draco take while they are decoded, and what is kept of them.
 #include "DracoGrid.h"
-#include "scenes/import/GltfDraco.h"
+#include "scenes/import/GltfBuffers.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
