@@ -59,7 +59,7 @@ inline constexpr auto kKeyedMembers = namesOf<std::size_t(LightKeyed::Count)>(ke
 inline constexpr Named<Projection> kProjections[] = {{"perspective", Projection::Perspective},
                                                      {"orthographic", Projection::Orthographic}};
 
-namespace detail {
+namespace namedetail {
 template <typename... Choices>
 using Tables = std::tuple<std::span<const Named<Choices>>...>;
 inline constexpr Tables<Wrap, Filter, MaterialModel, Masking, AlphaMode, NormalMapSpace, TangentMethod,
@@ -69,12 +69,12 @@ inline constexpr Tables<Wrap, Filter, MaterialModel, Masking, AlphaMode, NormalM
             kAlphaModes,     kNormalMapSpaces, kTangentMethods, kSubsurfaceMethodNames,
             kLightTypes,     kFalloffs,        kAnimations,     kPathLines,
             kInterpolations, kKeyRepeats,      kKeyedMembers,   kProjections};
-} // namespace detail
+} // namespace namedetail
 
 /// The table of a type of choice.
 template <typename Choice>
 constexpr std::span<const Named<Choice>> choicesOf(Choice) {
-    return std::get<std::span<const Named<Choice>>>(detail::kTables);
+    return std::get<std::span<const Named<Choice>>>(namedetail::kTables);
 }
 
 template <typename Choice>
