@@ -124,9 +124,9 @@ private:
         Picture forward, deferred;
         std::ptrdiff_t covered = 0; ///< pixels
     };
-    Pair drawBoth(const scenes::Scene& scene) {
+    Pair drawBoth(const scenes::Scene& scene, const glm::ivec2& sizePixels = {160, 90}) {
         frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
+        settings.sizePixels = sizePixels;
         engine::Renderer renderer(context(), scene);
         Pair pair;
         pair.forward = engine::toPicture(renderer.render(Technique::Forward, settings));
@@ -140,6 +140,7 @@ private:
         const bool suppliedCamera = scene.cameras[0].name == scenes::kDefaultName;
         const bool turned = pair.covered == 0 && suppliedCamera;
         if (turned) pair = drawBoth(fromBehind(scene));
+        if (pair.covered == 0) pair = drawBoth(scene, {640, 360}); // points may be thinner than a pixel
         const validation::ErrorFigures figures = validation::errorFigures(pair.deferred, pair.forward);
         const bool finite = figures.bad.sum() + figures.badOutside.sum() == 0;
         const bool alike = pair.deferred.rgba == pair.forward.rgba && pair.deferred.covered == pair.forward.covered;
