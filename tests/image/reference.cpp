@@ -61,15 +61,16 @@ constexpr SceneBars kDefaultBars[] = {
 
 /// Of scenes with area lights. The shapes of lobes are approximations, and light from them is right to that
 /// (docs/area-lights.md), not to rounding. Without shadows, whose noise SoftShadows judges. Measured 2.6e-2 for lamps,
-/// whose floor and tables are seen at 80 degrees and more, where shapes are worst, 1.4e-2 for studio and 4.3e-3 for
-/// glass. Environments are sampled: the split sum of that of glass errs by 2.7e-2 (docs/glass.md).
+/// whose floor and tables are seen at 80 degrees and more, where shapes are worst, 1.4e-2 for studio and 9.7e-3 for
+/// glass, of which 5.4e-3 is rough glass, whose lobe the reference integrates by itself. Environments are sampled: the
+/// split sum of that of glass errs by 2.7e-2 (docs/glass.md).
 struct AreaLitBars {
     const char* scene;
     std::optional<int> lights; ///< fewer than the scene's own, for speed: each is an integral
     double relMse, bias;
 };
 constexpr AreaLitBars kAreaLitBars[] = {
-    {"lamps", 250, 4e-2, 0.02}, {"studio", {}, 3e-2, 0.03}, {"glass", {}, 7e-3, 0.015}};
+    {"lamps", 250, 4e-2, 0.02}, {"studio", {}, 3e-2, 0.03}, {"glass", {}, 1.2e-2, 0.015}};
 
 class Reference : public test::GlTest {
 protected:
