@@ -3,7 +3,6 @@
 #include "scenes/import/GltfMaterials.h"
 #include "scenes/import/GltfRig.h"
 #include "scenes/import/GltfSteps.h"
-#include "scenes/import/GltfThinSolids.h"
 #include "scenes/import/Importers.h"
 
 namespace tessera::scenes {

@@ -7,7 +7,7 @@
 
 namespace tessera::scenes::gltf {
 
-/// Modes of primitives. Those before kTriangles draw points and lines (GltfThinSolids.h).
+/// Modes of primitives. Those before kTriangles draw points and lines (GltfThinSolids.cpp).
 inline constexpr int kPoints = 0, kLines = 1, kLineLoop = 2, kTriangles = 4, kStrip = 5, kFan = 6;
 
 /// How primitives show their material. Source: glTF 2.0 specification, "Point and Line Materials".

@@ -9,7 +9,7 @@
 #include <unordered_set>
 
 #include "scenes/import/Files.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 
 namespace tessera::scenes::gltf {
 namespace {

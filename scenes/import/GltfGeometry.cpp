@@ -5,8 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "scenes/import/GltfThinSolids.h"
-
 namespace tessera::scenes::gltf {
 namespace {
 
@@ -268,7 +266,8 @@ private:
     std::optional<DracoGeometry> decoded_;
 };
 
-/// The triangles of the solids that points and lines become, each at its vertices, without normals (GltfThinSolids.h).
+/// The triangles of the solids that points and lines become, each at its vertices, without normals
+/// (GltfThinSolids.cpp).
 void makeThin(Context& context, const std::string& place, int mode, std::vector<std::uint32_t> corners,
               const Deforms& deforms, Mesh& mesh) {
     const auto who = [&] { return fmt::format("{}: {}", context.document.file, place); };

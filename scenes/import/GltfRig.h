@@ -28,8 +28,8 @@ std::string kindOf(std::string_view pointer);
 
 // ---- The rig -------------------------------------------------------------------------------------------------------
 
-/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), clips (GltfClips.cpp), and what in the scene their
-/// channels change (GltfPointers.cpp).
+/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), clips, and what in the scene their channels change
+/// (GltfClips.cpp).
 class Rigging {
 public:
     /// `sceneNodes` is by node of the document the scene's, kNone where the scene does not have it.

@@ -1,4 +1,3 @@
-#include "scenes/import/GltfThinSolids.h"
 
 #include <algorithm>
 #include <cmath>

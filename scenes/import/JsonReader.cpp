@@ -2,12 +2,108 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/Names.h"
-#include "scenes/import/JsonText.h"
 
 namespace tessera::scenes {
 namespace {
+
+using nlohmann::json;
+
+/// Scans a document's text for faults that a parsed document no longer shows.
+class Checker : public nlohmann::json_sax<json> {
+public:
+    Checker(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t&) override { return value(); }
+    bool binary(binary_t&) override { return value(); }
+    bool start_object(std::size_t) override { return open(); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t) override { return open(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& name) override {
+        if (!open_.back().keys.insert(name).second)
+            throw InputError(
+                fmt::format("{}:{}: the key '{}' is given twice; keep one", file_.string(), pointer(), name));
+        open_.back().step = name;
+        return true;
+    }
+
+    bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
+        // The position counts characters read, the last of which is the offending one.
+        const std::size_t last = std::min(position > 0 ? position - 1 : 0, text_.size());
+        const std::string_view before = text_.substr(0, last);
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
+        std::string what = error.what();
+        // The library's own position and number of the error say nothing more.
+        for (const std::string_view prefixEnd : {"] ", "column "})
+            if (const std::size_t at = what.find(prefixEnd); at != std::string::npos)
+                what.erase(0, at + prefixEnd.size());
+        if (const std::size_t colon = what.find(": "); colon != std::string::npos && colon < 8)
+            what.erase(0, colon + 2);
+        // It quotes the whole of what it read last, which may be as long as the file.
+        constexpr std::size_t kMostBytes = 400;
+        if (what.size() > kMostBytes) {
+            std::size_t length = kMostBytes;
+            while (length > 0 && (static_cast<unsigned char>(what[length]) & 0xc0) == 0x80) --length; // a whole letter
+            what.replace(length, std::string::npos, "...");
+        }
+        throw InputError(fmt::format("{}:{}:{}: {}", file_.string(), line, last - lineStart + 1, what));
+    }
+
+private:
+    struct Level {
+        std::set<std::string> keys;
+        std::string step;      ///< key of the value being read; unused in an array
+        std::size_t index = 0; ///< of the value being read, in an array
+    };
+
+    bool value() {
+        if (!open_.empty()) ++open_.back().index;
+        return true;
+    }
+
+    bool open() {
+        open_.emplace_back();
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        return value();
+    }
+
+    std::string pointer() const {
+        std::string text;
+        for (std::size_t i = 0; i + 1 < open_.size(); ++i)
+            text = jsonPointerTo(text, open_[i].keys.empty() ? std::to_string(open_[i].index) : open_[i].step);
+        return text.empty() ? "/" : text;
+    }
+
+    std::string_view text_;
+    const std::filesystem::path& file_;
+    std::vector<Level> open_;
+};
+
+/// Calls `look` with every character that is not part of a string; of a string, with both quotes.
+template <typename Look>
+void eachOutsideStrings(std::string_view text, Look&& look) {
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') inString = !inString;
+        if (inString && c == '\\') ++i;
+        if (!inString || c == '"') look(c);
+    }
+}
 
 std::string_view typeOf(const nlohmann::json& value) {
     if (value.is_null()) return "null";
@@ -18,6 +114,97 @@ std::string_view typeOf(const nlohmann::json& value) {
 }
 
 } // namespace
+
+void requireJsonDepth(std::string_view text, const std::filesystem::path& file) {
+    int depth = 0;
+    eachOutsideStrings(text, [&](char c) {
+        if ((c == '{' || c == '[') && ++depth > kMaxJsonDepth)
+            throw InputError(
+                fmt::format("{}: the JSON nests deeper than {}; make it flatter", file.string(), kMaxJsonDepth));
+        if (c == '}' || c == ']') --depth;
+    });
+}
+
+MendedJson mendedJson(std::string_view text) {
+    MendedJson mended;
+    mended.text.reserve(text.size());
+    std::size_t comma = text.npos; // in the mended text, with blanks alone behind it
+    const auto replace = [&](std::size_t at, std::string_view flaw, std::string_view by) {
+        if (mended.line == 0) {
+            mended.line = 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+            constexpr std::size_t kMostShown = 40;
+            mended.flaw = fmt::format("'{}' is not JSON", flaw.substr(0, kMostShown));
+        }
+        mended.text += by;
+    };
+    for (std::size_t at = 0; at < text.size();) {
+        std::size_t end = at + 1;
+        if (text[at] == '"') {
+            while (end < text.size() && text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+            end = std::min(end + 1, text.size());
+        } else if (text.substr(at).starts_with("//") || text.substr(at).starts_with("/*")) {
+            const bool isLine = text[at + 1] == '/';
+            end = std::min(text.find(isLine ? "\n" : "*/", at + 2), text.size());
+            if (!isLine) end = std::min(end + 2, text.size());
+            replace(at, text.substr(at, end - at), " ");
+            at = end;
+            continue;
+        } else if (constexpr std::string_view kSyntax = ",:[]{}\" \t\r\n/"; kSyntax.find(text[at]) == kSyntax.npos) {
+            end = std::min(text.find_first_of(kSyntax, at), text.size());
+        }
+        const std::string_view part = text.substr(at, end - at);
+        const bool isBlank = part.find_first_not_of(" \t\r\n") == part.npos;
+        if ((part == "]" || part == "}") && comma != text.npos) {
+            mended.text[comma] = ' ';
+            replace(at, fmt::format(",{}", part), part);
+        } else if (part.size() > 1 && part.front() != '"' && !json::accept(part)) {
+            replace(at, part, "null");
+        } else {
+            mended.text += part;
+        }
+        if (!isBlank) comma = part == "," ? mended.text.size() - 1 : text.npos;
+        at = end;
+    }
+    return mended;
+}
+
+std::uint64_t parsedJsonBytes(std::string_view text) {
+    // One value stands after each of these, three times over while an array that doubles is copied; arrays, objects and
+    // strings lie on the heap, strings with their letters on it once more, and members of objects are nodes of a tree.
+    // The sizes are those of the heap's blocks.
+    constexpr std::uint64_t kValueBytes = 3 * sizeof(json), kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96;
+    constexpr std::uint64_t kStringBytes = 48 + 24;
+    std::uint64_t bytes = text.size() + kValueBytes;
+    eachOutsideStrings(text, [&](char c) {
+        if (c == ',') bytes += kValueBytes;
+        if (c == '[') bytes += kValueBytes + kArrayBytes;
+        if (c == '{') bytes += kValueBytes + kObjectBytes;
+        if (c == ':') bytes += kMemberBytes;
+        if (c == '"') bytes += kStringBytes / 2;
+    });
+    return bytes;
+}
+
+json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
+    ledger.charge(parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
+    requireJsonDepth(text, file);
+    Checker checker(text, file);
+    json::sax_parse(text, &checker);
+    return json::parse(text);
+}
+
+std::string jsonPointerTo(const std::string& pointer, std::string_view key) {
+    std::string text = pointer + '/';
+    for (const char c : key) {
+        if (c == '~')
+            text += "~0";
+        else if (c == '/')
+            text += "~1";
+        else
+            text += c;
+    }
+    return text;
+}
 
 void JsonValue::fail(const std::string& what) const {
     throw InputError(fmt::format("{}:{}: {}", file_->string(), pointer_.empty() ? "/" : pointer_, what));

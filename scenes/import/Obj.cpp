@@ -7,7 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/import/GltfThinSolids.h"
+#include "scenes/import/GltfSteps.h"
 #include "scenes/import/Importers.h"
 #include "scenes/import/ObjMaterials.h"
 #include "scenes/import/ObjText.h"

@@ -4,7 +4,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "scenes/import/GltfThinSolids.h"
+#include "scenes/import/GltfSteps.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjMaterials.h"
 

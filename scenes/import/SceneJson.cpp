@@ -11,7 +11,7 @@
 #include "scenes/import/AppendScene.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/Importers.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 #include "scenes/import/SceneJsonParts.h"
 
 namespace tessera::scenes {

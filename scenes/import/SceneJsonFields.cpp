@@ -1,4 +1,3 @@
-#include "scenes/import/SceneJsonFields.h"
 
 #include <type_traits>
 
@@ -8,7 +7,7 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
-/// A struct whose members SceneJsonFields.h names.
+/// A struct whose members SceneJsonNames.h names.
 template <typename Struct>
 concept HasMembers = requires(Struct& object) {
     visitMembers([](const char*, auto&) {}, object);

@@ -9,7 +9,6 @@
 
 #include "scenes/MaterialLayers.h"
 #include "scenes/import/Importers.h"
-#include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonNames.h"
 
 namespace tessera::scenes::scenejson {

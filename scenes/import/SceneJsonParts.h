@@ -1,9 +1,6 @@
 #pragma once
 #include <functional>
-#include <map>
 
-#include "scenes/LoadLedger.h"
-#include "scenes/Scene.h"
 #include "scenes/import/JsonReader.h"
 
 /// How the parts of a .json scene are read. All throw InputError naming the place in the document.

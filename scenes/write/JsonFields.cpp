@@ -5,7 +5,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "scenes/import/SceneJsonFields.h"
 #include "scenes/import/SceneJsonNames.h"
 
 namespace tessera::scenes::write {

@@ -7,7 +7,7 @@
 #include "base/Extension.h"
 #include "scenes/Rest.h"
 #include "scenes/import/Files.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 #include "scenes/import/SceneJsonParts.h"
 
 namespace tessera::scenes {

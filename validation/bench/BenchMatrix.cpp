@@ -15,7 +15,7 @@
 #include "base/Names.h"
 #include "engine/SettingValues.h"
 #include "scenes/Limits.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 #include "validation/bench/AreaKey.h"
 #include "validation/bench/EnvironmentKey.h"
 #include "validation/bench/ShadowKey.h"

@@ -9,7 +9,7 @@
 
 #include "base/Error.h"
 #include "scenes/import/Files.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 #include "validation/bench/BenchJson.h"
 #include "validation/bench/BenchStore.h"
 

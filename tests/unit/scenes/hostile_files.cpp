@@ -5,7 +5,7 @@
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/import/GltfDocument.h"
-#include "scenes/import/JsonText.h"
+#include "scenes/import/JsonReader.h"
 #include "scenes/write/SceneOrigin.h"
 #include "tests/support/AssetsFolder.h"
 #include "tests/support/UnderLedger.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/import/GltfThinSolids.h"
+#include "scenes/import/GltfSteps.h"
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 /// Files of points and lines, and what becomes of them.

@@ -1,5 +1,5 @@
 // Points and lines, which are drawn as thin solids.
-#include "scenes/import/GltfThinSolids.h"
+#include "scenes/import/GltfSteps.h"
 
 #include <cmath>
 #include <cstddef>
