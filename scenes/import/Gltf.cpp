@@ -59,16 +59,14 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
     }
 }
 
-/// The replacement that is drawn for an unsupported extension, where the extension's name does not imply it.
-std::string_view drawnInstead(std::string_view extension) {
-    return extension == "KHR_materials_diffuse_transmission" ? "; its materials let through only what their alpha does"
-                                                             : "";
-}
-
 /// Features of the document that the importer reads past, whether or not the imported scene shows them.
 void warnOfIgnoredFeatures(Context& context) {
-    for (const std::string& extension : ignoredExtensions(context.document))
-        context.warn("the extension {} is not supported and was ignored{}", extension, drawnInstead(extension));
+    for (const std::string& extension : context.document.model.extensionsUsed)
+        if (!isSupported(extension))
+            context.warn("the extension {} is not supported and was ignored{}", extension,
+                         extension == "KHR_materials_diffuse_transmission" // whose name does not imply what is drawn
+                             ? "; its materials let through only what their alpha does"
+                             : "");
 }
 
 } // namespace

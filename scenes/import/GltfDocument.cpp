@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cstring>
 #include <system_error>
-#include <unordered_set>
 
 #include "scenes/import/Files.h"
 #include "scenes/import/JsonReader.h"
@@ -123,14 +122,12 @@ Container readBinary(std::span<const std::byte> bytes, const std::string& name) 
     Container container;
     std::size_t at = kHeaderBytes;
     for (int chunk = 0; at < length; ++chunk) {
-        if (length - at < kChunkHeaderBytes)
-            throw InputError(fmt::format("{}: the glb is broken: chunk {} has no room for its header", name, chunk));
-        const std::size_t chunkBytes = wordAt(bytes, at);
+        const std::size_t left = length - at, chunkBytes = left < kChunkHeaderBytes ? 0 : wordAt(bytes, at);
+        if (left < kChunkHeaderBytes || chunkBytes > left - kChunkHeaderBytes)
+            throw InputError(fmt::format("{}: the glb is broken: chunk {} says {} bytes, of {} with its header", name,
+                                         chunk, chunkBytes, left));
         const std::uint32_t type = wordAt(bytes, at + 4);
         at += kChunkHeaderBytes;
-        if (chunkBytes > length - at)
-            throw InputError(fmt::format("{}: the glb is broken: chunk {} says {} bytes, {} are left", name, chunk,
-                                         chunkBytes, length - at));
         const std::span<const std::byte> content = bytes.subspan(at, chunkBytes);
         if (chunk == 0) {
             if (type != kJsonChunk)
@@ -183,10 +180,6 @@ constexpr std::string_view kSupportedExtensions[] = {"EXT_lights_image_based",
                                                      "KHR_mesh_quantization",
                                                      "KHR_node_visibility",
                                                      "KHR_texture_transform"};
-
-bool isSupported(std::string_view extension) {
-    return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
-}
 
 /// Words of no JSON value, comments and commas too many are repaired.
 nlohmann::json parseDocument(const std::string& text, const std::string& file, LoadLedger& ledger, Repairs& repairs) {
@@ -243,6 +236,10 @@ void checkRequiredExtensions(const Document& document) {
 }
 
 } // namespace
+
+bool isSupported(std::string_view extension) {
+    return std::ranges::find(kSupportedExtensions, extension) != std::end(kSupportedExtensions);
+}
 
 bool isDataUri(std::string_view uri) {
     return startsWith(uri, "data:");
@@ -336,14 +333,6 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Rep
     document.wattsPerUnit.assign(document.model.lights.size(), 1.0);
     checkRequiredExtensions(document);
     return document;
-}
-
-std::vector<std::string> ignoredExtensions(const Document& document) {
-    std::vector<std::string> ignored;
-    std::unordered_set<std::string_view> known;
-    for (const std::string& extension : document.model.extensionsUsed)
-        if (!isSupported(extension) && known.insert(extension).second) ignored.push_back(extension);
-    return ignored;
 }
 
 } // namespace tessera::scenes::gltf

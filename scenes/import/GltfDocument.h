@@ -50,8 +50,8 @@ struct Document {
 /// file is missing, broken, of another glTF version or requires a compression that is not supported.
 Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Repairs& repairs);
 
-/// The optional extensions that the document uses and the importer leaves out.
-std::vector<std::string> ignoredExtensions(const Document& document);
+/// Whether the importer reads an extension.
+bool isSupported(std::string_view extension);
 
 bool isDataUri(std::string_view uri);
 

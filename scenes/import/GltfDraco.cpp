@@ -99,22 +99,6 @@ private:
     const std::string& place_;
 };
 
-/// Faces, and attributes that have a corner table of their own, as the head of a stream's triangles claims, which of
-/// Edgebreaker begins behind the kind of traversal. Nothing where it is cut short. Source: Draco bitstream
-/// specification 2.2, "Connectivity".
-std::optional<std::pair<std::uint32_t, std::uint8_t>> claimedTriangles(const draco::DecoderBuffer& stream,
-                                                                       bool isEdgebreaker) {
-    draco::DecoderBuffer head; // reads on its own
-    head.Init(stream.data_head(), std::size_t(stream.remaining_size()), stream.bitstream_version());
-    std::uint8_t seamTables = 0;
-    std::uint32_t vertices = 0, faces = 0;
-    const bool isWhole = isEdgebreaker ? draco::DecodeVarint(&vertices, &head) && draco::DecodeVarint(&faces, &head) &&
-                                             head.Decode(&seamTables)
-                                       : draco::DecodeVarint(&faces, &head);
-    if (!isWhole) return std::nullopt;
-    return std::pair(faces, seamTables);
-}
-
 /// A decoder of the library that checks the claims on its way. Exceptions wait until the library has returned, which
 /// may be built without them.
 template <typename Decoder, bool kIsEdgebreaker>
@@ -130,12 +114,7 @@ public:
 
 protected:
     bool DecodeConnectivity() override {
-        return isGood([&] {
-                   const auto claimed = claimedTriangles(*this->buffer(), kIsEdgebreaker);
-                   if (!claimed) throw InputError(std::string(kBroken));
-                   claims_.checkTriangles(claimed->first, claimed->second);
-               }) &&
-               Decoder::DecodeConnectivity();
+        return isGood([&] { checkHead(*this->buffer()); }) && Decoder::DecodeConnectivity();
     }
 
     bool DecodeAllAttributes() override {
@@ -143,6 +122,19 @@ protected:
     }
 
 private:
+    /// The head of a stream's triangles claims faces, and of Edgebreaker, where it begins behind the kind of traversal,
+    /// attributes that have a corner table of their own. Source: Draco bitstream specification 2.2, "Connectivity".
+    void checkHead(const draco::DecoderBuffer& stream) const {
+        draco::DecoderBuffer head; // reads on its own
+        head.Init(stream.data_head(), std::size_t(stream.remaining_size()), stream.bitstream_version());
+        std::uint8_t seamTables = 0;
+        std::uint32_t vertices = 0, faces = 0;
+        const bool isWhole = (!kIsEdgebreaker || draco::DecodeVarint(&vertices, &head)) &&
+                             draco::DecodeVarint(&faces, &head) && (!kIsEdgebreaker || head.Decode(&seamTables));
+        if (!isWhole) throw InputError(std::string(kBroken));
+        claims_.checkTriangles(faces, seamTables);
+    }
+
     template <typename Check>
     bool isGood(Check check) {
         try {

@@ -1,11 +1,134 @@
 #include "scenes/import/GltfModel.h"
 
+#include <fstream> // which tiny_gltf.h leaves out with TINYGLTF_NO_FS
+#include <limits>
 #include <type_traits>
 #include <variant>
+
+#define tinygltf tessera_tinygltf
+#define TINYGLTF_IMPLEMENTATION
+#include <tiny_gltf.h>
+#undef TINYGLTF_IMPLEMENTATION
+#undef tinygltf
 
 #include "scenes/AnimatedProperties.h"
 
 namespace tessera::scenes::gltf {
+namespace {
+
+nlohmann::json taken(nlohmann::json& document, const char* key) {
+    const auto found = document.find(key);
+    if (found == document.end()) return nlohmann::json::array();
+    nlohmann::json value = std::move(*found);
+    document.erase(found);
+    return value;
+}
+
+/// Gives accessors without buffer view an extra one, the last: tinygltf 2.7 refuses indices without. Returns whether
+/// there are any. Source: tinygltf, issues 324 and 378.
+bool addMissingView(nlohmann::json& document) {
+    if (!document.contains("accessors")) return false;
+    nlohmann::json& views = document["bufferViews"];
+    bool isMissing = false;
+    for (nlohmann::json& accessor : document["accessors"]) {
+        if (accessor.contains("bufferView")) continue;
+        accessor["bufferView"] = views.size();
+        isMissing = true;
+    }
+    if (isMissing) views.push_back({{"buffer", 0}, {"byteLength", 1}});
+    return isMissing;
+}
+
+/// tinygltf leaves out channels without node, as those of KHR_animation_pointer are.
+void addMissingNodes(nlohmann::json& document) {
+    if (!document.contains("animations")) return;
+    for (nlohmann::json& animation : document["animations"])
+        for (nlohmann::json& channel : animation["channels"])
+            if (nlohmann::json& target = channel["target"]; !target.contains("node")) target["node"] = -1;
+}
+
+TextureInfo textureInfo(int texture, int texCoordSet, const tiny::Value* transform) {
+    TextureInfo info{texture, integerOf(valueAt(transform, "texCoord"), texCoordSet), {}};
+    info.transform.offset = vectorOf(numbersOf(valueAt(transform, "offset")), info.transform.offset);
+    info.transform.scale = vectorOf(numbersOf(valueAt(transform, "scale")), info.transform.scale);
+    info.transform.rotationRadians = float(numberOf(valueAt(transform, "rotation"), 0.0));
+    return info;
+}
+
+/// Of one of tinygltf's three kinds.
+TextureInfo textureInfo(const auto& stored) {
+    return textureInfo(stored.index, stored.texCoord, valueAt(stored.extensions, "KHR_texture_transform"));
+}
+
+TextureInfo textureInfo(const tiny::Value* stored) {
+    return textureInfo(integerOf(valueAt(stored, "index")), integerOf(valueAt(stored, "texCoord"), 0),
+                       valueAt(stored, "extensions/KHR_texture_transform"));
+}
+
+constexpr std::string_view kExtensions = "extensions/";
+
+TextureInfo textureAt(const tiny::Material& stored, const TexturePlace& place) {
+    const tiny::PbrMetallicRoughness& metallicRoughness = stored.pbrMetallicRoughness;
+    if (place.slot == TextureSlot::BaseColor) return textureInfo(metallicRoughness.baseColorTexture);
+    if (place.slot == TextureSlot::MetallicRoughness) return textureInfo(metallicRoughness.metallicRoughnessTexture);
+    if (place.slot == TextureSlot::Normal) return textureInfo(stored.normalTexture);
+    if (place.slot == TextureSlot::Emissive) return textureInfo(stored.emissiveTexture);
+    if (place.slot == TextureSlot::Occlusion) return textureInfo(stored.occlusionTexture);
+    return textureInfo(valueAt(stored.extensions, place.path.substr(kExtensions.size())));
+}
+
+SpecularGlossiness specularGlossinessOf(const tiny::Value* stored) {
+    return {vectorOf(numbersOf(valueAt(stored, "diffuseFactor")), glm::vec4(1.0f)),
+            vectorOf(numbersOf(valueAt(stored, "specularFactor")), glm::vec3(1.0f)),
+            float(numberOf(valueAt(stored, "glossinessFactor"), 1.0)), textureInfo(valueAt(stored, "diffuseTexture")),
+            textureInfo(valueAt(stored, "specularGlossinessTexture"))};
+}
+
+/// Takes all numbers of extensions that a member of the material holds.
+void readExtensions(const tiny::ExtensionMap& extensions, Material& material) {
+    for (const AnimatedPropertyInfo& property : animatedProperties()) {
+        if (property.owner != AnimatedOwner::Material || !property.path.starts_with(kExtensions)) continue;
+        const tiny::Value* const value = valueAt(extensions, property.path.substr(kExtensions.size()));
+        if (value == nullptr) continue;
+        if (const auto* number = std::get_if<float Material::*>(&property.member))
+            material.*(*number) = float(value->GetNumberAsDouble());
+        if (const auto* color = std::get_if<glm::vec3 Material::*>(&property.member))
+            material.*(*color) = vectorOf(numbersOf(value), material.*(*color));
+    }
+}
+
+} // namespace
+
+tiny::Model tinyModel(nlohmann::json document, const std::string& file, LoadLedger& ledger) {
+    taken(document, "buffers");
+    document["asset"]["version"] = "2.0"; // whatever 2.x it says
+    const nlohmann::json images = taken(document, "images");
+    const bool hasExtraView = addMissingView(document);
+    addMissingNodes(document);
+    tiny::Model model;
+    if (document.contains("nodes")) model.nodes.reserve(document["nodes"].size());
+    const std::string text = document.dump();
+    document = nullptr;
+    ledger.charge(text.size(), [&] { return file + ": its JSON"; });
+    if (text.size() > std::numeric_limits<unsigned>::max())
+        throw InputError(fmt::format("{}: its JSON is larger than 4 GiB; split the model", file));
+    std::string error, warning;
+    if (!tiny::TinyGLTF().LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), ""))
+        throw InputError(fmt::format("{}: {}", file, error));
+    if (hasExtraView) {
+        model.bufferViews.pop_back();
+        const int extra = int(model.bufferViews.size());
+        for (tiny::Accessor& accessor : model.accessors)
+            if (accessor.bufferView == extra) accessor.bufferView = kNone;
+    }
+    model.images.resize(images.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        model.images[i].name = images[i].value("name", "");
+        model.images[i].uri = images[i].value("uri", "");
+        model.images[i].bufferView = images[i].value("bufferView", kNone);
+    }
+    return model;
+}
 
 // ---- Values of extensions ------------------------------------------------------------------------------------------
 
@@ -95,60 +218,6 @@ Sampler samplerOf(const tiny::Sampler& stored) {
 }
 
 // ---- Materials -----------------------------------------------------------------------------------------------------
-
-namespace {
-
-TextureInfo textureInfo(int texture, int texCoordSet, const tiny::Value* transform) {
-    TextureInfo info{texture, integerOf(valueAt(transform, "texCoord"), texCoordSet), {}};
-    info.transform.offset = vectorOf(numbersOf(valueAt(transform, "offset")), info.transform.offset);
-    info.transform.scale = vectorOf(numbersOf(valueAt(transform, "scale")), info.transform.scale);
-    info.transform.rotationRadians = float(numberOf(valueAt(transform, "rotation"), 0.0));
-    return info;
-}
-
-/// Of one of tinygltf's three kinds.
-TextureInfo textureInfo(const auto& stored) {
-    return textureInfo(stored.index, stored.texCoord, valueAt(stored.extensions, "KHR_texture_transform"));
-}
-
-TextureInfo textureInfo(const tiny::Value* stored) {
-    return textureInfo(integerOf(valueAt(stored, "index")), integerOf(valueAt(stored, "texCoord"), 0),
-                       valueAt(stored, "extensions/KHR_texture_transform"));
-}
-
-constexpr std::string_view kExtensions = "extensions/";
-
-TextureInfo textureAt(const tiny::Material& stored, const TexturePlace& place) {
-    const tiny::PbrMetallicRoughness& metallicRoughness = stored.pbrMetallicRoughness;
-    if (place.slot == TextureSlot::BaseColor) return textureInfo(metallicRoughness.baseColorTexture);
-    if (place.slot == TextureSlot::MetallicRoughness) return textureInfo(metallicRoughness.metallicRoughnessTexture);
-    if (place.slot == TextureSlot::Normal) return textureInfo(stored.normalTexture);
-    if (place.slot == TextureSlot::Emissive) return textureInfo(stored.emissiveTexture);
-    if (place.slot == TextureSlot::Occlusion) return textureInfo(stored.occlusionTexture);
-    return textureInfo(valueAt(stored.extensions, place.path.substr(kExtensions.size())));
-}
-
-SpecularGlossiness specularGlossinessOf(const tiny::Value* stored) {
-    return {vectorOf(numbersOf(valueAt(stored, "diffuseFactor")), glm::vec4(1.0f)),
-            vectorOf(numbersOf(valueAt(stored, "specularFactor")), glm::vec3(1.0f)),
-            float(numberOf(valueAt(stored, "glossinessFactor"), 1.0)), textureInfo(valueAt(stored, "diffuseTexture")),
-            textureInfo(valueAt(stored, "specularGlossinessTexture"))};
-}
-
-/// Takes all numbers of extensions that a member of the material holds.
-void readExtensions(const tiny::ExtensionMap& extensions, Material& material) {
-    for (const AnimatedPropertyInfo& property : animatedProperties()) {
-        if (property.owner != AnimatedOwner::Material || !property.path.starts_with(kExtensions)) continue;
-        const tiny::Value* const value = valueAt(extensions, property.path.substr(kExtensions.size()));
-        if (value == nullptr) continue;
-        if (const auto* number = std::get_if<float Material::*>(&property.member))
-            material.*(*number) = float(value->GetNumberAsDouble());
-        if (const auto* color = std::get_if<glm::vec3 Material::*>(&property.member))
-            material.*(*color) = vectorOf(numbersOf(value), material.*(*color));
-    }
-}
-
-} // namespace
 
 /// Source: glTF 2.0 section 3.9; KHR_materials_unlit, _emissive_strength, _ior, _specular, _anisotropy, _clearcoat,
 /// _sheen, _iridescence, _transmission, _volume, _dispersion.

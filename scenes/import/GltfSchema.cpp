@@ -144,7 +144,7 @@ void readNumber(std::string_view text, auto& number) {
     std::from_chars(text.data(), text.data() + text.size(), number);
 }
 
-/// What tinygltf makes of an element of an array, at most: all but `nodes` (GltfParser.cpp) grow. Others become values.
+/// What tinygltf makes of an element of an array, at most: all but `nodes` (GltfModel.cpp) grow. Others become values.
 const std::map<std::string_view, std::uint64_t>& elementBytes() {
     static const std::map<std::string_view, std::uint64_t> kBytes{
         {"Document", 0},

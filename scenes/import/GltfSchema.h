@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scenes/import/GltfParser.h"
+#include "scenes/import/GltfModel.h"
 
 /// The properties that the importer reads (GltfSchema.cpp), as objects that a document is checked by.
 namespace tessera::scenes::gltf {

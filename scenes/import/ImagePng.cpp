@@ -36,10 +36,10 @@ void readBytes(png_structp png, png_bytep target, std::size_t count) {
 
 void onWarning(png_structp, png_const_charp) {}
 
-class Reader {
+class PngReader {
 public:
     /// `isBroken`: reads past wrong check sums, up to where nothing more can be read.
-    Reader(std::span<const std::byte> bytes, bool isBroken) : source_{bytes, isBroken, 0, {}, 0} {
+    PngReader(std::span<const std::byte> bytes, bool isBroken) : source_{bytes, isBroken, 0, {}, 0} {
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, onError, onWarning);
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
         if (info_ == nullptr) throw std::bad_alloc();
@@ -52,9 +52,9 @@ public:
         png_set_crc_action(png_, PNG_CRC_WARN_USE, PNG_CRC_WARN_USE);
         png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
     }
-    ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
 
     // libpng leaves the two functions below by longjmp(), past no object that has a destructor.
 
@@ -111,7 +111,7 @@ struct PngResult {
 };
 
 PngResult readPng(const PictureSource& source, bool isBroken) {
-    Reader reader(source.bytes, isBroken);
+    PngReader reader(source.bytes, isBroken);
     if (!reader.readHeader()) return {{}, 0, reader.problem()};
     const TexelFormat texels = reader.has16Bits() ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba8Unorm;
     PngResult result;

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "base/Names.h"
+#include "base/Utf8.h"
+#include "scenes/Direction.h"
 
 namespace tessera::scenes {
 namespace {
@@ -12,9 +14,9 @@ namespace {
 using nlohmann::json;
 
 /// Scans a document's text for faults that a parsed document no longer shows.
-class Checker : public nlohmann::json_sax<json> {
+class KeyChecker : public nlohmann::json_sax<json> {
 public:
-    Checker(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+    KeyChecker(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
 
     bool null() override { return value(); }
     bool boolean(bool) override { return value(); }
@@ -51,11 +53,7 @@ public:
             what.erase(0, colon + 2);
         // It quotes the whole of what it read last, which may be as long as the file.
         constexpr std::size_t kMostBytes = 400;
-        if (what.size() > kMostBytes) {
-            std::size_t length = kMostBytes;
-            while (length > 0 && (static_cast<unsigned char>(what[length]) & 0xc0) == 0x80) --length; // a whole letter
-            what.replace(length, std::string::npos, "...");
-        }
+        if (what.size() > kMostBytes) what = std::string(beginningOf(what, kMostBytes)) + "...";
         throw InputError(fmt::format("{}:{}:{}: {}", file_.string(), line, last - lineStart + 1, what));
     }
 
@@ -188,7 +186,7 @@ std::uint64_t parsedJsonBytes(std::string_view text) {
 json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger) {
     ledger.charge(parsedJsonBytes(text), [&] { return file.string() + ": its JSON"; });
     requireJsonDepth(text, file);
-    Checker checker(text, file);
+    KeyChecker checker(text, file);
     json::sax_parse(text, &checker);
     return json::parse(text);
 }
@@ -283,16 +281,14 @@ glm::dvec3 JsonValue::vector3() const {
 }
 
 glm::dvec3 JsonValue::direction() const {
-    const glm::dvec3 vector = vector3();
-    // Scaled first, so that squaring neither overflows nor vanishes.
-    const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
-    if (!(largest > 0.0)) fail("has no length; give a direction");
-    return glm::normalize(vector / largest);
+    const std::optional<glm::dvec3> direction = directionOf(vector3());
+    if (!direction) fail("has no length; give a direction");
+    return *direction;
 }
 
-glm::vec3 JsonValue::color() const {
+glm::vec3 JsonValue::color(double least, double most) const {
     const std::vector<JsonValue> values = elements(3, 3);
-    return {values[0].single(0.0), values[1].single(0.0), values[2].single(0.0)};
+    return {values[0].single(least, most), values[1].single(least, most), values[2].single(least, most)};
 }
 
 JsonObject JsonValue::object() const {

@@ -78,7 +78,8 @@ public:
     glm::vec2 vector2() const;
     glm::dvec3 vector3() const;
     glm::dvec3 direction() const; ///< normalised; must have a length
-    glm::vec3 color() const;      ///< three numbers from 0
+    /// Three numbers within the limits.
+    glm::vec3 color(double least = 0.0, double most = std::numeric_limits<float>::max()) const;
     JsonObject object() const;
 
     /// The one of `choices` that the text names; `what` says what they are ("light", "wrap mode").

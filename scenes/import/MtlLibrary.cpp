@@ -138,17 +138,13 @@ private:
     void readNumbers(const Line& line, const Keyword& keyword) {
         std::vector<std::string_view> words = line.words;
         if (!words.empty() && words.front() == "-halo") words.erase(words.begin()); // opacity fades at the silhouette
-        MtlMaterial& material = materials_.back();
-        if (const NumberValue* number = std::get_if<NumberValue>(&keyword.value)) {
-            words.resize(std::min<std::size_t>(words.size(), 1));
-            if (const std::optional<glm::vec3> value = readValues(line, keyword.name, words, 1, number->most))
-                material.*(number->member) = value->x;
-            return;
-        }
-        if (words.size() == 1) words.resize(3, words.front()); // green and blue default to red
-        const ColourValue& colour = std::get<ColourValue>(keyword.value);
-        if (const std::optional<glm::vec3> value = readValues(line, keyword.name, words, 3, colour.most))
-            material.*(colour.member) = *value;
+        const auto* number = std::get_if<NumberValue>(&keyword.value);
+        const auto* colour = std::get_if<ColourValue>(&keyword.value);
+        if (colour != nullptr && words.size() == 1) words.resize(3, words.front()); // green and blue default to red
+        const std::optional<glm::vec3> value =
+            readValues(line, keyword.name, words, number ? 1 : 3, number ? number->most : colour->most);
+        if (value && number) materials_.back().*(number->member) = value->x;
+        if (value && colour) materials_.back().*(colour->member) = *value;
     }
 
     /// The numbers within 0 and `most`; none, which is a flaw, where a word is no number or one is missing.

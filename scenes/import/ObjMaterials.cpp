@@ -82,8 +82,23 @@ Material MaterialConverter::converted(const MtlMaterial& mtl) {
         return material;
     }
     setMetallicRoughness(mtl, material);
-    setSpecular(mtl, material);
-    setNormalMap(mtl, material);
+    if (mtl.ior && *mtl.ior > 1.0f) material.ior = *mtl.ior;
+    if (mtl.illumination == kDiffuseOnly) {
+        material.specularFactor = 0.0f;
+    } else {
+        if (mtl.specular) material.specularColor = *mtl.specular;
+        if (mtl.specularPicture)
+            material.texture(TextureSlot::SpecularColor) =
+                textureUse(mtl, *mtl.specularPicture, TextureSlot::SpecularColor);
+    }
+    if (const std::optional<MtlPicture>& normals = mtl.normalPicture ? mtl.normalPicture : mtl.bumpPicture) {
+        if (!mtl.normalPicture)
+            warn(mtl, fmt::format("the picture of {} is taken for a tangent-space normal map; if it holds heights, "
+                                  "convert it",
+                                  normals->keyword));
+        material.texture(TextureSlot::Normal) = textureUse(mtl, *normals, TextureSlot::Normal);
+        material.normalScale = normals->bumpMultiplier;
+    }
     if (mtl.emissionPicture) {
         material.emissive = glm::vec3(1.0f);
         material.texture(TextureSlot::Emissive) = textureUse(mtl, *mtl.emissionPicture, TextureSlot::Emissive);
@@ -194,29 +209,6 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
         use.image = packed(mtl, mtl.name + " roughness and metalness",
                            {{{kNone, 0}, {roughness.image, 0}, {metalness.image, 0}, {kNone, 0}}});
     material.texture(TextureSlot::MetallicRoughness) = use;
-}
-
-void MaterialConverter::setSpecular(const MtlMaterial& mtl, Material& material) {
-    if (mtl.ior && *mtl.ior > 1.0f) material.ior = *mtl.ior;
-    if (mtl.illumination == kDiffuseOnly) {
-        material.specularFactor = 0.0f;
-        return;
-    }
-    if (mtl.specular) material.specularColor = *mtl.specular;
-    if (mtl.specularPicture)
-        material.texture(TextureSlot::SpecularColor) =
-            textureUse(mtl, *mtl.specularPicture, TextureSlot::SpecularColor);
-}
-
-void MaterialConverter::setNormalMap(const MtlMaterial& mtl, Material& material) {
-    const std::optional<MtlPicture>& picture = mtl.normalPicture ? mtl.normalPicture : mtl.bumpPicture;
-    if (!picture) return;
-    if (!mtl.normalPicture)
-        warn(mtl, fmt::format("the picture of {} is taken for a tangent-space normal map; if it holds heights, "
-                              "convert it",
-                              picture->keyword));
-    material.texture(TextureSlot::Normal) = textureUse(mtl, *picture, TextureSlot::Normal);
-    material.normalScale = picture->bumpMultiplier;
 }
 
 /// As wide and as high as the largest source, in at most the widest format.

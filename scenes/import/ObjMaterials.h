@@ -83,8 +83,6 @@ private:
     int image(const MtlMaterial& mtl, const MtlPicture& picture);
     void setOpacity(const MtlMaterial& mtl, Material& material);
     void setMetallicRoughness(const MtlMaterial& mtl, Material& material);
-    void setSpecular(const MtlMaterial& mtl, Material& material);
-    void setNormalMap(const MtlMaterial& mtl, Material& material);
     void warn(const MtlMaterial& mtl, const std::string& what);
     void warnOfNothingShown(const MtlMaterial& mtl);
     /// Images, which may be kNone, and their channels.

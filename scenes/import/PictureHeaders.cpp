@@ -190,7 +190,7 @@ constexpr FixedSize kFixedSizes[] = {{"box2i", 16},
                                      {"v3f", 12},
                                      {"v3d", 24}};
 
-struct Attribute {
+struct ExrAttribute {
     std::string name, type;
     Cursor value;
 
@@ -364,7 +364,7 @@ PictureSize claimedSizeOfExr(std::span<const std::byte> bytes) {
         isEmpty = false;
         const std::string type = cursor.text();
         const auto claimedBytes = cursor.number<std::uint32_t>();
-        Attribute attribute{name, type, cursor.part(claimedBytes)};
+        ExrAttribute attribute{name, type, cursor.part(claimedBytes)};
         attribute.requireRoom(claimedBytes, cursor);
         attribute.check();
         cursor.skip(claimedBytes);

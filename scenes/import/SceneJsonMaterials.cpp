@@ -156,12 +156,9 @@ private:
         const auto field = fieldOf(kMaterialFields, member);
         material_.*member = value.single(field.least, field.most);
     }
-    /// RGB.
     void setBounded(const JsonValue& value, glm::vec3 Material::*member) {
         const auto field = fieldOf(kMaterialFields, member);
-        const std::vector<JsonValue> channels = value.elements(3, 3);
-        for (glm::length_t i = 0; i < 3; ++i)
-            (material_.*member)[i] = channels[std::size_t(i)].single(field.least, field.most);
+        material_.*member = value.color(field.least, field.most);
     }
 
     void setFactor(const JsonValue& value, MaterialParameter::Kind kind, float Material::*member) {
@@ -230,8 +227,7 @@ void readSubsurface(const JsonValue& value, Subsurface& subsurface) {
         } else if constexpr (std::is_same_v<Member, DiffusionProfile>) {
             member = readProfile(*found);
         } else if constexpr (std::is_same_v<Member, glm::vec3>) {
-            const std::vector<JsonValue> elements = found->elements(3, 3);
-            for (glm::length_t c = 0; c < 3; ++c) member[c] = elements[std::size_t(c)].single(field.least, field.most);
+            member = found->color(field.least, field.most);
         } else {
             member = found->single(field.least, field.most);
         }
