@@ -17,18 +17,17 @@ constexpr int kMaxSide = 1 << 20;                          ///< libpng stops a l
 constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28; ///< 16384 x 16384
 constexpr std::string_view kExifBegin("Exif\0\0", 6);      ///< a TIFF without a picture follows
 
-/// A number of `count` bytes; those beyond the end are 0.
-std::uint64_t numberAt(std::span<const std::byte> bytes, std::size_t at, int count, bool isBigEndian) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < count; ++i) {
-        const std::size_t place = at + std::size_t(isBigEndian ? i : count - 1 - i);
-        value = value << 8 | (place < bytes.size() ? std::to_integer<std::uint64_t>(bytes[place]) : 0);
-    }
-    return value;
+/// 0 beyond the end.
+std::uint32_t byteAt(std::span<const std::byte> bytes, std::size_t at) {
+    return at < bytes.size() ? std::to_integer<std::uint32_t>(bytes[at]) : 0;
 }
 
-std::uint32_t byteAt(std::span<const std::byte> bytes, std::size_t at) {
-    return std::uint32_t(numberAt(bytes, at, 1, true));
+/// A number of `count` bytes.
+std::uint64_t numberAt(std::span<const std::byte> bytes, std::size_t at, int count, bool isBigEndian) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < count; ++i)
+        value = value << 8 | byteAt(bytes, at + std::size_t(isBigEndian ? i : count - 1 - i));
+    return value;
 }
 
 std::uint32_t bigEndian16(std::span<const std::byte> bytes, std::size_t at) {
