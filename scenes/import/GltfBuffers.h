@@ -45,12 +45,12 @@ struct Elements {
 /// Calls `use` with a number of a component type.
 template <typename Use>
 decltype(auto) withComponent(int componentType, Use&& use) {
+    if (componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return use(float{}); // nearly all are
     if (componentType == TINYGLTF_COMPONENT_TYPE_BYTE) return use(std::int8_t{});
     if (componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return use(std::uint8_t{});
     if (componentType == TINYGLTF_COMPONENT_TYPE_SHORT) return use(std::int16_t{});
     if (componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return use(std::uint16_t{});
-    if (componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return use(std::uint32_t{});
-    return use(float{});
+    return use(std::uint32_t{});
 }
 
 /// Of one component.
