@@ -39,7 +39,7 @@ public:
     }
 
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
-        // The position counts characters read, the last of which is the offending one.
+        // The position counts characters read; the last one is wrong.
         const std::size_t last = std::min(position > 0 ? position - 1 : 0, text_.size());
         const std::string_view before = text_.substr(0, last);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');

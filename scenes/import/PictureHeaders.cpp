@@ -120,7 +120,7 @@ constexpr std::uint16_t kDecodingTags[] = {
     282,   283,   284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
     305,   317,   318, 320, 322,   323,   324, 325, // software, predictor, white of Lab, palette, tiles
     332,   338,   339, 347,                         // inks, alpha, numbers, tables of JPEG
-    529,   530,   531, 532, 33300, 33301,           // luma and chroma, the whole of which this is a part
+    529,   530,   531, 532, 33300, 33301,           // luma and chroma, sides of the whole picture
     32996, 50674,                                   // SGI's kind of numbers, what packs LERC
 };
 

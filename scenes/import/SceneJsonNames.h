@@ -11,7 +11,7 @@ namespace tessera::scenes::scenejson {
 template <typename Choice>
 using Named = std::pair<std::string_view, Choice>;
 
-/// The names of a table of descriptions, of which `choice` is described.
+/// The names of a table of descriptions, each with what its member `choice` holds.
 template <std::size_t kCount, typename Info, typename Choice>
 constexpr std::array<Named<Choice>, kCount> namesOf(std::span<const Info> infos, Choice Info::*choice) {
     std::array<Named<Choice>, kCount> names;

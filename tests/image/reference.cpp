@@ -62,8 +62,8 @@ constexpr SceneBars kDefaultBars[] = {
 /// Of scenes with area lights. The shapes of lobes are approximations, and light from them is right to that
 /// (docs/area-lights.md), not to rounding. Without shadows, whose noise SoftShadows judges. Measured 2.6e-2 for lamps,
 /// whose floor and tables are seen at 80 degrees and more, where shapes are worst, 1.4e-2 for studio and 9.7e-3 for
-/// glass, of which 5.4e-3 is rough glass, whose lobe the reference integrates by itself. Environments are sampled: the
-/// split sum of that of glass errs by 2.7e-2 (docs/glass.md).
+/// glass: rough glass alone has 5.4e-3, since the reference integrates its lobe by itself. Environments are sampled:
+/// the split sum of that of glass errs by 2.7e-2 (docs/glass.md).
 struct AreaLitBars {
     const char* scene;
     std::optional<int> lights; ///< fewer than the scene's own, for speed: each is an integral

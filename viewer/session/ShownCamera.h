@@ -57,7 +57,7 @@ public:
     void goTo(const scenes::Camera& other);
     /// Exchanges where it is and another view.
     void exchange(CameraView& other);
-    /// Takes the last `count` cameras, none of which is shown, from the scene.
+    /// Takes the last `count` cameras from the scene. None of them is shown.
     void removeLast(std::size_t count);
     /// A file has the cameras as they are shown: they are the scene's own, and this one begins here.
     void becomeOwn();
