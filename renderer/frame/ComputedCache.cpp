@@ -1,12 +1,15 @@
 #include "renderer/frame/ComputedCache.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,8 +24,10 @@ namespace tessera::frame {
 
 namespace {
 
-/// Change with what filterEnvironment() and makeLobeTable() compute.
-constexpr std::uint64_t kEnvironmentVersion = 10, kLobeVersion = 6;
+/// Hash of the sources of filterEnvironment() and makeLobeTable(): renderer/CMakeLists.txt lists them.
+constexpr std::string_view kSources = TESSERA_COMPUTED_VERSION;
+/// Files that the folder holds at most: of each map, and of each version of the program, there is one.
+constexpr std::size_t kMostFiles = 32;
 
 /// Parts of memory that lie in a file one after the other, behind its head.
 using Parts = std::vector<std::span<std::byte>>;
@@ -47,6 +52,12 @@ void add(Sha256& hash, std::uint64_t number) {
     hash.add(bytes);
 }
 
+/// By the precise clock: a file system's own may stand still for milliseconds.
+void noteUse(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
+}
+
 /// Whether all was there as it was written, and nothing else.
 bool read(const std::filesystem::path& file, const Sha256Digest& key, const Parts& parts) {
     std::error_code error;
@@ -56,7 +67,9 @@ bool read(const std::filesystem::path& file, const Sha256Digest& key, const Part
     if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found.key != key) return false;
     for (const std::span<std::byte>& part : parts)
         if (!in.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()))) return false;
-    return in.peek() == std::ifstream::traits_type::eof() && found == headOf(key, parts);
+    if (in.peek() != std::ifstream::traits_type::eof() || found != headOf(key, parts)) return false;
+    noteUse(file);
+    return true;
 }
 
 /// The first fault, until it is taken; none is noted after it.
@@ -80,6 +93,20 @@ void noteFault(const std::filesystem::path& file, const std::string& reason) {
                              file.string(), reason.substr(0, reason.find("; ")));
 }
 
+/// Removes the files of the cache that were used longest ago, all but kMostFiles.
+void removeOldest(const std::filesystem::path& folder) {
+    std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.ends_with(".bin") || !(name.starts_with("environment-") || name.starts_with("lobes-"))) continue;
+        const auto time = entry.last_write_time(error);
+        if (!error) files.emplace_back(time, entry.path());
+    }
+    std::ranges::sort(files, std::greater());
+    for (std::size_t i = kMostFiles; i < files.size(); ++i) std::filesystem::remove(files[i].second, error);
+}
+
 void write(const std::filesystem::path& file, const Sha256Digest& key, const Parts& parts) {
     const Head head = headOf(key, parts);
     std::string bytes(reinterpret_cast<const char*>(&head), sizeof(head));
@@ -93,6 +120,8 @@ void write(const std::filesystem::path& file, const Sha256Digest& key, const Par
             !std::filesystem::is_directory(status))
             std::filesystem::remove(file);
         writeFileAtomically(file.string(), bytes);
+        noteUse(file);
+        removeOldest(file.parent_path());
     } catch (const std::filesystem::filesystem_error& error) { // it is computed anew next time
         noteFault(file, error.code().message());
     } catch (const std::exception& error) {
@@ -100,12 +129,12 @@ void write(const std::filesystem::path& file, const Sha256Digest& key, const Par
     }
 }
 
-/// Hash of the texels and of all parameters that determine the filtered result.
+/// Hash of the texels and of all else that the filtered result depends on.
 Sha256Digest keyOf(const scenes::Image& map) {
     Sha256 hash;
+    hash.add(std::as_bytes(std::span(kSources)));
     for (const std::uint64_t number :
-         {kEnvironmentVersion, std::uint64_t(map.width), std::uint64_t(map.height), std::uint64_t(ENVIRONMENT_LEVELS),
-          std::uint64_t(ENVIRONMENT_IRRADIANCE_SIDE), std::uint64_t(map.texels.size())})
+         {std::uint64_t(map.width), std::uint64_t(map.height), std::uint64_t(map.texels.size())})
         add(hash, number);
     hash.add(map.texels);
     return hash.digest();
@@ -113,8 +142,7 @@ Sha256Digest keyOf(const scenes::Image& map) {
 
 Sha256Digest lobeKey() {
     Sha256 hash;
-    for (const std::uint64_t number : {kLobeVersion, std::uint64_t(LOBE_TABLE_SIDE), std::uint64_t(LOBE_TABLE_LAYERS)})
-        add(hash, number);
+    hash.add(std::as_bytes(std::span(kSources)));
     return hash.digest();
 }
 

@@ -128,6 +128,23 @@ TEST(EnvironmentCache, whatIsNoFileInItsPlaceIsReplacedAndNeitherFollowedNorWait
     EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file)));
 }
 
+TEST(EnvironmentCache, ofManyFilesThoseUsedLastAreKeptAndNoFileOfOthersIsRemoved) {
+    test::TempFolder folder;
+    std::ofstream(folder.path() / "notes.bin") << "mine";
+    const auto fileOf = [&](int number) { return folder.path() / fmt::format("environment-{}.bin", number); };
+    const auto start = std::filesystem::file_time_type::clock::now() - std::chrono::hours(100);
+    for (int number = 0; number < 40; ++number) {
+        std::ofstream(fileOf(number)) << "old";
+        std::filesystem::last_write_time(fileOf(number), start + std::chrono::hours((number + 20) % 40));
+    }
+    cachedEnvironment(greyMap(8, 4, [](int x, int) { return x; }), folder.path());
+    const auto files = std::filesystem::directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 32 + 1);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "notes.bin"));
+    for (int number = 0; number < 40; ++number)
+        EXPECT_EQ(std::filesystem::exists(fileOf(number)), number < 20 || number >= 29) << number;
+}
+
 /// Of the size that people's maps have.
 TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAgainATwentiethOfASecond) {
 #ifdef __SANITIZE_ADDRESS__
