@@ -100,8 +100,9 @@ void placeThicknesses(Context& context, const Materials& materials);
 /// model that spans 95 % of 720 rows these are 1.7 pixels; seen from any side a prism is 87 to 100 % as wide. The
 /// specification asks for one pixel of any picture.
 inline constexpr double kLineWidthShare = 1.0 / 400.0;
-/// From corner to opposite corner of a point, in widths of a line.
-inline constexpr double kPointLineWidths = 2.0;
+/// From corner to opposite corner of a point, in widths of a line: a third of the distance between neighbours of a
+/// square grid of so many points, between 2 and 8, so that a cloud of few is no cloud of specks.
+double pointLineWidths(std::size_t points);
 /// Corners of the triangles of one octahedron or prism: both have eight.
 inline constexpr std::size_t kCornersOfSolid = 24;
 

@@ -61,8 +61,8 @@ std::array<glm::dvec3, 6> prism(const glm::dvec3& along, double width) {
 }
 
 /// Moves the corners of a mesh of cornersOfSolids(), whose vertices no two triangles share, to where the solids have
-/// them, and gives each triangle its normal. `lineWidthOS` is more than 0.
-void inflate(Mesh& mesh, int mode, double lineWidthOS) {
+/// them, and gives each triangle its normal. The solids' width is more than 0.
+void inflate(Mesh& mesh, int mode, double widthOS) {
     const bool isPoints = mode == kPoints;
     const SolidTriangles& triangles = isPoints ? kOctahedronTriangles : kPrismTriangles;
     double largest = 0.0;
@@ -73,9 +73,8 @@ void inflate(Mesh& mesh, int mode, double lineWidthOS) {
     }
     const glm::dvec3 sides = box.empty() ? glm::dvec3(0.0) : box.max - box.min;
     const double longest = std::max({sides.x, sides.y, sides.z});
-    const double asked = isPoints ? kPointLineWidths * lineWidthOS : lineWidthOS;
     const double width =
-        std::max(longest > 0.0 ? std::min(asked, longest) : asked, 2.0 * kLeastShareOfCoordinate * largest);
+        std::max(longest > 0.0 ? std::min(widthOS, longest) : widthOS, 2.0 * kLeastShareOfCoordinate * largest);
     for (std::size_t first = 0; first + kCornersOfSolid <= mesh.positionsOS.size(); first += kCornersOfSolid) {
         const std::span<glm::vec3> placesOS = std::span(mesh.positionsOS).subspan(first, kCornersOfSolid);
         // The first triangle of a prism lies around its start, the last around its end.
@@ -236,6 +235,11 @@ std::vector<std::uint32_t> cornersOfSolids(int mode, const std::vector<std::uint
     return corners;
 }
 
+double pointLineWidths(std::size_t points) {
+    constexpr double kFewest = 2.0, kMost = 8.0;
+    return std::clamp(1.0 / (3.0 * std::sqrt(double(points)) * kLineWidthShare), kFewest, kMost);
+}
+
 void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     if (thinModes.empty()) return;
     const Sizes sizes = sizesOf(scene);
@@ -243,6 +247,10 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     const double longestWS = std::max({sidesWS.x, sidesWS.y, sidesWS.z});
     // A single point has no size: it is as large as in a model of 1 m.
     const double lineWidthWS = kLineWidthShare * (longestWS > 0.0 ? longestWS : 1.0);
+    std::size_t points = 0;
+    for (const auto& [mesh, mode] : thinModes)
+        if (mode == kPoints) points += scene.meshes[std::size_t(mesh)].positionsOS.size() / kCornersOfSolid;
+    const double pointWidths = pointLineWidths(points);
     const auto scaleOf = [&](int mesh) {
         const auto scale = sizes.scales.find(mesh);
         return scale == sizes.scales.end() ? 0.0 : scale->second;
@@ -253,7 +261,7 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
         scale = std::max(scale, scaleOf(deformed.mesh));
     }
     const auto inflateAt = [&](Mesh& mesh, int mode, double scale) {
-        const double widthOS = lineWidthWS / (scale > 0.0 ? scale : 1.0);
+        const double widthOS = (mode == kPoints ? pointWidths : 1.0) * lineWidthWS / (scale > 0.0 ? scale : 1.0);
         if (std::isfinite(widthOS) && widthOS > 0.0) inflate(mesh, mode, widthOS);
     };
     std::map<int, int> shapes; // by mesh
@@ -274,12 +282,12 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     const auto isPoints = [](const auto& entry) { return entry.second == kPoints; };
     const bool hasPoints = std::ranges::any_of(thinModes, isPoints);
     const bool hasLines = !std::ranges::all_of(thinModes, isPoints);
-    scene.notes.push_back(
-        fmt::format("its {} are drawn as thin solids; lines are {:g} % of the model's longest side wide, points {:g} %",
-                    !hasLines   ? "points"
-                    : hasPoints ? "points and lines"
-                                : "lines",
-                    100.0 * kLineWidthShare, 100.0 * kLineWidthShare * kPointLineWidths));
+    scene.notes.push_back(fmt::format(
+        "its {} are drawn as thin solids; lines are {:g} % of the model's longest side wide, points {:.2g} %",
+        !hasLines   ? "points"
+        : hasPoints ? "points and lines"
+                    : "lines",
+        100.0 * kLineWidthShare, 100.0 * kLineWidthShare * pointWidths));
 }
 
 std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corners) {

@@ -67,7 +67,7 @@ TEST(GltfThinSolids, aPointBecomesAnOctahedronOfAStatedShareOfTheModel) {
     const Scene scene = thin(0, {1, 1, 1, 5, 1, 1}).import();
     const Mesh& mesh = scene.meshes.at(0);
     ASSERT_EQ(solidsOf(mesh), 2u);
-    const double halfWidth = 0.5 * kPointLineWidths * kLineWidthShare * 4.0;
+    const double halfWidth = 0.5 * pointLineWidths(2) * kLineWidthShare * 4.0;
     for (std::size_t i = 0; i < 2; ++i) {
         const glm::dvec3 point(i == 0 ? 1.0 : 5.0, 1.0, 1.0);
         glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
@@ -145,6 +145,16 @@ TEST(GltfThinSolids, trianglesBesideThemAreAsWithout) {
     EXPECT_THAT(alone.notes, IsEmpty());
 }
 
+TEST(GltfThinSolids, pointsOfManyAreSmallerThanThoseOfFew) {
+    EXPECT_EQ(pointLineWidths(1), 8.0);
+    EXPECT_NEAR(pointLineWidths(1000), 4.2, 0.05);
+    EXPECT_EQ(pointLineWidths(1'000'000), 2.0);
+    std::vector<float> many;
+    for (int i = 0; i < 1024; ++i) many.insert(many.end(), {float(i % 32), float(i / 32), 0.0f});
+    const Scene scene = thin(0, many).import();
+    EXPECT_NEAR(2.0 * glm::length(cornerOS(scene.meshes.at(0), 0)), 31.0 / 96.0, kRoundedLength);
+}
+
 TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
     Builder builder = thin(1);
     for (const int mode : {0, 3, 0}) {
@@ -154,7 +164,7 @@ TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
     EXPECT_THAT(
         builder.import().notes,
         ElementsAre("its points and lines are drawn as thin solids; lines are 0.25 % of the model's longest side "
-                    "wide, points 0.5 %"));
+                    "wide, points 2 %"));
     EXPECT_THAT(thin(0).import().notes, ElementsAre(HasSubstr("its points are drawn")));
     EXPECT_THAT(thin(2).import().notes, ElementsAre(HasSubstr("its lines are drawn")));
 }
@@ -258,7 +268,7 @@ TEST(GltfThinSolids, aSinglePointIsDrawnWhereverItLies) {
         for (glm::length_t axis = 0; axis < 3; ++axis) EXPECT_GT(most[axis], least[axis]) << x;
         for (const glm::vec3& normal : mesh.normalsOS) EXPECT_NEAR(glm::length(normal), 1.0f, 1e-6f) << x;
         if (x == 0.0f) {
-            EXPECT_NEAR(most.x - least.x, kPointLineWidths * kLineWidthShare, 1e-9) << "as in a model of 1 m";
+            EXPECT_NEAR(most.x - least.x, pointLineWidths(1) * kLineWidthShare, 1e-9) << "as in a model of 1 m";
         }
     }
 }
