@@ -22,6 +22,7 @@ enum class AnimatedProperty : std::uint8_t {
     Translation,
     Rotation,
     Scale,
+    NodeVisibility, ///< 0 or 1: multiplies Scale, and LightIntensity of lights below: AnimationChannel::factor
     Weights,
     LightColor,
     LightIntensity,
@@ -141,6 +142,7 @@ inline constexpr auto kAnimatedProperties = [] {
         {P::Translation, O::Node, "translation", 3},
         {P::Rotation, O::Node, "rotation", 4},
         {P::Scale, O::Node, "scale", 3},
+        {P::NodeVisibility, O::Node, "extensions/KHR_node_visibility/visible", 1},
         {P::Weights, O::Weights, "weights", 0},
         {P::LightColor, O::Light, "color", &Light::color},
         {P::LightIntensity, O::Light, "intensity", &Light::intensity},

@@ -64,6 +64,8 @@ void deformAll(Scene& scene, const Pose& pose) {
         glm::dmat4& parentFromNode = scene.nodes[std::size_t(deformed.standsAt)].parentFromNode;
         parentFromNode = deform(shape, weights, &matrices, mesh);
         requireFinite(parentFromNode);
+        if (glm::dmat3(modelFromNode[std::size_t(deformed.node)]) == glm::dmat3(0.0)) // hidden with its node
+            parentFromNode = glm::dmat4(glm::dmat3(0.0));
     }
 }
 

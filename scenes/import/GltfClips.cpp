@@ -70,6 +70,19 @@ std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel) 
     return path == infoOf(AnimatedProperty::Weights).path ? node : std::nullopt;
 }
 
+std::vector<bool> nodesHiddenByClips(const tiny::Model& model) {
+    std::vector<bool> areHidden(model.nodes.size());
+    for (const tiny::Animation& animation : model.animations)
+        for (const tiny::AnimationChannel& channel : animation.channels) {
+            const std::string changed = changedBy(channel);
+            std::string_view path = changed;
+            const std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
+            if (node && *node < areHidden.size() && path == infoOf(AnimatedProperty::NodeVisibility).path)
+                areHidden[*node] = model.nodes[*node].matrix.empty();
+        }
+    return areHidden;
+}
+
 std::string kindOf(std::string_view pointer) {
     std::string kind;
     for (std::size_t i = 0; i < pointer.size(); ++i) {
@@ -102,7 +115,20 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
         return animated;
     }
     if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no parts to change
+    if (info->property == AnimatedProperty::NodeVisibility) return visibilityOf(index);
     animated.targets.push_back(restNode(index));
+    return animated;
+}
+
+/// Scales the node to nothing, and lights below, which have no size, to no intensity.
+Rigging::Animated Rigging::visibilityOf(int index) {
+    Animated animated{AnimatedProperty::NodeVisibility, 1};
+    const glm::vec3 scale(scaleOf(elementAt(context_.document.model.nodes, index)));
+    animated.multiplied.push_back({AnimatedProperty::Scale, restNode(index), {scale.x, scale.y, scale.z}});
+    for (const int light : lightsHidden_[index])
+        animated.multiplied.push_back({AnimatedProperty::LightIntensity,
+                                       restNumber(AnimatedProperty::LightIntensity, light),
+                                       {context_.scene.lights[std::size_t(light)].intensity}});
     return animated;
 }
 
@@ -123,15 +149,12 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     if (info == nullptr) return animatedOfTexture(index, path);
     Animated animated{info->property, std::size_t(info->width)};
     const StoredMaterial& stored = materials[index];
-    const bool isOfEmission =
-        info->property == AnimatedProperty::Emissive || info->property == AnimatedProperty::EmissiveStrength;
     const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
     const bool isOfUnlit =
         info->property == AnimatedProperty::BaseColor || info->property == AnimatedProperty::AlphaCutoff;
     // What other programs make of a material changes nothing here.
     if (isUnlit && !isOfUnlit) return animated;
     if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
-    animated.emissiveFactor = stored.emissiveFactor;
     if (info->property == AnimatedProperty::Thickness) {
         const auto scale = context_.thicknessScales.find(int(index));
         if (scale != context_.thicknessScales.end()) animated.scale = scale->second.value_or(1.0);
@@ -147,7 +170,13 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
                           index);
             continue;
         }
-        animated.targets.push_back(restNumber(isOfEmission ? AnimatedProperty::Emissive : info->property, material));
+        const glm::vec3& emission = stored.emissiveFactor;
+        if (info->property == AnimatedProperty::EmissiveStrength)
+            animated.multiplied.push_back({AnimatedProperty::Emissive,
+                                           restNumber(AnimatedProperty::Emissive, material),
+                                           {emission.x, emission.y, emission.z}});
+        else
+            animated.targets.push_back(restNumber(info->property, material));
     }
     return animated;
 }
@@ -269,7 +298,10 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
         std::size_t(index) < samplers.size() ? elementAt(samplers, index) : tiny::AnimationSampler();
     if (stored.input == kNone || stored.output == kNone) document.fail(place, "is not there, or left out");
     AnimationSampler sampler;
-    if (stored.interpolation != "LINEAR")
+    const bool isWhole = animated.property == AnimatedProperty::NodeVisibility;
+    if (isWhole)
+        sampler.interpolation = Interpolation::Step;
+    else if (stored.interpolation != "LINEAR")
         sampler.interpolation = stored.interpolation == "STEP" ? Interpolation::Step : Interpolation::CubicSpline;
     sampler.width = int(animated.width);
 
@@ -307,7 +339,8 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
         failValues(fmt::format("has {} components an element; {} needs {}", values.components, info.path, components));
     // Pointers take plain integers as the numbers that they are. Source: KHR_animation_pointer, "Output Accessor
     // Component Types".
-    if (values.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !values.normalized && !ownsNumbers(info.owner))
+    if (values.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !values.normalized && !ownsNumbers(info.owner) &&
+        !isWhole)
         failValues("holds integers that are not normalized");
     const std::size_t each = sampler.valuesPerKey() * (isOneByOne ? animated.width : std::size_t{1});
     const std::size_t needed = sampler.timesSeconds.size() * each;
@@ -328,6 +361,8 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     constexpr double kMost = std::numeric_limits<float>::max();
     if (animated.scale != 1.0)
         for (float& value : sampler.values) value = float(std::clamp(value * animated.scale, -kMost, kMost));
+    if (isWhole)
+        for (float& value : sampler.values) value = value != 0.0f ? 1.0f : 0.0f;
     if (animated.property == AnimatedProperty::Rotation)
         for (std::size_t key = 0; key < sampler.timesSeconds.size(); ++key) {
             const std::size_t first =
@@ -377,8 +412,8 @@ Clip Rigging::clip(int index) {
                 leaveOut(pointer.empty() ? channel.target_path : pointer, count);
             continue;
         }
-        if (what->targets.empty()) continue;
-        const bool isStrength = what->property == AnimatedProperty::EmissiveStrength;
+        const std::size_t changes = what->targets.size() + what->multiplied.size();
+        if (changes == 0) continue;
         if (what->property == AnimatedProperty::Emissive) {
             std::string_view path = pointer;
             const std::size_t material = cutIndex(path, kMaterialsPointer).value_or(0);
@@ -386,8 +421,8 @@ Clip Rigging::clip(int index) {
                 fmt::format("{}{}/{}", kMaterialsPointer, material, infoOf(AnimatedProperty::EmissiveStrength).path);
             if (!places.contains(strength)) what->scale = double(document.materials[material].emissiveStrength);
         }
-        document.charge(what->targets.size() * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler),
-                        "animations", index);
+        document.charge(changes * (2 * sizeof(AnimationChannel) + kEntryBytes) + sizeof(AnimationSampler), "animations",
+                        index);
         const std::size_t number = i; // clang captures no structured binding
         const std::array<int, 4> read{index, channel.sampler, int(what->property), int(what->width)};
         if (failed.contains(read)) continue;
@@ -411,18 +446,18 @@ Clip Rigging::clip(int index) {
         }
         // Things of the document may be one of the scene's.
         for (const int target : what->targets) {
-            const AnimatedProperty changes = isStrength ? AnimatedProperty::Emissive : what->property;
-            const auto [same, isFirst] = channels.try_emplace({changes, target}, clip.channels.size());
-            if (isFirst && isStrength) { // of a factor that stays as it is, unless another channel changes it too
-                document.charge(2 * sizeof(AnimationSampler) + 4 * sizeof(float), "animations", index);
-                const glm::vec3& factor = what->emissiveFactor;
-                clip.channels.push_back({changes, target, int(clip.samplers.size())});
-                clip.samplers.push_back({Interpolation::Linear, 3, {0.0f}, {factor.x, factor.y, factor.z}});
-            } else if (isFirst) {
-                clip.channels.push_back({changes, target, entry->second});
+            const auto [same, isFirst] = channels.try_emplace({what->property, target}, clip.channels.size());
+            if (isFirst) clip.channels.push_back({what->property, target});
+            clip.channels[same->second].sampler = entry->second;
+        }
+        for (const auto& [property, target, rest] : what->multiplied) {
+            const auto [same, isFirst] = channels.try_emplace({property, target}, clip.channels.size());
+            if (isFirst) { // stays as it is, unless another channel changes it too
+                document.charge(2 * sizeof(AnimationSampler) + (1 + rest.size()) * sizeof(float), "animations", index);
+                clip.channels.push_back({property, target, int(clip.samplers.size())});
+                clip.samplers.push_back({Interpolation::Linear, int(rest.size()), {0.0f}, rest});
             }
-            AnimationChannel& made = clip.channels[same->second];
-            (isStrength ? made.factor : made.sampler) = entry->second;
+            clip.channels[same->second].factor = entry->second;
         }
     }
     document.ledger.settle(mark, context_.buffers.heldBytes() + bytesOf(clip));

@@ -54,12 +54,6 @@ glm::dmat4 parentFromNodeOf(const Document& document, int index) {
     return transformOf(translationOf(node), rotation, scaleOf(node));
 }
 
-/// Source: KHR_node_visibility.
-bool isVisible(const tiny::Node& node) {
-    const tiny::Value* const visible = valueAt(node.extensions, "KHR_node_visibility/visible");
-    return visible == nullptr || visible->Get<bool>();
-}
-
 bool isFinite(const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -157,8 +151,14 @@ bool splitByScale(Context& context, int index, int material) {
 
 } // namespace
 
+bool isVisible(const tiny::Node& node) {
+    const tiny::Value* const visible = valueAt(node.extensions, "KHR_node_visibility/visible");
+    return visible == nullptr || visible->Get<bool>();
+}
+
 std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::vector<int> parents = parentsOf(document);
+    const std::vector<bool> hasClip = nodesHiddenByClips(document.model);
     std::vector<PlacedNode> placed;
     struct Waiting {
         int node, parent; // as PlacedNode's
@@ -186,7 +186,8 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
                 continue;
             }
             isPlaced[std::size_t(next.node)] = true;
-            next.isVisible = next.isVisible && isVisible(elementAt(document.model.nodes, next.node));
+            next.isVisible = next.isVisible &&
+                             (hasClip[std::size_t(next.node)] || isVisible(elementAt(document.model.nodes, next.node)));
             next.parentFromNode = parentFromNodeOf(document, next.node);
             const glm::dmat4 worldFromParent =
                 next.parent >= 0 ? placed[std::size_t(next.parent)].worldFromNode : glm::dmat4(1.0);

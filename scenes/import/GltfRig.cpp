@@ -20,7 +20,7 @@ bool anyMorphs(const std::vector<double>& weights, std::size_t targets) {
 
 Rigging::Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes)
     : context_(context), materials_(materials), sceneNodes_(std::move(sceneNodes)),
-      hasAnimatedWeights_(sceneNodes_.size()) {
+      hasAnimatedWeights_(sceneNodes_.size()), isHiddenByClips_(nodesHiddenByClips(context.document.model)) {
     const tiny::Model& model = context.document.model;
     for (const tiny::Mesh& mesh : model.meshes) {
         std::size_t targets = 0;
@@ -197,6 +197,18 @@ void Rigging::addCamera(int index) {
     cameras_[elementAt(context_.document.model.nodes, index).camera].push_back(element);
 }
 
+void Rigging::findHiddenLights() {
+    const std::vector<Node>& nodes = context_.scene.nodes;
+    std::vector<int> hiddenBy(nodes.size(), kNone); // of the document, by node of the scene
+    for (std::size_t index = 0; index < sceneNodes_.size(); ++index)
+        if (isHiddenByClips_[index] && sceneNodes_[index] != kNone)
+            hiddenBy[std::size_t(sceneNodes_[index])] = int(index);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (hiddenBy[i] == kNone && nodes[i].parent != kNone) hiddenBy[i] = hiddenBy[std::size_t(nodes[i].parent)];
+    for (const Carried& light : carriedLights_)
+        if (const int by = hiddenBy[std::size_t(light.node)]; by != kNone) lightsHidden_[by].push_back(light.element);
+}
+
 /// Keeps those that a clip may move.
 void Rigging::carryAll() {
     Scene& scene = context_.scene;
@@ -214,10 +226,22 @@ void Rigging::carryAll() {
     keep(carriedCameras_, scene.rig.cameras);
 }
 
+/// The pose at rest, too, is that of the clips: what is hidden is in the scene.
+void Rigging::hideAtRest() {
+    for (const auto& [index, number] : nodes_) {
+        if (!isHiddenByClips_[std::size_t(index)] || isVisible(elementAt(context_.document.model.nodes, index)))
+            continue;
+        context_.scene.rig.nodes[std::size_t(number)].scale = glm::dvec3(0.0);
+        for (const int light : lightsHidden_[index]) context_.scene.lights[std::size_t(light)].intensity = 0.0f;
+    }
+}
+
 void Rigging::finish() {
     addSkinnedNodes();
+    findHiddenLights();
     Rig& rig = context_.scene.rig;
     for (std::size_t i = 0; i < context_.document.model.animations.size(); ++i) rig.clips.push_back(clip(int(i)));
+    hideAtRest();
     takeRest(context_.scene);
     if (!rig.clips.empty()) rig.playing.push_back(0);
     warnOfMorphless();

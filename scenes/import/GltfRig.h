@@ -23,6 +23,9 @@ std::string changedBy(const tiny::AnimationChannel& channel);
 /// The node whose weights a channel changes, by number of the document; none: it changes something else.
 std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel);
 
+/// By node: whether a channel hides and shows it, which a node with a matrix has no scale for.
+std::vector<bool> nodesHiddenByClips(const tiny::Model& model);
+
 /// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
 std::string kindOf(std::string_view pointer);
 
@@ -63,8 +66,14 @@ private:
         std::size_t width = 0;         ///< numbers of a value
         std::vector<int> targets = {}; ///< as AnimationChannel::target
         double scale = 1.0;            ///< of the document's values
-        /// Of the channel that AnimatedProperty::EmissiveStrength makes: what its values multiply.
-        glm::vec3 emissiveFactor{0.0f};
+        /// Instead of targets: what EmissiveStrength and NodeVisibility multiply, with its values where no clip changes
+        /// it.
+        struct Multiplied {
+            AnimatedProperty property{};
+            int target = 0; ///< as AnimationChannel::target
+            std::vector<float> rest;
+        };
+        std::vector<Multiplied> multiplied = {};
     };
 
     const std::vector<Drawn>& shapesOf(int mesh, Deforms deforms, std::size_t joints);
@@ -78,6 +87,7 @@ private:
     Clip clip(int index);
     std::optional<Animated> animated(const tiny::AnimationChannel& channel);
     std::optional<Animated> animatedOfNode(int node, std::string_view path);
+    Animated visibilityOf(int node);
     std::optional<Animated> animatedOfLight(std::size_t index, std::string_view path);
     std::optional<Animated> animatedOfMaterial(std::size_t index, std::string_view path);
     std::optional<Animated> animatedOfTexture(std::size_t material, std::string_view path);
@@ -92,6 +102,8 @@ private:
     void warnOfLeftOut();
     AnimationSampler sampler(int animation, int index, const Animated& animated);
     void carryAll();
+    void findHiddenLights();
+    void hideAtRest();
 
     Context& context_;
     Materials& materials_;
@@ -106,6 +118,8 @@ private:
     std::vector<Standing> standing_;
     std::map<int, std::vector<int>> lights_, cameras_; ///< of the scene, by those of the document
     std::vector<Carried> carriedLights_, carriedCameras_;
+    std::vector<bool> isHiddenByClips_;               ///< nodesHiddenByClips()
+    std::map<int, std::vector<int>> lightsHidden_;    ///< of the scene, by the next node above that clips hide and show
     std::size_t leftOut_ = 0;                         ///< channels
     std::map<std::string, std::string> leftOutPaths_; ///< the first of each kind, by its kind
     bool hasMoreLeftOut_ = false;                     ///< kinds than are named

@@ -13,7 +13,7 @@ struct PlacedNode {
     int node = -1;         ///< in the document
     int parent = -1;       ///< in the list of placed nodes
     bool isDrawn = true;   ///< false: a skin follows joints of its tree, which the scene does not have
-    bool isVisible = true; ///< KHR_node_visibility, with all above
+    bool isVisible = true; ///< KHR_node_visibility, with all above, but for nodes that clips hide and show
     glm::dmat4 parentFromNode{1.0};
     glm::dmat4 worldFromNode{1.0};
 };
@@ -21,6 +21,9 @@ struct PlacedNode {
 inline constexpr glm::dvec4 kNoRotation{0.0, 0.0, 0.0, 1.0};
 inline constexpr std::string_view kZeroQuaternion = "is the zero quaternion, which is no rotation";
 inline constexpr std::string_view kNotRotated = "nothing is rotated";
+
+/// Source: KHR_node_visibility.
+bool isVisible(const tiny::Node& node);
 
 inline std::string placeOf(int node) {
     return fmt::format("/nodes/{}", node);

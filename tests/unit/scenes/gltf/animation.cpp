@@ -119,15 +119,15 @@ TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
     Builder builder = movingTriangle();
     Json& channels = builder.json["animations"][0]["channels"];
     for (const char* pointer :
-         {"/nodes/0/extensions/KHR_node_visibility/visible", "/cameras/0/orthographic/xmag",
-          "/nodes/1/extensions/KHR_node_visibility/visible", "/extensions/EXT_lights_image_based/lights/0/intensity"})
+         {"/nodes/0/extensions/KHR_node_selectability/selectable", "/cameras/0/orthographic/xmag",
+          "/nodes/1/extensions/KHR_node_selectability/selectable", "/extensions/EXT_lights_image_based/lights/0/intensity"})
         channels.push_back({{"sampler", 0}, {"target", pointerTo(pointer)}});
     const Scene scene = builder.import();
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0],
                 HasSubstr("/animations: 4 channels change things that cannot be animated, and are left out: "
                           "/cameras/0/orthographic/xmag, /extensions/EXT_lights_image_based/lights/0/intensity, "
-                          "/nodes/0/extensions/KHR_node_visibility/visible"));
+                          "/nodes/0/extensions/KHR_node_selectability/selectable"));
     EXPECT_THAT(scene.warnings[0], Not(HasSubstr("/nodes/1"))) << "each kind is named once";
     expectPlace(drawnAt(scene, 1.0)[0], {2.0, 0.0, 0.0});
 }

@@ -18,6 +18,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// All clips of a scene at a time.
@@ -110,6 +111,41 @@ TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
     EXPECT_EQ(cones({}, 0.0), glm::vec2(0.125f, 0.25f)) << "at rest again";
     EXPECT_EQ(cones({2}, 1.0), glm::vec2(0.25f)) << "the inner cone stays within the outer one";
     EXPECT_EQ(cones({2}, 0.0), glm::vec2(0.0f, 0.25f));
+}
+
+/// Booleans are steps whatever the sampler says, and a node that a clip shows is in the scene though it is hidden at
+/// rest.
+TEST(GltfAnimation, clipsHideAndShowNodesWithTheirMeshesAndLights) {
+    Builder builder;
+    builder.merge(R"({"nodes": [{"mesh": 0, "scale": [2, 2, 2]},
+                                {"extensions": {"KHR_node_visibility": {"visible": false}}, "children": [0, 2]},
+                                {"extensions": {"KHR_lights_punctual": {"light": 0}}},
+                                {"mesh": 0, "skin": 0, "extensions": {"KHR_node_visibility": {"visible": true}}}, {}],
+                      "scenes": [{"nodes": [1, 3, 4]}], "skins": [{"joints": [4]}],
+                      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}]}}})");
+    const int shown = builder.add(std::vector<std::uint8_t>{1, 0}, kUnsignedByteType, "SCALAR", 2);
+    for (const char* node : {"1", "3"})
+        addClip(builder, {0, 1}, shown,
+                pointerTo(fmt::format("/nodes/{}/extensions/KHR_node_visibility/visible", node)));
+    Scene scene = builder.import();
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    const auto shownMeshes = [&] {
+        const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
+        std::vector<double> scales;
+        for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+            if (!scene.nodes[node].instances.empty()) scales.push_back(glm::length(glm::dvec3(worldFromNode[node][0])));
+        return scales;
+    };
+    poseAll(scene, 0.75);
+    EXPECT_THAT(shownMeshes(), ElementsAre(2.0, testing::Gt(0.5)));
+    EXPECT_FLOAT_EQ(scene.lights.at(0).intensity, 3.0f);
+    poseAll(scene, 1.0);
+    EXPECT_THAT(shownMeshes(), ElementsAre(0.0, 0.0));
+    EXPECT_EQ(scene.lights[0].intensity, 0.0f);
+    playClip(scene, "none");
+    poseScene(scene, 0.0);
+    EXPECT_THAT(shownMeshes(), ElementsAre(0.0, testing::Gt(0.5)));
+    EXPECT_EQ(scene.lights[0].intensity, 0.0f);
 }
 
 TEST(GltfAnimation, pointersReachEveryNumberOfAMaterialInTheTable) {
