@@ -28,6 +28,15 @@ inline scenes::Camera orthographic(const glm::dvec3& eyeWS, const glm::dvec3& ta
     return camera;
 }
 
+using Change = scenes::CameraChange;
+/// A change of some members: changing(&Change::fovYDegrees, 20.0).
+scenes::CameraChange changing(auto member, const auto& value, const auto&... more) {
+    scenes::CameraChange change;
+    if constexpr (sizeof...(more) > 0) change = changing(more...);
+    change.*member = value;
+    return change;
+}
+
 /// Where a camera shows a point: pixels right of and below the picture's centre, and metres ahead.
 inline glm::dvec3 shownAt(const scenes::Camera& camera, const glm::dvec3& pointWS) {
     const glm::dvec4 point = glm::inverse(camera.worldFromCamera) * glm::dvec4(pointWS, 1.0);

@@ -1,39 +1,58 @@
 #pragma once
 #include <cstddef>
-#include <memory>
+#include <initializer_list>
 #include <span>
-#include <utility>
 
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/session/Controls.h"
 
-/// A window whose picture is 400 x 400, for what the pointer does in it.
+/// A window whose picture is 400 x 400, and its input.
 namespace tessera::viewer::test {
 
 inline constexpr PictureArea kArea{{0.0f, 0.0f}, {400.0f, 400.0f}};
 
+// GLFW's modifiers, buttons and keys.
+inline constexpr int kShift = 1, kControl = 2;
+inline constexpr int kLeftButton = 0, kRightButton = 1, kMiddleButton = 2;
+inline constexpr int kEscapeKey = 256, kEnterKey = 257, kShiftKey = 340, kControlKey = 341;
+
+inline InputEvent button(const glm::vec2& position, bool down, int code = kLeftButton, int modifiers = 0) {
+    return {.kind = InputEvent::Kind::Button, .code = code, .down = down, .modifiers = modifiers, .position = position};
+}
+inline InputEvent moveTo(const glm::vec2& position) {
+    return {.kind = InputEvent::Kind::Move, .position = position};
+}
+inline InputEvent scroll(const glm::vec2& position, float steps, int modifiers = 0) {
+    return {.kind = InputEvent::Kind::Scroll,
+            .modifiers = modifiers,
+            .position = position,
+            .scroll = glm::vec2(0.0f, steps)};
+}
+/// `letter` is what the keyboard's layout has there.
+inline InputEvent key(int code, int modifiers = 0, int letter = 0) {
+    return {.kind = InputEvent::Kind::Key, .code = code, .down = true, .modifiers = modifiers, .letter = letter};
+}
+
+inline void handle(Controls& controls, State& state, std::initializer_list<InputEvent> events,
+                   const Controls::Claims& claims = {}, const PictureArea& area = kArea) {
+    controls.handle(std::span(events.begin(), events.size()), state, area, claims);
+}
+
 /// A window whose scene has a light in the picture's middle and others out of view.
 inline State withLightInTheMiddle(std::size_t index, std::size_t count) {
-    scenes::LoadOptions load;
-    scenes::Scene scene = scenes::loadScene("room", load);
+    scenes::Scene scene = roomWith(std::vector<scenes::Light>(count));
     const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
-    scene.lights.assign(count, scenes::Light());
     for (scenes::Light& light : scene.lights) light.positionWS = worldFromCamera * glm::dvec4(0, 0, 5, 1);
     scene.lights[index].positionWS = worldFromCamera * glm::dvec4(0, 0, -1, 1);
-    State state;
-    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
+    State state = stateOf(std::move(scene));
     state.showsMarkers = true;
     return state;
 }
 
 /// What is selected after a button was pressed in the picture's middle.
 inline int selectedByPress(State& state) {
-    InputEvent press;
-    press.kind = InputEvent::Kind::Button;
-    press.code = 0; // GLFW's left one
-    press.down = true;
-    press.position = {200.0, 200.0};
     Controls controls;
-    controls.handle(std::span(&press, 1), state, kArea, {});
+    handle(controls, state, {button({200.0f, 200.0f}, true)});
     return state.selectedLight;
 }
 

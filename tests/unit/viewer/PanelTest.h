@@ -1,14 +1,15 @@
 #pragma once
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/panels/Frame.h"
 
 /// Panels without a window.
@@ -19,13 +20,6 @@ inline Look lookAt(frame::DebugView view) {
     Look look;
     look.settings.view = view;
     return look;
-}
-
-/// A window that shows a scene, loaded from `source`.
-inline State stateOf(scenes::Scene scene, const scenes::LoadOptions& load = {}, std::string source = "room") {
-    State state;
-    state.open = std::make_unique<OpenScene>(std::move(source), load, std::move(scene), scenes::SceneOrigin());
-    return state;
 }
 
 /// A scene of all kinds of lights and materials, some of them beyond what the panels would set.
@@ -101,17 +95,53 @@ protected:
         show([&] { text = logged(panel); });
         return text;
     }
+    /// Presses the left button at a place of what is drawn, and lets it go.
+    template <typename Draw>
+    static void click(const ImVec2& place, const Draw& draw) {
+        ImGui::GetIO().MousePos = place;
+        for (const bool isDown : {false, true, false}) {
+            ImGui::GetIO().MouseDown[0] = isDown;
+            draw();
+        }
+    }
+    template <typename Panel>
+    void clickPanel(const ImVec2& place, const Panel& panel) {
+        click(place, [&] { show(panel); });
+    }
     /// Presses at the right ends of all sliders of a panel that is so high.
     template <typename Panel>
     void pressSliders(float heightPixels, const Panel& panel) {
         for (float y = 20.0f; y < heightPixels; y += 10.0f) {
-            ImGui::GetIO().MousePos = {280.0f, y};
-            for (const bool isDown : {false, true, false}) {
-                ImGui::GetIO().MouseDown[0] = isDown;
-                show(panel);
-            }
+            clickPanel({280.0f, y}, panel);
             ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the press opened
         }
+    }
+    static bool isPopupOpen() {
+        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    }
+    static bool isTipShown() {
+        return std::ranges::any_of(ImGui::GetCurrentContext()->Windows, [](const ImGuiWindow* window) {
+            return (window->Flags & ImGuiWindowFlags_Tooltip) != 0 && window->Active;
+        });
+    }
+    /// The latest window whose name has this part; null where there is none.
+    static const ImGuiWindow* windowNamed(const char* part) {
+        const ImGuiWindow* found = nullptr;
+        for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+            if (std::string(window->Name).find(part) != std::string::npos) found = window;
+        return found;
+    }
+    /// The pointer's shape at a place of what is drawn.
+    template <typename Draw>
+    ImGuiMouseCursor cursorAt(const ImVec2& place, const Draw& draw) {
+        ImGui::GetIO().MousePos = place;
+        ImGuiMouseCursor cursor = ImGuiMouseCursor_None;
+        for (int i = 0; i < 2; ++i)
+            frame([&] {
+                draw();
+                cursor = ImGui::GetMouseCursor();
+            });
+        return cursor;
     }
     /// What the first window of the interface says.
     std::string firstWindowText(State& state, const Facts& facts) {
@@ -128,17 +158,25 @@ protected:
         ImGui::LogFinish(); // at the end of the first window
         return std::string("\n") + ImGui::GetClipboardText();
     }
+    /// Vertices of what is drawn over the picture.
+    template <typename Draw>
+    std::vector<ImDrawVert> overlay(const Draw& draw) {
+        std::vector<ImDrawVert> vertices;
+        frame([&] {
+            draw();
+            const auto& drawn = ImGui::GetBackgroundDrawList()->VtxBuffer;
+            vertices.assign(drawn.begin(), drawn.end());
+        });
+        return vertices;
+    }
     /// Left and right end of what is drawn over the picture; empty where nothing is.
     template <typename Draw>
     std::optional<std::pair<float, float>> overlaySpan(const Draw& draw) {
         std::optional<std::pair<float, float>> span;
-        frame([&] {
-            draw();
-            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
-                if (!span) span = {vertex.pos.x, vertex.pos.x};
-                span = {std::min(span->first, vertex.pos.x), std::max(span->second, vertex.pos.x)};
-            }
-        });
+        for (const ImDrawVert& vertex : overlay(draw)) {
+            if (!span) span = {vertex.pos.x, vertex.pos.x};
+            span = {std::min(span->first, vertex.pos.x), std::max(span->second, vertex.pos.x)};
+        }
         return span;
     }
 };

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "scenes/Limits.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/viewer/CameraTest.h"
 #include "viewer/camera/FlyCamera.h"
 #include "viewer/camera/OrbitCamera.h"
@@ -112,66 +113,43 @@ TEST(Heading, aSteeperCameraOfTheSceneIsNotMovedBeforeItIsTurnedBack) {
 
 TEST(CameraChange, anEyeAloneMovesAndATargetAloneTurns) {
     const scenes::Camera camera = allKinds()[1];
-    scenes::CameraChange moved;
-    moved.eyeWS = glm::dvec3(7, 8, 9);
-    const glm::dmat4 placed = scenes::changedCamera(camera, moved).worldFromCamera;
+    const glm::dmat4 placed =
+        scenes::changedCamera(camera, changing(&Change::eyeWS, glm::dvec3(7, 8, 9))).worldFromCamera;
     EXPECT_EQ(glm::dmat3(placed), glm::dmat3(camera.worldFromCamera));
     EXPECT_EQ(glm::dvec3(placed[3]), glm::dvec3(7, 8, 9));
-    scenes::CameraChange turnedTo;
-    turnedTo.targetWS = glm::dvec3(5, 5, 5);
-    const scenes::Camera aimed = scenes::changedCamera(camera, turnedTo);
+    const scenes::Camera aimed = scenes::changedCamera(camera, changing(&Change::targetWS, glm::dvec3(5, 5, 5)));
     EXPECT_EQ(glm::dvec3(aimed.worldFromCamera[3]), glm::dvec3(camera.worldFromCamera[3]));
     EXPECT_NEAR(glm::length(glm::dvec2(shownAt(aimed, {5, 5, 5}))), 0.0, kRoundingPixels);
 }
 
-std::string errorOf(const scenes::Camera& camera, const scenes::CameraChange& change) {
-    try {
-        scenes::changedCamera(camera, change);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 TEST(CameraChange, upIsADirectionWhateverItsLength) {
     const scenes::Camera camera = perspective({1, 2, 8}, {0, 1, 0});
-    scenes::CameraChange plain, huge, tiny;
-    plain.upWS = {1.0, 2.0, 0.0};
-    huge.upWS = {1e300, 2e300, 0.0};
-    tiny.upWS = {1e-300, 2e-300, 0.0};
-    for (const scenes::CameraChange& change : {huge, tiny})
-        expectSamePicture(changedCamera(camera, plain), changedCamera(camera, change), kRoundingPixels);
+    const auto withUp = [&](double length) {
+        return scenes::changedCamera(camera, changing(&Change::upWS, glm::dvec3(length, 2.0 * length, 0.0)));
+    };
+    for (const double length : {1e300, 1e-300}) expectSamePicture(withUp(1.0), withUp(length), kRoundingPixels);
 }
 
 TEST(CameraChange, invalidCameraValuesAreRefusedByName) {
-    const scenes::Camera camera = allKinds()[0];
-    scenes::CameraChange change;
-    change.targetWS = glm::dvec3(camera.worldFromCamera[3]);
-    EXPECT_EQ(errorOf(camera, change), "camera 'test': it cannot look at its own place; give another target");
-    change = {};
-    change.upWS = glm::dvec3(0.0);
-    EXPECT_EQ(errorOf(camera, change), "camera 'test': its up has no length; give a direction");
-    change = {};
-    change.fovYDegrees = 180.0;
-    EXPECT_EQ(errorOf(camera, change),
+    const scenes::Camera camera = allKinds()[0], parallel = allKinds().back();
+    const auto refusal = [](const scenes::Camera& of, const scenes::CameraChange& change) {
+        return tessera::test::errorText<InputError>([&] { scenes::changedCamera(of, change); });
+    };
+    EXPECT_EQ(refusal(camera, changing(&Change::targetWS, glm::dvec3(camera.worldFromCamera[3]))),
+              "camera 'test': it cannot look at its own place; give another target");
+    EXPECT_EQ(refusal(camera, changing(&Change::upWS, glm::dvec3(0.0))),
+              "camera 'test': its up has no length; give a direction");
+    EXPECT_EQ(refusal(camera, changing(&Change::fovYDegrees, 180.0)),
               "camera 'test': its field of view would be 180 degrees; less than 180 is needed");
-    change = {};
-    change.halfHeightMetres = 1.0;
-    EXPECT_EQ(errorOf(camera, change),
+    EXPECT_EQ(refusal(camera, changing(&Change::halfHeightMetres, 1.0)),
               "camera 'test': it is a perspective camera and has no half height; give a field of view");
-    change = {};
-    change.fovYDegrees = 40.0;
-    EXPECT_EQ(errorOf(allKinds().back(), change),
+    EXPECT_EQ(refusal(parallel, changing(&Change::fovYDegrees, 40.0)),
               "camera 'test': it is orthographic and has no field of view; give a half height");
-    change = {};
-    change.nearMetres = 2.0;
-    change.farMetres = 1.0;
-    EXPECT_EQ(errorOf(camera, change),
+    EXPECT_EQ(refusal(camera, changing(&Change::nearMetres, 2.0, &Change::farMetres, 1.0)),
               "camera 'test': its far plane would be at 1, not beyond the near one at 2; move one of them");
-    change = {};
-    change.nearMetres = 0.0;
-    EXPECT_EQ(errorOf(camera, change), "camera 'test': its near plane would be 0; more than 0 is needed");
-    EXPECT_EQ(scenes::changedCamera(allKinds().back(), change).nearMetres, 0.0);
+    EXPECT_EQ(refusal(camera, changing(&Change::nearMetres, 0.0)),
+              "camera 'test': its near plane would be 0; more than 0 is needed");
+    EXPECT_EQ(scenes::changedCamera(parallel, changing(&Change::nearMetres, 0.0)).nearMetres, 0.0);
 }
 
 } // namespace

@@ -1,7 +1,5 @@
 // Lights that are selected and dragged in the picture.
 #include <algorithm>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,9 +12,7 @@
 namespace tessera::viewer {
 namespace {
 
-using test::kArea;
-using test::selectedByPress;
-using test::withLightInTheMiddle;
+using namespace test;
 
 TEST(ControlsOfLights, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     State shown = withLightInTheMiddle(kMostMarkers - 1, kMostMarkers + 2);
@@ -41,27 +37,16 @@ State withRectangleSelected() {
     light.directionWS = -glm::dvec3(worldFromCamera[1]);
     light.alongWS = glm::dvec3(worldFromCamera[0]);
     light.widthMetres = float(200.0 * viewOf(state, kArea).metresPerUnit(light.positionWS).value());
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    state.open = std::move(stateOf(std::move(scene)).open);
     return state;
 }
 constexpr glm::vec2 kRightSide{300.0f, 200.0f};
 
-InputEvent pointerEvent(InputEvent::Kind kind, glm::vec2 position, bool down = false) {
-    InputEvent event;
-    event.kind = kind;
-    event.position = position;
-    event.down = down;
-    return event;
-}
-
-/// The left button.
 void press(Controls& controls, State& state, glm::vec2 position, bool down) {
-    const InputEvent event = pointerEvent(InputEvent::Kind::Button, position, down);
-    controls.handle(std::span(&event, 1), state, kArea, {});
+    handle(controls, state, {button(position, down)});
 }
 void moveTo(Controls& controls, State& state, glm::vec2 position) {
-    const InputEvent event = pointerEvent(InputEvent::Kind::Move, position);
-    controls.handle(std::span(&event, 1), state, kArea, {});
+    handle(controls, state, {test::moveTo(position)});
 }
 
 TEST(ControlsOfLights, aSideOfTheSelectedLightGoesWithThePointerAndWithShiftAlone) {
@@ -78,11 +63,7 @@ TEST(ControlsOfLights, aSideOfTheSelectedLightGoesWithThePointerAndWithShiftAlon
     EXPECT_EQ(light.positionWS, before.positionWS);
     EXPECT_TRUE(state.open->isEdited());
     // Shift: the left side stays where it is.
-    InputEvent shift;
-    shift.kind = InputEvent::Kind::Key;
-    shift.code = 340; // GLFW's left one
-    shift.down = true;
-    controls.handle(std::span(&shift, 1), state, kArea, {});
+    handle(controls, state, {key(kShiftKey)});
     moveTo(controls, state, kRightSide + glm::vec2(40.0f, 0.0f));
     EXPECT_NEAR(light.widthMetres, 1.2 * double(before.widthMetres), 1e-3 * double(before.widthMetres));
     const glm::dvec2 middle = viewOf(state, kArea).placeOf(light.positionWS).value();
@@ -180,12 +161,8 @@ TEST(ControlsOfLights, directionalLightsHaveSunsAtThePicturesSideWhereAllAreMark
     EXPECT_GT(suns(), 5);
     EXPECT_LT(suns(), 29) << "there is no room for so many";
     const glm::vec2 second(lightMarkers(state, kArea).at(2).place); // after the light in the middle
-    InputEvent press;
-    press.kind = InputEvent::Kind::Button;
-    press.down = true;
-    press.position = second;
     Controls controls;
-    controls.handle(std::span(&press, 1), state, kArea, {});
+    press(controls, state, second, true);
     EXPECT_EQ(state.selectedLight, 2);
     state.showsMarkers = false;
     EXPECT_EQ(suns(), 0);

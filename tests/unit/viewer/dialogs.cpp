@@ -1,17 +1,12 @@
 // The dialogs of questions and of files, laid out without a window.
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <span>
 #include <string>
 
-#include <gtest/gtest.h>
-#include <imgui_internal.h>
-
 #include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/ControlledWindow.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
-#include "viewer/window/Input.h"
 
 namespace tessera::viewer {
 namespace {
@@ -22,7 +17,7 @@ TEST_F(Dialogs, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
     State state = test::unusualScene();
     const auto isOpen = [&] {
         show([&] { questionDialog(state, 1.0f); });
-        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+        return isPopupOpen();
     };
     EXPECT_FALSE(isOpen());
     state.question = Question{Question::About::Opening, "/scenes/lamps.json"};
@@ -39,14 +34,13 @@ TEST_F(Dialogs, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
     const std::string file = folder.write("one.glb", "").string();
     State state;
     ImGuiIO& io = ImGui::GetIO();
-    constexpr int kEnter = 7; // any number
-    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    io.KeyMap[ImGuiKey_Enter] = test::kEnterKey;
     const auto isOpen = [&] {
         show([&] {
             fileDialog(state, 1.0f);
             questionDialog(state, 1.0f);
         });
-        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+        return isPopupOpen();
     };
     EXPECT_FALSE(isOpen());
     state.files.emplace(FileDialog::Purpose::Open, folder.path());
@@ -62,48 +56,39 @@ TEST_F(Dialogs, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
     state.question.reset();
     EXPECT_TRUE(isOpen());
     EXPECT_TRUE(isOpen());
-    io.KeysDown[kEnter] = true;
+    io.KeysDown[test::kEnterKey] = true;
     isOpen();
-    io.KeysDown[kEnter] = false;
+    io.KeysDown[test::kEnterKey] = false;
     EXPECT_FALSE(isOpen());
     EXPECT_FALSE(state.files);
     EXPECT_EQ(state.requests.chosen, file);
 }
 
-/// Keys in the order of the presses, each released at once; Ctrl is held for those that say so.
-void pressAll(InputQueue& queue, std::span<const bool> withControl, int key, int control) {
-    const auto push = [&](int code, bool isDown) {
-        InputEvent event;
-        event.kind = InputEvent::Kind::Key;
-        event.code = code;
-        event.down = isDown;
-        queue.push(event);
-    };
-    for (const bool isHeld : withControl) {
-        if (isHeld) push(control, true);
-        push(key, true);
-        push(key, false);
-        if (isHeld) push(control, false);
-    }
-}
-
 TEST_F(Dialogs, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem) {
     const tessera::test::TempFolder folder;
     const std::string file = folder.write("taken.png", "").string();
-    constexpr int kEnter = 257, kControl = 341; // GLFW's
-    constexpr std::array kPresses{false, false, true};
     ImGuiIO& io = ImGui::GetIO();
-    io.KeyMap[ImGuiKey_Enter] = kEnter;
+    io.KeyMap[ImGuiKey_Enter] = test::kEnterKey;
     State state;
     InputQueue queue;
     state.files.emplace(FileDialog::Purpose::Save, folder.path(), "taken.png");
-    pressAll(queue, kPresses, kEnter, kControl); // before the dialog is there
-    int most = 0;                                // frames that keys waited
+    const auto push = [&](int code, bool isDown) {
+        InputEvent event = test::key(code);
+        event.down = isDown;
+        queue.push(event);
+    };
+    for (const bool withControl : {false, false, true}) { // before the dialog is there
+        if (withControl) push(test::kControlKey, true);
+        push(test::kEnterKey, true);
+        push(test::kEnterKey, false);
+        if (withControl) push(test::kControlKey, false);
+    }
+    int most = 0; // frames that keys waited
     for (int i = 0, waited = 0; i < 100 && state.files; ++i) {
         waited = state.keysWait() ? waited + 1 : 0;
         most = std::max(most, waited);
         for (const InputEvent& event : queue.takeFrame(state.keysWait())) io.KeysDown[event.code] = event.down;
-        io.KeyCtrl = io.KeysDown[kControl];
+        io.KeyCtrl = io.KeysDown[test::kControlKey];
         frame([&] { fileDialog(state, 1.0f); });
     }
     EXPECT_FALSE(state.files) << "Enter asks, once more is no answer, and Ctrl+Enter replaces";

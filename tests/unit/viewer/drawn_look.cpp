@@ -1,11 +1,9 @@
 #include "viewer/session/DrawnLook.h"
 
-#include <memory>
 #include <set>
 #include <string>
 
-#include <gtest/gtest.h>
-
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/edit/Brightness.h"
 
 namespace tessera::viewer {
@@ -23,9 +21,7 @@ State lamps() {
         scene.lights[i].intensity = float(1 + i);
     }
     scene.lights[2].enabled = false;
-    State state;
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
-    return state;
+    return test::stateOf(std::move(scene));
 }
 
 TEST(DrawnLook, viewsOfATermShowTheSelectedLightElseTheBrightest) {

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "scenes/Defaults.h"
 #include "scenes/Load.h"
 #include "shaders/shared/environment.h"
+#include "tests/support/EnvironmentVariable.h"
 #include "tests/support/TempFolder.h"
 #include "viewer/session/OpenScene.h"
 
@@ -23,13 +23,6 @@ namespace {
 /// Nothing that was filtered is kept yet.
 class EmptyCache {
 public:
-    EmptyCache() {
-        if (const char* const value = std::getenv(kVariable)) before_ = value;
-        setenv(kVariable, folder_.path().c_str(), 1);
-    }
-    ~EmptyCache() { before_ ? setenv(kVariable, before_->c_str(), 1) : unsetenv(kVariable); }
-    EmptyCache(const EmptyCache&) = delete;
-    EmptyCache& operator=(const EmptyCache&) = delete;
     bool isEmpty() const {
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path()))
             if (entry.is_regular_file()) return false;
@@ -37,9 +30,8 @@ public:
     }
 
 private:
-    static constexpr const char* kVariable = "XDG_CACHE_HOME";
-    std::optional<std::string> before_;
     tessera::test::TempFolder folder_;
+    tessera::test::EnvironmentVariable variable_{"XDG_CACHE_HOME", folder_.path().c_str()};
 };
 
 class EnvironmentJobTest : public testing::Test {

@@ -78,29 +78,22 @@ TEST_F(EnvironmentPanel, offersFilesThatWereUsedAndTheDialogForOthers) {
     state.open->takeEnvironment({});
     noteMap(state.maps, state.open->scene());
     EXPECT_EQ(state.maps, (std::vector<std::string>{"/maps/b/studio", "/maps/a/sunset.hdr"}));
-    const auto click = [&](const ImVec2& place) {
-        ImGui::GetIO().MousePos = place;
-        for (const bool isDown : {false, true, false}) {
-            ImGui::GetIO().MouseDown[0] = isDown;
-            show(panel);
-        }
-    };
-    const auto clickEntry = [&](float entry) {
-        click(list);
+    const auto clickEntry = [&](std::size_t entry) {
+        clickPanel(list, panel);
         ASSERT_FALSE(ImGui::GetCurrentContext()->OpenPopupStack.empty()) << "the list is not open";
         const ImGuiWindow& popup = *ImGui::GetCurrentContext()->OpenPopupStack.back().Window;
-        click({popup.Pos.x + 20.0f,
-               popup.Pos.y + popup.WindowPadding.y + (entry + 0.4f) * ImGui::GetTextLineHeightWithSpacing()});
+        const float y = popup.WindowPadding.y + (float(entry) + 0.4f) * ImGui::GetTextLineHeightWithSpacing();
+        clickPanel({popup.Pos.x + 20.0f, popup.Pos.y + y}, panel);
     };
     const std::size_t builtins = scenes::builtinEnvironments().size();
-    clickEntry(1.0f);
-    EXPECT_EQ(state.requests.environment, "studio");
-    clickEntry(float(1 + builtins));
-    EXPECT_EQ(state.requests.environment, "/maps/b/studio");
-    clickEntry(float(2 + builtins));
-    EXPECT_EQ(state.requests.environment, "/maps/a/sunset.hdr");
+    const std::pair<std::size_t, const char*> kEntries[] = {
+        {1, "studio"}, {1 + builtins, "/maps/b/studio"}, {2 + builtins, "/maps/a/sunset.hdr"}};
+    for (const auto& [entry, expected] : kEntries) {
+        clickEntry(entry);
+        EXPECT_EQ(state.requests.environment, expected);
+    }
     EXPECT_FALSE(state.requests.askWhatToOpen);
-    clickEntry(float(3 + builtins));
+    clickEntry(3 + builtins);
     EXPECT_TRUE(state.requests.askWhatToOpen);
 }
 

@@ -1,13 +1,13 @@
 #include "viewer/session/FileDialog.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "scenes/Load.h"
+#include "tests/support/EnvironmentVariable.h"
 #include "tests/support/TempFolder.h"
 #include "viewer/session/FileTypes.h"
 
@@ -28,6 +28,16 @@ protected:
     FileDialog open() const { return {Purpose::Open, folder_.path()}; }
     FileDialog save(const std::string& name) const { return {Purpose::Save, folder_.path(), name}; }
     std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
+    /// What is typed is not taken, and the dialog says why.
+    static void expectFault(FileDialog& dialog, const std::string& typed, const std::string& fault) {
+        dialog.type(typed);
+        EXPECT_EQ(dialog.accept(), std::nullopt);
+        EXPECT_EQ(dialog.fault(), fault);
+    }
+    static void expectCompleted(FileDialog& dialog, const std::string& text) {
+        dialog.complete();
+        EXPECT_EQ(dialog.text(), text);
+    }
     tessera::test::TempFolder folder_;
 };
 
@@ -87,24 +97,15 @@ TEST_F(Files, arrowsChooseAndEnterGoesIntoFoldersAndUp) {
 TEST_F(Files, tabLengthensTheTextAsFarAsNamesAgree) {
     FileDialog dialog = open();
     dialog.type("mo");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "models/");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "models/o");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "models/o");
+    for (const char* longer : {"models/", "models/o", "models/o"}) expectCompleted(dialog, longer);
     dialog.type("models/ot");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "models/other.gltf");
+    expectCompleted(dialog, "models/other.gltf");
     dialog.type("nothing");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "nothing");
+    expectCompleted(dialog, "nothing");
     // Letters are not cut into bytes.
-    folder_.write("x\xc3\xa4.glb", "");
-    folder_.write("x\xc3\xb6.glb", "");
+    for (const char* name : {"x\xc3\xa4.glb", "x\xc3\xb6.glb"}) folder_.write(name, "");
     dialog.type("x");
-    dialog.complete();
-    EXPECT_EQ(dialog.text(), "x");
+    expectCompleted(dialog, "x");
 }
 
 TEST_F(Files, aPathIsTakenFromTheRootAndFromHome) {
@@ -115,28 +116,18 @@ TEST_F(Files, aPathIsTakenFromTheRootAndFromHome) {
     EXPECT_EQ(dialog.accept(), std::nullopt);
     EXPECT_EQ(dialog.folder(), folder_.path() / "models");
     EXPECT_EQ(dialog.text(), "");
-    const char* const before = std::getenv("HOME");
-    const std::string kept = before != nullptr ? before : "";
-    ::setenv("HOME", folder_.path().c_str(), 1);
+    const tessera::test::EnvironmentVariable home("HOME", folder_.path().c_str());
     dialog.type("~/sky.hdr");
     EXPECT_EQ(dialog.accept(), at("sky.hdr"));
     dialog.type("~");
     EXPECT_EQ(dialog.accept(), std::nullopt);
     EXPECT_EQ(dialog.folder(), folder_.path());
-    if (before != nullptr)
-        ::setenv("HOME", kept.c_str(), 1);
-    else
-        ::unsetenv("HOME");
 }
 
 TEST_F(Files, whatCannotBeOpenedOrReadTellsWhy) {
     FileDialog dialog = open();
-    dialog.type("absent.glb");
-    EXPECT_EQ(dialog.accept(), std::nullopt);
-    EXPECT_EQ(dialog.fault(), at("absent.glb") + " is not there");
-    dialog.type("notes.txt");
-    EXPECT_EQ(dialog.accept(), std::nullopt);
-    EXPECT_EQ(dialog.fault(), at("notes.txt") + " is no file that can be opened");
+    expectFault(dialog, "absent.glb", at("absent.glb") + " is not there");
+    expectFault(dialog, "notes.txt", at("notes.txt") + " is no file that can be opened");
     dialog.goTo(folder_.path() / "nowhere");
     EXPECT_EQ(dialog.fault(), at("nowhere") + " cannot be read: No such file or directory");
     EXPECT_EQ(fileNamesOf(dialog), FileNames{"../"}) << "one gets back";
@@ -169,12 +160,8 @@ TEST_F(Files, aNameThatIsThereIsReplacedOnlyWhenSaid) {
     EXPECT_EQ(dialog.accept(true), at("picture.png"));
     dialog.type("picture2.png");
     EXPECT_FALSE(dialog.asksToReplace());
-    dialog.type("picture.jpg");
-    EXPECT_EQ(dialog.accept(), std::nullopt);
-    EXPECT_EQ(dialog.fault(), "A name ends in one of .json, .exr, .png");
-    dialog.type("nowhere/a.png");
-    EXPECT_EQ(dialog.accept(), std::nullopt);
-    EXPECT_EQ(dialog.fault(), at("nowhere") + " is no folder");
+    expectFault(dialog, "picture.jpg", "A name ends in one of .json, .exr, .png");
+    expectFault(dialog, "nowhere/a.png", at("nowhere") + " is no folder");
 }
 
 TEST_F(Files, aNameGoesAlongIntoFoldersThatAreChosen) {

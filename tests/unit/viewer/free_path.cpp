@@ -1,22 +1,12 @@
 #include <gtest/gtest.h>
 
-#include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/InEmptyFolder.h"
 #include "viewer/session/FreePath.h"
 
 namespace tessera::viewer {
 namespace {
 
-/// A test in an empty folder.
-class FreePath : public testing::Test {
-protected:
-    FreePath() { std::filesystem::current_path(folder_.path()); }
-    ~FreePath() override { std::filesystem::current_path(before_); }
-    const tessera::test::TempFolder& folder() const { return folder_; }
-
-private:
-    std::filesystem::path before_ = std::filesystem::current_path();
-    tessera::test::TempFolder folder_;
-};
+class FreePath : public test::InEmptyFolder {};
 
 TEST_F(FreePath, aFileThatIsThereIsNotNamed) {
     EXPECT_EQ(freePath("hall", ".png"), "tessera-hall-001.png");

@@ -1,9 +1,7 @@
 // A light's outline and handles, drawn without a window.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Handles.h"
 
@@ -14,16 +12,13 @@ class Handles : public test::PanelTest {
 protected:
     /// A rectangle ahead of the camera that faces down in the picture.
     Handles() {
-        scenes::Scene scene = scenes::loadScene("room", {});
-        scene.lights.assign(1, {});
-        scenes::Light& light = scene.lights[0];
-        const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
+        scenes::Light light;
+        const glm::dmat4 worldFromCamera = scenes::loadScene("room").cameras.front().worldFromCamera;
         light.type = scenes::LightType::Rectangle;
         light.positionWS = worldFromCamera * glm::dvec4(0.0, 0.0, -3.0, 1.0);
         light.directionWS = -glm::dvec3(worldFromCamera[1]);
         light.alongWS = glm::dvec3(worldFromCamera[0]);
-        state_.open =
-            std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        state_ = test::stateOf(test::roomWith({light}));
         state_.selectedLight = 0;
     }
     template <typename Change>
@@ -36,14 +31,8 @@ protected:
     /// The pointer's shape at a place of the picture.
     ImGuiMouseCursor cursorAt(const glm::dvec2& place) {
         const PictureArea at = area(state_);
-        ImGui::GetIO().MousePos = {at.corner.x + float(place.x), at.corner.y + float(place.y)};
-        ImGuiMouseCursor cursor = ImGuiMouseCursor_None;
-        for (int i = 0; i < 2; ++i)
-            frame([&] {
-                drawHandles(state_, area(state_));
-                cursor = ImGui::GetMouseCursor();
-            });
-        return cursor;
+        return PanelTest::cursorAt({at.corner.x + float(place.x), at.corner.y + float(place.y)},
+                                   [&] { drawHandles(state_, at); });
     }
 
     State state_;
@@ -104,19 +93,16 @@ TEST_F(Handles, anArmHasTheColourOfItsAxis) {
         ++arms;
         const glm::vec2 end = at.corner + glm::vec2(handle.place);
         int ownColour = 0;
-        frame([&] {
-            drawHandles(state_, at);
-            for (const ImDrawVert& vertex : ImGui::GetBackgroundDrawList()->VtxBuffer) {
-                const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(vertex.col);
-                const float channels[] = {ink.x, ink.y, ink.z};
-                if (glm::distance(glm::vec2(vertex.pos.x, vertex.pos.y), end) > 9.0f || ink.w < 1.0f) continue;
-                constexpr float kBrighter = 0.25f; // than both others
-                const float own = channels[handle.arm];
-                for (int axis = 0; axis < 3; ++axis)
-                    EXPECT_TRUE(axis == handle.arm || own > channels[axis] + kBrighter) << handle.arm;
-                ++ownColour;
-            }
-        });
+        for (const ImDrawVert& vertex : overlay([&] { drawHandles(state_, at); })) {
+            const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(vertex.col);
+            const float channels[] = {ink.x, ink.y, ink.z};
+            if (glm::distance(glm::vec2(vertex.pos.x, vertex.pos.y), end) > 9.0f || ink.w < 1.0f) continue;
+            constexpr float kBrighter = 0.25f; // than both others
+            const float own = channels[handle.arm];
+            for (int axis = 0; axis < 3; ++axis)
+                EXPECT_TRUE(axis == handle.arm || own > channels[axis] + kBrighter) << handle.arm;
+            ++ownColour;
+        }
         EXPECT_GE(ownColour, 3) << "its head has three corners: " << handle.arm;
     }
     EXPECT_EQ(arms, 3);
@@ -129,15 +115,10 @@ TEST_F(Handles, wordsBesideThePointerNameTheAxisOfAnArm) {
     ASSERT_NE(arm, figure.handles.end());
     const auto verticesAt = [&](const glm::dvec2& place) {
         cursorAt(place);
-        int count = 0;
-        frame([&] {
-            drawHandles(state_, at);
-            count = ImGui::GetBackgroundDrawList()->VtxBuffer.Size;
-        });
-        return count;
+        return overlay([&] { drawHandles(state_, at); }).size();
     };
-    constexpr int kWordsVertices = 16 * 4; // "Drag to move along x" without its spaces
-    const int without = verticesAt({3.0, 3.0});
+    constexpr std::size_t kWordsVertices = 16 * 4; // "Drag to move along x" without its spaces
+    const std::size_t without = verticesAt({3.0, 3.0});
     EXPECT_GE(verticesAt(arm->place), without + kWordsVertices);
     EXPECT_EQ(verticesAt(figure.handles.at(0).place), without) << "that one's outline shows what it does";
     state_.heldHandle = arm->number;

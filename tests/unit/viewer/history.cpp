@@ -12,23 +12,27 @@
 #include "scenes/Rest.h"
 #include "scenes/write/SceneText.h"
 #include "tests/unit/scenes/RiggedScene.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/edit/LightLife.h"
-#include "viewer/session/OpenScene.h"
 
 namespace tessera::viewer {
 namespace {
 
-std::unique_ptr<OpenScene> opened(const std::string& source) {
-    const scenes::LoadOptions load;
-    scenes::Scene scene = scenes::loadScene(source, load);
-    scenes::SceneOrigin origin = scenes::originOf(source, load, scene);
-    return std::make_unique<OpenScene>(source, load, std::move(scene), std::move(origin));
-}
+using test::opened;
+using test::settle;
 
 std::string textOf(const OpenScene& open) {
     return scenes::sceneText(open.scene(), open.origin(), std::filesystem::temp_directory_path() / "edited.json",
                              open.environmentView());
+}
+
+void undoAll(OpenScene& open) {
+    while (open.undo() != nullptr) {
+    }
+}
+void redoAll(OpenScene& open) {
+    while (open.redo() != nullptr) {
+    }
 }
 
 /// One of all kinds of edits and jumps, as the window makes them.
@@ -59,18 +63,13 @@ public:
         case 3:
             return open_.changeHookParameter(number(open_.scene().hook->parameters.size()), share());
         case 4:
-        case 5: {
+        case 5:
             if (lights.empty()) return;
-            const std::size_t index = number(lights.size());
-            scenes::Light light = lights[index];
-            changeLife(light);
-            return open_.changeLight(index, std::move(light));
-        }
-        case 6: {
-            scenes::Material material = open_.scene().materials[0];
-            (number(2) == 0 ? material.metallic : material.perceptualRoughness) = share();
-            return open_.changeMaterial(0, material);
-        }
+            return test::changeLight(open_, number(lights.size()), [this](scenes::Light& light) { changeLife(light); });
+        case 6:
+            return test::changeMaterial(open_, 0, [this](scenes::Material& material) {
+                (number(2) == 0 ? material.metallic : material.perceptualRoughness) = share();
+            });
         default:
             return edit();
         }
@@ -99,21 +98,18 @@ public:
         }
         case 9:
             return turnEnvironment();
-        case 5: {
-            const std::size_t index = number(open_.scene().materials.size());
-            scenes::Material material = open_.scene().materials[index];
-            material.baseColor.x = share();
-            return open_.changeMaterial(index, material);
-        }
+        case 5:
+            return test::changeMaterial(open_, number(open_.scene().materials.size()),
+                                        [this](scenes::Material& material) { material.baseColor.x = share(); });
         case 6:
             open_.jumpToCamera(int(number(open_.cameras().size())));
-            return settle();
+            return settle(open_);
         case 7:
             open_.jumpHome();
-            return settle();
+            return settle(open_);
         default:
             open_.jumpToAll(0.5 + share());
-            return settle();
+            return settle(open_);
         }
     }
 
@@ -121,11 +117,8 @@ private:
     void drag() {
         if (open_.scene().lights.empty()) return;
         const std::size_t index = number(open_.scene().lights.size());
-        for (int i = 0; i < 3; ++i) {
-            scenes::Light light = open_.scene().lights[index];
-            light.positionWS.x += double(share()) - 0.5;
-            open_.changeLight(index, light, Gesture::GoesOn);
-        }
+        const auto move = [this](scenes::Light& light) { light.positionWS.x += double(share()) - 0.5; };
+        for (int i = 0; i < 3; ++i) test::changeLight(open_, index, move, Gesture::GoesOn);
         open_.endGesture();
     }
     /// Where there is one.
@@ -183,10 +176,6 @@ private:
             return letFlicker(light, !light.flicker, 0);
         }
     }
-    void settle() {
-        open_.rig().advance(10.0, 400.0);
-        open_.applyRig();
-    }
     std::size_t number(std::size_t count) { return std::size_t(engine_() % count); }
     float share() { return float(engine_() >> 11) * 0x1p-53f; }
 
@@ -204,12 +193,10 @@ TEST(History, aThousandUndoneEditsLeaveTheSavedSceneByteForByteAndRedoneOnesTheE
     EXPECT_GT(steps, 500u) << "some were nothing to do, as a jump to where the camera is";
     EXPECT_NE(edited, saved);
     for (int i = 0; i < 2; ++i) {
-        while (open->undo() != nullptr) {
-        }
+        undoAll(*open);
         EXPECT_EQ(textOf(*open), saved);
         EXPECT_FALSE(open->isEdited());
-        while (open->redo() != nullptr) {
-        }
+        redoAll(*open);
         EXPECT_EQ(textOf(*open), edited);
         EXPECT_TRUE(open->isEdited());
         EXPECT_EQ(open->history().undoable(), steps);
@@ -234,8 +221,7 @@ TEST(History, editsUndoneInAnyOrderWithNewOnesLeadBackToo) {
         }
         EXPECT_EQ(open->history().undoText() != nullptr, open->history().undoable() > 0);
     }
-    while (open->undo() != nullptr) {
-    }
+    undoAll(*open);
     EXPECT_EQ(textOf(*open), saved);
     EXPECT_FALSE(open->isEdited());
 }
@@ -271,8 +257,7 @@ TEST(History, aThousandEditsOfALivelySceneAreUndoneAndRedoneWhateverPlaysMeanwhi
         const std::vector<scenes::Material> materials = open.scene().materials;
         RandomEdits random(open, seed);
         for (int i = 0; i < 1000; ++i) random.editOrPlay();
-        while (open.redo() != nullptr) { // the last of them may have been undone
-        }
+        redoAll(open); // the last of them may have been undone
         const std::uint64_t edited = fingerprint();
         const scenes::EnvironmentView turned = open.environmentView();
         EXPECT_GT(open.history().undoable(), 200u);
@@ -340,11 +325,7 @@ TEST(History, aDragThatGoesOnAfterASaveIsUndoneToWhatWasSaved) {
 
 TEST(History, stepsToTheSavedSceneAreNoneWhereAnotherEditTookTheirPlace) {
     const auto open = opened("room");
-    const auto change = [&](float intensity) {
-        scenes::Light light = open->scene().lights[0];
-        light.intensity = intensity;
-        open->changeLight(0, light);
-    };
+    const auto change = [&](float intensity) { test::setIntensity(*open, intensity); };
     EXPECT_EQ(open->history().stepsToSaved(), 0);
     change(0.25f);
     change(0.5f);
@@ -359,15 +340,10 @@ TEST(History, stepsToTheSavedSceneAreNoneWhereAnotherEditTookTheirPlace) {
 
 TEST(History, aSaveLeavesJumpsThatLeadWhereTheyLed) {
     const auto open = opened("room");
-    const auto settle = [&] {
-        open->rig().advance(10.0, 400.0);
-        open->applyRig();
-    };
-    open->rig().rotate({120.0, 30.0}, 400.0);
-    settle();
+    test::turnCamera(*open);
     const CameraPose turned = open->rig().pose();
     open->jumpHome();
-    settle();
+    settle(*open);
     open->becomes("/saved.json");
     ASSERT_NE(open->undo(), nullptr);
     EXPECT_EQ(open->rig().pose(), turned);
@@ -411,13 +387,14 @@ TEST(History, textsSayWhatWasDoneAndToWhat) {
     EXPECT_EQ(text([](scenes::Light& l) { l.widthMetres = 3.0f; }), "resize light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.animation.emplace(); }), "animate light 'lamp 3'");
     EXPECT_EQ(text([](scenes::Light& l) { l.flicker.emplace(); }), "change flicker of light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.keyframes.emplace_back(); }), "change keyframes of light 'lamp 3'");
+    EXPECT_EQ(text([](scenes::Light& l) { l.castsShadow = true; }), "change light 'lamp 3'");
     scenes::Light keyed = light;
     keyed.keyframes.emplace_back().of = scenes::LightKeyed::Color;
     scenes::Light stopped = keyed;
     stopped.color.x = 0.5f;
     stopped.keyframes.clear();
     EXPECT_EQ(changeText(keyed, stopped, "lamp"), "stop light 'lamp'");
-    EXPECT_EQ(text([](scenes::Light& l) { l.keyframes.emplace_back(); }), "change keyframes of light 'lamp 3'");
     scenes::Light moving = light, slower;
     moving.animation.emplace().pointsWS = {{0, 0, 0}, {1, 0, 0}};
     slower = moving;
@@ -426,7 +403,6 @@ TEST(History, textsSayWhatWasDoneAndToWhat) {
     slower = moving;
     placeLight(slower, 0.0, {5, 0, 0});
     EXPECT_EQ(changeText(moving, slower, "lamp"), "move light 'lamp'");
-    EXPECT_EQ(text([](scenes::Light& l) { l.castsShadow = true; }), "change light 'lamp 3'");
     scenes::Material material, glowing;
     glowing.emissive.x = 1.0f;
     EXPECT_EQ(changeText(material, glowing, "glass"), "change emission of material 'glass'");

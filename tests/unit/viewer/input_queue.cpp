@@ -1,11 +1,18 @@
 #include <gtest/gtest.h>
 
-#include "viewer/window/Input.h"
+#include "tests/unit/viewer/ControlledWindow.h"
 
 namespace tessera::viewer {
 namespace {
 
 using Kind = InputEvent::Kind;
+
+/// A queue of these events.
+InputQueue queueOf(std::initializer_list<InputEvent> events) {
+    InputQueue queue;
+    for (const InputEvent& event : events) queue.push(event);
+    return queue;
+}
 
 InputEvent at(Kind kind, float x, int code = 0, bool down = true) {
     InputEvent event{kind, code, down};
@@ -14,9 +21,7 @@ InputEvent at(Kind kind, float x, int code = 0, bool down = true) {
 }
 
 TEST(InputQueue, aPressAndItsReleaseReachDifferentFrames) {
-    InputQueue queue;
-    queue.push(at(Kind::Button, 1.0f, 0, true));
-    queue.push(at(Kind::Button, 1.0f, 0, false));
+    InputQueue queue = queueOf({at(Kind::Button, 1.0f, 0, true), at(Kind::Button, 1.0f, 0, false)});
     ASSERT_EQ(queue.takeFrame().size(), 1u);
     EXPECT_FALSE(queue.empty());
     const std::vector<InputEvent> second = queue.takeFrame();
@@ -26,10 +31,7 @@ TEST(InputQueue, aPressAndItsReleaseReachDifferentFrames) {
 }
 
 TEST(InputQueue, thePointerNeverLeavesWhereAButtonChangedWithinTheFrame) {
-    InputQueue queue;
-    queue.push(at(Kind::Move, 1.0f));
-    queue.push(at(Kind::Button, 1.0f));
-    queue.push(at(Kind::Move, 9.0f));
+    InputQueue queue = queueOf({at(Kind::Move, 1.0f), at(Kind::Button, 1.0f), at(Kind::Move, 9.0f)});
     const std::vector<InputEvent> first = queue.takeFrame();
     ASSERT_EQ(first.size(), 2u);
     EXPECT_EQ(first.back().position.x, 1.0f);
@@ -37,9 +39,7 @@ TEST(InputQueue, thePointerNeverLeavesWhereAButtonChangedWithinTheFrame) {
 }
 
 TEST(InputQueue, aDragReachesItsEndAFrameBeforeTheButtonIsLetGo) {
-    InputQueue queue;
-    queue.push(at(Kind::Move, 9.0f));
-    queue.push(at(Kind::Button, 9.0f, 0, false));
+    InputQueue queue = queueOf({at(Kind::Move, 9.0f), at(Kind::Button, 9.0f, 0, false)});
     ASSERT_EQ(queue.takeFrame().size(), 1u);
     EXPECT_EQ(queue.takeFrame().front().kind, Kind::Button);
 }
@@ -80,25 +80,18 @@ TEST(InputQueue, buttonsWheelAndKeysAreUrgentButNotAKeyThatIsHeld) {
 }
 
 TEST(InputQueue, differentKeysShareAFrame) {
-    InputQueue queue;
-    queue.push(at(Kind::Key, 0.0f, 65));
-    queue.push(at(Kind::Key, 0.0f, 66));
-    queue.push(at(Kind::Character, 0.0f, 'a'));
-    queue.push(at(Kind::Key, 0.0f, 65, false));
+    InputQueue queue = queueOf({at(Kind::Key, 0.0f, 65), at(Kind::Key, 0.0f, 66), at(Kind::Character, 0.0f, 'a'),
+                                at(Kind::Key, 0.0f, 65, false)});
     EXPECT_EQ(queue.takeFrame().size(), 3u);
     EXPECT_EQ(queue.takeFrame().size(), 1u);
 }
 
-// GLFW's
-constexpr int kEnterKey = 257, kControlKey = 341;
+using test::kControlKey;
+using test::kEnterKey;
 
 TEST(InputQueue, textBehindEnterReachesTheNextFrameAndTextBeforeItTheSame) {
-    InputQueue queue;
-    queue.push(at(Kind::Key, 0.0f, 65));
-    queue.push(at(Kind::Character, 0.0f, 'a'));
-    queue.push(at(Kind::Key, 0.0f, kEnterKey));
-    queue.push(at(Kind::Key, 0.0f, 66));
-    queue.push(at(Kind::Character, 0.0f, 'b'));
+    InputQueue queue = queueOf({at(Kind::Key, 0.0f, 65), at(Kind::Character, 0.0f, 'a'), at(Kind::Key, 0.0f, kEnterKey),
+                                at(Kind::Key, 0.0f, 66), at(Kind::Character, 0.0f, 'b')});
     EXPECT_EQ(queue.takeFrame().size(), 4u);
     EXPECT_EQ(queue.takeFrame().front().code, 'b');
 }
@@ -106,27 +99,20 @@ TEST(InputQueue, textBehindEnterReachesTheNextFrameAndTextBeforeItTheSame) {
 TEST(InputQueue, aModifierChangesInAFrameOnlyBeforeWhatHeedsIt) {
     for (const InputEvent& heeds : {at(Kind::Key, 0.0f, kEnterKey), at(Kind::Button, 0.0f), at(Kind::Scroll, 0.0f),
                                     at(Kind::Character, 0.0f, 'a')}) {
-        InputQueue queue;
-        queue.push(at(Kind::Key, 0.0f, kControlKey));
-        queue.push(heeds);
+        InputQueue queue = queueOf({at(Kind::Key, 0.0f, kControlKey), heeds});
         EXPECT_EQ(queue.takeFrame().size(), 2u);
         queue.push(heeds);
         queue.push(at(Kind::Key, 0.0f, kControlKey, false));
         EXPECT_EQ(queue.takeFrame().size(), 1u) << "Ctrl is still held";
         EXPECT_EQ(queue.takeFrame().front().code, kControlKey);
     }
-    InputQueue releases;
-    releases.push(at(Kind::Key, 0.0f, kEnterKey, false));
-    releases.push(at(Kind::Key, 0.0f, kControlKey, false));
+    InputQueue releases = queueOf({at(Kind::Key, 0.0f, kEnterKey, false), at(Kind::Key, 0.0f, kControlKey, false)});
     EXPECT_EQ(releases.takeFrame().size(), 2u);
 }
 
 TEST(InputQueue, keysThatWaitKeepTheirOrderAndWhatCameBeforeThemDoesNot) {
-    InputQueue queue;
-    queue.push(at(Kind::Key, 1.0f, kControlKey, false)); // of a press that did not wait
-    queue.push(at(Kind::Character, 1.0f, 'a'));
-    queue.push(at(Kind::Key, 1.0f, kEnterKey));
-    queue.push(at(Kind::Move, 2.0f));
+    InputQueue queue = queueOf({at(Kind::Key, 1.0f, kControlKey, false), // of a press that did not wait
+                                at(Kind::Character, 1.0f, 'a'), at(Kind::Key, 1.0f, kEnterKey), at(Kind::Move, 2.0f)});
     const std::vector<InputEvent> before = queue.takeFrame(true);
     ASSERT_EQ(before.size(), 1u);
     EXPECT_EQ(before[0].code, kControlKey);

@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/TestScenes.h"
 #include "tests/unit/viewer/CameraTest.h"
 
 namespace tessera::viewer {
 namespace {
 
 using namespace test;
+using tessera::test::quadScene;
 using testing::ElementsAre;
 
 TEST(Inspection, aPlaceIsThePixelThatCoversIt) {
@@ -74,14 +76,7 @@ TEST(Inspection, ofWhatTakesNoLightNoneAreVisitedAndOfWhatIsTransparentItIsNotKn
 }
 
 TEST(Inspection, whereAHookMovesVerticesItIsNotKnownHowManyLightsAreVisited) {
-    scenes::Scene scene;
-    scene.materials.resize(1);
-    scenes::Mesh card;
-    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-    card.normalsOS.assign(3, {0, 0, 1});
-    card.indices = {0, 1, 2};
-    scene.meshes = {card};
-    scene.nodes.emplace_back().instances = {{0, 0}};
+    scenes::Scene scene = quadScene({});
     const auto visited = [&] {
         const scenes::Camera camera = perspective({0, 0, 5}, {0, 0, 0});
         return visitsOf(surfaceAt(scene, camera, {100, 100}, {50, 50}, 0.0).value(), 38);
@@ -96,16 +91,10 @@ TEST(Inspection, whereAHookMovesVerticesItIsNotKnownHowManyLightsAreVisited) {
 }
 
 TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) {
-    scenes::Scene scene;
-    scene.materials.resize(1);
-    scene.materials[0].name = "paint";
-    scene.materials[0].doubleSided = true;
-    scenes::Mesh card;
-    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    card.normalsOS.assign(4, {0, 0, 1});
-    card.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes = {card};
-    scene.nodes.emplace_back().instances = {{0, 0}};
+    scenes::Material paint;
+    paint.name = "paint";
+    paint.doubleSided = true;
+    scenes::Scene scene = quadScene(paint);
     scene.lights.resize(3);
     scene.lights[0].positionWS = scene.lights[1].positionWS = scene.lights[2].positionWS = {0.0, 0.0, 2.0};
     scene.lights[1].rangeMetres = 1.0f;
@@ -116,10 +105,11 @@ TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) 
     for (const double side : {1.0, -1.0}) {
         const auto front = at(perspective({0, 0, 5.0 * side}, {0, 0, 0}), {50, 50});
         ASSERT_TRUE(front);
+        const glm::dvec3 normalWS(0.0, 0.0, side);
         EXPECT_EQ(front->material, "paint");
         EXPECT_NEAR(front->depthMetres, 5.0, 1e-9);
-        EXPECT_LT(glm::distance(front->faceNormalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
-        EXPECT_LT(glm::distance(front->shadingNormalWS, glm::dvec3(0.0, 0.0, side)), 1e-9);
+        EXPECT_LT(glm::distance(front->faceNormalWS, normalWS), 1e-9);
+        EXPECT_LT(glm::distance(front->shadingNormalWS, normalWS), 1e-9);
         EXPECT_TRUE(front->takesLight);
         EXPECT_FALSE(front->isTransparent);
         EXPECT_EQ(front->reachingLights, 1u);
@@ -135,15 +125,8 @@ TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) 
 }
 
 TEST(Inspection, theShadingNormalLiesBetweenTheVerticesNormalsUnlessAMapReplacesIt) {
-    scenes::Scene scene;
-    scene.materials.resize(1);
-    scenes::Mesh card;
-    card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    card.normalsOS = {{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}};
-    card.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-    card.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes = {card};
-    scene.nodes.emplace_back().instances = {{0, 0}};
+    scenes::Scene scene = quadScene({});
+    scene.meshes[0].normalsOS = {{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}};
     const auto inspected = [&] {
         return surfaceAt(scene, orthographic({0, 0, 5}, {0, 0, 0}, 2.0), {100, 100}, {62, 30}, 0.0).value();
     };

@@ -14,7 +14,7 @@
 #include "scenes/write/ElementJson.h"
 #include "scenes/write/SceneText.h"
 #include "tests/support/Random.h"
-#include "tests/unit/viewer/ChangeLight.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
@@ -200,11 +200,8 @@ TEST(LightLife, pointsOfAPathComeAndGoAndKeepItALength) {
 }
 
 TEST(LightLife, editsAtRandomAreSavedAndUndone) {
-    const scenes::LoadOptions load;
-    scenes::Scene scene = scenes::loadScene("room", load);
-    scenes::SceneOrigin origin = scenes::originOf("room", load, scene);
     State state;
-    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), std::move(origin));
+    state.open = test::opened("room");
     const auto text = [&] {
         return scenes::sceneText(state.open->scene(), state.open->origin(),
                                  std::filesystem::temp_directory_path() / "edited.json");

@@ -1,13 +1,11 @@
 // The rows of a light, by its type.
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
-#include <imgui_internal.h>
+#include <gmock/gmock.h>
 
-#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/edit/LightLife.h"
 #include "viewer/panels/Panels.h"
@@ -18,16 +16,18 @@ namespace {
 
 class LightRows : public test::PanelTest {
 protected:
-    /// The panel of a scene with one light, which is selected.
-    std::string textOfLight(scenes::LightType type) {
-        scenes::Scene scene = scenes::loadScene("room", {});
-        scene.lights.assign(1, {});
-        scene.lights[0].type = type;
-        State state = test::stateOf(std::move(scene));
-        state.selectedLight = 0;
+    std::string textOfPanel(State& state) {
         return textOf([&] { lightsPanel(state); });
     }
+    /// The panel of a scene with one light, which is selected.
+    std::string textOfLight(scenes::LightType type) {
+        State state = test::roomWithLight(type);
+        return textOfPanel(state);
+    }
 };
+
+using testing::HasSubstr;
+using testing::Not;
 
 TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
     const auto isIn = [](const std::string& text, const std::string& label) {
@@ -55,14 +55,9 @@ TEST_F(LightRows, areThoseOfItsTypeAndNoOther) {
 }
 
 TEST_F(LightRows, showNoMinusBeforeZeroAndChangeNothingByThat) {
-    scenes::Scene scene = scenes::loadScene("room", {});
-    scene.lights.assign(1, {});
-    scene.lights[0].positionWS = {-1e-9, -0.0, -2.0};
-    State state = test::stateOf(std::move(scene));
-    state.selectedLight = 0;
-    const std::string text = textOf([&] { lightsPanel(state); });
-    EXPECT_EQ(text.find("-0.000"), std::string::npos) << text;
-    EXPECT_NE(text.find("-2.000"), std::string::npos) << text;
+    State state = test::roomWithLight();
+    test::changeLight(state, 0, [](scenes::Light& light) { light.positionWS = {-1e-9, -0.0, -2.0}; });
+    EXPECT_THAT(textOfPanel(state), testing::AllOf(Not(HasSubstr("-0.000")), HasSubstr("-2.000")));
     EXPECT_EQ(state.open->scene().lights[0].positionWS.x, -1e-9);
 }
 
@@ -91,11 +86,7 @@ TEST_F(LightRows, ofWhatShinesStandTogetherBeforeAllElse) {
 
 TEST_F(LightRows, areNotWiderThanThePanel) {
     const auto contentWidth = [&](scenes::LightType type) {
-        scenes::Scene scene = scenes::loadScene("room", {});
-        scene.lights.assign(1, {});
-        scene.lights[0].type = type;
-        State state = test::stateOf(std::move(scene));
-        state.selectedLight = 0;
+        State state = test::roomWithLight(type);
         show([&] { lightsPanel(state); });
         return ImGui::FindWindowByName("panel")->ContentSize.x;
     };
@@ -106,31 +97,30 @@ TEST_F(LightRows, areNotWiderThanThePanel) {
 }
 
 TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
-    scenes::Scene scene = scenes::loadScene("room", {});
-    scene.lights.assign(1, {});
-    State state = test::stateOf(std::move(scene));
-    state.selectedLight = 0;
+    State state = test::roomWithLight();
     state.looks[0].settings.timeSeconds = 1.5;
     const auto expectRows = [&](const char* what, const std::vector<const char*>& some,
                                 const std::vector<const char*>& others) {
         const scenes::Light before = state.open->scene().lights[0];
-        const std::string text = textOf([&] { lightsPanel(state); });
-        for (const char* word : some) EXPECT_NE(text.find(word), std::string::npos) << what << ": " << word << text;
-        for (const char* word : others) EXPECT_EQ(text.find(word), std::string::npos) << what << ": " << word << text;
+        const std::string text = textOfPanel(state);
+        for (const char* word : some) EXPECT_THAT(text, HasSubstr(word)) << what;
+        for (const char* word : others) EXPECT_THAT(text, Not(HasSubstr(word))) << what;
         EXPECT_TRUE(state.open->scene().lights[0] == before) << "drawing it changes nothing";
     };
     const auto change = [&](const auto& edit) { test::changeLight(state, 0, edit); };
+    using Way = scenes::LightAnimationKind;
+    const auto choose = [&](Way way) { change([&](scenes::Light& light) { chooseWay(light, way, 0.0, 1.0); }); };
     expectRows("still", {"Keys of position", "Keys of colour", "Keys of intensity", "Add at 1.50 s"},
                {"Way", "Keys of direction", "Period", "Between"});
     change([](scenes::Light& light) { light.type = scenes::LightType::Spot; });
     expectRows("a spot", {"Keys of direction"}, {"Way"});
-    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Orbit, 0.0, 1.0); });
+    choose(Way::Orbit);
     expectRows("an orbit", {"Way", "Centre", "Axis", "Period", "Phase"}, {"Keys of position", "Point 0"});
-    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Wobble, 0.0, 1.0); });
+    choose(Way::Wobble);
     expectRows("a wobble", {"Amplitude", "Period"}, {"Centre", "Keys of position"});
-    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Path, 0.0, 1.0); });
+    choose(Way::Path);
     expectRows("a path", {"Point 0", "Point 3", "Line", "closed", "ahead", "Period"}, {"Centre", "Keys of position"});
-    change([](scenes::Light& light) { chooseWay(light, scenes::LightAnimationKind::Keyframes, 0.0, 1.0); });
+    choose(Way::Keyframes);
     expectRows("keys", {"Keys of position", "Between", "After", "1.50 s", "6.00 s"}, {"Period", "Point 0"});
     change([](scenes::Light& light) {
         chooseType(light, scenes::LightType::Directional, 1.0);
@@ -141,14 +131,10 @@ TEST_F(LightRows, sayWhichWayALightGoesAndWhichKeysItHas) {
 }
 
 TEST_F(LightRows, ofManyLightsTheListHasGroupsWhichUnfoldForALightThatIsSelectedElsewhere) {
-    scenes::Scene scene = scenes::loadScene("room", {});
-    scene.lights.assign(9, {});
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].name = fmt::format("lamp {}", i);
-    State state = test::stateOf(std::move(scene));
-    const auto has = [&](const char* label) {
-        const std::string text = textOf([&] { lightsPanel(state); });
-        return text.find(label) != std::string::npos;
-    };
+    Lights lamps(9);
+    for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i].name = fmt::format("lamp {}", i);
+    State state = test::stateOf(test::roomWith(lamps));
+    const auto has = [&](const char* label) { return textOfPanel(state).find(label) != std::string::npos; };
     EXPECT_TRUE(has("lamp (9)"));
     EXPECT_FALSE(has("lamp 3"));
     state.selectedLight = 3;
@@ -162,25 +148,18 @@ TEST_F(LightRows, ofManyLightsTheListHasGroupsWhichUnfoldForALightThatIsSelected
 }
 
 TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
-    scenes::Scene scene = scenes::loadScene("room", {});
-    scene.lights.assign(1, {});
-    scene.lights[0].name = "lamp";
-    State state = test::stateOf(std::move(scene));
+    scenes::Light lamp;
+    lamp.name = "lamp";
+    State state = test::stateOf(test::roomWith({lamp}));
     const auto draw = [&] { show([&] { lightsPanel(state); }); };
     draw();
-    const ImGuiWindow* list = nullptr;
-    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-        if (std::string(window->Name).find("/lights_") != std::string::npos) list = window;
+    const ImGuiWindow* const list = windowNamed("/lights_");
     ASSERT_NE(list, nullptr);
     const float padding = 2.0f * ImGui::GetStyle().CellPadding.y;
     const float header = ImGui::GetTextLineHeight() + padding, row = ImGui::GetFrameHeight() + padding;
-    ImGui::GetIO().MousePos = {list->Pos.x + 100.0f, list->Pos.y + header + 0.5f * row};
     ImGui::GetIO().MouseDoubleClickTime = 0.0f; // these are single ones
     for (const int expected : {0, scenes::kNone, 0}) {
-        for (const bool isDown : {false, true, false}) {
-            ImGui::GetIO().MouseDown[0] = isDown;
-            draw();
-        }
+        click({list->Pos.x + 100.0f, list->Pos.y + header + 0.5f * row}, draw);
         EXPECT_EQ(state.selectedLight, expected);
     }
 }

@@ -8,17 +8,22 @@ namespace {
 
 using engine::Technique;
 
+Look lookOf(Technique technique, std::optional<int> tilePixels = {}, int samples = 1) {
+    Look look;
+    look.technique = technique;
+    look.settings.culling.tilePixels = tilePixels;
+    look.settings.samples = samples;
+    return look;
+}
+
 TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
     for (const engine::TechniqueInfo& from : engine::techniqueTable()) {
         for (const engine::TechniqueInfo& to : engine::techniqueTable()) {
             for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
-                Look look;
-                look.technique = to.technique;
+                Look look = lookOf(to.technique, 32, 4);
                 look.settings.culling.method = from.methods.front();
-                look.settings.culling.tilePixels = 32;
                 look.settings.culling.builder = culling::Builder::Compute;
                 look.settings.lightOn = frame::LightingStage::Compute;
-                look.settings.samples = 4;
                 look.settings.view = view.view;
                 const Look result = possible(look);
                 EXPECT_NO_THROW(engine::requireTaken(result));
@@ -30,12 +35,9 @@ TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
 }
 
 TEST(Look, valuesPutAsideReturnWithATechniqueThatTakesThem) {
-    Look look;
-    look.technique = Technique::ForwardPlus;
+    Look look = lookOf(Technique::ForwardPlus, 32, 4);
     look.settings.culling.method = culling::Method::Tile25d;
-    look.settings.culling.tilePixels = 32;
     look.settings.culling.builder = culling::Builder::Compute;
-    look.settings.samples = 4;
     Look now = look;
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         now.technique = info.technique;
@@ -49,11 +51,7 @@ TEST(Look, valuesPutAsideReturnWithATechniqueThatTakesThem) {
 }
 
 TEST(Look, aChoiceReplacesAValuePutAside) {
-    Look look;
-    look.technique = Technique::ForwardPlus;
-    look.settings.culling.tilePixels = 32;
-    look.technique = Technique::Forward;
-    look = possible(look);
+    Look look = possible(lookOf(Technique::Forward, 32));
     EXPECT_FALSE(look.settings.culling.tilePixels);
     look.technique = Technique::ForwardPlus;
     look.settings.culling.tilePixels = 8;
@@ -62,15 +60,11 @@ TEST(Look, aChoiceReplacesAValuePutAside) {
 }
 
 TEST(Look, valuesPutAsideAreNoChoiceForTheNextScene) {
-    Look before;
-    before.technique = Technique::ForwardPlus;
-    before.settings.samples = 4;
+    const Look before = lookOf(Technique::ForwardPlus, {}, 4);
     Look now = before;
     now.technique = Technique::Deferred;
     now = possible(now);
-    Look wished;
-    wished.settings.samples = 2;
-    Look result = rebased(now, before, wished);
+    Look result = rebased(now, before, lookOf(Look().technique, {}, 2));
     EXPECT_EQ(result.technique, Technique::Deferred);
     result.technique = Technique::ForwardPlus;
     EXPECT_EQ(possible(result).settings.samples, 2);
@@ -78,11 +72,8 @@ TEST(Look, valuesPutAsideAreNoChoiceForTheNextScene) {
 
 TEST(Look, choicesOfTheUserOverrideTheNextScenesOptions) {
     const Look before;
-    Look now = before;
-    now.technique = Technique::ForwardPlus;
+    Look now = lookOf(Technique::ForwardPlus), wished = lookOf(Technique::Deferred);
     now.settings.exposureEV = 1.5f;
-    Look wished;
-    wished.technique = Technique::Deferred;
     wished.settings.exposureEV = -3.0f;
     wished.settings.toneMap = frame::ToneMap::Aces;
     const Look result = rebased(now, before, wished);
@@ -119,10 +110,9 @@ TEST(Look, theSidesOfAComparisonShareTheSettingsThatTheTableMarks) {
 }
 
 TEST(Look, theCameraIsTheNextScenes) {
-    const Look before;
-    Look now = before;
+    Look now;
     now.settings.camera = 3;
-    EXPECT_EQ(rebased(now, before, {}).settings.camera, 0);
+    EXPECT_EQ(rebased(now, {}, {}).settings.camera, 0);
 }
 
 } // namespace

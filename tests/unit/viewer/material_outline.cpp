@@ -1,11 +1,6 @@
 // What the outline of the selected material follows from.
-#include <memory>
-#include <optional>
 #include <utility>
 
-#include <gtest/gtest.h>
-
-#include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/show/MaterialOutline.h"
 
@@ -15,8 +10,7 @@ namespace {
 using frame::DebugView;
 
 State showingMaterialOf(scenes::Scene scene) {
-    State state;
-    state.open = std::make_unique<OpenScene>("room", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+    State state = test::stateOf(std::move(scene));
     state.selectedMaterial = 0;
     state.showsMaterial = true;
     return state;

@@ -4,7 +4,6 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <imgui_internal.h>
 
 #include "engine/Settings.h"
 #include "scenes/Light.h"
@@ -60,9 +59,7 @@ TEST_F(Tips, comeUpAtARowsLabelAndAtItsWidgetAndNowhereElse) {
                 corner = ImGui::GetCursorScreenPos();
                 slider("Metallic", value, 0.0f, 1.0f);
                 ImGui::End();
-                isShown = false;
-                for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-                    if ((window->Flags & ImGuiWindowFlags_Tooltip) != 0) isShown = isShown || window->Active;
+                isShown = isTipShown();
             });
         return isShown;
     };

@@ -5,7 +5,8 @@
 
 #include "base/Error.h"
 #include "scenes/write/SceneText.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/support/TestScenes.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/session/Keys.h"
 
 namespace tessera::viewer {
@@ -32,10 +33,12 @@ struct Opened {
         open.rig().zoom(0.7, {}, kHeightPixels);
         settle();
     }
-    void settle() {
-        open.rig().advance(10.0, kHeightPixels);
-        open.applyRig();
+    void settle() { test::settle(open); }
+    void goHome() {
+        open.rig().goHome();
+        settle();
     }
+    void turn() { turnCamera(open); }
 };
 
 /// Every kind of change that the command line can make of a perspective camera.
@@ -60,8 +63,7 @@ TEST(OpenScene, aPlacedCameraEqualsItsCommandToTheLastBit) {
         EXPECT_EQ(opened.open.cameraChange(), change);
         opened.move();
         EXPECT_NE(opened.shown(), camera);
-        opened.open.rig().goHome();
-        opened.settle();
+        opened.goHome();
         EXPECT_EQ(opened.shown(), camera);
         EXPECT_EQ(opened.open.cameraChange(), change);
     }
@@ -79,8 +81,7 @@ TEST(OpenScene, aFieldOfViewChangesInItsPlaceAndHomeStaysHome) {
     opened.open.undo();
     EXPECT_EQ(opened.shown(), before);
     opened.open.redo();
-    opened.open.rig().goHome();
-    opened.settle();
+    opened.goHome();
     EXPECT_EQ(opened.shown().worldFromCamera, Opened::made().cameras[0].worldFromCamera);
     EXPECT_EQ(opened.said(), opened.shown());
     EXPECT_FALSE(opened.open.isEdited());
@@ -111,8 +112,7 @@ TEST(OpenScene, aViewpointIsStoredGoneToRemovedUndoneAndSavedAsACamera) {
     ASSERT_EQ(opened.open.viewpoints().size(), 1u);
     EXPECT_EQ(opened.open.viewpoints()[0].name, "view 1");
     EXPECT_EQ(opened.open.viewpoints()[0].worldFromCamera, stored.worldFromCamera);
-    opened.open.rig().goHome();
-    opened.settle();
+    opened.goHome();
     opened.open.changeFieldOfView(20.0, Gesture::Once);
     opened.open.storeViewpoint();
     EXPECT_EQ(opened.open.viewpoints()[1].name, "view 2");
@@ -153,8 +153,7 @@ TEST(OpenScene, theCommandOfAMovedCameraReproducesIt) {
     for (const scenes::CameraChange& change : changes()) {
         Opened opened;
         opened.open.place(change);
-        opened.open.rig().rotate({120.0, 30.0}, kHeightPixels);
-        opened.settle();
+        opened.turn();
         EXPECT_EQ(opened.said(), opened.shown());
         for (const double factor : {1.0, 0.3, 5.0}) {
             opened.move();
@@ -166,12 +165,9 @@ TEST(OpenScene, theCommandOfAMovedCameraReproducesIt) {
     }
     Opened parallel;
     parallel.open.useCamera(1);
-    scenes::CameraChange half;
-    half.halfHeightMetres = 0.7;
-    parallel.open.place(half);
+    parallel.open.place(changing(&Change::halfHeightMetres, 0.7));
     EXPECT_EQ(parallel.shown().halfHeightMetres, 0.7);
-    parallel.open.rig().rotate({120.0, 30.0}, kHeightPixels);
-    parallel.settle();
+    parallel.turn();
     EXPECT_EQ(parallel.said(), parallel.shown());
     EXPECT_EQ(parallel.shown().halfHeightMetres, 0.7);
     parallel.move();
@@ -180,15 +176,13 @@ TEST(OpenScene, theCommandOfAMovedCameraReproducesIt) {
 
 TEST(OpenScene, orbitingTurnsAboutTheGivenTarget) {
     Opened opened;
-    scenes::CameraChange change;
-    change.eyeWS = glm::dvec3(0, 1, 9);
-    change.targetWS = glm::dvec3(2, 1, 3);
+    const scenes::CameraChange change =
+        changing(&Change::eyeWS, glm::dvec3(0, 1, 9), &Change::targetWS, glm::dvec3(2, 1, 3));
     opened.open.place(change);
     opened.open.rig().rotate({200.0, -40.0}, kHeightPixels);
     opened.settle();
     const glm::dvec3 shown = shownAt(opened.shown(), *change.targetWS);
-    EXPECT_NEAR(shown.x, 0.0, 1e-9);
-    EXPECT_NEAR(shown.y, 0.0, 1e-9);
+    EXPECT_NEAR(glm::length(glm::dvec2(shown)), 0.0, 1e-9);
     EXPECT_NEAR(shown.z, glm::distance(*change.eyeWS, *change.targetWS), 1e-12);
 }
 
@@ -198,10 +192,8 @@ TEST(OpenScene, orbitingTurnsAboutWhatIsSeenInTheMiddleAndNotAboutTheMiddleOfThe
     scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
     // A wall far behind a small plate, which lies two metres before the eye.
     const auto add = [&](double z, float side) {
-        scenes::Mesh plate;
-        plate.positionsOS = {{-side, -side, 0}, {side, -side, 0}, {side, side, 0}, {-side, side, 0}};
-        plate.normalsOS.assign(4, {0, 0, 1});
-        plate.indices = {0, 1, 2, 0, 2, 3};
+        scenes::Mesh plate = tessera::test::quad();
+        for (glm::vec3& position : plate.positionsOS) position *= side;
         scenes::Node node;
         node.parentFromNode[3] = glm::dvec4(0.0, 0.0, z, 1.0);
         node.instances = {{int(scene.meshes.size()), 0}};
@@ -217,9 +209,7 @@ TEST(OpenScene, orbitingTurnsAboutWhatIsSeenInTheMiddleAndNotAboutTheMiddleOfThe
 
 TEST(OpenScene, aRefusedPlaceNeverChangesAnything) {
     Opened opened;
-    scenes::CameraChange change;
-    change.halfHeightMetres = 1.0;
-    EXPECT_THROW(opened.open.place(change), InputError);
+    EXPECT_THROW(opened.open.place(changing(&Change::halfHeightMetres, 1.0)), InputError);
     EXPECT_EQ(opened.shown(), Opened::made().cameras[0]);
     EXPECT_EQ(opened.open.cameraChange(), scenes::CameraChange());
 }
@@ -365,37 +355,31 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
 }
 
 TEST(OpenScene, aVariantDoesNotGoOnWithEditsOfMaterialsThatItLacksOrFromAStateThatNoStepLeadsTo) {
-    const auto changeOwn = [](OpenScene& open, float roughness) {
-        scenes::Material material = open.scene().materials[1];
-        material.perceptualRoughness = roughness;
-        open.changeMaterial(1, material);
-    };
     OpenScene open("model.gltf", {}, inVariant("ruby"), {});
+    const auto changeOwn = [&](float roughness) {
+        changeMaterial(open, 1, [&](scenes::Material& material) { material.perceptualRoughness = roughness; });
+    };
     EXPECT_TRUE(open.canGoOnAs(inVariant("sky")));
-    changeOwn(open, 0.25f);
+    changeOwn(0.25f);
     EXPECT_FALSE(open.canGoOnAs(inVariant("sky")));
     EXPECT_TRUE(open.canGoOnAs(inVariant("ruby")));
-    scenes::Scene fewer = inVariant("ruby");
-    fewer.materials.pop_back();
-    EXPECT_FALSE(open.canGoOnAs(fewer));
-    scenes::Scene otherPicture = inVariant("ruby");
-    otherPicture.materials[1].texture(scenes::TextureSlot::BaseColor).image = 0;
-    EXPECT_FALSE(open.canGoOnAs(otherPicture));
-    scenes::Scene otherLights = inVariant("ruby");
-    otherLights.lights.pop_back();
-    EXPECT_FALSE(open.canGoOnAs(otherLights));
-    scenes::Scene otherTypes = inVariant("ruby");
-    otherTypes.lights[1].type = scenes::LightType::Directional;
-    EXPECT_FALSE(open.canGoOnAs(otherTypes));
-    scenes::Scene otherThickness = inVariant("ruby");
-    otherThickness.materials[1].thicknessMetres += 1.0f;
-    EXPECT_FALSE(open.canGoOnAs(otherThickness));
-    scenes::Scene otherNumbers = inVariant("ruby");
-    otherNumbers.rig.numbers.emplace_back().property = scenes::AnimatedProperty::LightIntensity;
-    EXPECT_FALSE(open.canGoOnAs(otherNumbers));
+    const auto goesOnIf = [&](const auto& change) {
+        scenes::Scene other = inVariant("ruby");
+        change(other);
+        return open.canGoOnAs(other);
+    };
+    EXPECT_FALSE(goesOnIf([](scenes::Scene& fewer) { fewer.materials.pop_back(); }));
+    EXPECT_FALSE(
+        goesOnIf([](scenes::Scene& other) { other.materials[1].texture(scenes::TextureSlot::BaseColor).image = 0; }));
+    EXPECT_FALSE(goesOnIf([](scenes::Scene& fewer) { fewer.lights.pop_back(); }));
+    EXPECT_FALSE(goesOnIf([](scenes::Scene& other) { other.lights[1].type = scenes::LightType::Directional; }));
+    EXPECT_FALSE(goesOnIf([](scenes::Scene& other) { other.materials[1].thicknessMetres += 1.0f; }));
+    EXPECT_FALSE(goesOnIf([](scenes::Scene& other) {
+        other.rig.numbers.emplace_back().property = scenes::AnimatedProperty::LightIntensity;
+    }));
     open.becomes("saved.json");
     open.undo();
-    changeOwn(open, 0.75f); // in the place of what was saved
+    changeOwn(0.75f); // in the place of what was saved
     EXPECT_FALSE(open.canGoOnAs(inVariant("ruby")));
 }
 

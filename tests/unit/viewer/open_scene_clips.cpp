@@ -5,8 +5,7 @@
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "tests/unit/scenes/RiggedScene.h"
-#include "tests/unit/viewer/CameraTest.h"
-#include "viewer/session/OpenScene.h"
+#include "tests/unit/viewer/Scenes.h"
 
 namespace tessera::viewer {
 namespace {
@@ -78,9 +77,7 @@ TEST(OpenScene, aClipsLensIsFollowedWhereverTheUserMovesTheCamera) {
     EXPECT_EQ(shown().worldFromCamera, moved);
     open.playClip("none");
     EXPECT_EQ(shown().fovYRadians, restRadians) << "at rest again";
-    scenes::CameraChange wide;
-    wide.fovYDegrees = 90.0;
-    open.place(wide);
+    open.place(changing(&Change::fovYDegrees, 90.0));
     open.playClip("0");
     open.showTime(0.5);
     EXPECT_NEAR(shown().fovYRadians, 1.5707963267948966, 1e-12) << "the user's own stays";
@@ -93,11 +90,7 @@ TEST(OpenScene, clipsMoveLightsAsFarAsTheyAreNotEdited) {
         EXPECT_LT(glm::distance(light.positionWS, positionWS), 1e-12);
         EXPECT_FLOAT_EQ(light.intensity, intensity);
     };
-    const auto change = [&](auto edit) {
-        scenes::Light light = open.scene().lights[0];
-        edit(light);
-        open.changeLight(0, light);
-    };
+    const auto change = [&](auto edit) { changeLight(open, 0, edit); };
     open.showTime(1.0);
     expectLight(0, {3, 0, 0}, 2.0f);
     EXPECT_FALSE(open.isEdited()) << "a pose is no edit";
@@ -152,9 +145,7 @@ TEST(OpenScene, aCameraFollowsItsClipUnlessItIsTheUsers) {
     open.showTime(1.0);
     expectEye({3, 0, 0});
     EXPECT_EQ(open.cameraChange(), scenes::CameraChange()) << "a command with the same time has it there";
-    open.rig().rotate({120.0, 30.0}, kHeightPixels);
-    open.rig().advance(10.0, kHeightPixels);
-    open.applyRig();
+    turnCamera(open);
     const glm::dvec3 handWS = eyeWS();
     EXPECT_GT(glm::distance(handWS, glm::dvec3(3, 0, 0)), 1e-3);
     open.showTime(0.5);
@@ -184,9 +175,7 @@ TEST(OpenScene, aCameraFollowsItsClipUnlessItIsTheUsers) {
 
 TEST(OpenScene, aPlacedCameraStandsStill) {
     OpenScene open("rigged.gltf", {}, riggedAndMoving(), {});
-    scenes::CameraChange change;
-    change.eyeWS = glm::dvec3(0, 0, 9);
-    open.place(change);
+    open.place(changing(&Change::eyeWS, glm::dvec3(0, 0, 9)));
     const scenes::Camera placed = open.scene().cameras[0];
     open.showTime(1.0);
     EXPECT_FALSE(open.followsClipCamera());

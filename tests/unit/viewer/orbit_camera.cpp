@@ -59,8 +59,7 @@ TEST(OrbitCamera, zoomingKeepsThePointUnderTheCursorAlsoOnTheWay) {
 TEST(OrbitCamera, zoomingByAFactorIsExactlyMultiplicative) {
     OrbitRig rig(lenses()[0]);
     const double before = rig.orbit.pose().focusMetres;
-    rig.orbit.zoom(0.5, {}, kHeightPixels);
-    rig.orbit.zoom(0.5, {}, kHeightPixels);
+    for (int i = 0; i < 2; ++i) rig.orbit.zoom(0.5, {}, kHeightPixels);
     rig.settle();
     EXPECT_DOUBLE_EQ(rig.orbit.pose().focusMetres, 0.25 * before);
     rig.orbit.zoom(4.0, {}, kHeightPixels);
@@ -93,6 +92,7 @@ TEST(OrbitCamera, rotatingTakesTheFrontOfABallHalfAsHighAsThePictureAlong) {
         const glm::dvec3 frontWS = rig.orbit.pivotWS() - radius * pose.heading.forwardWS();
         rig.orbit.rotate({3.0, -2.0}, kHeightPixels);
         rig.settle();
+        EXPECT_NE(rig.orbit.pose().eyeWS, pose.eyeWS);
         const glm::dvec3 shown = shownAt(rig.shown(), frontWS);
         // Small angles: the error is of the order of the turn, about 0.01, times the drag.
         EXPECT_NEAR(shown.x, 3.0, 0.06);
@@ -133,40 +133,6 @@ TEST(OrbitCamera, restIsReachedAndTheLastJumpIsNotVisible) {
     const glm::dvec3 after = shownAt(rig.shown(), cornerWS);
     EXPECT_LT(glm::distance(glm::dvec2(before), glm::dvec2(after)), 1.0);
     EXPECT_EQ(rig.orbit.pose(), rig.orbit.goal());
-}
-
-TEST(OrbitCamera, goingToAPoseTakesTheShorterWayRound) {
-    OrbitRig rig(lenses()[0]);
-    CameraPose pose = rig.orbit.pose();
-    pose.heading.yawRadians += 6.0;
-    rig.orbit.goTo(pose);
-    EXPECT_NEAR(rig.orbit.goal().heading.yawRadians, rig.orbit.pose().heading.yawRadians + 6.0 - 6.283185307179586,
-                1e-12);
-    rig.settle();
-    EXPECT_EQ(rig.orbit.pose(), pose) << "and ends there to the last bit";
-}
-
-TEST(OrbitCamera, aPoseIsHeldToTheLastBitUntilSomethingMovesIt) {
-    for (const scenes::Camera& camera : manyCameras()) {
-        OrbitRig rig(camera);
-        const CameraPose pose = poseOf(camera, kBox);
-        rig.orbit.rotate({0.0, 0.0}, kHeightPixels);
-        rig.orbit.pan({0.0, 0.0}, kHeightPixels);
-        rig.orbit.zoom(1.0, {20.0, 30.0}, kHeightPixels);
-        EXPECT_TRUE(rig.orbit.isAtRest());
-        rig.orbit.advance(0.1, kHeightPixels);
-        EXPECT_EQ(rig.orbit.pose(), pose);
-        EXPECT_TRUE(rig.orbit.isAtRest());
-    }
-}
-
-TEST(OrbitCamera, theEyeIsTheFocusAwayFromThePivot) {
-    OrbitRig rig(lenses()[0]);
-    const CameraPose pose = rig.orbit.pose();
-    rig.orbit.rotate({30.0, 0.0}, kHeightPixels);
-    rig.settle();
-    EXPECT_NE(rig.orbit.pose().eyeWS, pose.eyeWS);
-    EXPECT_NEAR(glm::distance(rig.orbit.pose().eyeWS, rig.orbit.pivotWS()), pose.focusMetres, 1e-12);
 }
 
 } // namespace

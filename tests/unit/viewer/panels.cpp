@@ -1,17 +1,13 @@
 // The panels, laid out without a window.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <imgui_internal.h>
 
 #include "tests/unit/scenes/RiggedScene.h"
-#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
 #include "viewer/panels/Widgets.h"
@@ -21,7 +17,27 @@
 namespace tessera::viewer {
 namespace {
 
-class Panels : public test::PanelTest {};
+class Panels : public test::PanelTest {
+protected:
+    /// Moves the pointer to a place of a window beside the panels, with the button down or up, and draws it and the
+    /// interface.
+    template <typename Aside>
+    void nextAside(State& state, bool isDown, const ImVec2& place, const Aside& aside) {
+        ImGui::GetIO().MouseDown[0] = isDown;
+        ImGui::GetIO().MousePos = place;
+        frame([&] {
+            ImGui::SetNextWindowPos({400.0f, 10.0f});
+            ImGui::SetNextWindowSize({300.0f, 200.0f});
+            ImGui::Begin("aside");
+            aside();
+            ImGui::End();
+            drawInterface(state, {}, area(state), 1.0f);
+        });
+    }
+};
+
+using testing::HasSubstr;
+using testing::Not;
 
 /// The number behind a label at the start of a line.
 double numberBehind(const std::string& text, const std::string& label) {
@@ -39,17 +55,15 @@ TEST_F(Panels, theVariantsOfModelsAreAListWhereThereAreAny) {
         scene.notes = {"a note of the importer"};
         State state = test::stateOf(std::move(scene), load);
         const std::string text = textOf([&] { scenePanel(state); });
-        EXPECT_NE(text.find("a note of the importer"), std::string::npos) << text;
+        EXPECT_THAT(text, HasSubstr("a note of the importer"));
         EXPECT_FALSE(state.requests.variant) << "nobody chose one";
         return text;
     };
-    EXPECT_EQ(textFor({}, {}).find("Variant"), std::string::npos);
-    const std::string plain = textFor({"beach", "street"}, {});
-    EXPECT_NE(plain.find("Variant"), std::string::npos) << plain;
-    EXPECT_NE(plain.find("as the file has it"), std::string::npos) << plain;
-    const std::string street = textFor({"beach", "street"}, "street");
-    EXPECT_NE(street.find("street"), std::string::npos) << street;
-    EXPECT_EQ(street.find("as the file has it"), std::string::npos) << street;
+    EXPECT_THAT(textFor({}, {}), Not(HasSubstr("Variant")));
+    EXPECT_THAT(textFor({"beach", "street"}, {}),
+                testing::AllOf(HasSubstr("Variant"), HasSubstr("as the file has it")));
+    EXPECT_THAT(textFor({"beach", "street"}, "street"),
+                testing::AllOf(HasSubstr("street"), Not(HasSubstr("as the file has it"))));
 }
 
 TEST_F(Panels, drawingThePanelsChangesNoValue) {
@@ -92,7 +106,7 @@ TEST_F(Panels, aLightThatFlickersHasRowsOfItsAmountAndSpeed) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         state.selectedLight = int(i);
         const std::string text = textOf([&] { lightsPanel(state); });
-        EXPECT_NE(text.find("Flickers"), std::string::npos) << text;
+        EXPECT_THAT(text, HasSubstr("Flickers"));
         for (const char* row : {"Flicker amount", "Flicker speed"})
             EXPECT_EQ(text.find(row) != std::string::npos, lights[i].flicker.has_value()) << row << " of " << i;
     }
@@ -102,22 +116,18 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
-        const std::array<std::string, 5> texts{textOf([&] { framePanel(state); }),
-                                               textOf([&] { shadowsPanel(state, {}); }),
-                                               textOf([&] { viewPanel(state); }), textOf([&] { skinPanel(state); }),
-                                               textOf([&] { environmentPanel(state, {}); })};
-        for (const engine::Setting& setting : engine::settingTable()) {
-            const bool isShown[] = {
-                setting.panel == engine::SettingPanel::Frame, setting.panel == engine::SettingPanel::Shadows,
-                setting.panel == engine::SettingPanel::View, setting.panel == engine::SettingPanel::Skin,
-                setting.panel == engine::SettingPanel::Environment};
-            for (const int panel : {0, 1, 2, 3, 4}) {
-                const bool hasRow =
-                    texts[std::size_t(panel)].find(fmt::format("\n{} ", setting.panelLabel())) != std::string::npos;
-                EXPECT_EQ(hasRow, isShown[panel] && setting.isHeededBy(info.technique))
-                    << setting.name << " with " << info.name << " in" << texts[std::size_t(panel)];
-            }
-        }
+        using enum engine::SettingPanel;
+        const std::pair<engine::SettingPanel, std::string> texts[] = {
+            {Frame, textOf([&] { framePanel(state); })},
+            {Shadows, textOf([&] { shadowsPanel(state, {}); })},
+            {View, textOf([&] { viewPanel(state); })},
+            {Skin, textOf([&] { skinPanel(state); })},
+            {Environment, textOf([&] { environmentPanel(state, {}); })}};
+        for (const engine::Setting& setting : engine::settingTable())
+            for (const auto& [panel, text] : texts)
+                EXPECT_EQ(text.find(fmt::format("\n{} ", setting.panelLabel())) != std::string::npos,
+                          setting.panel == panel && setting.isHeededBy(info.technique))
+                    << setting.name << " with " << info.name << " in" << text;
     }
 }
 
@@ -149,22 +159,15 @@ TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
 TEST_F(Panels, oneDragOfAWidgetIsOneStepThatCanBeUndone) {
     State state = test::unusualScene();
     OpenScene& open = *state.open;
-    test::changeLight(state, 0, [](scenes::Light& light) { light.intensity = 1.0f; });
+    test::setIntensity(open, 1.0f);
     open.becomes("/saved.json");
     const float before = open.scene().lights.at(0).intensity;
     ImVec2 corner;
     const auto next = [&](bool isDown, float x) {
-        ImGui::GetIO().MouseDown[0] = isDown;
-        ImGui::GetIO().MousePos = {corner.x + 20.0f + x, corner.y + 5.0f};
-        frame([&] {
-            ImGui::SetNextWindowPos({400.0f, 10.0f});
-            ImGui::SetNextWindowSize({300.0f, 200.0f});
-            ImGui::Begin("aside");
+        nextAside(state, isDown, {corner.x + 20.0f + x, corner.y + 5.0f}, [&] {
             scenes::Light light = open.scene().lights[0];
             if (ImGui::DragFloat("##value", &light.intensity, 0.125f)) open.changeLight(0, light, widgetGesture());
             corner = ImGui::GetItemRectMin();
-            ImGui::End();
-            drawInterface(state, {}, area(state), 1.0f);
         });
     };
     std::vector<float> ends;
@@ -192,24 +195,17 @@ TEST_F(Panels, aNameIsALabelOfOneLineWithAllItsSigns) {
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights[0].name = "lamp##hidden";
     State state = test::stateOf(std::move(scene));
-    const std::string text = textOf([&] { lightsPanel(state); });
-    EXPECT_NE(text.find("hidden"), std::string::npos) << text;
+    EXPECT_THAT(textOf([&] { lightsPanel(state); }), HasSubstr("hidden"));
 }
 
 TEST_F(Panels, aNoticeThatAppearsDoesNotReleaseAPressedButton) {
     State state;
     bool isClicked = false;
+    ImVec2 corner;
     const auto next = [&](bool isDown) {
-        ImGui::GetIO().MouseDown[0] = isDown;
-        frame([&] {
-            ImGui::SetNextWindowPos({400.0f, 10.0f});
-            ImGui::SetNextWindowSize({300.0f, 200.0f});
-            ImGui::Begin("aside");
+        nextAside(state, isDown, {corner.x + 50.0f, corner.y + 20.0f}, [&] {
             isClicked = ImGui::Button("do", {100.0f, 40.0f}) || isClicked;
-            const ImVec2 corner = ImGui::GetItemRectMin();
-            ImGui::GetIO().MousePos = {corner.x + 50.0f, corner.y + 20.0f};
-            ImGui::End();
-            drawInterface(state, {}, area(state), 1.0f);
+            corner = ImGui::GetItemRectMin();
         });
     };
     for (const bool isDown : {false, false, false, true}) next(isDown);
@@ -233,8 +229,7 @@ TEST_F(Panels, aClickTakesANoteAwayButNoError) {
 }
 
 TEST_F(Panels, aPanelThatIsOpenedLowInTheColumnIsScrolledTo) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {1280.0f, 300.0f};
+    ImGui::GetIO().DisplaySize = {1280.0f, 300.0f};
     State state = test::unusualScene();
     state.foldsPanels = true;
     const auto next = [&] {
@@ -243,21 +238,17 @@ TEST_F(Panels, aPanelThatIsOpenedLowInTheColumnIsScrolledTo) {
     };
     for (int i = 0; i < 3; ++i) EXPECT_EQ(next(), 0.0f);
     for (const auto& [title, isOpen] : state.sections) EXPECT_FALSE(isOpen) << title;
-    const auto click = [&](const char* title, int bar) {
+    const auto clickBar = [&](const char* title, int bar) {
         constexpr float kFirst = 17.0f, kStep = 24.0f; // of bars, one below the other
-        io.MousePos = {150.0f, kFirst + kStep * float(bar)};
-        for (const bool isDown : {false, true, false}) {
-            io.MouseDown[0] = isDown;
-            next();
-        }
+        click({150.0f, kFirst + kStep * float(bar)}, next);
         next();
         EXPECT_TRUE(state.sections[title]) << title;
         return next();
     };
-    EXPECT_EQ(click("Scene", 0), 0.0f) << "all of it is in view";
+    EXPECT_EQ(clickBar("Scene", 0), 0.0f) << "all of it is in view";
     state.foldsPanels = true;
     next();
-    EXPECT_GT(click("Technique", 8), 0.0f);
+    EXPECT_GT(clickBar("Technique", 8), 0.0f);
 }
 
 TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
@@ -268,23 +259,16 @@ TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
         EXPECT_FALSE(colorRow("Colour", color, 1e6f));
         swatch = ImGui::GetItemRectMin();
     };
-    const auto isOpen = [] {
-        return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-    };
     const std::string text = textOf(draw);
-    for (const char* linear : {"0.402", "3.5", "0.3"}) EXPECT_NE(text.find(linear), std::string::npos) << text;
-    EXPECT_FALSE(isOpen());
-    ImGui::GetIO().MousePos = {swatch.x + 5.0f, swatch.y + 5.0f};
-    for (const bool isDown : {false, true, false}) {
-        ImGui::GetIO().MouseDown[0] = isDown;
-        show(draw);
-    }
-    EXPECT_TRUE(isOpen());
+    for (const char* linear : {"0.402", "3.5", "0.3"}) EXPECT_THAT(text, HasSubstr(linear));
+    EXPECT_FALSE(isPopupOpen());
+    clickPanel({swatch.x + 5.0f, swatch.y + 5.0f}, draw);
+    EXPECT_TRUE(isPopupOpen());
     EXPECT_EQ(color, before);
     ImGui::GetIO().MousePos = {-1.0f, -1.0f};
     const std::string opened = textOf(draw); // to the end of the picker
     EXPECT_EQ(std::count(opened.begin(), opened.end(), '#'), 1) << "hexadecimal digits, once" << opened;
-    EXPECT_NE(opened.find("all times 3.5"), std::string::npos) << opened;
+    EXPECT_THAT(opened, HasSubstr("all times 3.5"));
 }
 
 TEST_F(Panels, aTipGoesWithTheClick) {
@@ -300,8 +284,7 @@ TEST_F(Panels, aTipGoesWithTheClick) {
             tip("what it does");
             ImGui::End();
             place = {corner.x + 3.0f, corner.y + 3.0f};
-            for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-                isShown = isShown || ((window->Flags & ImGuiWindowFlags_Tooltip) != 0 && window->Active);
+            isShown = isTipShown();
         });
         return isShown;
     };
@@ -339,8 +322,7 @@ TEST_F(Panels, lightCullingSaysWhereThereIsNoLightToCull) {
     figures.everywhere = 12000;
     const std::string text = textOf([&] { cullingPanel(state, facts); });
     EXPECT_DOUBLE_EQ(numberBehind(text, "Without range"), 12.0) << text;
-    EXPECT_NE(text.find("no light to cull"), std::string::npos) << text;
-    EXPECT_EQ(text.find("Needed"), std::string::npos) << text;
+    EXPECT_THAT(text, testing::AllOf(HasSubstr("no light to cull"), Not(HasSubstr("Needed"))));
 }
 
 TEST_F(Panels, subsurfaceScatteringSaysWhereNoMaterialHasAny) {
@@ -362,11 +344,7 @@ TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     figures.worstX = 600;
     figures.worstY = 300;
     for (float y = 20.0f; y < 400.0f; y += 6.0f) { // across all rows
-        ImGui::GetIO().MousePos = {200.0f, y};
-        for (const bool isDown : {false, true, false}) {
-            ImGui::GetIO().MouseDown[0] = isDown;
-            show([&] { comparePanel(state, facts); });
-        }
+        clickPanel({200.0f, y}, [&] { comparePanel(state, facts); });
         ImGui::ClosePopupsOverWindow(nullptr, false); // of the list that the click opened
     }
     EXPECT_TRUE(state.inspects);
@@ -392,26 +370,25 @@ TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
         state.timings.add(frame);
     }
     const std::string text = textOf([&] { timingsPanel(state, facts); });
-    EXPECT_NE(text.find("20.0 ms at scale 1"), std::string::npos) << text;
-    EXPECT_NE(text.find("3 pictures, the latest 90.0 ms"), std::string::npos) << text;
-    EXPECT_NE(text.find("10.0"), std::string::npos) << "of the pass" << text;
+    for (const char* part : {"20.0 ms at scale 1", "3 pictures, the latest 90.0 ms", "10.0"}) // the last of the pass
+        EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
     State none;
     none.loading = "room";
-    EXPECT_EQ(firstWindowText(none, {}).find("Technique"), std::string::npos);
+    EXPECT_THAT(firstWindowText(none, {}), Not(HasSubstr("Technique")));
     State state = test::unusualScene();
-    EXPECT_NE(firstWindowText(state, {}).find("Technique"), std::string::npos);
+    EXPECT_THAT(firstWindowText(state, {}), HasSubstr("Technique"));
 }
 
 TEST_F(Panels, theSceneHasASliderForEachParameterOfItsHook) {
     scenes::Scene scene = scenes::loadScene("room");
     State state = test::stateOf(scene);
-    EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::Not(testing::HasSubstr("windStrength")));
+    EXPECT_THAT(textOf([&] { scenePanel(state); }), Not(HasSubstr("windStrength")));
     scene.hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
     state = test::stateOf(scene);
-    EXPECT_THAT(textOf([&] { scenePanel(state); }), testing::HasSubstr("windStrength"));
+    EXPECT_THAT(textOf([&] { scenePanel(state); }), HasSubstr("windStrength"));
     EXPECT_FALSE(state.open->isEdited());
 }
 

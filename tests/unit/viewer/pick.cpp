@@ -1,5 +1,6 @@
 #include "viewer/edit/Pick.h"
 
+#include "tests/support/TestScenes.h"
 #include "tests/unit/viewer/CameraTest.h"
 
 namespace tessera::viewer {
@@ -13,11 +14,7 @@ scenes::Scene squares(scenes::AlphaMode nearMode = scenes::AlphaMode::Opaque) {
     scenes::Scene scene;
     scene.materials.resize(3);
     scene.materials[2].alphaMode = nearMode;
-    scenes::Mesh square;
-    square.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    square.normalsOS.assign(4, {0, 0, 1});
-    square.indices = {0, 1, 2, 0, 2, 3};
-    scene.meshes = {square, square};
+    scene.meshes.assign(2, tessera::test::quad());
     for (glm::vec3& position : scene.meshes[0].positionsOS) position += glm::vec3(100.0f, 0.0f, 0.0f);
     scenes::Node& large = scene.nodes.emplace_back();
     large.instances = {{0, 0}, {1, 1}};
@@ -36,18 +33,13 @@ TEST(Pick, aPixelIsTheNearestTrianglesNodeInstanceAndMaterial) {
     const auto at = [&](int x, int y) { return pickedByRay(scene, kCamera, kSizePixels, {x, y}); };
     const std::optional<Pick> small = at(44, 44);
     ASSERT_TRUE(small);
-    EXPECT_EQ(small->node, 1);
-    EXPECT_EQ(small->instance, 0);
-    EXPECT_EQ(small->mesh, 1);
-    EXPECT_EQ(small->material, 2);
-    EXPECT_EQ(small->triangle, 0);
+    EXPECT_EQ(std::tie(small->node, small->instance, small->mesh, small->material, small->triangle),
+              std::tuple(1, 0, 1, 2, 0));
     EXPECT_LT(glm::distance(small->positionWS, glm::dvec3(0.45, -0.45, 1.0)), 1e-9);
     EXPECT_EQ(at(36, 36).value().triangle, 1);
     const std::optional<Pick> large = at(70, 70);
     ASSERT_TRUE(large);
-    EXPECT_EQ(large->node, 0);
-    EXPECT_EQ(large->instance, 1);
-    EXPECT_EQ(large->material, 1);
+    EXPECT_EQ(std::tie(large->node, large->instance, large->material), std::tuple(0, 1, 1));
 }
 
 TEST(Pick, aTransparentSurfaceIsPickedBeforeTheSurfaceBehind) {

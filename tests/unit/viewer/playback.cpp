@@ -1,16 +1,13 @@
 #include "viewer/session/Playback.h"
 #include "tests/unit/scenes/RiggedScene.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/unit/viewer/Scenes.h"
 
 namespace tessera::viewer {
 namespace {
 
 State shownScene(scenes::Scene scene) {
     scene.cameras[0] = test::perspective({0, 0, 9}, {0, 0, 0});
-    State state;
-    state.open =
-        std::make_unique<OpenScene>("rigged.gltf", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
-    return state;
+    return test::stateOf(std::move(scene), {}, "rigged.gltf");
 }
 
 /// With a clip of a second.

@@ -1,6 +1,7 @@
 #include "viewer/session/PointAt.h"
 
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/support/TestScenes.h"
+#include "tests/unit/viewer/Scenes.h"
 
 namespace tessera::viewer {
 namespace {
@@ -13,11 +14,7 @@ protected:
     PointAt() {
         scenes::Scene scene;
         scene.materials.resize(3);
-        scenes::Mesh card;
-        card.positionsOS = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-        card.normalsOS.assign(4, {0, 0, 1});
-        card.indices = {0, 1, 2, 0, 2, 3};
-        scene.meshes = {card};
+        scene.meshes = {tessera::test::quad()};
         for (const int side : {0, 1}) {
             scenes::Node& node = scene.nodes.emplace_back();
             node.parentFromNode[3] = glm::dvec4(side == 0 ? -4.0 : 4.0, 0.0, 0.0, 1.0);
@@ -29,8 +26,7 @@ protected:
         scene.lights[0].positionWS = {0.0, 3.0, 0.0};
         scene.lights[1].type = scenes::LightType::Directional;
         scene.cameras = {perspective({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 60.0)};
-        state_.open =
-            std::make_unique<OpenScene>("test.json", scenes::LoadOptions(), std::move(scene), scenes::SceneOrigin());
+        state_ = stateOf(std::move(scene));
     }
     /// What lies in the picture's middle, at the depth of what orbits turn about, when all has come to rest.
     glm::dvec3 pivotWS() {
@@ -39,6 +35,12 @@ protected:
         return pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
     }
     void expectPivot(const glm::dvec3& placeWS) { EXPECT_LT(glm::distance(pivotWS(), placeWS), 1e-6); }
+    /// What is selected last is brought into view, and lies at this place.
+    void expectFramed(const glm::dvec3& placeWS) {
+        state_.noteSelection();
+        frameSelection(state_);
+        expectPivot(placeWS);
+    }
     /// A place of the picture where the card of a side is.
     static glm::vec2 placeOf(int side) { return {side == 0 ? 0.16f : 0.84f, 0.5f}; }
 
@@ -70,34 +72,22 @@ TEST_F(PointAt, theSelectionIsBroughtIntoViewTheLatestFirst) {
     frameSelection(state_);
     expectPivot({0, 0, 0});
     state_.selectedMaterial = 1;
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({4, 0, 0});
+    expectFramed({4, 0, 0});
     EXPECT_LT(state_.open->rig().pose().focusMetres, 5.0) << "the card does not fill the picture";
     state_.selectedLight = 0;
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({0, 3, 0});
+    expectFramed({0, 3, 0});
     state_.selectedMaterial = 0;
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({-4, 0, 0});
+    expectFramed({-4, 0, 0});
 }
 
 TEST_F(PointAt, whatHasNoPlaceLeavesAllInView) {
     state_.selectedLight = 1; // directional
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({0, 0, 0});
+    expectFramed({0, 0, 0});
     state_.selectedLight = scenes::kNone;
     state_.selectedMaterial = 2; // that nothing has
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({0, 0, 0});
+    expectFramed({0, 0, 0});
     state_.selectedLight = state_.selectedMaterial = 7; // deleted
-    state_.noteSelection();
-    frameSelection(state_);
-    expectPivot({0, 0, 0});
+    expectFramed({0, 0, 0});
 }
 
 } // namespace

@@ -1,8 +1,10 @@
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/TempFolder.h"
 #include "viewer/session/Preferences.h"
 
@@ -28,80 +30,54 @@ Preferences everything() {
     return preferences;
 }
 
-TEST(Preferences, writtenPreferencesAreReadBack) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "made" / "viewer.json";
+class PreferencesFile : public testing::Test {
+protected:
+    Preferences readFrom(const std::string& text) const {
+        std::ofstream(file_) << text;
+        return readPreferences(file_);
+    }
+    std::string fault() const {
+        return tessera::test::errorText<InputError>([this] { readPreferences(file_); });
+    }
+
+    tessera::test::TempFolder folder_;
+    const std::filesystem::path file_ = folder_.path() / "viewer.json";
+};
+
+TEST_F(PreferencesFile, writtenPreferencesAreReadBack) {
+    const std::filesystem::path file = folder_.path() / "made" / "viewer.json";
     writePreferences(everything(), file);
     EXPECT_EQ(readPreferences(file), everything());
     writePreferences({}, file);
     EXPECT_EQ(readPreferences(file), Preferences());
 }
 
-TEST(Preferences, withoutAFileTheyAreTheUsualOnes) {
-    const tessera::test::TempFolder folder;
-    EXPECT_EQ(readPreferences(folder.path() / "viewer.json"), Preferences());
+TEST_F(PreferencesFile, withoutAFileTheyAreTheUsualOnes) {
+    EXPECT_EQ(readPreferences(file_), Preferences());
 }
 
-TEST(Preferences, anEntryOfTheWrongKindIsLeftOutAlone) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    std::ofstream(file) << R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})";
+TEST_F(PreferencesFile, anEntryOfTheWrongKindIsLeftOutAlone) {
     Preferences expected;
     expected.settings["layout"] = "slim";
-    EXPECT_EQ(readPreferences(file), expected);
+    EXPECT_EQ(readFrom(R"({"technique": 7, "layout": "slim", "window": [1, 1], "recent": "x", "tile": null})"),
+              expected);
 }
 
-TEST(Preferences, aWindowOfNoSizeThatWindowsHaveIsLeftOut) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    for (const char* side : {"0", "-300", "16385", "1e58", "-1e300", "18446744073709551615"}) {
-        std::ofstream(file) << R"({"window": [)" << side << ", 720]}";
-        EXPECT_EQ(readPreferences(file), Preferences()) << side;
-    }
+TEST_F(PreferencesFile, sizesAndScalesThatTheWindowCannotHaveAreLeftOut) {
+    for (const char* side : {"0", "-300", "16385", "1e58", "-1e300", "18446744073709551615"})
+        EXPECT_EQ(readFrom(fmt::format(R"({{"window": [{}, 720]}})", side)), Preferences()) << side;
+    for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"})
+        EXPECT_EQ(readFrom(fmt::format(R"({{"fixedScale": {}}})", scale)), Preferences()) << scale;
+    for (const char* width : {"0", "219", "-1", "901", "1e300"})
+        EXPECT_EQ(readFrom(fmt::format(R"({{"panelWidth": {}}})", width)), Preferences()) << width;
 }
 
-TEST(Preferences, aScaleThatCannotBeSetIsNotTakenFromAFile) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    for (const char* scale : {"0", "0.05", "-1", "1.5", "1e300"}) {
-        std::ofstream(file) << R"({"fixedScale": )" << scale << "}";
-        EXPECT_EQ(readPreferences(file), Preferences()) << scale;
-    }
-}
-
-TEST(Preferences, panelsThatCannotBeDraggedSoAreAsWideAsUsual) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    for (const char* width : {"0", "219", "-1", "901", "1e300"}) {
-        std::ofstream(file) << R"({"panelWidth": )" << width << "}";
-        EXPECT_EQ(readPreferences(file), Preferences()) << width;
-    }
-}
-
-TEST(Preferences, aFileThatIsNoJsonIsAnErrorThatNamesIt) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    std::ofstream(file) << "{\"technique\": ";
-    try {
-        readPreferences(file);
-        FAIL() << "no error";
-    } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  file.string() + ": the settings are no JSON object; correct or delete the file");
-    }
-}
-
-TEST(Preferences, aFolderInTheirPlaceIsAnErrorThatNamesIt) {
-    const tessera::test::TempFolder folder;
-    const std::filesystem::path file = folder.path() / "viewer.json";
-    std::filesystem::create_directory(file);
-    try {
-        readPreferences(file);
-        FAIL() << "no error";
-    } catch (const InputError& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  file.string() + ": is not a regular file, so settings cannot be kept; rename or remove it");
-    }
+TEST_F(PreferencesFile, whatIsNoJsonOrNoFileIsAnErrorThatNamesIt) {
+    std::ofstream(file_) << "{\"technique\": ";
+    EXPECT_EQ(fault(), file_.string() + ": the settings are no JSON object; correct or delete the file");
+    std::filesystem::remove(file_);
+    std::filesystem::create_directory(file_);
+    EXPECT_EQ(fault(), file_.string() + ": is not a regular file, so settings cannot be kept; rename or remove it");
 }
 
 TEST(Preferences, theTenLatestFilesAreKeptEachExactlyOnce) {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "scenes/Load.h"
 #include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/save/SaveScene.h"
 
 namespace tessera::viewer {
@@ -19,25 +19,15 @@ namespace fs = std::filesystem;
 
 class RecoveryTest : public testing::Test {
 protected:
-    RecoveryTest() {
-        const scenes::LoadOptions load;
-        scenes::Scene scene = scenes::loadScene("room", load);
-        scenes::SceneOrigin origin = scenes::originOf("room", load, scene);
-        open_ = std::make_unique<OpenScene>("room", load, std::move(scene), std::move(origin));
-    }
     OpenScene& open() { return *open_; }
-    void change(float intensity) {
-        scenes::Light light = open_->scene().lights.at(0);
-        light.intensity = intensity;
-        open_->changeLight(0, light);
-    }
+    void change(float intensity) { test::setIntensity(*open_, intensity); }
     fs::path folder() const { return temporary_.path() / "recovery"; }
     fs::path own() const { return folder() / std::to_string(getpid()) / "tessera-room.json"; }
 
     tessera::test::TempFolder temporary_;
 
 private:
-    std::unique_ptr<OpenScene> open_;
+    std::unique_ptr<OpenScene> open_ = test::opened("room");
 };
 
 TEST_F(RecoveryTest, editsAreKeptUntilTheyAreSavedOrUndone) {

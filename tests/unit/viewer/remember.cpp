@@ -6,6 +6,7 @@ namespace tessera::viewer {
 namespace {
 
 using engine::Technique;
+using Texts = decltype(Preferences::settings);
 
 constexpr glm::ivec2 kWindow(900, 700);
 
@@ -20,12 +21,12 @@ State showing(const Look& look) {
 Preferences remembered() {
     Preferences preferences;
     preferences.windowSize = glm::ivec2(1000, 800);
-    preferences.settings["technique"] = "forward_plus";
-    preferences.settings["layout"] = "slim";
-    preferences.settings["culling"] = "tile_2.5d";
-    preferences.settings["toneMap"] = "agx";
-    preferences.settings["tile"] = "32";
-    preferences.settings["samples"] = "4";
+    preferences.settings = {{"technique", "forward_plus"},
+                            {"layout", "slim"},
+                            {"culling", "tile_2.5d"},
+                            {"toneMap", "agx"},
+                            {"tile", "32"},
+                            {"samples", "4"}};
     return preferences;
 }
 
@@ -58,13 +59,12 @@ TEST(Remember, changedValuesAreRememberedByName) {
     for (const Preferences& before : {Preferences(), remembered()}) {
         Preferences preferences = before;
         remember(preferences, showing(ofItsOwn()), {}, {640, 480});
-        EXPECT_EQ(preferences.settings.size(), 6u);
-        EXPECT_EQ(preferences.settings.at("technique"), "forward_plus");
-        EXPECT_EQ(preferences.settings.at("toneMap"), "aces");
-        EXPECT_EQ(preferences.settings.at("layout"), frame::layoutTable().back().name);
-        EXPECT_EQ(preferences.settings.at("culling"), "tile_minmax");
-        EXPECT_EQ(preferences.settings.at("tile"), "64");
-        EXPECT_EQ(preferences.settings.at("samples"), "4");
+        EXPECT_EQ(preferences.settings, (Texts{{"technique", "forward_plus"},
+                                               {"toneMap", "aces"},
+                                               {"layout", std::string(frame::layoutTable().back().name)},
+                                               {"culling", "tile_minmax"},
+                                               {"tile", "64"},
+                                               {"samples", "4"}}));
         EXPECT_EQ(preferences.windowSize, glm::ivec2(640, 480));
     }
 }

@@ -46,6 +46,13 @@ protected:
         engine::takeWishes(scene, file, look);
         return scenes::asSeen(scenes::ownViewOf(scene.environment.value()), environmentSeenBy(look));
     }
+    /// As a choice of another map, with the numbers of the scene's own.
+    ChosenEnvironment sky() const {
+        ChosenEnvironment other;
+        other.environment = state_.open->scene().environment;
+        other.environment->source = "builtin:sky";
+        return other;
+    }
     std::string saved() {
         const std::string file = (folder_.path() / "saved.json").string();
         saveOpenScene(state_, file);
@@ -118,10 +125,7 @@ TEST_F(SavedEnvironment, turnsFromBeforeASaveAreUndoneAndRedoneAlsoWhereItWasSav
     const scenes::EnvironmentView first = seen();
     view(kChosenView);
     const scenes::EnvironmentView turned = seen();
-    ChosenEnvironment other;
-    other.environment = state_.open->scene().environment;
-    other.environment->source = "builtin:sky";
-    state_.open->takeEnvironment(std::move(other));
+    state_.open->takeEnvironment(sky());
     view({90.0f, 0.0f});
     const scenes::EnvironmentView dark = seen();
     EXPECT_EQ(dark, (scenes::EnvironmentView{100.0f, 0.0f}));
@@ -147,10 +151,8 @@ TEST_F(SavedEnvironment, turnsFromBeforeASaveAreUndoneAndRedoneAlsoWhereItWasSav
 TEST_F(SavedEnvironment, whatUndoingBringsBackLiesAndShinesAsItDidToo) {
     view(kChosenView);
     const scenes::EnvironmentView before = seen();
-    ChosenEnvironment other;
+    ChosenEnvironment other = sky();
     other.name = "sky";
-    other.environment = state_.open->scene().environment;
-    other.environment->source = "builtin:sky";
     other.environment->intensity = 0.25f;
     state_.open->takeEnvironment(std::move(other));
     const scenes::EnvironmentView ofOther = seen();

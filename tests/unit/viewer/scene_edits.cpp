@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/unit/viewer/ChangeLight.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/session/Keys.h"
 #include "viewer/session/SceneEdits.h"
 
@@ -9,13 +9,19 @@ namespace {
 
 /// A window that shows a scene's lights a, b and c.
 State threeLights() {
-    scenes::LoadOptions load;
-    scenes::Scene scene = scenes::loadScene("room", load);
+    scenes::Scene scene = scenes::loadScene("room");
     scene.lights.assign(3, scene.lights.at(0));
     for (std::size_t i = 0; i < 3; ++i) scene.lights[i].name = std::string(1, char('a' + i));
-    State state;
-    state.open = std::make_unique<OpenScene>("room", load, std::move(scene), scenes::SceneOrigin());
-    return state;
+    return test::stateOf(std::move(scene));
+}
+
+const Lights& lightsOf(const State& state) {
+    return state.open->scene().lights;
+}
+
+/// What undoing would undo.
+std::string lastEdit(const State& state) {
+    return *state.open->history().undoText();
 }
 
 TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndTheNextIsSelectedThen) {
@@ -23,36 +29,35 @@ TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndTheNextIsSelectedThen) {
     state.selectedLight = 1;
     state.looks[0].settings.soloLight = 2;
     deleteSelectedLights(state);
-    const std::vector<scenes::Light>& lights = state.open->scene().lights;
-    ASSERT_EQ(lights.size(), 2u);
-    EXPECT_EQ(lights[0].name, "a");
-    EXPECT_EQ(lights[1].name, "c");
+    ASSERT_EQ(lightsOf(state).size(), 2u);
+    EXPECT_EQ(lightsOf(state)[0].name, "a");
+    EXPECT_EQ(lightsOf(state)[1].name, "c");
     EXPECT_EQ(state.looks[0].settings.soloLight, 1);
     EXPECT_EQ(state.selectedLight, 1) << "c";
     deleteSelectedLights(state);
     EXPECT_EQ(state.selectedLight, 0) << "the last";
     deleteSelectedLights(state);
     EXPECT_EQ(state.selectedLight, scenes::kNone);
-    EXPECT_TRUE(state.open->scene().lights.empty());
+    EXPECT_TRUE(lightsOf(state).empty());
     EXPECT_FALSE(state.looks[0].settings.soloLight);
     EXPECT_TRUE(state.open->isEdited());
 }
 
 TEST(SceneEdits, severalLightsAreDeletedAndComeBackInOneStep) {
     State state = threeLights();
-    const std::vector<scenes::Light> own = state.open->scene().lights;
+    const std::vector<scenes::Light> own = lightsOf(state);
     selectLight(state, 0, Choosing::Alone);
     selectLight(state, 2, Choosing::Toggle);
     EXPECT_EQ(state.allSelectedLights(), (std::set<int>{0, 2}));
     state.looks[0].settings.soloLight = 1;
     deleteSelectedLights(state);
-    ASSERT_EQ(state.open->scene().lights.size(), 1u);
-    EXPECT_EQ(state.open->scene().lights[0].name, "b");
+    ASSERT_EQ(lightsOf(state).size(), 1u);
+    EXPECT_EQ(lightsOf(state)[0].name, "b");
     EXPECT_EQ(state.looks[0].settings.soloLight, 0);
     EXPECT_EQ(state.selectedLight, 0);
-    EXPECT_EQ(*state.open->history().undoText(), "delete 2 lights");
+    EXPECT_EQ(lastEdit(state), "delete 2 lights");
     undo(state);
-    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_TRUE(lightsOf(state) == own);
     EXPECT_FALSE(state.open->isEdited());
 }
 
@@ -63,7 +68,7 @@ TEST(SceneEdits, whatIsEditedOfTheSelectedLightBecomesThatOfAllInOneStep) {
         light.intensity = 7.0f;
         light.castsShadow = true;
     });
-    const Lights before = state.open->scene().lights;
+    const Lights before = lightsOf(state);
     selectLight(state, 0, Choosing::Alone);
     selectLight(state, 2, Choosing::Toggle);
     state.selectedLight = 0;
@@ -73,13 +78,13 @@ TEST(SceneEdits, whatIsEditedOfTheSelectedLightBecomesThatOfAllInOneStep) {
         changeSelectedLights(state, changed, 10.0, Gesture::GoesOn);
     }
     state.open->endGesture();
-    const Lights& lights = state.open->scene().lights;
+    const Lights& lights = lightsOf(state);
     EXPECT_EQ(lights[0].intensity, 5.0f);
     EXPECT_EQ(lights[2].intensity, 5.0f);
     EXPECT_TRUE(lights[2].castsShadow) << "that was not edited";
     EXPECT_EQ(lights[2].name, "c");
     EXPECT_TRUE(lights[1] == before[1]);
-    EXPECT_EQ(*state.open->history().undoText(), "change intensity of 2 lights");
+    EXPECT_EQ(lastEdit(state), "change intensity of 2 lights");
     undo(state);
     EXPECT_TRUE(lights == before);
     changed = before[0];
@@ -108,10 +113,10 @@ TEST(SceneEdits, aNarrowerConeOfASpotStaysOneForTheLightsBesides) {
     });
     selectLight(state, 2, Choosing::Alone);
     selectLight(state, 0, Choosing::Toggle);
-    scenes::Light changed = state.open->scene().lights[0];
+    scenes::Light changed = lightsOf(state)[0];
     changed.outerConeRadians = 0.65f;
     changeSelectedLights(state, changed, 10.0);
-    const Lights& lights = state.open->scene().lights;
+    const Lights& lights = lightsOf(state);
     EXPECT_EQ(lights[0].innerConeRadians, 0.6f);
     EXPECT_EQ(lights[2].outerConeRadians, 0.65f);
     EXPECT_EQ(lights[2].innerConeRadians, 0.65f);
@@ -122,12 +127,12 @@ TEST(SceneEdits, severalLightsAreDuplicatedInOneStepAndTheCopiesSelected) {
     selectLight(state, 1, Choosing::Alone);
     selectLight(state, 2, Choosing::Toggle);
     duplicateSelectedLights(state);
-    const Lights& lights = state.open->scene().lights;
+    const Lights& lights = lightsOf(state);
     ASSERT_EQ(lights.size(), 5u);
     EXPECT_EQ(lights[3].name, "b 2");
     EXPECT_EQ(lights[4].name, "c 2");
     EXPECT_EQ(state.allSelectedLights(), (std::set<int>{3, 4}));
-    EXPECT_EQ(*state.open->history().undoText(), "duplicate 2 lights");
+    EXPECT_EQ(lastEdit(state), "duplicate 2 lights");
     undo(state);
     EXPECT_EQ(lights.size(), 3u);
 }
@@ -146,10 +151,10 @@ TEST(SceneEdits, aLightIsRenamedUnlessTheNameIsEmptyAndNoTwoHaveOneName) {
     rename("b");
     EXPECT_FALSE(state.open->isEdited());
     rename("lamp");
-    EXPECT_EQ(state.open->scene().lights[1].name, "lamp");
-    EXPECT_EQ(*state.open->history().undoText(), "rename light 'b'");
+    EXPECT_EQ(lightsOf(state)[1].name, "lamp");
+    EXPECT_EQ(lastEdit(state), "rename light 'b'");
     rename("a");
-    EXPECT_EQ(state.open->scene().lights[1].name, "a 2");
+    EXPECT_EQ(lightsOf(state)[1].name, "a 2");
 }
 
 TEST(SceneEdits, aRangeGoesByTheOrderOfTheList) {
@@ -167,21 +172,21 @@ TEST(SceneEdits, aRangeGoesByTheOrderOfTheList) {
 TEST(SceneEdits, whatIsKnownOfALightsTypeGoesWithIt) {
     State state = threeLights();
     const auto choose = [&](std::size_t index, scenes::LightType type) {
-        scenes::Light light = state.open->scene().lights[index];
+        scenes::Light light = lightsOf(state)[index];
         state.types.choose(index, light, type, 10.0);
         state.open->changeLight(index, light);
     };
     test::changeLight(state, 2, [](scenes::Light& light) { light.falloff = scenes::Falloff::Attenuation; });
-    const scenes::Light before = state.open->scene().lights[2];
+    const scenes::Light before = lightsOf(state)[2];
     choose(2, scenes::LightType::Sphere);
     state.selectedLight = 0;
     deleteSelectedLights(state);
     choose(1, scenes::LightType::Point);
-    EXPECT_TRUE(state.open->scene().lights[1] == before);
+    EXPECT_TRUE(lightsOf(state)[1] == before);
     choose(1, scenes::LightType::Sphere);
-    while (state.open->scene().lights.size() < 3) undo(state);
+    while (lightsOf(state).size() < 3) undo(state);
     choose(2, scenes::LightType::Point);
-    EXPECT_TRUE(state.open->scene().lights[2] == before);
+    EXPECT_TRUE(lightsOf(state)[2] == before);
 }
 
 TEST(SceneEdits, aChoiceGoesAloneBesidesOrAsARange) {
@@ -211,7 +216,7 @@ TEST(SceneEdits, withoutASelectedLightNothingIsDeletedOrCountedAsAnEdit) {
         state.selectedLight = selected;
         deleteSelectedLights(state);
     }
-    EXPECT_EQ(state.open->scene().lights.size(), 3u);
+    EXPECT_EQ(lightsOf(state).size(), 3u);
     EXPECT_FALSE(state.open->isEdited());
     State none;
     none.selectedLight = 0;
@@ -225,64 +230,64 @@ TEST(SceneEdits, scatteredLightsTakeTheScenesPlaceAndLieElsewhereTheNextTime) {
     state.looks[0].settings.soloLight = 2;
     state.scatter.count = 20;
     replaceByScattered(state);
-    const std::vector<scenes::Light> first = state.open->scene().lights;
+    const std::vector<scenes::Light> first = lightsOf(state);
     EXPECT_EQ(first.size(), 20u);
     EXPECT_EQ(state.selectedLight, scenes::kNone);
     EXPECT_FALSE(state.looks[0].settings.soloLight);
     EXPECT_TRUE(state.open->isEdited());
     replaceByScattered(state);
-    EXPECT_EQ(state.open->scene().lights.size(), 20u);
-    EXPECT_FALSE(state.open->scene().lights == first);
+    EXPECT_EQ(lightsOf(state).size(), 20u);
+    EXPECT_FALSE(lightsOf(state) == first);
 }
 
 TEST(SceneEdits, undoingAScatteringBringsTheLightsBackAndRedoingTakesThemAway) {
     State state = threeLights();
-    const std::vector<scenes::Light> own = state.open->scene().lights;
+    const std::vector<scenes::Light> own = lightsOf(state);
     state.scatter.count = 5;
     undo(state);
     redo(state);
     EXPECT_EQ(state.open->edits(), 0u) << "there is nothing to undo";
     replaceByScattered(state);
-    const std::vector<scenes::Light> scattered = state.open->scene().lights;
-    EXPECT_EQ(*state.open->history().undoText(), "scatter 5 lights");
+    const std::vector<scenes::Light> scattered = lightsOf(state);
+    EXPECT_EQ(lastEdit(state), "scatter 5 lights");
     state.selectedLight = 4;
     state.looks[0].settings.soloLight = 4;
     undo(state);
-    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_TRUE(lightsOf(state) == own);
     EXPECT_EQ(state.selectedLight, scenes::kNone);
     EXPECT_FALSE(state.looks[0].settings.soloLight);
     redo(state);
-    EXPECT_TRUE(state.open->scene().lights == scattered);
+    EXPECT_TRUE(lightsOf(state) == scattered);
 }
 
 TEST(SceneEdits, aDeletedLightComesBackInItsPlaceSelectedAndSoloGoesWithItsLight) {
     State state = threeLights();
-    const std::vector<scenes::Light> own = state.open->scene().lights;
+    const std::vector<scenes::Light> own = lightsOf(state);
     state.selectedLight = 1;
     state.looks[0].settings.soloLight = 2;
     deleteSelectedLights(state);
-    EXPECT_EQ(*state.open->history().undoText(), "delete light 'b'");
+    EXPECT_EQ(lastEdit(state), "delete light 'b'");
     undo(state);
-    EXPECT_TRUE(state.open->scene().lights == own);
+    EXPECT_TRUE(lightsOf(state) == own);
     EXPECT_FALSE(state.open->isEdited());
     EXPECT_EQ(state.selectedLight, 1);
     EXPECT_EQ(state.looks[0].settings.soloLight, 2);
     redo(state);
-    EXPECT_EQ(state.open->scene().lights.size(), 2u);
+    EXPECT_EQ(lightsOf(state).size(), 2u);
     EXPECT_EQ(state.looks[0].settings.soloLight, 1);
 }
 
 TEST(SceneEdits, nothingIsUndoneWhileSomethingIsDragged) {
     State state = threeLights();
-    scenes::Light moved = state.open->scene().lights[0];
+    scenes::Light moved = lightsOf(state)[0];
     moved.positionWS.x += 1.0;
     state.open->changeLight(0, moved, Gesture::GoesOn);
     undo(state);
-    EXPECT_TRUE(state.open->scene().lights[0] == moved) << "a widget is held";
+    EXPECT_TRUE(lightsOf(state)[0] == moved) << "a widget is held";
     state.open->endGesture();
     state.isDragging = true;
     undo(state);
-    EXPECT_TRUE(state.open->scene().lights[0] == moved);
+    EXPECT_TRUE(lightsOf(state)[0] == moved);
     state.isDragging = false;
     undo(state);
     EXPECT_FALSE(state.open->isEdited());
@@ -292,38 +297,36 @@ TEST(SceneEdits, addingAndDuplicatingAreUndoneAndNamed) {
     State state = threeLights();
     addLight(state, 0.2);
     EXPECT_EQ(state.selectedLight, 3);
-    EXPECT_EQ(*state.open->history().undoText(), "add light 'light'");
+    EXPECT_EQ(lastEdit(state), "add light 'light'");
     state.selectedLight = 0;
     duplicateSelectedLights(state);
     EXPECT_EQ(state.selectedLight, 4);
-    EXPECT_EQ(*state.open->history().undoText(), "duplicate light 'a 2'");
+    EXPECT_EQ(lastEdit(state), "duplicate light 'a 2'");
     undo(state);
     EXPECT_EQ(state.selectedLight, scenes::kNone) << "it was the one that went";
     undo(state);
-    EXPECT_EQ(state.open->scene().lights.size(), 3u);
+    EXPECT_EQ(lightsOf(state).size(), 3u);
     EXPECT_FALSE(state.open->isEdited());
 }
 
 TEST(SceneEdits, revertGoesBackOrForthToTheSavedSceneAndElseAsksForTheFile) {
     State state = threeLights();
-    const auto change = [&state](float intensity) {
-        test::changeLight(state, 0, [&](scenes::Light& light) { light.intensity = intensity; });
-    };
+    const auto change = [&state](float intensity) { test::setIntensity(*state.open, intensity); };
     change(0.25f);
     state.open->becomes("/saved.json");
     change(0.5f);
     change(0.75f);
     revert(state);
-    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.25f);
+    EXPECT_EQ(lightsOf(state)[0].intensity, 0.25f);
     EXPECT_FALSE(state.open->isEdited());
     undo(state);
     EXPECT_TRUE(state.open->isEdited());
     revert(state);
-    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.25f);
+    EXPECT_EQ(lightsOf(state)[0].intensity, 0.25f);
     EXPECT_FALSE(state.requests.open);
     redo(state);
     redo(state);
-    EXPECT_EQ(state.open->scene().lights[0].intensity, 0.75f) << "what was reverted can be redone";
+    EXPECT_EQ(lightsOf(state)[0].intensity, 0.75f) << "what was reverted can be redone";
     for (int i = 0; i < 3; ++i) undo(state);
     change(0.875f); // in the place of what was saved
     revert(state);
@@ -340,8 +343,7 @@ TEST(SceneEdits, undoingAJumpPutsTheCameraBackAndKeepsWhatCanBeRedone) {
     open.jumpHome();
     EXPECT_EQ(open.history().undoable(), 0u) << "it is there already";
     open.jumpToAll(1.5);
-    open.rig().advance(10.0, 400.0);
-    open.applyRig();
+    test::settle(open);
     const scenes::Camera all = open.scene().cameras[0];
     EXPECT_NE(all, first);
     EXPECT_FALSE(open.isEdited()) << "a movement is no edit of the scene";

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/TempFolder.h"
+#include "tests/unit/viewer/InEmptyFolder.h"
 
 namespace tessera::viewer {
 namespace {
@@ -10,17 +10,9 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A test in an empty folder.
-class SceneSource : public testing::Test {
+class SceneSource : public test::InEmptyFolder {
 protected:
-    SceneSource() { std::filesystem::current_path(folder_.path()); }
-    ~SceneSource() override { std::filesystem::current_path(before_); }
-    const tessera::test::TempFolder& folder() const { return folder_; }
     static std::string here(const std::string& name) { return (std::filesystem::current_path() / name).string(); }
-
-private:
-    std::filesystem::path before_ = std::filesystem::current_path();
-    tessera::test::TempFolder folder_;
 };
 
 TEST_F(SceneSource, allPathsToAFileNameTheSameScene) {

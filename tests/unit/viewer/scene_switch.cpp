@@ -8,7 +8,7 @@
 
 #include "base/Error.h"
 #include "tests/support/TempFolder.h"
-#include "tests/unit/viewer/CameraTest.h"
+#include "tests/unit/viewer/Scenes.h"
 #include "viewer/save/SaveScene.h"
 #include "viewer/session/SceneEdits.h"
 
@@ -36,12 +36,15 @@ protected:
         };
     }
 
-    /// Opens a scene and waits for it; whether it is there, else why not is in failure_.
-    bool open(const std::string& source, const scenes::LoadOptions& load = {}) {
-        switch_.open(source, load);
+    void waitForResult() const {
         for (int i = 0; i < 6000 && !switch_.hasResult(); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         EXPECT_TRUE(switch_.hasResult()) << "after a minute";
+    }
+    /// Opens a scene and waits for it; whether it is there, else why not is in failure_.
+    bool open(const std::string& source, const scenes::LoadOptions& load = {}) {
+        switch_.open(source, load);
+        waitForResult();
         try {
             std::unique_ptr<OpenScene> scene = switch_.take([this](const OpenScene&) {
                 if (cannotShow_) throw std::runtime_error("no memory");
@@ -66,10 +69,20 @@ protected:
 
     const scenes::Camera& shown() const { return state_.open->scene().cameras[std::size_t(state_.open->camera())]; }
 
-    void moveCamera() {
-        state_.open->rig().rotate({120.0, 30.0}, kHeightPixels);
-        state_.open->rig().advance(10.0, kHeightPixels);
-        state_.open->applyRig();
+    void moveCamera() { turnCamera(*state_.open); }
+    /// Shows the second camera.
+    void useSecondCamera() {
+        state_.open->useCamera(1);
+        for (Look& look : state_.looks) look.settings.camera = 1;
+    }
+    std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
+    /// The camera that a file is shown by equals, in pictures of any shape, that of the command that is copied.
+    void expectCommandShows(const std::string& file, scenes::LoadOptions load) {
+        for (const double aspect : {0.5, 4.0}) {
+            load.aspect = aspect;
+            const scenes::Camera supplied = scenes::loadScene(file, load).cameras.at(0);
+            EXPECT_EQ(scenes::changedCamera(supplied, state_.open->cameraChange()), shown()) << aspect;
+        }
     }
 
     static constexpr double kMadeForAspect = 16.0 / 9.0; ///< what cameras of built-in scenes are made for
@@ -97,7 +110,7 @@ TEST_F(SceneSwitchTest, optionsOfTheFirstSceneDoNotApplyToAnotherEvenIfItFailed)
 
 TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
     saidPose_.eyeWS = glm::dvec3(9, 9, 9);
-    EXPECT_FALSE(open((folder_.path() / "missing.glb").string()));
+    EXPECT_FALSE(open(at("missing.glb")));
     EXPECT_THAT(failure_, HasSubstr("missing.glb"));
     EXPECT_TRUE(open("room"));
     EXPECT_EQ(firsts_, std::vector<bool>{false});
@@ -112,8 +125,7 @@ TEST_F(SceneSwitchTest, aSceneShowsTheCameraAndThePoseThatItWasLeftWith) {
     const scenes::Camera placed = shown();
     EXPECT_DOUBLE_EQ(placed.fovYRadians, glm::radians(20.0));
     ASSERT_TRUE(open(b));
-    state_.open->useCamera(1);
-    for (Look& look : state_.looks) look.settings.camera = 1;
+    useSecondCamera();
     moveCamera();
     const scenes::Camera moved = shown();
 
@@ -123,18 +135,18 @@ TEST_F(SceneSwitchTest, aSceneShowsTheCameraAndThePoseThatItWasLeftWith) {
     EXPECT_EQ(shown(), placed);
     EXPECT_EQ(state_.open->cameraChange(), saidPose_);
 
-    ASSERT_TRUE(open((folder_.path() / "." / "b.json").string()));
+    ASSERT_TRUE(open(at("./b.json")));
     EXPECT_EQ(state_.open->camera(), 1);
     EXPECT_EQ(state_.looks[0].settings.camera, 1);
     EXPECT_EQ(state_.looks[1].settings.camera, 1);
     EXPECT_EQ(shown(), moved);
-    EXPECT_EQ(state_.open->source(), (folder_.path() / "." / "b.json").string()) << "the user's words";
+    EXPECT_EQ(state_.open->source(), at("./b.json")) << "the user's words";
 }
 
 TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNotCountsAsMovedWhenItsFileIsOpenedAgain) {
     ASSERT_TRUE(open("room"));
     moveCamera();
-    const std::string file = (folder_.path() / "saved.json").string();
+    const std::string file = at("saved.json");
     saveOpenScene(state_, file);
     const scenes::Camera saved = shown();
     ASSERT_TRUE(open("room"));
@@ -157,7 +169,7 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     ASSERT_TRUE(open(turned("a.json", 25)));
     EXPECT_EQ(degrees(), 25.0f);
     viewEnvironment(state_, {40.0f, 1.0f});
-    const std::string file = (folder_.path() / "saved.json").string();
+    const std::string file = at("saved.json");
     saveOpenScene(state_, file);
     EXPECT_EQ(seen(), 40.0f);
     ASSERT_TRUE(open(turned("b.json", 10)));
@@ -170,7 +182,7 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     EXPECT_EQ(seen(), 40.0f) << "edits are left behind with their scene";
     EXPECT_EQ(environmentSeenBy(state_.looks[1]), state_.open->environmentView());
     EXPECT_FALSE(state_.open->isEdited());
-    EXPECT_EQ(state_.maps, std::vector<std::string>{(folder_.path() / "even.pfm").string()}) << "to be chosen again";
+    EXPECT_EQ(state_.maps, std::vector<std::string>{at("even.pfm")}) << "to be chosen again";
 }
 
 TEST_F(SceneSwitchTest, aCameraThatTheFileLacksIsNotRestored) {
@@ -187,8 +199,7 @@ TEST_F(SceneSwitchTest, aCameraThatTheFileLacksIsNotRestored) {
 
 TEST_F(SceneSwitchTest, aSceneThatCannotBeShownNeverChangesWhatTheOpenOneLooksLike) {
     ASSERT_TRUE(open(sceneFile("a.json")));
-    state_.open->useCamera(1);
-    for (Look& look : state_.looks) look.settings.camera = 1;
+    useSecondCamera();
     const auto looks = state_.looks;
     const std::vector<std::string> recent = state_.recent;
     cannotShow_ = true;
@@ -237,7 +248,7 @@ TEST_F(SceneSwitchTest, choicesAreRememberedEvenIfTheNextSceneSetsTheSame) {
 
 TEST_F(SceneSwitchTest, aDiscardedResultDoesNotReturn) {
     switch_.open("room");
-    for (int i = 0; i < 6000 && !switch_.hasResult(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    waitForResult();
     EXPECT_NE(switch_.scene(), nullptr);
     switch_.discard();
     EXPECT_TRUE(!switch_.hasResult() && switch_.scene() == nullptr);
@@ -273,13 +284,7 @@ TEST_F(SceneSwitchTest, aSuppliedCameraFitsTheWindowAndItsPlaceIsSaidForCommands
     state_.pictureAspect = 0.5;
     ASSERT_TRUE(open(file));
     EXPECT_EQ(state_.open->load().aspect, 0.5);
-    const scenes::Camera seen = shown();
-    scenes::LoadOptions load;
-    for (const double aspect : {0.5, 4.0}) {
-        load.aspect = aspect;
-        const scenes::Camera supplied = scenes::loadScene(file, load).cameras.at(0);
-        EXPECT_EQ(scenes::changedCamera(supplied, state_.open->cameraChange()), seen) << aspect;
-    }
+    expectCommandShows(file, {});
     moveCamera();
     const scenes::Camera moved = shown();
     ASSERT_TRUE(open("room"));
@@ -298,11 +303,7 @@ TEST_F(SceneSwitchTest, theDefaultCameraIsThatOfTheSceneItWasAskedForAndCommands
     EXPECT_EQ(state_.open->cameras().size(), 1u);
     EXPECT_TRUE(state_.open->load().defaultCamera) << "and the command says so";
     EXPECT_DOUBLE_EQ(shown().fovYRadians, glm::radians(20.0));
-    for (const double aspect : {0.5, 4.0}) {
-        load.aspect = aspect;
-        const scenes::Camera supplied = scenes::loadScene(file, load).cameras.at(0);
-        EXPECT_EQ(scenes::changedCamera(supplied, state_.open->cameraChange()), shown()) << aspect;
-    }
+    expectCommandShows(file, load);
     ASSERT_TRUE(open(sceneFile("b.json")));
     EXPECT_EQ(state_.open->cameras().size(), 2u);
 }

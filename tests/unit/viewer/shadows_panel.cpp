@@ -3,10 +3,8 @@
 #include <string>
 #include <variant>
 
-#include <gtest/gtest.h>
-#include <imgui_internal.h>
+#include <gmock/gmock.h>
 
-#include "tests/unit/viewer/ChangeLight.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Legend.h"
 #include "viewer/panels/Panels.h"
@@ -15,6 +13,9 @@ namespace tessera::viewer {
 namespace {
 
 class ShadowsPanel : public test::PanelTest {};
+
+using testing::HasSubstr;
+using testing::Not;
 
 /// Shadow maps of so many lights, which are those of the scene.
 engine::DrawnShadows mapsOf(std::size_t lights) {
@@ -34,23 +35,20 @@ TEST_F(ShadowsPanel, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     State state = test::unusualScene();
     Facts facts;
     const auto text = [&] { return textOf([&] { shadowsPanel(state, facts); }); };
-    EXPECT_EQ(text().find("Atlas"), std::string::npos) << "nothing is drawn yet";
+    EXPECT_THAT(text(), Not(HasSubstr("Atlas"))) << "nothing is drawn yet";
     facts.shadows[0] = mapsOf(3);
     test::changeLight(state, 1, [](scenes::Light& light) { light.name = "lamp"; });
-    const std::string maps = text();
     for (const char* part :
          {"4096x1024 texels", "16 of 20 MiB", "12: 4 drawn, 8 kept", "512 of 1024", "no room", "lamp"})
-        EXPECT_NE(maps.find(part), std::string::npos) << part << " in" << maps;
+        EXPECT_THAT(text(), HasSubstr(part));
     facts.shadows[0]->hasMaps = false;
-    const std::string traced = text();
-    EXPECT_NE(traced.find("traced"), std::string::npos) << traced;
-    EXPECT_EQ(traced.find("Atlas"), std::string::npos) << traced;
+    EXPECT_THAT(text(), testing::AllOf(HasSubstr("traced"), Not(HasSubstr("Atlas"))));
     facts.shadows[0]->lights.clear();
-    EXPECT_NE(text().find("No light in view casts shadows"), std::string::npos);
+    EXPECT_THAT(text(), HasSubstr("No light in view casts shadows"));
     // Lights that were deleted since the frame have no row.
     facts.shadows[0] = mapsOf(3);
     state.open->replaceLights("delete", 1, state.open->scene().lights.size() - 1, {});
-    EXPECT_EQ(text().find("no room"), std::string::npos);
+    EXPECT_THAT(text(), Not(HasSubstr("no room")));
 }
 
 TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
@@ -93,8 +91,7 @@ TEST_F(ShadowsPanel, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelec
     const auto verticesOf = [&](std::size_t lights) {
         facts.shadows[0] = mapsOf(lights);
         show([&] { shadowsPanel(state, facts); });
-        for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-            if (std::string(window->Name).find("shadowed lights") != std::string::npos) table = window;
+        table = windowNamed("shadowed lights");
         return table == nullptr ? 0 : table->DrawList->VtxBuffer.Size;
     };
     const int few = verticesOf(20);
@@ -103,11 +100,8 @@ TEST_F(ShadowsPanel, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelec
     ASSERT_NE(table, nullptr);
     const float row = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
     EXPECT_EQ(std::fmod(table->Size.y, row), 0.0f) << "a row is cut";
-    ImGui::GetIO().MousePos = {table->Pos.x + 20.0f, table->Pos.y + 3.5f * row}; // below the header
-    for (const bool isDown : {false, true, false}) {
-        ImGui::GetIO().MouseDown[0] = isDown;
-        show([&] { shadowsPanel(state, facts); });
-    }
+    const ImVec2 third(table->Pos.x + 20.0f, table->Pos.y + 3.5f * row); // below the header
+    clickPanel(third, [&] { shadowsPanel(state, facts); });
     EXPECT_EQ(state.selectedLight, 2);
 }
 
@@ -115,13 +109,11 @@ TEST_F(ShadowsPanel, theColoursOfShadowMapsStandOnThePictureThatShowsThem) {
     State state;
     Facts facts;
     const auto isThere = [&] { return overlaySpan([&] { drawLegend(state, facts, area(state), 1.0f); }).has_value(); };
-    facts.shown[0] = test::lookAt(frame::DebugView::Cascades);
     facts.shadows[0] = mapsOf(3);
-    EXPECT_TRUE(isThere());
-    facts.shown[0] = test::lookAt(frame::DebugView::Shadow);
-    EXPECT_FALSE(isThere());
-    facts.shown[0] = test::lookAt(frame::DebugView::ShadowAtlas);
-    EXPECT_TRUE(isThere());
+    for (const auto view : {frame::DebugView::Cascades, frame::DebugView::Shadow, frame::DebugView::ShadowAtlas}) {
+        facts.shown[0] = test::lookAt(view);
+        EXPECT_EQ(isThere(), view != frame::DebugView::Shadow) << int(view);
+    }
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include <gmock/gmock.h>
+
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
 
@@ -43,11 +45,10 @@ TEST_F(TextureRows, nameEveryTextureOfTheMaterialAndItsSize) {
     scene.materials.at(0).texture(scenes::TextureSlot::BaseColor).image = int(scene.images.size()) - 1;
     State state = test::stateOf(std::move(scene));
     state.selectedMaterial = 0;
-    const std::string text = textOf([&] { materialsPanel(state); });
-    for (const char* told : {"base color", "halves.png", "8 x 4"})
-        EXPECT_NE(text.find(told), std::string::npos) << told << " in" << text;
+    const auto text = [&] { return textOf([&] { materialsPanel(state); }); };
+    for (const char* told : {"base color", "halves.png", "8 x 4"}) EXPECT_THAT(text(), testing::HasSubstr(told));
     state.selectedMaterial = 1;
-    EXPECT_EQ(textOf([&] { materialsPanel(state); }).find("halves.png"), std::string::npos);
+    EXPECT_THAT(text(), testing::Not(testing::HasSubstr("halves.png")));
 }
 
 } // namespace
