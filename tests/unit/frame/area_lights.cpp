@@ -12,12 +12,14 @@
 #include "scenes/AreaLight.h"
 #include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
+#include "tests/unit/frame/Lights.h"
 
 namespace tessera::frame {
 namespace {
 
 using scenes::LightType;
 using test::kAreaTypes;
+using test::pack;
 
 /// In sight of the default camera, which looks along -z.
 scenes::Light surfaceLight(LightType type) {
@@ -32,18 +34,10 @@ scenes::Light randomSurface(test::Random& random, LightType type) {
     scenes::Light light = surfaceLight(type);
     light.directionWS = random.direction();
     light.alongWS = random.around(light.directionWS, 0.0, 0.0);
-    for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
-                                         &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
-        light.*metres = float(random.logarithmic(0.1, 2.0));
+    test::giveSizes(light, random, 0.1, 2.0);
     for (std::size_t i = 0; i < light.corners.count; ++i)
         light.corners.metres[i] *= glm::vec2(light.widthMetres, light.heightMetres) * float(random.between(0.5, 1.0));
     return light;
-}
-
-PackedLights packSurfaces(const std::vector<scenes::Light>& lights, const FrameSettings& settings = {}) {
-    scenes::Scene scene;
-    scene.lights = lights;
-    return packLights(scene, makeCameraView({}, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
 }
 
 TEST(PackedAreaLights, aFlatSurfaceReachesByTwoVectorsWhoseProductPointsWhereItShines) {
@@ -52,19 +46,19 @@ TEST(PackedAreaLights, aFlatSurfaceReachesByTwoVectorsWhoseProductPointsWhereItS
     panel.heightMetres = 0.5f;
     panel.color = {1.0f, 0.5f, 0.25f};
     panel.intensity = 8.0f;
-    const PackedLights packed = packSurfaces({panel});
-    EXPECT_EQ(packed.texels.at(0).position, glm::vec4(0, 0, -5, 0)); // no range: 1/range^2 is 0
-    EXPECT_EQ(packed.texels.at(0).color, glm::vec4(8, 4, 2, float(int(LightType::Rectangle))));
-    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(1.5f, 0, 0, 0));
-    EXPECT_EQ(packed.shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 0));
+    const PackedLights lights = pack({panel});
+    EXPECT_EQ(lights.texels.at(0).position, glm::vec4(0, 0, -5, 0)); // no range: 1/range^2 is 0
+    EXPECT_EQ(lights.texels.at(0).color, glm::vec4(8, 4, 2, float(int(LightType::Rectangle))));
+    EXPECT_EQ(lights.shapes.at(0).axis, glm::vec4(1.5f, 0, 0, 0));
+    EXPECT_EQ(lights.shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 0));
     panel.isTwoSided = true;
-    EXPECT_EQ(packSurfaces({panel}).shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 1));
+    EXPECT_EQ(pack({panel}).shapes.at(0).attenuation, glm::vec4(0, -0.25f, 0, 1));
 
     test::Random random(6);
     for (int i = 0; i < 200; ++i) {
         const scenes::Light light = randomSurface(random, i % 2 == 0 ? LightType::Rectangle : LightType::Disk);
         const bool isDisk = light.type == LightType::Disk;
-        const shared::LightShapeTexels shape = packSurfaces({light}).shapes.at(0);
+        const shared::LightShapeTexels shape = pack({light}).shapes.at(0);
         const glm::dvec3 axis(shape.axis), across(shape.attenuation);
         const double a = isDisk ? double(light.radiusMetres) : 0.5 * double(light.widthMetres);
         const double b = isDisk ? double(light.radiusMetres) : 0.5 * double(light.heightMetres);
@@ -79,27 +73,27 @@ TEST(PackedAreaLights, aFlatSurfaceReachesByTwoVectorsWhoseProductPointsWhereItS
 }
 
 TEST(PackedAreaLights, aSphereHasARadiusAndATubeHalfOfItselfToo) {
-    EXPECT_EQ(packSurfaces({surfaceLight(LightType::Sphere)}).shapes.at(0).axis, glm::vec4(0, 0, 0, 0.5f));
+    EXPECT_EQ(pack({surfaceLight(LightType::Sphere)}).shapes.at(0).axis, glm::vec4(0, 0, 0, 0.5f));
     scenes::Light tube = surfaceLight(LightType::Tube);
     tube.lengthMetres = 3.0f;
     tube.directionWS = {0.0, 1.0, 0.0};
-    const PackedLights packed = packSurfaces({tube});
-    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(0, 1.5f, 0, 0.5f));
-    EXPECT_TRUE(packed.features.areaLights());
-    EXPECT_TRUE(packed.features[LightType::Tube]);
-    EXPECT_FALSE(packed.features[LightType::Sphere]);
-    EXPECT_FLOAT_EQ(packed.shadows.at(0).shadow.x, float(std::sqrt((3.0 + test::pi * 0.25) / test::pi)));
+    const PackedLights lights = pack({tube});
+    EXPECT_EQ(lights.shapes.at(0).axis, glm::vec4(0, 1.5f, 0, 0.5f));
+    EXPECT_TRUE(lights.features.areaLights());
+    EXPECT_TRUE(lights.features[LightType::Tube]);
+    EXPECT_FALSE(lights.features[LightType::Sphere]);
+    EXPECT_FLOAT_EQ(lights.shadows.at(0).shadow.x, float(std::sqrt((3.0 + test::pi * 0.25) / test::pi)));
 }
 
 TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockwise) {
     scenes::Light light = surfaceLight(LightType::Polygon);
     light.corners = test::cornersOf({{0, 0}, {0, 2}, {1, 0.5f}, {1.5f, 0}}); // clockwise
-    PackedLights packed = packSurfaces({light, surfaceLight(LightType::Disk)});
-    ASSERT_EQ(packed.corners.size(), 2u);
-    EXPECT_EQ(glm::vec3(packed.shapes[0].axis), glm::vec3(2, 0, 0));
-    EXPECT_EQ(packed.shapes[0].attenuation, glm::vec4(0, -2, 0, 0));
-    EXPECT_FLOAT_EQ(packed.shapes[0].axis.w, float(scenes::largestSeenArea(light) / 4.0));
-    const shared::LightCornerTexels& corners = packed.corners[0];
+    PackedLights lights = pack({light, surfaceLight(LightType::Disk)});
+    ASSERT_EQ(lights.corners.size(), 2u);
+    EXPECT_EQ(glm::vec3(lights.shapes[0].axis), glm::vec3(2, 0, 0));
+    EXPECT_EQ(lights.shapes[0].attenuation, glm::vec4(0, -2, 0, 0));
+    EXPECT_FLOAT_EQ(lights.shapes[0].axis.w, float(scenes::largestSeenArea(light) / 4.0));
+    const shared::LightCornerTexels& corners = lights.corners[0];
     EXPECT_EQ(corners.outline.z, 4.0f);
     EXPECT_LT(glm::distance(glm::dvec2(corners.outline), scenes::middleOf(light.corners) / 2.0), 1e-7);
     EXPECT_EQ(corners.corners[0], glm::vec4(0.75f, 0.0f, 0.5f, 0.25f));
@@ -111,31 +105,29 @@ TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockw
     const auto numbers = int(corners.lastEnd.y);
     for (const int triangle : {numbers & 511, numbers >> 9})
         EXPECT_TRUE((triangle & 7) == 1 || (triangle >> 3 & 7) == 1 || (triangle >> 6) == 1) << triangle;
-    EXPECT_EQ(packed.corners[1].outline, glm::vec4(0.0f)) << "a disk has none";
-    const std::size_t with = texelsOf(packed, packed.features).size();
+    EXPECT_EQ(lights.corners[1].outline, glm::vec4(0.0f)) << "a disk has none";
+    const std::size_t with = texelsOf(lights, lights.features).size();
     EXPECT_EQ(with, 2 * std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS + LIGHT_CORNER_TEXELS));
-    EXPECT_EQ(with * sizeof(glm::vec4), lightBytes(packed.features, 2));
-    packed = packSurfaces({surfaceLight(LightType::Disk)});
-    EXPECT_TRUE(packed.corners.empty());
-    EXPECT_EQ(texelsOf(packed, packed.features).size(), std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS))
+    EXPECT_EQ(with * sizeof(glm::vec4), lightBytes(lights.features, 2));
+    lights = pack({surfaceLight(LightType::Disk)});
+    EXPECT_TRUE(lights.corners.empty());
+    EXPECT_EQ(texelsOf(lights, lights.features).size(), std::size_t(LIGHT_TEXELS + LIGHT_SHAPE_TEXELS))
         << "scenes without polygons pay nothing for corners";
 }
 
 TEST(PackedAreaLights, inViewSpaceTheSurfaceIsTurnedWithTheView) {
     scenes::Camera camera; // looks along +x: view (x, y, -z) is world (z, y, x)
     camera.worldFromCamera = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1);
-    scenes::Scene scene;
-    scene.lights = {surfaceLight(LightType::Rectangle)};
-    scene.lights[0].positionWS = {5.0, 0.0, 0.0};
-    scene.lights[0].directionWS = {-1.0, 0.0, 0.0};
-    scene.lights[0].alongWS = {0.0, 1.0, 0.0};
+    scenes::Light light = surfaceLight(LightType::Rectangle);
+    light.positionWS = {5.0, 0.0, 0.0};
+    light.directionWS = {-1.0, 0.0, 0.0};
+    light.alongWS = {0.0, 1.0, 0.0};
     FrameSettings settings;
     settings.space = LightingSpace::View;
-    const PackedLights packed =
-        packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
-    EXPECT_EQ(packed.texels.at(0).position, glm::vec4(0, 0, -5, 0));
-    EXPECT_EQ(packed.shapes.at(0).axis, glm::vec4(0, 0.5f, 0, 0));
-    EXPECT_EQ(packed.shapes.at(0).attenuation, glm::vec4(-0.5f, 0, 0, 0));
+    const PackedLights turned = pack({light}, settings, camera);
+    EXPECT_EQ(turned.texels.at(0).position, glm::vec4(0, 0, -5, 0));
+    EXPECT_EQ(turned.shapes.at(0).axis, glm::vec4(0, 0.5f, 0, 0));
+    EXPECT_EQ(turned.shapes.at(0).attenuation, glm::vec4(-0.5f, 0, 0, 0));
 }
 
 TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
@@ -147,12 +139,12 @@ TEST(PackedAreaLights, aLightWithoutASurfaceIsDarkAndLeftOut) {
         lights.emplace_back(surfaceLight(type)).intensity = 0.0f;
     }
     lights.push_back(surfaceLight(LightType::Sphere));
-    const PackedLights pruned = packSurfaces(lights);
+    const PackedLights pruned = pack(lights);
     EXPECT_EQ(pruned.dark, 10u);
     EXPECT_THAT(pruned.sceneIndex, testing::ElementsAre(10));
     FrameSettings keep;
     keep.prune = false;
-    const PackedLights whole = packSurfaces(lights, keep);
+    const PackedLights whole = pack(lights, keep);
     ASSERT_EQ(whole.texels.size(), 11u);
     for (std::size_t i = 0; i < 10; ++i)
         EXPECT_EQ(glm::vec3(whole.texels[i].color), glm::vec3(0.0f)) << "dark lights add exactly 0";
@@ -165,10 +157,10 @@ TEST(PackedAreaLights, theirSurfaceLiesInTheBallThatCullingTakesThemFor) {
             const scenes::Light light = randomSurface(random, type);
             const bool isRound = type != LightType::Rectangle && type != LightType::Polygon;
             const double exact = scenes::surfaceReachMetres(light) * double(isRound ? AREA_OUTLINE_REACH : 1.0f);
-            EXPECT_NEAR(surfaceReachMetres(type, packSurfaces({light}).shapes.at(0)), exact, 3e-7 * exact);
+            EXPECT_NEAR(surfaceReachMetres(type, pack({light}).shapes.at(0)), exact, 3e-7 * exact);
         }
     }
-    EXPECT_EQ(surfaceReachMetres(LightType::Spot, packSurfaces({surfaceLight(LightType::Spot)}).shapes.at(0)), 0.0f);
+    EXPECT_EQ(surfaceReachMetres(LightType::Spot, pack({surfaceLight(LightType::Spot)}).shapes.at(0)), 0.0f);
 }
 
 TEST(AreaLightReach, isItsRangeOrWhereItCanCauseNoMoreThanTheTolerance) {
@@ -207,17 +199,17 @@ TEST(AreaLightReach, aToleranceCountsThemAsEnded) {
     none.radiusMetres = 0.0f;
     ranged.rangeMetres = 2.0f;
     const std::vector<scenes::Light> lights{black, none, ranged, surfaceLight(LightType::Disk)};
-    EXPECT_EQ(packSurfaces(lights).truncated.endless, 1u);
-    EXPECT_EQ(packSurfaces(lights).truncated.sum(), 1u);
-    EXPECT_EQ(packSurfaces(lights).everywhere, 1u);
+    EXPECT_EQ(pack(lights).truncated.endless, 1u);
+    EXPECT_EQ(pack(lights).truncated.sum(), 1u);
+    EXPECT_EQ(pack(lights).everywhere, 1u);
     FrameSettings settings;
     settings.rangeTolerance = test::pi * 0.25 / 16.0; // 4 m from the disk's ball
-    const PackedLights packed = packSurfaces(lights, settings);
-    EXPECT_EQ(packed.truncated.ended, 1u);
-    EXPECT_NEAR(packed.truncated.longestMetres, 4.5, 1e-12);
-    EXPECT_EQ(packed.everywhere, 0u);
-    EXPECT_NEAR(packed.texels.back().position.w, 1.0f / (4.5f * 4.5f), 1e-7f);
-    EXPECT_EQ(packed.texels.back().position.w, packSurfaces({lights.back()}, settings).texels.at(0).position.w);
+    const PackedLights ended = pack(lights, settings);
+    EXPECT_EQ(ended.truncated.ended, 1u);
+    EXPECT_NEAR(ended.truncated.longestMetres, 4.5, 1e-12);
+    EXPECT_EQ(ended.everywhere, 0u);
+    EXPECT_NEAR(ended.texels.back().position.w, 1.0f / (4.5f * 4.5f), 1e-7f);
+    EXPECT_EQ(ended.texels.back().position.w, pack({lights.back()}, settings).texels.at(0).position.w);
 }
 
 /// A wall of 16x16 pixels, 5 m ahead of the camera, whose normals point any way; one tile.

@@ -29,6 +29,10 @@ scenes::Camera orthographic(double nearMetres, double farMetres) {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
+CameraView sizedView(const scenes::Camera& camera, LightingSpace space) {
+    return makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+}
+
 struct Projected {
     glm::vec2 pixel; ///< window coordinates, lower-left origin
     float depth;     ///< as D32F stores it
@@ -71,12 +75,12 @@ TEST(CameraView, depthIsExactlyOneAtTheNearPlaneAndZeroAtTheFarOne) {
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera :
              {perspective(0.1, 100.0), orthographic(0.1, 100.0), orthographic(0.0, 100.0)}) {
-            const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+            const CameraView view = sizedView(camera, space);
             EXPECT_NEAR(depthAt(view, camera.nearMetres), 1.0, 1e-12); // double rounding of a rotation
             EXPECT_NEAR(depthAt(view, camera.farMetres), 0.0, 1e-12);
             EXPECT_GT(depthAt(view, 1.0), depthAt(view, 2.0));
         }
-        const CameraView endless = makeCameraView(perspective(0.1, kEndless), kSize, space, glm::vec3(0.0f));
+        const CameraView endless = sizedView(perspective(0.1, kEndless), space);
         EXPECT_NEAR(depthAt(endless, 0.1), 1.0, 1e-12);
         EXPECT_NEAR(depthAt(endless, 1e12), 0.0, 1e-12);
         EXPECT_GT(depthAt(endless, 1e12), 0.0); // a point at any distance is still drawn: 0 is the background
@@ -88,7 +92,7 @@ TEST(CameraView, aPointIsRebuiltFromItsPixelAndDepth) {
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera :
              {perspective(0.1, kEndless), perspective(0.1, 100.0), orthographic(0.1, 100.0)}) {
-            const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+            const CameraView view = sizedView(camera, space);
             const bool flat = camera.projection == scenes::Projection::Orthographic;
             for (int i = 0; i < 5000; ++i) {
                 const glm::dvec3 point = pointInView(random, view, camera, 0.11, 99.0);
@@ -111,7 +115,7 @@ TEST(CameraView, anOffsetShiftsThePictureByThatManyPixelsAndItsRaysWithIt) {
     const glm::dvec2 offset(0.375, -0.25);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View})
         for (const scenes::Camera& camera : {perspective(0.1, kEndless), orthographic(0.1, 100.0)}) {
-            const CameraView still = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+            const CameraView still = sizedView(camera, space);
             const CameraView shifted = makeCameraView(camera, kSize, space, glm::vec3(0.0f), {}, 0.0f, offset);
             for (int i = 0; i < 1000; ++i) {
                 const glm::dvec3 point = pointInView(random, still, camera, 0.11, 99.0);
@@ -131,8 +135,8 @@ TEST(CameraView, anOffsetShiftsThePictureByThatManyPixelsAndItsRaysWithIt) {
 TEST(CameraView, bothLightingSpacesPutAWorldPointAtTheSamePixelAndDepth) {
     test::Random random(2);
     for (const scenes::Camera& camera : {perspective(0.1, kEndless), orthographic(0.1, 100.0)}) {
-        const CameraView world = makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f));
-        const CameraView eye = makeCameraView(camera, kSize, LightingSpace::View, glm::vec3(0.0f));
+        const CameraView world = sizedView(camera, LightingSpace::World);
+        const CameraView eye = sizedView(camera, LightingSpace::View);
         for (int i = 0; i < 1000; ++i) {
             const glm::dvec3 pointWS = world.eyeWS + random.direction() * 20.0;
             const glm::dvec4 a = world.clipFromLS * glm::dvec4(world.positionLS(pointWS), 1.0);
@@ -152,7 +156,7 @@ TEST(CameraView, frustumPlanesEncloseTheVisiblePoints) {
     test::Random random(3);
     for (const LightingSpace space : {LightingSpace::World, LightingSpace::View}) {
         for (const scenes::Camera& camera : {perspective(0.5, kEndless), orthographic(0.5, 100.0)}) {
-            const CameraView view = makeCameraView(camera, kSize, space, glm::vec3(0.0f));
+            const CameraView view = sizedView(camera, space);
             for (const glm::dvec4& plane : view.frustumPlanesLS)
                 EXPECT_NEAR(glm::length(glm::dvec3(plane)), 1.0, 1e-12);
             int seen = 0;

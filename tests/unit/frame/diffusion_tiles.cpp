@@ -75,6 +75,16 @@ scenes::Mesh globe(int columns, int rows) {
     return mesh;
 }
 
+/// A globe and its tiles.
+struct TiledGlobe {
+    explicit TiledGlobe(int columns, const glm::dmat4& worldFromObject = glm::dmat4(1.0))
+        : mesh(globe(columns, columns / 2)), atlas(makeUvAtlas(mesh, worldFromObject, kSide, 8, 16)),
+          tiles(diffusionTiles(atlas, mesh, worldFromObject)) {}
+    scenes::Mesh mesh;
+    UvAtlas atlas;
+    std::vector<DiffusionTile> tiles;
+};
+
 CameraView cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS, scenes::Projection projection) {
     scenes::Camera camera;
     camera.projection = projection;
@@ -86,9 +96,7 @@ CameraView cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS, scenes:
 }
 
 TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
-    const scenes::Mesh mesh = globe(48, 24);
-    const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), kSide, 8, 16);
-    const std::vector<DiffusionTile> tiles = diffusionTiles(atlas, mesh, glm::dmat4(1.0));
+    const auto& [mesh, atlas, tiles] = TiledGlobe(48);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> share(0.0, 1.0), place(-3.0, 3.0);
     for (int trial = 0; trial < 40; ++trial) {
@@ -111,7 +119,9 @@ TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
                 const glm::dvec3 toViewer =
                     projection == scenes::Projection::Orthographic ? -view.forwardLS : view.eyeWS - pointWS;
                 const bool isFront = glm::dot(front, toViewer) > 0.0;
-                const auto texCoord = [&](std::size_t c) { return glm::dvec2(mesh.texCoords[0][mesh.indices[i + c]]); };
+                const auto texCoord = [&, &mesh = mesh](std::size_t c) {
+                    return glm::dvec2(mesh.texCoords[0][mesh.indices[i + c]]);
+                };
                 const glm::dvec2 at = atlas.placeOf(
                     glm::vec2(texCoord(0) + a * (texCoord(1) - texCoord(0)) + b * (texCoord(2) - texCoord(0))));
                 const glm::ivec2 low(glm::floor(at - 0.5));
@@ -135,9 +145,7 @@ TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
 }
 
 TEST(DiffusionTiles, mostOfWhatFacesAwayOrLiesOutsideIsLeftOut) {
-    const scenes::Mesh mesh = globe(96, 48);
-    const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), kSide, 8, 16);
-    const std::vector<DiffusionTile> tiles = diffusionTiles(atlas, mesh, glm::dmat4(1.0));
+    const std::vector<DiffusionTile> tiles = TiledGlobe(96).tiles;
     const auto shareOf = [&](const CameraView& view) {
         return double(seenTiles(tiles, view, 0.0, false).count()) / double(usedTiles(tiles).count());
     };
@@ -151,13 +159,10 @@ TEST(DiffusionTiles, mostOfWhatFacesAwayOrLiesOutsideIsLeftOut) {
 }
 
 TEST(DiffusionTiles, aMirroredObjectFacesTheOtherWay) {
-    const scenes::Mesh mesh = globe(96, 48);
     glm::dmat4 mirrored(1.0);
     mirrored[2][2] = -1.0;
-    const UvAtlas atlas = makeUvAtlas(mesh, mirrored, kSide, 8, 16);
-    const std::vector<DiffusionTile> tiles = diffusionTiles(atlas, mesh, mirrored);
     const CameraView view = cameraAt({0.0, 0.0, 3.0}, glm::dvec3(0.0), scenes::Projection::Perspective);
-    const TileSet seen = seenTiles(tiles, view, 0.0, false);
+    const TileSet seen = seenTiles(TiledGlobe(96, mirrored).tiles, view, 0.0, false);
     // u = 1/4 is at z = -1, here mirrored to the front; u = 3/4 behind it.
     const int middle = kTiles / 2 * kTiles;
     EXPECT_TRUE(seen.has(middle + kTiles / 4));
@@ -165,9 +170,7 @@ TEST(DiffusionTiles, aMirroredObjectFacesTheOtherWay) {
 }
 
 TEST(DiffusionTiles, workGrowsByWhatEachPassReads) {
-    const scenes::Mesh mesh = globe(48, 24);
-    const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), kSide, 8, 16);
-    const std::vector<DiffusionTile> tiles = diffusionTiles(atlas, mesh, glm::dmat4(1.0));
+    const auto& [mesh, atlas, tiles] = TiledGlobe(48);
     TileSet store(kTiles);
     store.add(8 * kTiles + 8);
     const auto holds = [](const TileSet& all, const TileSet& some) {

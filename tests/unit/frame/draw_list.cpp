@@ -14,11 +14,16 @@ namespace {
 
 using testing::ElementsAre;
 
+CameraView viewOf(const scenes::Camera& camera, LightingSpace space = LightingSpace::World,
+                  std::span<const SurfaceBounds> bounds = {}) {
+    return makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f), bounds);
+}
+
 CameraView defaultView(LightingSpace space = LightingSpace::World) {
     scenes::Camera camera;
     camera.worldFromCamera =
         glm::translate(glm::dmat4(1.0), {1.0, 2.0, 3.0}) * glm::rotate(glm::dmat4(1.0), 0.4, {0.6, 0.8, 0.0});
-    return makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f));
+    return viewOf(camera, space);
 }
 
 /// Opaque, masked and blended materials over nodes of which some are mirrored, and a mesh without a triangle.
@@ -58,6 +63,8 @@ TEST(DrawList, batchesCoverEveryDrawExactlyOnce) {
     const scenes::Scene scene = mixedScene();
     const DrawList list = makeDrawList(scene);
     EXPECT_EQ(list.draws.size(), 24u); // 12 nodes x 2 meshes that have triangles
+    for (std::size_t i = 0; i < list.draws.size(); ++i)
+        EXPECT_EQ(list.draws[i].material == 2, int(i) >= list.firstTransparent) << "blended ones are last: " << i;
     const ViewDraws view = makeViewDraws(list, defaultView(), false);
     EXPECT_EQ(view.seen.size(), list.draws.size());
     std::vector<int> drawn(list.draws.size(), 0);
@@ -87,13 +94,6 @@ TEST(DrawList, batchesOfTheSameMaterialAndWindingAreNotApart) {
     EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
 }
 
-TEST(DrawList, blendedMaterialsAreLastAndMaskedOnesAreNot) {
-    const scenes::Scene scene = mixedScene();
-    const DrawList list = makeDrawList(scene);
-    for (std::size_t i = 0; i < list.draws.size(); ++i)
-        EXPECT_EQ(list.draws[i].material == 2, int(i) >= list.firstTransparent);
-}
-
 TEST(DrawList, transparentDrawsRunFarToNearWithTiesInDocumentOrder) {
     scenes::Scene scene = scenes::tinyScene();
     scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
@@ -103,7 +103,7 @@ TEST(DrawList, transparentDrawsRunFarToNearWithTiesInDocumentOrder) {
         node.parentFromNode = glm::translate(glm::dmat4(1.0), {0.0, 0.0, z});
         node.instances = {{0, 0}};
     }
-    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    const CameraView view = viewOf({});
     const DrawList list = makeDrawList(scene);
     const ViewDraws draws = makeViewDraws(list, view, false);
     std::vector<int> nodes;
@@ -147,7 +147,7 @@ TEST(ViewDraws, drawsThatRoundingMayMoveIntoTheViewAreKept) {
     // the frustum of 45 degrees by 2 cm, and by 200 m.
     scenes::Scene scene = scenes::tinyScene();
     for (glm::vec3& position : scene.meshes[0].positionsOS) position = glm::vec3(1e6f, 0.0f, 0.0f) + 0.01f * position;
-    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    const CameraView view = viewOf({});
     for (const auto& [besideMetres, seen] : {std::pair(0.02, 1u), std::pair(200.0, 0u)}) {
         const double edgeMetres = 10.0 * std::tan(0.5 * scenes::Camera{}.fovYRadians);
         scene.nodes[0].parentFromNode = glm::translate(glm::dmat4(1.0), {edgeMetres + besideMetres - 1e6, 0.0, -10.0});
@@ -220,8 +220,7 @@ TEST(ViewDraws, aVertexThatRoundingShowsInTheViewIsNeverCulled) {
         scenes::Camera camera;
         camera.worldFromCamera = randomPlace(random, 1e6);
         camera.fovYRadians = random.logarithmic(0.01, 2.0);
-        const LightingSpace space = round % 2 == 0 ? LightingSpace::World : LightingSpace::View;
-        const CameraView view = makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f));
+        const CameraView view = viewOf(camera, round % 2 == 0 ? LightingSpace::World : LightingSpace::View);
         EXPECT_EQ(view.originWS, view.eyeWS);
         moved += expectShownDrawsKept(SideScene(random, camera, view, 1.0, 1e6).scene, view);
     }
@@ -239,7 +238,7 @@ TEST(ViewDraws, aVertexThatRoundingShowsInAViewFromAfarIsNeverCulled) {
         const glm::dvec3 middleWS(camera.worldFromCamera * glm::dvec4(0.0, 0.0, -distanceMetres, 1.0));
         const SurfaceBounds bounds{{middleWS - radiusMetres, middleWS + radiusMetres}, radiusMetres};
         const LightingSpace space = round % 2 == 0 ? LightingSpace::World : LightingSpace::View;
-        const CameraView view = makeCameraView(camera, {64, 64}, space, glm::vec3(0.0f), std::span(&bounds, 1));
+        const CameraView view = viewOf(camera, space, std::span(&bounds, 1));
         EXPECT_GT(glm::distance(view.originWS, view.eyeWS), 0.5 * distanceMetres) << "lighting space is at the eye";
         const SideScene sides(random, camera, view, distanceMetres - radiusMetres, distanceMetres + radiusMetres);
         moved += expectShownDrawsKept(sides.scene, view);
@@ -389,7 +388,7 @@ TEST(DrawList, normalRowsAgreeWithTheInverseTransposeUpToLength) {
 }
 
 TEST(DrawList, aSingularTransformKeepsTheNormalOfItsPlane) {
-    const CameraView view = makeCameraView(scenes::Camera{}, {64, 64}, LightingSpace::World, glm::vec3(0.0f));
+    const CameraView view = viewOf({});
     const DrawRows flat = rowsOf(glm::scale(glm::dmat4(1.0), {2.0, 3.0, 0.0}), view); // squashed into z = 0
     EXPECT_EQ(apply(flat.normal, {0, 0, 1, 0}), glm::dvec3(0, 0, 1));
     const DrawRows line =

@@ -28,39 +28,49 @@ double meanCosineOfLevel(double alpha) {
     return squares / cosines;
 }
 
+/// A map of such light: an axis a channel.
+constexpr double kSlope = 0.2;
+FilteredEnvironment filteredSlopes(int width, int height) {
+    return filterEnvironment(scenes::builtin::drawRadiance("slopes", width, height, [&](int x, int y) {
+        return 1.0 + kSlope * scenes::directionInMap({(x + 0.5) / width, (y + 0.5) / height});
+    }));
+}
+
+void expectSlope(const DividedOctahedron& level, double mean, double steepness, double error) {
+    for (int y = 0; y <= level.side; ++y)
+        for (int x = 0; x <= level.side; ++x) {
+            const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
+            for (int axis = 0; axis < 3; ++axis)
+                ASSERT_NEAR(double(level.at(x, y)[axis]), mean * (1.0 + kSlope * steepness * n[axis]), error)
+                    << "axis " << axis << ", cosine to it " << n[axis];
+        }
+}
+
+/// Levels are by the same factor wider than the one before, from the least to 1.
+double alphaOf(std::size_t level, std::size_t levels) {
+    return std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(level) / double(levels - 1));
+}
+
+void expectSlopes(const FilteredEnvironment& filtered, double error) {
+    const std::size_t levels = filtered.levels.size();
+    for (std::size_t i = 0; i < levels; ++i) {
+        SCOPED_TRACE(testing::Message() << "level " << i << ", alpha " << alphaOf(i, levels));
+        expectSlope(filtered.levels[i], 1.0, meanCosineOfLevel(alphaOf(i, levels)), error);
+    }
+}
+
 /// Light that rises in proportion to an axis stays so under any lobe that is round, and rises by the mean cosine of the
-/// lobe as much: the width of each level is in one number. An axis a channel.
+/// lobe as much: the width of each level is in one number.
 TEST(EnvironmentLevels, flattenALinearSlopeOfLightByTheMeanCosineOfTheirLobe) {
     EXPECT_NEAR(meanCosineOfLevel(1.0), 2.0 / 3.0, 1e-6); // all facets alike: of u from 0 to 1 the mean by weight u
     EXPECT_NEAR(meanCosineOfLevel(0.13895), 0.93080, 1e-5);
-    constexpr double kSlope = 0.2;
-    constexpr int kMapWidth = 512, kMapHeight = 256;
-    const scenes::Image map = scenes::builtin::drawRadiance("slopes", kMapWidth, kMapHeight, [&](int x, int y) {
-        return 1.0 + kSlope * scenes::directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
-    });
-    const FilteredEnvironment filtered = filterEnvironment(map);
+    const FilteredEnvironment filtered = filteredSlopes(512, 256);
+    ASSERT_GE(filtered.levels.size(), 5u);
     // Each level is averaged from pictures as coarse as its samples lie apart, whose texels widen the lobe: by 1.4 % of
     // the slope at alpha 1, where they are a tenth of a radian wide, by 0.5 % and less before. That is 1.8e-3 of the
     // light at most. A lobe without the weight of the cosine is off by 0.03 at alpha 1, one of half the alpha by 3e-3
     // and more from alpha 0.06 on.
-    constexpr double kWidened = 2e-3;
-    const auto expectSlope = [&](const DividedOctahedron& level, double mean, double steepness, double error) {
-        for (int y = 0; y <= level.side; ++y)
-            for (int x = 0; x <= level.side; ++x) {
-                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
-                for (int axis = 0; axis < 3; ++axis)
-                    ASSERT_NEAR(double(level.at(x, y)[axis]), mean * (1.0 + kSlope * steepness * n[axis]), error)
-                        << "axis " << axis << ", cosine to it " << n[axis];
-            }
-    };
-    const std::size_t levels = filtered.levels.size();
-    ASSERT_GE(levels, 5u);
-    for (std::size_t i = 0; i < levels; ++i) {
-        // The same times the one before, from the least to 1.
-        const double alpha = std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(i) / double(levels - 1));
-        SCOPED_TRACE(testing::Message() << "level " << i << ", alpha " << alpha);
-        expectSlope(filtered.levels[i], 1.0, meanCosineOfLevel(alpha), kWidened);
-    }
+    expectSlopes(filtered, 2e-3);
     // The mean over a clamped cosine, which harmonics of the first order hold.
     SCOPED_TRACE("irradiance");
     expectSlope(filtered.irradiance, std::numbers::pi, 2.0 / 3.0, 1e-3);
@@ -68,25 +78,9 @@ TEST(EnvironmentLevels, flattenALinearSlopeOfLightByTheMeanCosineOfTheirLobe) {
 
 /// Maps of few texels are filtered to smaller pictures, by as many samples as the places of those need.
 TEST(EnvironmentLevels, ofSmallMapsFlattenASlopeAsWell) {
-    constexpr double kSlope = 0.2, kError = 2.5e-3; // as above, and 5e-4 of interpolation between the map's texels
-    constexpr int kMapWidth = 64, kMapHeight = 32;
-    const scenes::Image map = scenes::builtin::drawRadiance("slopes", kMapWidth, kMapHeight, [&](int x, int y) {
-        return 1.0 + kSlope * scenes::directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight});
-    });
-    const FilteredEnvironment filtered = filterEnvironment(map);
+    const FilteredEnvironment filtered = filteredSlopes(64, 32);
     ASSERT_EQ(filtered.levels.size(), std::size_t(ENVIRONMENT_LEVELS));
-    for (std::size_t i = 0; i < filtered.levels.size(); ++i) {
-        const double alpha = std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(i) / (ENVIRONMENT_LEVELS - 1.0));
-        const double steepness = kSlope * meanCosineOfLevel(alpha);
-        const DividedOctahedron& level = filtered.levels[i];
-        for (int y = 0; y <= level.side; ++y)
-            for (int x = 0; x <= level.side; ++x) {
-                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
-                for (int axis = 0; axis < 3; ++axis)
-                    ASSERT_NEAR(double(level.at(x, y)[axis]), 1.0 + steepness * n[axis], kError)
-                        << "level " << i << ", axis " << axis << ", cosine to it " << n[axis];
-            }
-    }
+    expectSlopes(filtered, 2.5e-3); // as above, and 5e-4 of interpolation between the map's texels
 }
 
 /// Legendre's polynomial of order 8.
@@ -107,7 +101,7 @@ TEST(EnvironmentLevels, keepOfTheEighthHarmonicTheMeanOfTheirLobe) {
     const FilteredEnvironment filtered = filterEnvironment(map);
     std::vector<double> shares;
     for (int i = 0; i < ENVIRONMENT_LEVELS; ++i) {
-        const double alpha = std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(i) / (ENVIRONMENT_LEVELS - 1.0));
+        const double alpha = alphaOf(std::size_t(i), ENVIRONMENT_LEVELS);
         constexpr int kFacets = 100000;
         double weights = 0.0, sum = 0.0;
         for (int k = 0; k < kFacets; ++k) {

@@ -28,26 +28,5 @@ TEST(Features, everyFeatureBecomesADefineOfZeroOrOne) {
     EXPECT_THAT(featureDefines(sole), Contains(Pair("SOLE_MODEL", "3u")));
 }
 
-TEST(Features, shadersGetTheNumbersAndClassesOfModels) {
-    const Defines none = featureDefines(FeatureSet{}), all = featureDefines(allFeatures());
-    for (const Defines& defines : {none, all}) {
-        EXPECT_THAT(defines, Contains(Pair("MODEL_COUNT", std::to_string(scenes::kMaterialModelCount) + "u")));
-        EXPECT_THAT(defines, Contains(Pair("MODEL_SINGLE_COLOR", "0u")));
-        EXPECT_THAT(defines, Contains(Pair("MODEL_METALLIC_ROUGHNESS", "5u")));
-        EXPECT_THAT(defines, Contains(Pair("MODEL_FIRST_MICROFACET", "3u")));
-    }
-    EXPECT_THAT(none, Contains(Pair("LIT_MODELS", "")));
-    EXPECT_THAT(none, Contains(Pair("IS_UNLIT(model)", "(false)")));
-    EXPECT_THAT(all, Contains(Pair("LIT_MODELS", "1u, 2u, 3u, 4u, 5u")));
-    EXPECT_THAT(all, Contains(Pair("IS_UNLIT(model)", "((model) == 0u)")));
-    EXPECT_THAT(
-        all, Contains(Pair("IS_GLOSSY(model)", "((model) == 2u || (model) == 3u || (model) == 4u || (model) == 5u)")));
-    EXPECT_THAT(all, Contains(Pair("HAS_PARAMETER(model)", "((model) == 2u)")));
-    EXPECT_THAT(all, Contains(Pair("IS_MICROFACET(model)", "((model) == 3u || (model) == 4u)")));
-    FeatureSet one;
-    one.add(featureOf(MaterialModel::Microfacet));
-    EXPECT_THAT(featureDefines(one), Contains(Pair("IS_MICROFACET(model)", "((model) == 3u)")));
-}
-
 } // namespace
 } // namespace tessera::frame

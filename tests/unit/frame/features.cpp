@@ -36,50 +36,38 @@ std::vector<Change> changes() {
     const auto material = [](const std::function<void(Material&)>& change) {
         return [change](scenes::Scene& scene) { change(scene.materials[0]); };
     };
-    const auto model = [&](MaterialModel value) { return material([value](Material& m) { m.model = value; }); };
-    const auto texture = [&](TextureSlot slot) { return material([slot](Material& m) { addTexture(m, slot); }); };
-    return {
-        {featureOf(MaterialModel::SingleColor), model(MaterialModel::SingleColor)},
-        {featureOf(MaterialModel::BlinnPhong), model(MaterialModel::BlinnPhong)},
-        {featureOf(MaterialModel::Microfacet), model(MaterialModel::Microfacet)},
-        {featureOf(MaterialModel::MicrofacetAnisotropic), model(MaterialModel::MicrofacetAnisotropic)},
-        {featureOf(MaterialModel::MetallicRoughness), model(MaterialModel::MetallicRoughness)},
-        {featureOf(TextureSlot::BaseColor), texture(TextureSlot::BaseColor)},
-        {featureOf(TextureSlot::Normal), texture(TextureSlot::Normal)},
-        {featureOf(TextureSlot::MetallicRoughness), texture(TextureSlot::MetallicRoughness)},
-        {featureOf(TextureSlot::Emissive), texture(TextureSlot::Emissive)},
-        {featureOf(TextureSlot::SpecularFactor), texture(TextureSlot::SpecularFactor)},
-        {featureOf(TextureSlot::SpecularColor), texture(TextureSlot::SpecularColor)},
-        {featureOf(TextureSlot::Ior), texture(TextureSlot::Ior)},
-        {featureOf(TextureSlot::Anisotropy), texture(TextureSlot::Anisotropy)},
-        {featureOf(TextureSlot::Clearcoat), texture(TextureSlot::Clearcoat)},
-        {featureOf(TextureSlot::ClearcoatRoughness), texture(TextureSlot::ClearcoatRoughness)},
-        {featureOf(TextureSlot::ClearcoatNormal), texture(TextureSlot::ClearcoatNormal)},
-        {featureOf(TextureSlot::SheenColor), texture(TextureSlot::SheenColor)},
-        {featureOf(TextureSlot::SheenRoughness), texture(TextureSlot::SheenRoughness)},
-        {featureOf(TextureSlot::Transmission), texture(TextureSlot::Transmission)},
-        {featureOf(TextureSlot::Thickness), texture(TextureSlot::Thickness)},
-        {featureOf(TextureSlot::Iridescence), texture(TextureSlot::Iridescence)},
-        {featureOf(TextureSlot::IridescenceThickness), texture(TextureSlot::IridescenceThickness)},
-        {featureOf(TextureSlot::Occlusion),
-         [](scenes::Scene& scene) {
-             addTexture(scene.materials[0], TextureSlot::Occlusion);
-             scene.environment.emplace(); // which it dims
-         }},
-        {Feature::TextureTransform, material([](Material& m) {
-             addTexture(m, TextureSlot::BaseColor);
-             m.texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
-         })},
-        {Feature::MixedFilters, material([](Material& m) {
-             addTexture(m, TextureSlot::BaseColor);
-             m.texture(TextureSlot::BaseColor).sampler.magnification = scenes::Filter::Nearest;
-         })},
-        {Feature::TexCoord1, material([](Material& m) {
-             addTexture(m, TextureSlot::Emissive);
-             m.texture(TextureSlot::Emissive).texCoordSet = 1;
-         })},
+    /// A metal with one number changed, or a body of glass.
+    const auto metal = [&](float Material::*member, float value) {
+        return material([=](Material& m) {
+            m.model = MaterialModel::MetallicRoughness;
+            m.*member = value;
+        });
+    };
+    const auto glass = [&](float thicknessMetres, float dispersion) {
+        return material([=](Material& m) {
+            m.model = MaterialModel::MetallicRoughness;
+            m.transmission = 0.1f;
+            m.thicknessMetres = thicknessMetres;
+            m.dispersion = dispersion;
+        });
+    };
+    const auto textured = [&](TextureSlot slot, const std::function<void(scenes::TextureUse&)>& change = {}) {
+        return material([=](Material& m) {
+            addTexture(m, slot);
+            if (change) change(m.texture(slot));
+        });
+    };
+    const auto subsurface = [&](scenes::SubsurfaceMethod method) {
+        return material([method](Material& m) { m.subsurface.method = method; });
+    };
+    std::vector<Change> changes = {
+        {Feature::TextureTransform,
+         textured(TextureSlot::BaseColor, [](auto& use) { use.transform.rotationRadians = 1.0f; })},
+        {Feature::MixedFilters,
+         textured(TextureSlot::BaseColor, [](auto& use) { use.sampler.magnification = scenes::Filter::Nearest; })},
+        {Feature::TexCoord1, textured(TextureSlot::Emissive, [](auto& use) { use.texCoordSet = 1; })},
         {Feature::VertexColor, [](scenes::Scene& scene) { scene.meshes[0].colors.assign(3, glm::vec4(1.0f)); }},
-        {Feature::TangentSpaceNormals, texture(TextureSlot::Normal)},
+        {Feature::TangentSpaceNormals, textured(TextureSlot::Normal)},
         {Feature::ObjectSpaceNormals, material([](Material& m) {
              addTexture(m, TextureSlot::Normal);
              m.normalMapSpace = scenes::NormalMapSpace::Object;
@@ -87,60 +75,42 @@ std::vector<Change> changes() {
         {Feature::Emission, material([](Material& m) {
              m.emissive = {0.0f, 0.1f, 0.0f};
          })},
-        {Feature::Specular, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.ior = 1.4f;
-         })},
+        {Feature::Specular, metal(&Material::ior, 1.4f)},
         {Feature::MaskingOptions, material([](Material& m) {
              m.model = MaterialModel::Microfacet;
              m.masking = scenes::Masking::HalfVector;
          })},
-        {Feature::Anisotropy, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.anisotropyStrength = 0.1f;
-         })},
-        {Feature::Clearcoat, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.clearcoat = 0.1f;
-         })},
+        {Feature::Anisotropy, metal(&Material::anisotropyStrength, 0.1f)},
+        {Feature::Clearcoat, metal(&Material::clearcoat, 0.1f)},
         {Feature::Sheen, material([](Material& m) {
              m.model = MaterialModel::MetallicRoughness;
              m.sheenColor.z = 0.1f;
          })},
-        {Feature::Iridescence, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.iridescence = 0.1f;
-         })},
-        {Feature::Transmission, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.transmission = 0.1f;
-         })},
-        {Feature::Volume, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.transmission = 0.1f;
-             m.thicknessMetres = 0.1f;
-         })},
-        {Feature::Dispersion, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.transmission = 0.1f;
-             m.thicknessMetres = 0.1f;
-             m.dispersion = 0.1f;
-         })},
-        {Feature::Mirrors, material([](Material& m) {
-             m.model = MaterialModel::MetallicRoughness;
-             m.perceptualRoughness = 0.1f;
-         })},
+        {Feature::Iridescence, metal(&Material::iridescence, 0.1f)},
+        {Feature::Transmission, glass(0.0f, 0.0f)},
+        {Feature::Volume, glass(0.1f, 0.0f)},
+        {Feature::Dispersion, glass(0.1f, 0.1f)},
+        {Feature::Mirrors, metal(&Material::perceptualRoughness, 0.1f)},
         {Feature::AlphaMask, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Mask; })},
         {Feature::Blend, material([](Material& m) { m.alphaMode = scenes::AlphaMode::Blend; })},
         {Feature::DoubleSided, material([](Material& m) { m.doubleSided = true; })},
         {Feature::Hook, [](scenes::Scene& scene) { scene.hook.emplace(); }},
-        {Feature::VaryingMaterials, texture(TextureSlot::BaseColor)},
-        {Feature::SubsurfaceWrap, material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::Wrap; })},
-        {Feature::SubsurfacePassage,
-         material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::DepthMap; })},
-        {Feature::SubsurfaceDiffusion,
-         material([](Material& m) { m.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion; })},
+        {Feature::VaryingMaterials, textured(TextureSlot::BaseColor)},
+        {Feature::SubsurfaceWrap, subsurface(scenes::SubsurfaceMethod::Wrap)},
+        {Feature::SubsurfacePassage, subsurface(scenes::SubsurfaceMethod::DepthMap)},
+        {Feature::SubsurfaceDiffusion, subsurface(scenes::SubsurfaceMethod::TextureSpaceDiffusion)},
     };
+    for (const scenes::MaterialModelInfo& info : scenes::materialModels())
+        if (info.model != MaterialModel::Lambert) // that of the plain scene
+            changes.push_back(
+                {featureOf(info.model), material([model = info.model](Material& m) { m.model = model; })});
+    for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i)
+        changes.push_back({featureOf(TextureSlot(i)), [i](scenes::Scene& scene) {
+                               addTexture(scene.materials[0], TextureSlot(i));
+                               if (TextureSlot(i) == TextureSlot::Occlusion)
+                                   scene.environment.emplace(); // it dims that
+                           }});
+    return changes;
 }
 
 TEST(Features, aFeatureIsInTheSetExactlyWhenAMaterialInUseNeedsIt) {
@@ -315,17 +285,6 @@ TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {
     EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.model = MaterialModel::SingleColor; }));
 }
 
-TEST(Features, materialsThatNothingUsesNeverCount) {
-    scenes::Scene scene = plainScene();
-    Material& unused = scene.materials.emplace_back();
-    unused.emissive = glm::vec3(1.0f);
-    unused.doubleSided = true;
-    EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
-    scene.materials[0].texture(TextureSlot::BaseColor).transform.rotationRadians =
-        1.0f; // an empty slot's transform moves nothing
-    EXPECT_EQ(materialFeatures(scene), materialFeatures(plainScene()));
-}
-
 TEST(Features, everyWayToChangeTheSpecularLobeIsSeen) {
     const auto changed = [](MaterialModel model, const std::function<void(Material&)>& change) {
         scenes::Scene scene = plainScene();
@@ -333,24 +292,20 @@ TEST(Features, everyWayToChangeTheSpecularLobeIsSeen) {
         change(scene.materials[0]);
         return materialFeatures(scene)[Feature::Specular];
     };
-    const auto nothing = [](Material&) {};
-    const auto tint = [](Material& m) { m.specularColor.g = 0.5f; };
-    const auto factor = [](Material& m) { m.specularFactor = 0.5f; };
-    const auto ior = [](Material& m) { m.ior = 1.4f; };
-    const auto factorMap = [](Material& m) { addTexture(m, TextureSlot::SpecularFactor); };
-    const auto colorMap = [](Material& m) { addTexture(m, TextureSlot::SpecularColor); };
-    for (const auto& change : std::vector<std::function<void(Material&)>>{tint, factor, ior, factorMap, colorMap})
+    using Changer = void (*)(Material&);
+    const Changer nothing = [](Material&) {}, tint = [](Material&m) { m.specularColor.g = 0.5f; },
+                  factor = [](Material&m) { m.specularFactor = 0.5f; }, ior = [](Material&m) { m.ior = 1.4f; },
+                  factorMap = [](Material&m) { addTexture(m, TextureSlot::SpecularFactor); },
+                  colorMap = [](Material&m) { addTexture(m, TextureSlot::SpecularColor); };
+    for (const Changer change : {tint, factor, ior, factorMap, colorMap})
         EXPECT_TRUE(changed(MaterialModel::MetallicRoughness, change));
     EXPECT_FALSE(changed(MaterialModel::MetallicRoughness, nothing));
     EXPECT_FALSE(changed(MaterialModel::Lambert, tint));
-    EXPECT_TRUE(changed(MaterialModel::Microfacet, tint));
-    EXPECT_TRUE(changed(MaterialModel::Microfacet, colorMap));
-    EXPECT_FALSE(changed(MaterialModel::Microfacet, ior)) << "the microfacet model's ior is no colour of its own";
-    EXPECT_FALSE(changed(MaterialModel::Microfacet, nothing));
-    for (const MaterialModel model : {MaterialModel::BlinnPhong, MaterialModel::MicrofacetAnisotropic}) {
+    for (const MaterialModel model :
+         {MaterialModel::Microfacet, MaterialModel::BlinnPhong, MaterialModel::MicrofacetAnisotropic}) {
         EXPECT_TRUE(changed(model, tint));
         EXPECT_TRUE(changed(model, colorMap));
-        EXPECT_FALSE(changed(model, ior));
+        EXPECT_FALSE(changed(model, ior)) << "the microfacet model's ior is no colour of its own";
         EXPECT_FALSE(changed(model, nothing));
     }
 }
@@ -433,12 +388,16 @@ TEST(Features, materialsThatNothingDrawsNeverCount) {
     ASSERT_FALSE(features[Feature::VaryingMaterials]);
     scene.materials.resize(scene.materials.size() + MATERIAL_TABLE_MOST);
     scene.materials.back().emissive = glm::vec3(1.0f);
+    scene.materials.back().doubleSided = true;
     EXPECT_EQ(materialFeatures(scene), features);
     scene.meshes.emplace_back().name = "no triangles";
     scene.nodes[0].instances.push_back({int(scene.meshes.size()) - 1, int(scene.materials.size()) - 1});
     EXPECT_EQ(materialFeatures(scene), features);
     scene.nodes[0].instances.back().mesh = 0;
     EXPECT_TRUE(materialFeatures(scene)[Feature::Emission]);
+    scene = plainScene();
+    scene.materials[0].texture(TextureSlot::BaseColor).transform.rotationRadians = 1.0f;
+    EXPECT_EQ(materialFeatures(scene), features) << "an empty slot's transform moves nothing";
 }
 
 } // namespace

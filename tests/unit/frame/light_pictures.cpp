@@ -41,12 +41,8 @@ TEST(LightPictures, lightsOfOnePictureAndOutlineShareAnEntry) {
     scene.lights.push_back(picturedLight(LightType::Sphere, other)); // which shows none
     const LightPictures pictures = lightPictures(scene);
     EXPECT_EQ(pictures.shown.size(), 3u);
-    EXPECT_EQ(pictures.ofLight.front(), -1);
-    EXPECT_EQ(pictures.ofLight[1], 0);
-    EXPECT_EQ(pictures.ofLight[1000], 0);
-    EXPECT_EQ(pictures.ofLight[1001], 1);
-    EXPECT_EQ(pictures.ofLight[1002], 2);
-    EXPECT_EQ(pictures.ofLight[1003], -1);
+    for (const auto& [light, picture] : {std::pair(0, -1), {1, 0}, {1000, 0}, {1001, 1}, {1002, 2}, {1003, -1}})
+        EXPECT_EQ(pictures.ofLight[std::size_t(light)], picture) << light;
 }
 
 TEST(LightPictures, sidesAndNumbersAreReadAsTheyWerePacked) {
@@ -133,9 +129,7 @@ TEST(LightPictures, aRampStaysTheSameRampInAllLevels) {
 TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
     const auto corner = [](int x, int y) { return glm::vec3(x < 2 && y < 2 ? 1.0f : 0.25f); };
     const scenes::LightTexture texture = test::lightTexture(32, 32, corner);
-    scenes::LightCorners right;
-    right.count = 0;
-    for (const glm::vec2& at : {glm::vec2(0.0f, -1.0f), glm::vec2(1.0f, 0.0f), glm::vec2(0.0f, 1.0f)}) right.add(at);
+    const scenes::LightCorners right = test::cornersOf({{0.0f, -1.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}});
     const std::vector<ShownPicture> shown{
         {texture, LightType::Rectangle, {}}, {texture, LightType::Disk, {}}, {texture, LightType::Polygon, right}};
     const std::vector<glm::vec4> texels = prefilteredPictures(shown);
@@ -147,11 +141,8 @@ TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
 /// Against sums over a fine grid.
 TEST(LightPictures, theVariancesOfAnOutlineAreThoseOfItsPlaces) {
     const scenes::LightTexture texture = test::evenLightTexture(glm::vec3(1.0f));
-    scenes::LightCorners ell;
-    ell.count = 0;
-    for (const glm::vec2& at : {glm::vec2(-0.6f, -0.5f), glm::vec2(0.8f, -0.5f), glm::vec2(0.8f, -0.1f),
-                                glm::vec2(0.1f, 0.0f), glm::vec2(0.0f, 0.9f), glm::vec2(-0.6f, 0.7f)})
-        ell.add(at);
+    const scenes::LightCorners ell =
+        test::cornersOf({{-0.6f, -0.5f}, {0.8f, -0.5f}, {0.8f, -0.1f}, {0.1f, 0.0f}, {0.0f, 0.9f}, {-0.6f, 0.7f}});
     double reach = 0.0;
     for (const glm::vec2& at : ell.all()) reach = std::max(reach, double(glm::length(at)));
     const std::vector<glm::vec4> texels = prefilteredPictures(std::vector<ShownPicture>{

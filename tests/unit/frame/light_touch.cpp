@@ -35,14 +35,12 @@ TEST(LightTouch, aSphereThatJustMeetsAPlaneOfASlabTouchesIt) {
         return shared::sphereTouchesSlab(across, shared::spreadAt(4.0f, spread), 1.0f,
                                          shared::slabBetween(rays, spread));
     };
-    EXPECT_TRUE(touches(-4.25f, eyeAtOrigin));
-    EXPECT_TRUE(touches(4.25f, eyeAtOrigin));
-    EXPECT_FALSE(touches(-4.375f, eyeAtOrigin));
-    EXPECT_FALSE(touches(4.375f, eyeAtOrigin));
-    EXPECT_TRUE(touches(-1.75f, orthographic));
-    EXPECT_TRUE(touches(1.75f, orthographic));
-    EXPECT_FALSE(touches(-1.875f, orthographic));
-    EXPECT_FALSE(touches(1.875f, orthographic));
+    for (const float side : {-1.0f, 1.0f}) {
+        EXPECT_TRUE(touches(4.25f * side, eyeAtOrigin));
+        EXPECT_FALSE(touches(4.375f * side, eyeAtOrigin));
+        EXPECT_TRUE(touches(1.75f * side, orthographic));
+        EXPECT_FALSE(touches(1.875f * side, orthographic));
+    }
 }
 
 TEST(LightTouch, aSphereThatJustMeetsADepthTouchesIt) {
@@ -60,14 +58,15 @@ TEST(LightTouch, aSphereThatJustMeetsADepthTouchesIt) {
 
 TEST(LightTouch, theDistanceOfAPointFromABoxIsThatOfTheNearestPoint) {
     const shared::CellBox box{glm::vec4(1, 2, 3, 0), glm::vec4(4, 6, 8, 0)};
-    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 4.0f, box), 0.0f);
-    EXPECT_EQ(shared::squaredDistance(-1.0f, 3.0f, 4.0f, box), 4.0f);
-    EXPECT_EQ(shared::squaredDistance(7.0f, 3.0f, 4.0f, box), 9.0f);
-    EXPECT_EQ(shared::squaredDistance(2.0f, 1.0f, 4.0f, box), 1.0f);
-    EXPECT_EQ(shared::squaredDistance(2.0f, 10.0f, 4.0f, box), 16.0f);
-    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 0.0f, box), 9.0f);
-    EXPECT_EQ(shared::squaredDistance(2.0f, 3.0f, 13.0f, box), 25.0f);
-    EXPECT_EQ(shared::squaredDistance(0.0f, 8.0f, 10.0f, box), 9.0f);
+    for (const auto& [at, squared] : {std::pair(glm::vec3(2, 3, 4), 0.0f),
+                                      {{-1, 3, 4}, 4.0f},
+                                      {{7, 3, 4}, 9.0f},
+                                      {{2, 1, 4}, 1.0f},
+                                      {{2, 10, 4}, 16.0f},
+                                      {{2, 3, 0}, 9.0f},
+                                      {{2, 3, 13}, 25.0f},
+                                      {{0, 8, 10}, 9.0f}})
+        EXPECT_EQ(shared::squaredDistance(at.x, at.y, at.z, box), squared) << at.x << ", " << at.y << ", " << at.z;
 }
 
 TEST(LightTouch, aConeTouchesBoxesWithinHalfADiagonal) {
@@ -93,15 +92,12 @@ TEST(LightTouch, aLightTouchesABoxExactlyWithinItsRadiusAndItsCone) {
         return shared::lightTouchesBox({glm::vec4(7, 3, 4, radius), glm::vec4(7, 3, 4, std::sqrt(0.5f)), axis}, box);
     };
     const glm::vec4 noCone(0, 0, 0, -2), left(-1, 0, 0, std::sqrt(0.5f)), right(1, 0, 0, std::sqrt(0.5f));
-    EXPECT_TRUE(touches(3.0f, noCone));
-    EXPECT_FALSE(touches(2.875f, noCone));
-    EXPECT_TRUE(touches(3.0f, left));
-    EXPECT_FALSE(touches(2.875f, left));
-    EXPECT_FALSE(touches(3.0f, right));
     const glm::vec4 frontLeft(-1, 0, 0, -3), frontRight(1, 0, 0, -3);
-    EXPECT_TRUE(touches(3.0f, frontLeft));
-    EXPECT_FALSE(touches(2.875f, frontLeft));
-    EXPECT_FALSE(touches(3.0f, frontRight));
+    for (const glm::vec4& axis : {noCone, left, frontLeft}) {
+        EXPECT_TRUE(touches(3.0f, axis)) << axis.w;
+        EXPECT_FALSE(touches(2.875f, axis)) << axis.w;
+    }
+    for (const glm::vec4& axis : {right, frontRight}) EXPECT_FALSE(touches(3.0f, axis)) << axis.w;
 }
 
 TEST(LightTouch, theFrontOfALightTouchesBoxesOfWhichAnyCornerLiesBeforeItsPlane) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/Random.h"
+#include "tests/unit/frame/Lights.h"
 
 namespace tessera::frame {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 using scenes::Falloff;
 using scenes::Light;
 using scenes::LightType;
+using test::pack;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -21,25 +23,21 @@ Light light(LightType type, const glm::dvec3& positionWS = {0, 0, -5}) {
     result.positionWS = positionWS;
     return result;
 }
-
-/// Seen by the default camera: at the origin, along -z, 45 degrees.
-PackedLights pack(const std::vector<Light>& lights, const FrameSettings& settings = {},
-                  const scenes::Camera& camera = {}) {
-    scenes::Scene scene;
-    scene.lights = lights;
-    return packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
+/// A point light that falls off by A, B and C.
+Light attenuated(const glm::vec3& abc, LightType type = LightType::Point, const glm::dvec3& positionWS = {0, 0, -5}) {
+    Light result = light(type, positionWS);
+    result.falloff = Falloff::Attenuation;
+    result.attenuation = abc;
+    return result;
 }
 
 TEST(PackedLights, everyKindIsPackedAsItsShaderReadsIt) {
-    Light attenuated = light(LightType::Spot);
-    attenuated.falloff = Falloff::Attenuation;
-    attenuated.attenuation = {1.0f, 2.0f, 3.0f};
     Light ranged = light(LightType::Point);
     ranged.rangeMetres = 4.0f;
     ranged.color = {1.0f, 0.5f, 0.25f};
     ranged.intensity = 8.0f;
-    const PackedLights packed =
-        pack({light(LightType::Directional), light(LightType::Point), ranged, light(LightType::Spot), attenuated});
+    const PackedLights packed = pack({light(LightType::Directional), light(LightType::Point), ranged,
+                                      light(LightType::Spot), attenuated({1, 2, 3}, LightType::Spot)});
     ASSERT_EQ(packed.texels.size(), 5u);
     EXPECT_THAT(packed.sceneIndex, ElementsAre(0, 1, 2, 3, 4));
     EXPECT_EQ(packed.texels[0].position, glm::vec4(0, 0, 1, 0)); // towards the light, which travels along -z
@@ -88,8 +86,6 @@ TEST(PackedLights, theConeIsScaledFromOneInsideToZeroOutside) {
 }
 
 TEST(PackedLights, theSetHoldsExactlyTheKindsThatWerePacked) {
-    Light attenuated = light(LightType::Point);
-    attenuated.falloff = Falloff::Attenuation;
     Light off = light(LightType::Spot);
     off.enabled = false;
     const auto features = [](const std::vector<Light>& lights) { return pack(lights).features.has; };
@@ -100,10 +96,9 @@ TEST(PackedLights, theSetHoldsExactlyTheKindsThatWerePacked) {
     };
     EXPECT_EQ(features({}), only({}));
     EXPECT_EQ(features({off}), only({}));
-    EXPECT_EQ(features({light(LightType::Directional)}), only({featureOf(LightType::Directional)}));
-    EXPECT_EQ(features({light(LightType::Point)}), only({featureOf(LightType::Point)}));
-    EXPECT_EQ(features({light(LightType::Spot)}), only({featureOf(LightType::Spot)}));
-    EXPECT_EQ(features({attenuated}), only({featureOf(LightType::Point), Feature::AttenuationLights}));
+    for (const LightType type : {LightType::Directional, LightType::Point, LightType::Spot})
+        EXPECT_EQ(features({light(type)}), only({featureOf(type)})) << int(type);
+    EXPECT_EQ(features({attenuated({1, 0, 0})}), only({featureOf(LightType::Point), Feature::AttenuationLights}));
 }
 
 TEST(PackedLights, offDarkAndUnseenLightsAreLeftOutExactlyWhenPruning) {
@@ -172,19 +167,16 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
 }
 
 TEST(PackedLights, lightsWithoutEndAreNotLeftOut) {
-    Light attenuated = light(LightType::Point, {0, 0, 1000});
-    attenuated.falloff = Falloff::Attenuation;
-    attenuated.rangeMetres = 1.0f; // of the other falloff
-    EXPECT_EQ(pack({attenuated, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})})
-                  .texels.size(),
-              3u);
+    Light far = attenuated({1, 0, 0}, LightType::Point, {0, 0, 1000});
+    far.rangeMetres = 1.0f; // of the other falloff
+    EXPECT_EQ(
+        pack({far, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})}).texels.size(),
+        3u);
 }
 
 TEST(PackedLights, aToleranceEndsFalloffByABCAndNothingElse) {
-    Light ended = light(LightType::Point);
-    ended.falloff = Falloff::Attenuation;
-    ended.intensity = 8.0f;
-    ended.attenuation = {0.0f, 0.0f, 1.0f}; // 8 / r^2 = 1/2 at 4 m
+    Light ended = attenuated({0, 0, 1});
+    ended.intensity = 8.0f; // 8 / r^2 = 1/2 at 4 m
     Light below = ended, level = ended, behind = ended, off = ended, black = ended;
     below.attenuation = {16.0f, 0.0f, 1.0f}; // 1/2 at the light itself
     level.attenuation = {1.0f, 0.0f, 0.0f};

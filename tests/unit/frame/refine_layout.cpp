@@ -14,6 +14,13 @@ using scenes::Material;
 using scenes::MaterialModel;
 using scenes::Scene;
 
+/// A quad of a material of this model, without colours of its vertices.
+Scene quadOf(MaterialModel model) {
+    Material material;
+    material.model = model;
+    return test::quadScene(material);
+}
+
 /// Whether albedo and specular of the packed layout stay packed.
 std::pair<bool, bool> packed(const Scene& scene) {
     const GBufferLayout layout = refined(layoutTable()[1].layout, scene);
@@ -21,12 +28,9 @@ std::pair<bool, bool> packed(const Scene& scene) {
 }
 
 TEST(RefineLayout, aChannelIsExactOnlyWhereAColourMayExceedItsField) {
-    Material material;
-    material.model = MaterialModel::Microfacet;
-    material.baseColor = glm::vec4(1.0f);
-    material.specularColor = glm::vec3(1.0f);
-    Scene scene = test::quadScene(material);
-    scene.meshes[0].colors.clear();
+    Scene scene = quadOf(MaterialModel::Microfacet);
+    scene.materials[0].baseColor = glm::vec4(1.0f);
+    scene.materials[0].specularColor = glm::vec3(1.0f);
     EXPECT_EQ(packed(scene), std::pair(true, true));
     scene.materials[0].baseColor.b = 1.01f;
     EXPECT_EQ(packed(scene), std::pair(false, true));
@@ -43,10 +47,8 @@ TEST(RefineLayout, aChannelIsExactOnlyWhereAColourMayExceedItsField) {
 }
 
 TEST(RefineLayout, whatAFilmReflectsIsExactWhereItIsStored) {
-    Material material;
-    material.iridescence = 0.5f;
-    Scene scene = test::quadScene(material);
-    scene.meshes[0].colors.clear();
+    Scene scene = test::quadScene({});
+    scene.materials[0].iridescence = 0.5f;
     EXPECT_EQ(packed(scene), std::pair(true, false));
     scene.materials[0].transmission = 0.5f;
     EXPECT_EQ(packed(scene), std::pair(true, true)) << "drawn on top";
@@ -56,11 +58,8 @@ TEST(RefineLayout, whatAFilmReflectsIsExactWhereItIsStored) {
 }
 
 TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheHalfVector) {
-    Material material;
-    material.model = MaterialModel::Microfacet;
-    material.masking = scenes::Masking::HalfVector;
-    Scene scene = test::quadScene(material);
-    scene.meshes[0].colors.clear();
+    Scene scene = quadOf(MaterialModel::Microfacet);
+    scene.materials[0].masking = scenes::Masking::HalfVector;
     const GBufferLayout& slim = layoutTable()[2].layout;
     GBufferLayout wanted = slim;
     wanted.encoding[std::size_t(Channel::Normal)] = Encoding::Packed;
@@ -77,11 +76,9 @@ TEST(RefineLayout, theNormalOfSlimIsThatOfPackedExactlyWhereAMaterialMasksByTheH
 }
 
 TEST(RefineLayout, theAlphasOfSlimAreThoseOfPackedWhereAHighlightIsAStreakAndSoIsTheNormalOfAThinOne) {
-    Material material;
-    material.model = MaterialModel::MicrofacetAnisotropic;
-    material.alpha = 0.5f;
-    material.alphaY = 0.2f;
-    Scene scene = test::quadScene(material);
+    Scene scene = quadOf(MaterialModel::MicrofacetAnisotropic);
+    scene.materials[0].alpha = 0.5f;
+    scene.materials[0].alphaY = 0.2f;
     const GBufferLayout& slim = layoutTable()[2].layout;
     GBufferLayout wanted = slim;
     for (const Channel channel : {Channel::Microsurface, Channel::Tangent})

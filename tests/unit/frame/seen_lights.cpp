@@ -9,11 +9,13 @@
 #include "scenes/LookAt.h"
 #include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
+#include "tests/unit/frame/Lights.h"
 
 namespace tessera::frame {
 namespace {
 
 using scenes::LightType;
+using test::giveSizes;
 using test::kAreaTypes;
 
 /// 5 m before the default camera, which looks along -z, and turned to it.
@@ -80,9 +82,7 @@ TEST(SeenLights, aPlaceInThePictureAlwaysLiesInItsLightsWindow) {
                         glm::dvec3(random.between(-4.0, 4.0), random.between(-4.0, 4.0), -random.between(-1.0, 8.0));
         light.directionWS = random.direction();
         light.alongWS = random.around(light.directionWS, 0.0, 0.0);
-        for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
-                                             &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
-            light.*metres = float(random.logarithmic(0.01, 4.0));
+        giveSizes(light, random, 0.01, 4.0);
         for (glm::vec2& corner : light.corners.metres) corner *= glm::vec2(light.widthMetres, light.heightMetres);
         const std::vector<SeenLight> seen = seenOf(light, camera, settings);
         const CameraView view = makeCameraView(camera, sizePixels, LightingSpace::World, glm::vec3(0.0f));
@@ -173,11 +173,10 @@ TEST(SeenLights, areThoseThatShineAndAreInViewAndToBeSeen) {
 
 TEST(SeenLights, anAnimatedLightIsSeenWhereItIs) {
     scenes::Light light = lamp(LightType::Sphere);
-    scenes::LightAnimation animation;
+    scenes::LightAnimation& animation = light.animation.emplace();
     animation.kind = scenes::LightAnimationKind::Keyframes;
     animation.keys.timesSeconds = {0.0, 1.0};
     animation.keys.values = {{0.0, 0.0, -5.0}, {0.0, 0.0, 5.0}};
-    light.animation = animation;
     FrameSettings settings;
     EXPECT_EQ(seenOf(light, {}, settings).size(), 1u);
     settings.timeSeconds = 1.0;
@@ -186,7 +185,6 @@ TEST(SeenLights, anAnimatedLightIsSeenWhereItIs) {
 
 TEST(SeenLights, aLightThatKeyframesLightIsSeenOnceItShines) {
     scenes::Light light = lamp(LightType::Sphere);
-    light.positionWS = {0.0, 0.0, -5.0};
     light.intensity = 0.0f;
     scenes::LightKeys& keys = light.keyframes.emplace_back();
     keys.of = scenes::LightKeyed::Intensity;

@@ -20,6 +20,14 @@ scenes::Scene latticeOf(int lights) {
     return scenes::loadScene("lattice", options);
 }
 
+/// The lattice under a sun alone.
+scenes::Scene latticeUnderSun() {
+    scenes::Scene scene = latticeOf(1);
+    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, 0.3));
+    return scene;
+}
+
 struct MapsTest : testing::Test {
     FrameSettings settings;
     ShadowMaps mapsOf(const scenes::Scene& scene) {
@@ -29,6 +37,11 @@ struct MapsTest : testing::Test {
         view = makeCameraView(scene.cameras[0], settings.sizePixels, settings.space, glm::vec3(0.0f), bounds);
         lights = packLights(scene, view, settings);
         return makeShadowMaps(scene, lights, view, settings, bounds);
+    }
+    /// The same within so many MiB.
+    ShadowMaps mapsWithin(double mebibytes, const scenes::Scene& scene) {
+        settings.shadowMaps.budgetMiB = mebibytes;
+        return mapsOf(scene);
     }
     CameraView view;
     PackedLights lights;
@@ -59,8 +72,7 @@ TEST_F(MapsTest, facesNeverOverlapAndNeverExceedTheBudget) {
     for (const int count : {1, 7, 64, 256, 1000}) {
         const scenes::Scene scene = latticeOf(count);
         for (const double mebibytes : {0.001, 0.1, 1.0, 4.0, 16.0, 64.0, 300.0}) {
-            settings.shadowMaps.budgetMiB = mebibytes;
-            const ShadowMaps maps = mapsOf(scene);
+            const ShadowMaps maps = mapsWithin(mebibytes, scene);
             SCOPED_TRACE(testing::Message() << count << " lights in " << mebibytes << " MiB");
             EXPECT_LE(double(bytesOf(maps)), mebibytes * 1048576.0);
             expectApart(maps);
@@ -73,15 +85,13 @@ TEST_F(MapsTest, facesNeverOverlapAndNeverExceedTheBudget) {
 
 TEST_F(MapsTest, aSmallerBudgetLeavesNearerLightsMoreTexelsAndDropsNone) {
     const scenes::Scene scene = latticeOf(256);
-    settings.shadowMaps.budgetMiB = 1024.0;
-    const ShadowMaps all = mapsOf(scene);
+    const ShadowMaps all = mapsWithin(1024.0, scene);
     const auto distanceOf = [&](const ShadowedLight& light) {
         const std::size_t index = std::size_t(lights.sceneIndex[light.light]);
         return glm::distance(scene.lights[index].positionWS, view.eyeWS);
     };
     for (const double mebibytes : {64.0, 16.0, 4.0}) {
-        settings.shadowMaps.budgetMiB = mebibytes;
-        const ShadowMaps maps = mapsOf(scene);
+        const ShadowMaps maps = mapsWithin(mebibytes, scene);
         EXPECT_EQ(maps.unmapped(), 0u) << mebibytes;
         for (std::size_t i = 0; i < maps.lights.size(); ++i) {
             EXPECT_EQ(maps.lights[i].wantedTexels, all.lights[i].wantedTexels);
@@ -98,8 +108,7 @@ TEST_F(MapsTest, aSmallerBudgetLeavesNearerLightsMoreTexelsAndDropsNone) {
 TEST_F(MapsTest, aSunThatReachesThePictureKeepsNoFewerTexelsThanLampsThatReachPartsOfIt) {
     const scenes::Scene scene = scenes::loadScene("hall");
     for (const double mebibytes : {64.0, 16.0, 4.0}) {
-        settings.shadowMaps.budgetMiB = mebibytes;
-        const ShadowMaps maps = mapsOf(scene);
+        const ShadowMaps maps = mapsWithin(mebibytes, scene);
         int ofSun = 0, mostOfLamps = 0;
         for (const ShadowedLight& light : maps.lights) {
             const bool isSun =
@@ -117,8 +126,7 @@ TEST_F(MapsTest, aFarLampThatReachesTheSceneKeepsNoFewerTexelsThanOnesThatReachP
     far.rangeMetres = 2000.0f;
     scene.lights.push_back(far);
     for (const double mebibytes : {16.0, 4.0}) {
-        settings.shadowMaps.budgetMiB = mebibytes;
-        const ShadowMaps maps = mapsOf(scene);
+        const ShadowMaps maps = mapsWithin(mebibytes, scene);
         int ofFar = 0, mostOfOthers = 0;
         for (const ShadowedLight& light : maps.lights)
             (lights.sceneIndex[light.light] == 16 ? ofFar : mostOfOthers) = light.sideTexels;
@@ -131,8 +139,7 @@ TEST_F(MapsTest, atlasesBeyondWhatAnIntHoldsAreReducedToo) {
     scenes::Scene scene = latticeOf(1);
     scene.lights.assign(200000, test::pointLight({}, 5.0f));
     settings.shadowMaps.resolutionTexels = 8192;
-    settings.shadowMaps.budgetMiB = 64.0;
-    const ShadowMaps maps = mapsOf(scene);
+    const ShadowMaps maps = mapsWithin(64.0, scene);
     EXPECT_LE(double(bytesOf(maps)), 64.0 * 1048576.0);
     std::size_t texels = 0;
     for (const ShadowFace& face : maps.faces) texels += std::size_t(face.sideTexels) * std::size_t(face.sideTexels);
@@ -141,8 +148,7 @@ TEST_F(MapsTest, atlasesBeyondWhatAnIntHoldsAreReducedToo) {
 
 TEST_F(MapsTest, aLightWithoutRoomHasNoFaceAndIsCounted) {
     const scenes::Scene scene = latticeOf(64);
-    settings.shadowMaps.budgetMiB = 0.01;
-    const ShadowMaps maps = mapsOf(scene);
+    const ShadowMaps maps = mapsWithin(0.01, scene);
     EXPECT_GT(maps.unmapped(), 0u);
     EXPECT_LT(maps.unmapped(), maps.lights.size());
     const std::size_t firstTexel = lightBytes(lights.features, lights.texels.size()) / sizeof(glm::vec4);
@@ -207,10 +213,7 @@ TEST_F(MapsTest, aRecordFindsTheTexelAndDepthThatTheFacesCameraDraws) {
 }
 
 TEST_F(MapsTest, cascadesMoveByWholeTexelsAndKeepTheirSizeAsTheCameraMoves) {
-    scenes::Scene scene = latticeOf(1);
-    scene.lights.resize(1);
-    scene.lights[0].type = scenes::LightType::Directional;
-    scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, 0.3));
+    scenes::Scene scene = latticeUnderSun();
     const ShadowMaps first = mapsOf(scene);
     ASSERT_EQ(first.faces.size(), 4u);
     const glm::dmat4 before = scene.cameras[0].worldFromCamera;
@@ -235,9 +238,7 @@ TEST_F(MapsTest, cascadesMoveByWholeTexelsAndKeepTheirSizeAsTheCameraMoves) {
 }
 
 TEST_F(MapsTest, everyCascadeHoldsTheDepthsOfAllCasters) {
-    scenes::Scene scene = latticeOf(1);
-    scene.lights[0].type = scenes::LightType::Directional;
-    scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.4, -1.0, 0.3));
+    const scenes::Scene scene = latticeUnderSun();
     const ShadowMaps maps = mapsOf(scene);
     ASSERT_EQ(maps.faces.size(), 4u);
     for (const ShadowFace& face : maps.faces) {

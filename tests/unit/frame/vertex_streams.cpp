@@ -9,6 +9,7 @@
 #include "renderer/frame/Tangents.h"
 #include "scenes/Load.h"
 #include "shaders/shared/facet.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {
@@ -28,6 +29,23 @@ scenes::Scene twoMeshes() {
     full.tangentsOS.assign(3, {0, 1, 0, -1});
     scene.nodes[0].instances.push_back({1, 0});
     return scene;
+}
+
+FeatureSet only(std::initializer_list<Feature> features) {
+    FeatureSet set;
+    for (const Feature feature : features) set.add(feature);
+    return set;
+}
+
+FeatureSet allButShadows() {
+    FeatureSet features = allFeatures();
+    features.has.reset(std::size_t(Feature::Shadows));
+    return features;
+}
+
+void mapNormals(scenes::Scene& scene) {
+    scene.images.emplace_back();
+    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
 }
 
 TEST(VertexStreams, meshesLieEndToEnd) {
@@ -71,8 +89,7 @@ TEST(VertexStreams, streamsThatNothingNeedsAreEmpty) {
     EXPECT_EQ(streams.normalsOS.size(), 6u);
     EXPECT_TRUE(streams.tangentsOS.empty() && streams.texCoords[0].empty() && streams.texCoords[1].empty() &&
                 streams.colors.empty());
-    FeatureSet textured;
-    textured.add(featureOf(scenes::TextureSlot::BaseColor));
+    const FeatureSet textured = only({featureOf(scenes::TextureSlot::BaseColor)});
     EXPECT_EQ(makeVertexStreams(twoMeshes(), textured).texCoords[0].size(), 6u);
     EXPECT_TRUE(makeVertexStreams(twoMeshes(), textured).texCoords[1].empty());
 }
@@ -83,8 +100,7 @@ TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNo
     scene.images.emplace_back();
     scene.materials.emplace_back().texture(scenes::TextureSlot::Normal) = {
         .image = 0, .sampler = {}, .texCoordSet = 1, .transform = {}};
-    FeatureSet features;
-    features.add(Feature::TangentSpaceNormals);
+    const FeatureSet features = only({Feature::TangentSpaceNormals});
     EXPECT_THAT(makeVertexStreams(scene, features).tangentsOS, Each(glm::vec4(1, 0, 0, 1)))
         << "no instance has the map";
     scene.nodes[0].instances.back().material = 1;
@@ -101,8 +117,7 @@ TEST(VertexStreams, tangentsOfAnisotropicAndCoatedMaterialsFollowTheirOwnTexture
     scene.meshes[1].texCoords[1] = {{0, 0}, {0, 1}, {1, 0}};
     scene.images.emplace_back();
     scene.nodes[0].instances.back().material = 1;
-    FeatureSet features;
-    features.add(Feature::Anisotropy);
+    const FeatureSet features = only({Feature::Anisotropy});
     const auto second = [&](const scenes::Material& material) {
         scene.materials.resize(1);
         scene.materials.push_back(material);
@@ -142,15 +157,11 @@ TEST(VertexStreams, materialsThatWantDifferentTangentsGetAMeshOfTheirOwnAndOther
     scene.materials[3].texture(scenes::TextureSlot::Normal).transform.scale = {1, -1};
     scene.materials[4].tangents = scenes::TangentMethod::Lengyel;
     for (const int material : {1, 2, 3, 3, 4, 2}) scene.nodes[0].instances.push_back({1, material});
-    FeatureSet features;
-    features.add(Feature::TangentSpaceNormals);
+    const FeatureSet features = only({Feature::TangentSpaceNormals});
     const VertexStreams streams = makeVertexStreams(scene, features);
     const auto firstIndex = [&](int material) { return streams.ranges.at({1, material}).firstIndex; };
-    EXPECT_EQ(firstIndex(0), 3u) << "needs no tangents";
-    EXPECT_EQ(firstIndex(1), 3u);
-    EXPECT_EQ(firstIndex(2), 3u);
-    EXPECT_EQ(firstIndex(3), 6u);
-    EXPECT_EQ(firstIndex(4), 9u);
+    const std::uint32_t expected[] = {3, 3, 3, 6, 9}; // the first needs no tangents
+    for (int material = 0; material < 5; ++material) EXPECT_EQ(firstIndex(material), expected[material]) << material;
     EXPECT_EQ(streams.indices.size(), 12u);
     const auto handedness = [&](int material) {
         return streams.tangentsOS[std::size_t(streams.ranges.at({1, material}).baseVertex)].w;
@@ -169,8 +180,7 @@ TEST(VertexStreams, splitVerticesKeepAllTheirOtherAttributes) {
     mesh.texCoords[0] = {{0, 1}, {1, 1}, {0, 0}, {0, 0}};
     mesh.texCoords[1] = {{0.1f, 0}, {0.2f, 0}, {0.3f, 0}, {0.4f, 0}};
     mesh.colors = {glm::vec4(0.1f), glm::vec4(0.2f), glm::vec4(0.3f), glm::vec4(0.4f)};
-    scene.images.emplace_back();
-    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    mapNormals(scene);
     const VertexStreams streams = makeVertexStreams(scene, allFeatures());
     ASSERT_EQ(streams.positionsOS.size(), 6u) << "a copy of both vertices that the triangles share";
     ASSERT_EQ(streams.indices.size(), mesh.indices.size());
@@ -193,8 +203,7 @@ scenes::Scene sceneOfManyTransforms(std::size_t vertices) {
     mesh.positionsOS.resize(vertices);
     mesh.normalsOS.resize(vertices, glm::vec3(0.0f, 0.0f, 1.0f));
     mesh.texCoords[0].resize(vertices);
-    scene.images.emplace_back();
-    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    mapNormals(scene);
     const scenes::Node node = scene.nodes[0];
     for (int i = 1; i < 40; ++i) {
         scene.materials.push_back(scene.materials[0]);
@@ -206,12 +215,9 @@ scenes::Scene sceneOfManyTransforms(std::size_t vertices) {
 }
 
 TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAreMade) {
-    try {
-        makeVertexStreams(sceneOfManyTransforms(std::size_t(1) << 20), allFeatures());
-        FAIL() << "39 copies of a million vertices are made";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("('triangle' has 40 such materials)"));
-    }
+    const scenes::Scene scene = sceneOfManyTransforms(std::size_t(1) << 20);
+    EXPECT_THAT(test::errorText<InputError>([&] { makeVertexStreams(scene, allFeatures()); }),
+                testing::HasSubstr("('triangle' has 40 such materials)"));
 }
 
 TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
@@ -222,9 +228,8 @@ TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
     mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     scene.nodes.resize(14);
     scene.materials.resize(14);
-    FeatureSet features = allFeatures();
-    features.has.reset(std::size_t(Feature::Shadows)); // whose copies count, as the next test has it
-    EXPECT_EQ(makeVertexStreams(scene, features).positionsOS.size(), 14000u);
+    // Copies for shadows count, as the next test has it.
+    EXPECT_EQ(makeVertexStreams(scene, allButShadows()).positionsOS.size(), 14000u);
 }
 
 TEST(VertexStreams, copiesOfLastVerticesCountWithThoseForManyTransforms) {
@@ -254,8 +259,7 @@ TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleT
         mesh.indices.insert(mesh.indices.end(), {0, first, first + 1});
     }
     mesh.normalsOS.assign(mesh.positionsOS.size(), glm::vec3(0.0f, 0.0f, 1.0f));
-    scene.images.emplace_back();
-    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    mapNormals(scene);
     const auto start = std::chrono::steady_clock::now();
     const VertexStreams streams = makeVertexStreams(scene, allFeatures());
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
@@ -306,17 +310,14 @@ scenes::Scene wavyScene() {
             else
                 mesh.indices.insert(mesh.indices.end(), {b, d, a, d, c, a});
         }
-    scene.images.emplace_back();
-    scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
+    mapNormals(scene);
     return scene;
 }
 
 TEST(VertexStreams, copiesOfLastVerticesKeepAllTheirOtherAttributes) {
     const scenes::Scene scene = wavyScene();
-    const FeatureSet features = allFeatures();
-    FeatureSet unshadowed = features;
-    unshadowed.has.reset(std::size_t(Feature::Shadows));
-    const VertexStreams bare = makeVertexStreams(scene, unshadowed), full = makeVertexStreams(scene, features);
+    const VertexStreams bare = makeVertexStreams(scene, allButShadows()),
+                        full = makeVertexStreams(scene, allFeatures());
     EXPECT_GT(bare.positionsOS.size(), scene.meshes[0].positionsOS.size()) << "tangents split nothing";
     EXPECT_GT(full.positionsOS.size(), bare.positionsOS.size()) << "no triangle's end was copied";
     ASSERT_EQ(full.indices.size(), bare.indices.size());
