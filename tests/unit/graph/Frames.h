@@ -67,4 +67,11 @@ inline std::vector<std::string> faultsOf(const Graph& graph) {
     return {};
 }
 
+/// Those of a frame of one pass, "p".
+inline std::vector<std::string> faultsOfPass(const std::function<void(PassBuilder&)>& setup) {
+    Graph graph;
+    declare(graph, "p", setup);
+    return faultsOf(graph);
+}
+
 } // namespace tessera::graph::test

@@ -68,10 +68,25 @@ public:
     bool failsAtEnd = false;
 };
 
-inline void failingPass(Graph& graph, std::function<void(const PassContext&)> body) {
+/// A pass that is kept and runs this.
+inline void keptPass(
+    Graph& graph, const std::string& name, std::function<void(const PassContext&)> body,
+    const std::function<void(PassBuilder&)>& setup = [](PassBuilder&) {}) {
     graph.addPass<None>(
-        "broken", [](PassBuilder& builder, None&) { builder.keep(); },
+        name,
+        [&](PassBuilder& builder, None&) {
+            setup(builder);
+            builder.keep();
+        },
         [body = std::move(body)](const None&, const PassContext& context) { body(context); });
+}
+inline void failingPass(Graph& graph, std::function<void(const PassContext&)> body) {
+    keptPass(graph, "broken", std::move(body));
+}
+
+inline void run(const Graph& graph, Backend& backend, ProgramSource* programs = nullptr) {
+    const CompiledGraph compiled = compile(graph);
+    Execution(graph, compiled, backend, programs).run();
 }
 
 template <typename Error>

@@ -19,9 +19,10 @@ TextureHandle imageStore(Graph& graph, const std::string& pass, const std::strin
     return handle;
 }
 
-BufferHandle bufferStore(Graph& graph, const std::string& pass, const std::string& name) {
+BufferHandle bufferStore(Graph& graph, const std::string& pass, const std::string& name,
+                         Access access = Access::StorageWrite) {
     BufferHandle handle;
-    declare(graph, pass, [&](PassBuilder& builder) { handle = builder.create(name, kBytes); });
+    declare(graph, pass, [&](PassBuilder& builder) { handle = builder.create(name, kBytes, access); });
     return handle;
 }
 
@@ -44,40 +45,34 @@ TEST(Barriers, rasterisedFrameNeverNeedsOne) {
     EXPECT_EQ(compiled.after, Barrier::None);
 }
 
-TEST(Barriers, bitIsThatOfTheLaterAccessToATexture) {
-    const std::vector<std::pair<Access, Barrier>> kCases{
-        {Access::Sampled, Barrier::TextureFetch},
-        {Access::ImageRead, Barrier::ShaderImage},
-        {Access::Download, Barrier::TransferOrUpdate | Barrier::Framebuffer}};
-    for (const auto& [access, expected] : kCases) {
+TEST(Barriers, bitIsThatOfTheLaterAccess) {
+    constexpr Barrier kTransfer = Barrier::TransferOrUpdate | Barrier::Framebuffer;
+    for (const auto& [access, expected] : {std::pair(Access::Sampled, Barrier::TextureFetch),
+                                           {Access::ImageRead, Barrier::ShaderImage},
+                                           {Access::Download, kTransfer}}) {
         Graph graph;
         readKept(graph, imageStore(graph, "store", "image"), access);
-        EXPECT_EQ(compile(graph).order[1].before, expected);
+        EXPECT_EQ(compile(graph).order[1].before, expected) << int(access);
     }
-    for (const auto& [access, expected] :
-         std::vector<std::pair<Access, Barrier>>{{Access::ColorAttachment, Barrier::Framebuffer},
-                                                 {Access::ImageWrite, Barrier::ShaderImage},
-                                                 {Access::Upload, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
+    for (const auto& [access, expected] : {std::pair(Access::ColorAttachment, Barrier::Framebuffer),
+                                           {Access::ImageWrite, Barrier::ShaderImage},
+                                           {Access::Upload, kTransfer}}) {
         Graph graph;
         const TextureHandle image = imageStore(graph, "store", "image");
         declare(graph, "write",
                 [&, &access = access](PassBuilder& builder) { graph.output(builder.write(image, access)); });
-        EXPECT_EQ(compile(graph).order[1].before, expected);
+        EXPECT_EQ(compile(graph).order[1].before, expected) << int(access);
     }
-}
-
-TEST(Barriers, bitIsThatOfTheLaterAccessToABuffer) {
-    for (const auto& [access, expected] : std::vector<std::pair<Access, Barrier>>{
-             {Access::UniformRead, Barrier::Uniform},
-             {Access::StorageRead, Barrier::ShaderStorage},
-             {Access::TexelRead, Barrier::TextureFetch},
-             {Access::VertexRead, Barrier::VertexAttribute},
-             {Access::IndexRead, Barrier::ElementArray},
-             {Access::IndirectRead, Barrier::Command},
-             {Access::Download, Barrier::TransferOrUpdate | Barrier::Framebuffer}}) {
+    for (const auto& [access, expected] : {std::pair(Access::UniformRead, Barrier::Uniform),
+                                           {Access::StorageRead, Barrier::ShaderStorage},
+                                           {Access::TexelRead, Barrier::TextureFetch},
+                                           {Access::VertexRead, Barrier::VertexAttribute},
+                                           {Access::IndexRead, Barrier::ElementArray},
+                                           {Access::IndirectRead, Barrier::Command},
+                                           {Access::Download, kTransfer}}) {
         Graph graph;
         readKept(graph, bufferStore(graph, "store", "lists"), access);
-        EXPECT_EQ(compile(graph).order[1].before, expected);
+        EXPECT_EQ(compile(graph).order[1].before, expected) << int(access);
     }
 }
 
@@ -107,12 +102,7 @@ TEST(Barriers, oneBitServesEveryStoreBeforeIt) {
 
 TEST(Barriers, storeAfterAFetchWaitsForIt) {
     Graph graph;
-    const BufferHandle uploaded = [&] {
-        BufferHandle handle;
-        declare(graph, "upload",
-                [&](PassBuilder& builder) { handle = builder.create("lights", kBytes, Access::Upload); });
-        return handle;
-    }();
+    const BufferHandle uploaded = bufferStore(graph, "upload", "lights", Access::Upload);
     readKept(graph, uploaded, Access::TexelRead);
     declare(graph, "sort", [&](PassBuilder& builder) { graph.output(builder.write(uploaded)); });
     EXPECT_THAT(barriersOf(compile(graph)), ElementsAre(Barrier::None, Barrier::None, Barrier::ShaderStorage));

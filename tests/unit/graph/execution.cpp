@@ -1,4 +1,5 @@
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/graph/Recorder.h"
 
 namespace tessera::graph::test {
@@ -26,8 +27,7 @@ TEST(Execution, passesRunInOrderBetweenBeginAndEnd) {
         [&](const Image&, const PassContext&) { backend.calls.push_back("second runs"); });
     draw(graph, "culled", "c");
     graph.output(second.image);
-    const CompiledGraph compiled = compile(graph);
-    Execution(graph, compiled, backend).run();
+    run(graph, backend);
     EXPECT_THAT(backend.calls, ElementsAre("allocate 2", "begin first after a barrier", "first runs", "end first",
                                            "begin second after a barrier", "second runs", "end second",
                                            "begin end of frame after a barrier", "end end of frame"));
@@ -37,8 +37,7 @@ TEST(Execution, frameWithoutStoresNeverEndsInABarrier) {
     Recorder backend;
     Graph graph;
     graph.output(draw(graph, "shade", "image"));
-    const CompiledGraph compiled = compile(graph);
-    Execution(graph, compiled, backend).run();
+    run(graph, backend);
     EXPECT_THAT(backend.calls, ElementsAre("allocate 1", "begin shade", "end shade"));
 }
 
@@ -156,13 +155,9 @@ TEST(Execution, versionThatThePassDidNotDeclareIsNotResolved) {
     Graph graph;
     const TextureHandle v1 = draw(graph, "opaque", "image");
     TextureHandle v2;
-    graph.addPass<None>(
-        "peek",
-        [&](PassBuilder& builder, None&) {
-            builder.read(v1);
-            builder.keep();
-        },
-        [&](const None&, const PassContext& context) { context.texture(v2); });
+    keptPass(
+        graph, "peek", [&](const PassContext& context) { context.texture(v2); },
+        [&](PassBuilder& builder) { builder.read(v1); });
     v2 = blend(graph, "fog", v1);
     EXPECT_EQ(errorOfRun<std::logic_error>(graph, backend),
               "pass 'peek': asked for version 2 of 'image', which it did not declare; read or write it in its setup");
@@ -254,15 +249,10 @@ TEST(Execution, importThatTheFrameUsesIsNotMissing) {
         graph.import("lights", kBytes, lights);
         consume(graph, "show", {shown});
         const CompiledGraph compiled = compile(graph);
-        try {
-            Execution(graph, compiled, backend);
-        } catch (const std::logic_error& error) {
-            return std::string(error.what());
-        }
-        return std::string("no error");
+        return tessera::test::errorText<std::logic_error>([&] { Execution(graph, compiled, backend); });
     };
     EXPECT_EQ(errorOf(nullptr, nullptr), "the frame uses the imported texture 'history', but was declared without it");
-    EXPECT_EQ(errorOf(&standIn<gpu::Texture>(place), nullptr), "no error") << "the lights are not used";
+    EXPECT_EQ(errorOf(&standIn<gpu::Texture>(place), nullptr), "") << "the lights are not used";
 }
 
 TEST(Execution, onlyOutputsAreHandedOutAfterTheRun) {
@@ -275,20 +265,15 @@ TEST(Execution, onlyOutputsAreHandedOutAfterTheRun) {
     const CompiledGraph compiled = compile(graph);
     Execution execution(graph, compiled, backend);
     const auto errorOf = [&](TextureHandle handle) {
-        try {
-            execution.texture(handle);
-        } catch (const std::logic_error& error) {
-            return std::string(error.what());
-        }
-        return std::string("no error");
+        return tessera::test::errorText<std::logic_error>([&] { execution.texture(handle); });
     };
     EXPECT_EQ(errorOf(image), "an execution was asked for 'image' before run()");
     execution.run();
-    EXPECT_EQ(errorOf(image), "no error");
-    EXPECT_EQ(errorOf(opaque), "an execution was asked for version 1 of 'image', which is no output of the frame, so "
-                               "that other data may have replaced it; declare it with Graph::output()");
-    EXPECT_EQ(errorOf(gbuffer), "an execution was asked for version 1 of 'normal', which is no output of the frame, so "
-                                "that other data may have replaced it; declare it with Graph::output()");
+    EXPECT_EQ(errorOf(image), "");
+    for (const auto& [handle, name] : {std::pair(opaque, "image"), {gbuffer, "normal"}})
+        EXPECT_EQ(errorOf(handle), std::string("an execution was asked for version 1 of '") + name +
+                                       "', which is no output of the frame, so that other data may have replaced it; "
+                                       "declare it with Graph::output()");
     EXPECT_EQ(errorOf(TextureHandle{}), "an execution was asked for an invalid texture handle");
 }
 

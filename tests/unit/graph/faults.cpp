@@ -105,8 +105,7 @@ TEST(Faults, expectationThatIsNotMetIsReported) {
 }
 
 TEST(Faults, accessThatTheFormatForbidsIsReported) {
-    Graph graph;
-    declare(graph, "p", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::DepthAttachment);
         const TextureHandle depth = builder.create("depth", kDepth, Access::ColorAttachment);
         builder.create("depth image", kDepth, Access::ImageWrite);
@@ -114,7 +113,7 @@ TEST(Faults, accessThatTheFormatForbidsIsReported) {
         builder.read(color, Access::DepthTest);
         builder.read(depth, Access::ImageRead);
     });
-    EXPECT_THAT(faultsOf(graph),
+    EXPECT_THAT(faults,
                 ElementsAre("pass 'p' writes 'color' as DepthAttachment, but RGBA16F is a colour format; use "
                             "ColorAttachment",
                             "pass 'p' writes 'depth' as ColorAttachment, but D32F is a depth format; use "
@@ -128,15 +127,14 @@ TEST(Faults, accessThatTheFormatForbidsIsReported) {
 }
 
 TEST(Faults, accessOfTheOtherKindIsReported) {
-    Graph graph;
-    declare(graph, "p", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::StorageWrite);
         const BufferHandle lights = builder.create("lights", kBytes, Access::ImageWrite);
         builder.read(color, Access::UniformRead);
         builder.read(lights, Access::Sampled);
     });
     EXPECT_THAT(
-        faultsOf(graph),
+        faults,
         ElementsAre("pass 'p' writes 'color' as StorageWrite, but it is a texture, and that access is of "
                     "buffers",
                     "pass 'p' writes 'lights' as ImageWrite, but it is a buffer, and that access is of textures",
@@ -145,29 +143,26 @@ TEST(Faults, accessOfTheOtherKindIsReported) {
 }
 
 TEST(Faults, accessInTheWrongDirectionIsReported) {
-    Graph graph;
-    declare(graph, "p", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         const TextureHandle color = builder.create("color", kColor, Access::Sampled);
         builder.read(color, Access::Upload);
     });
-    EXPECT_THAT(faultsOf(graph),
-                ElementsAre("pass 'p' writes 'color' as Sampled, which is an access for reading; use read()",
-                            "pass 'p' reads 'color' as Upload, which is an access for writing; use write()"));
+    EXPECT_THAT(faults, ElementsAre("pass 'p' writes 'color' as Sampled, which is an access for reading; use read()",
+                                    "pass 'p' reads 'color' as Upload, which is an access for writing; use write()"));
 }
 
 TEST(Faults, attachmentsThatDifferInSizeOrSamplesAreReported) {
-    Graph graph;
-    declare(graph, "gbuffer", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         builder.create("normal", kColor);
         builder.create("small", {.format = Format::Rgba8Unorm, .width = 32, .height = 32});
         builder.create("depth", {.format = Format::Depth32Float, .width = 64, .height = 32, .samples = 4},
                        Access::DepthAttachment);
         builder.create("tiles", {.format = Format::R32Uint, .width = 8, .height = 4}, Access::ImageWrite);
     });
-    EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'gbuffer' attaches 'normal' (64 x 32) and 'small' (32 x 32), which "
-                                             "must be equal in size and samples",
-                                             "pass 'gbuffer' attaches 'normal' (64 x 32) and 'depth' (64 x 32, 4 "
-                                             "samples), which must be equal in size and samples"));
+    EXPECT_THAT(faults, ElementsAre("pass 'p' attaches 'normal' (64 x 32) and 'small' (32 x 32), which "
+                                    "must be equal in size and samples",
+                                    "pass 'p' attaches 'normal' (64 x 32) and 'depth' (64 x 32, 4 "
+                                    "samples), which must be equal in size and samples"));
 }
 
 TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreReported) {
@@ -185,16 +180,14 @@ TEST(Faults, twoDepthTexturesOrOneAttachedTwiceAreReported) {
 }
 
 TEST(Faults, twoLayersOfOneDepthArrayInAPassAreReported) {
-    Graph graph;
-    declare(graph, "cascades", [&](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         TextureDesc desc = kDepth;
         desc.shape = Shape::Array;
         desc.layers = 2;
         const TextureHandle first = builder.create("shadows", desc, Access::DepthAttachment, {0, 0});
         builder.write(first, Access::DepthAttachment, {0, 1});
     });
-    EXPECT_THAT(faultsOf(graph),
-                ElementsAre("pass 'cascades' attaches two depth textures or parts, of 'shadows' and 'shadows'"));
+    EXPECT_THAT(faults, ElementsAre("pass 'p' attaches two depth textures or parts, of 'shadows' and 'shadows'"));
 }
 
 TEST(Faults, resourcesOutsideTheFrameHaveUniqueNamesAndDoNotGrow) {
@@ -211,28 +204,25 @@ constexpr TextureDesc kAtlas{
     .format = Format::Rgba16Float, .width = 64, .height = 32, .levels = 3, .layers = 4, .shape = Shape::Array};
 
 TEST(Faults, partThatATextureLacksIsReported) {
-    Graph graph;
-    declare(graph, "p", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         const TextureHandle atlas = builder.create("atlas", kAtlas, Access::ColorAttachment, {3, 0});
         builder.read(atlas, Access::ImageRead, {0, 4});
         builder.read(atlas, Access::ImageRead, {2, 3});
         builder.read(atlas, Access::Sampled);
     });
-    EXPECT_THAT(faultsOf(graph),
-                testing::IsSupersetOf({"pass 'p' writes level 3, layer 0 of 'atlas', which has 3 and 4",
-                                       "pass 'p' reads level 0, layer 4 of 'atlas', which has 3 and 4"}));
+    EXPECT_THAT(faults, testing::IsSupersetOf({"pass 'p' writes level 3, layer 0 of 'atlas', which has 3 and 4",
+                                               "pass 'p' reads level 0, layer 4 of 'atlas', which has 3 and 4"}));
 }
 
 TEST(Faults, layersOfOneTextureMayBeAttachedTogether) {
-    Graph graph;
-    declare(graph, "p", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         const TextureHandle first = builder.create("atlas", kAtlas, Access::ColorAttachment, {1, 0});
         const TextureHandle second = builder.write(first, Access::ColorAttachment, {1, 1});
         builder.create("half", {.format = Format::Rgba16Float, .width = 32, .height = 16});
         builder.keep();
         builder.write(second, Access::ColorAttachment, {1, 0});
     });
-    EXPECT_THAT(faultsOf(graph), ElementsAre("pass 'p' attaches 'atlas' twice"));
+    EXPECT_THAT(faults, ElementsAre("pass 'p' attaches 'atlas' twice"));
 }
 
 TEST(Faults, shapeThatNoTextureCanHaveIsReported) {
@@ -313,15 +303,14 @@ TEST(Faults, aStoreBesideAReadOfAnotherKindIsReported) {
 }
 
 TEST(Faults, aStoreBesideAReadOfItsOwnKindIsNone) {
-    Graph graph;
-    declare(graph, "accumulate", [](PassBuilder& builder) {
+    const auto faults = faultsOfPass([](PassBuilder& builder) {
         builder.read(builder.create("sum", kColor, Access::ImageWrite), Access::ImageRead);
         builder.read(builder.create("counts", kBytes), Access::StorageRead);
         builder.read(builder.create("lights", kBytes, Access::Upload), Access::TexelRead);
         builder.create("drawn", kColor);
         builder.keep();
     });
-    EXPECT_THAT(faultsOf(graph), IsEmpty());
+    EXPECT_THAT(faults, IsEmpty());
 }
 
 TEST(Faults, depthThatIsTestedMayBeSampledToo) {

@@ -169,9 +169,11 @@ TEST(Plan, jsonKeepsItsOrderAndMeasuredTimes) {
     plan.passes[0].ms = 1.5;
     plan.leftOut[0].ms = 0.25;
     const std::string text = planJson(plan);
-    EXPECT_LT(text.find("\"schema\""), text.find("\"scene\""));
-    EXPECT_LT(text.find("\"scene\""), text.find("\"passes\""));
-    EXPECT_LT(text.find("\"passes\""), text.find("\"left_out\""));
+    std::size_t before = 0;
+    for (const char* key : {"\"schema\"", "\"scene\"", "\"passes\"", "\"left_out\""}) {
+        EXPECT_LT(before, text.find(key)) << key;
+        before = text.find(key);
+    }
     EXPECT_EQ(json::parse(text)["passes"][0]["ms"], 1.5);
     EXPECT_EQ(json::parse(text)["left_out"][0]["ms"], 0.25);
 }
@@ -223,13 +225,11 @@ TEST(Plan, aCulledPassSavesTheMemoryOfItsTransientsAlone) {
 TEST(Plan, drawingShowsEachVersionOnceAndNeverRunsBackwards) {
     const std::string dot = planDot(examplePlan());
     // The numbers follow the order of drawing: normal, depth, lists, ao, radiance, radiance after fog, bright, window.
-    EXPECT_THAT(dot, HasSubstr("pass0 -> resource1;"));
-    EXPECT_THAT(dot, HasSubstr("resource1 -> pass2;"));
-    EXPECT_THAT(dot, HasSubstr("resource5 -> pass3;"));
-    EXPECT_THAT(dot, HasSubstr("pass3 -> resource6;"));
-    EXPECT_THAT(dot, Not(HasSubstr("resource6 -> pass3;")));
-    EXPECT_THAT(dot, HasSubstr("resource6 -> pass5;"));
-    EXPECT_THAT(dot, Not(HasSubstr("resource5 -> pass5;")));
+    for (const char* drawn : {"pass0 -> resource1;", "resource1 -> pass2;", "resource5 -> pass3;",
+                              "pass3 -> resource6;", "resource6 -> pass5;"})
+        EXPECT_THAT(dot, HasSubstr(drawn));
+    for (const char* backwards : {"resource6 -> pass3;", "resource5 -> pass5;"})
+        EXPECT_THAT(dot, Not(HasSubstr(backwards)));
 }
 
 TEST(Plan, omittedPassesAreDashed) {
@@ -275,13 +275,14 @@ TEST(Plan, namesAreEscapedInTheDrawing) {
 }
 
 TEST(Plan, bytesAreReadable) {
-    EXPECT_EQ(readableBytes(0), "0 B");
-    EXPECT_EQ(readableBytes(1023), "1023 B");
-    EXPECT_EQ(readableBytes(1024), "1.0 KiB");
-    EXPECT_EQ(readableBytes(3670016), "3.5 MiB");
-    EXPECT_EQ(readableBytes(102400), "100 KiB");
-    EXPECT_EQ(readableBytes(1048575), "1.0 MiB");
-    EXPECT_EQ(readableBytes(std::size_t(5) << 30), "5.0 GiB");
+    const std::pair<std::size_t, const char*> kBytesAndText[] = {{0, "0 B"},
+                                                                 {1023, "1023 B"},
+                                                                 {1024, "1.0 KiB"},
+                                                                 {3670016, "3.5 MiB"},
+                                                                 {102400, "100 KiB"},
+                                                                 {1048575, "1.0 MiB"},
+                                                                 {std::size_t(5) << 30, "5.0 GiB"}};
+    for (const auto& [bytes, text] : kBytesAndText) EXPECT_EQ(readableBytes(bytes), text);
 }
 
 TEST(Table, charactersAreCountedAndNeverBytes) {

@@ -28,16 +28,15 @@ TEST(Execution, aPassIsGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
     Recorder backend;
     Programs programs;
     Graph graph;
-    graph.addPass<None>(
-        "ids",
-        [](PassBuilder& builder, None&) {
-            builder.program(programNamed("opaque"));
-            builder.program(programNamed("transparent"));
-            builder.keep();
-        },
-        [](const None&, const PassContext& context) {
+    keptPass(
+        graph, "ids",
+        [](const PassContext& context) {
             context.program(1);
             context.program();
+        },
+        [](PassBuilder& builder) {
+            builder.program(programNamed("opaque"));
+            builder.program(programNamed("transparent"));
         });
     declare(graph, "culled", [](PassBuilder& builder) {
         builder.program(programNamed("never"));
@@ -58,13 +57,9 @@ TEST(Execution, aProgramThatAPassDidNotDeclareIsRefused) {
     EXPECT_EQ(errorOfRun<std::logic_error>(undeclared, backend),
               "pass 'broken': asked for its program 0, and declared 0; name it in its setup");
     Graph without;
-    without.addPass<None>(
-        "lost",
-        [](PassBuilder& builder, None&) {
-            builder.program(programNamed("p"));
-            builder.keep();
-        },
-        [](const None&, const PassContext& context) { context.program(); });
+    keptPass(
+        without, "lost", [](const PassContext& context) { context.program(); },
+        [](PassBuilder& builder) { builder.program(programNamed("p")); });
     EXPECT_EQ(errorOfRun<std::logic_error>(without, backend), "pass 'lost': the execution was given no programs");
 }
 
@@ -72,21 +67,16 @@ TEST(Execution, aPassRasterisesIntoItsDeclaredTargets) {
     Recorder backend;
     Graph graph;
     const TextureHandle input = draw(graph, "before", "input");
-    graph.addPass<None>(
-        "gbuffer",
-        [&](PassBuilder& builder, None&) {
+    keptPass(
+        graph, "gbuffer", [](const PassContext& context) { context.bindTargets(); },
+        [&](PassBuilder& builder) {
             builder.create("albedo", kColor);
             builder.read(input);
             builder.create("depth", kDepth, Access::DepthAttachment);
             builder.create("normal", kColor);
-            builder.keep();
-        },
-        [](const None&, const PassContext& context) { context.bindTargets(); });
-    graph.addPass<None>(
-        "lists", [](PassBuilder& builder, None&) { builder.keep(); },
-        [](const None&, const PassContext& context) { context.bindNoTargets(80, 45); });
-    const CompiledGraph compiled = compile(graph);
-    Execution(graph, compiled, backend).run();
+        });
+    keptPass(graph, "lists", [](const PassContext& context) { context.bindNoTargets(80, 45); });
+    run(graph, backend);
     EXPECT_THAT(backend.calls, testing::Contains("targets 2 and depth"));
     EXPECT_THAT(backend.calls, testing::Contains("targets 0 of 80 x 45"));
     Graph none;
@@ -99,15 +89,10 @@ TEST(Execution, constantsGoWithTheProgramsOfTheirPass) {
     Recorder backend;
     Programs programs;
     Graph graph;
-    graph.addPass<None>(
-        "post",
-        [](PassBuilder& builder, None&) {
-            builder.program(programNamed("post"));
-            builder.keep();
-        },
-        [](const None&, const PassContext& context) { context.constants(2, std::array<float, 4>{}); });
-    const CompiledGraph compiled = compile(graph);
-    Execution(graph, compiled, backend, &programs).run();
+    keptPass(
+        graph, "post", [](const PassContext& context) { context.constants(2, std::array<float, 4>{}); },
+        [](PassBuilder& builder) { builder.program(programNamed("post")); });
+    run(graph, backend, &programs);
     EXPECT_THAT(backend.calls, testing::Contains("constants 2, 16 bytes, 1 programs"));
 }
 
@@ -131,9 +116,7 @@ TEST(Execution, aPersistentResourceGetsItsRevisionAtTheEndOfTheFrame) {
                 ElementsAre("persistent shadows", "allocate 1", "shadows holds nothing", "begin draw shadows",
                             "end draw shadows", "begin shade", "end shade", "shadows holds 7"));
     backend.calls.clear();
-    const Graph next = shadowedFrame(true);
-    const CompiledGraph nextCompiled = compile(next);
-    Execution(next, nextCompiled, backend).run();
+    run(shadowedFrame(true), backend);
     EXPECT_THAT(backend.calls, ElementsAre("persistent shadows", "allocate 1", "begin shade", "end shade"));
     backend.failsAtEnd = true;
     EXPECT_THROW(Execution(first, compiled, backend).run(), std::runtime_error);
