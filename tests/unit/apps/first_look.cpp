@@ -10,21 +10,17 @@ namespace {
 
 using engine::Technique;
 
-scenes::Scene wishing(const scenes::SceneOptions& options) {
+scenes::Scene wishing(const std::map<std::string, scenes::Wish>& wishes = {}) {
     scenes::Scene scene;
     scene.cameras.emplace_back().name = "front";
-    scene.options = options;
+    scene.options.wishes.insert(wishes.begin(), wishes.end());
     return scene;
 }
 
 viewer::Preferences remembered() {
     viewer::Preferences preferences;
-    preferences.settings["technique"] = "forward_plus";
-    preferences.settings["layout"] = "slim";
-    preferences.settings["toneMap"] = "agx";
-    preferences.settings["culling"] = "tile_2.5d";
-    preferences.settings["tile"] = "32";
-    preferences.settings["samples"] = "4";
+    preferences.settings = {{"technique", "forward_plus"}, {"layout", "slim"}, {"toneMap", "agx"},
+                            {"culling", "tile_2.5d"},      {"tile", "32"},     {"samples", "4"}};
     return preferences;
 }
 
@@ -35,7 +31,7 @@ frame::GBufferLayout layoutNamed(std::string_view name) {
 }
 
 TEST(FirstLook, preferencesApplyWithoutOptionsOfUserAndScene) {
-    const viewer::Look look = firstLook({}, remembered(), wishing({}), "x.json").look;
+    const viewer::Look look = firstLook({}, remembered(), wishing(), "x.json").look;
     EXPECT_EQ(look.technique, Technique::ForwardPlus);
     EXPECT_EQ(look.settings.layout, layoutNamed("slim"));
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Agx);
@@ -45,11 +41,8 @@ TEST(FirstLook, preferencesApplyWithoutOptionsOfUserAndScene) {
 }
 
 TEST(FirstLook, theScenesOptionsOverridePreferences) {
-    scenes::SceneOptions wish;
-    wish.wishes["technique"] = "forward";
-    wish.wishes["layout"] = "exact";
-    wish.wishes["toneMap"] = "aces";
-    const viewer::Look look = firstLook({}, remembered(), wishing(wish), "x.json").look;
+    const scenes::Scene scene = wishing({{"technique", "forward"}, {"layout", "exact"}, {"toneMap", "aces"}});
+    const viewer::Look look = firstLook({}, remembered(), scene, "x.json").look;
     EXPECT_EQ(look.technique, Technique::Forward);
     EXPECT_EQ(look.settings.layout, layoutNamed("exact"));
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
@@ -59,22 +52,16 @@ TEST(FirstLook, theScenesOptionsOverridePreferences) {
 }
 
 TEST(FirstLook, preferencesOverrideWhatTheSceneWasGivenByDefault) {
-    scenes::SceneOptions wish;
-    wish.wishes["toneMap"] = "khronos_neutral";
-    scenes::Scene scene = wishing(wish);
+    scenes::Scene scene = wishing({{"toneMap", "khronos_neutral"}});
     scene.supplied.wishes = {"toneMap"};
     EXPECT_EQ(firstLook({}, remembered(), scene, "x.glb").look.settings.toneMap, frame::ToneMap::Agx);
     EXPECT_EQ(firstLook({}, {}, scene, "x.glb").look.settings.toneMap, frame::ToneMap::KhronosNeutral);
 }
 
 TEST(FirstLook, theCommandLineOverridesSceneAndPreferences) {
-    scenes::SceneOptions wish;
-    wish.wishes["technique"] = "forward";
     FrameOptions said;
-    said.settings["technique"] = "deferred";
-    said.settings["toneMap"] = "aces";
-    said.settings["samples"] = "1";
-    const viewer::Look look = firstLook(said, remembered(), wishing(wish), "x.json").look;
+    said.settings = {{"technique", "deferred"}, {"toneMap", "aces"}, {"samples", "1"}};
+    const viewer::Look look = firstLook(said, remembered(), wishing({{"technique", "forward"}}), "x.json").look;
     EXPECT_EQ(look.technique, Technique::Deferred);
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
     EXPECT_EQ(look.settings.samples, 1);
@@ -83,24 +70,19 @@ TEST(FirstLook, theCommandLineOverridesSceneAndPreferences) {
 
 TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAsIfNothingWere) {
     viewer::Preferences preferences;
-    preferences.settings["technique"] = "raster_of_old";
-    preferences.settings["tile"] = "7";
-    preferences.settings["samples"] = "3";
-    preferences.settings["toneMap"] = "agx";
-    const viewer::Look look = firstLook({}, preferences, wishing({}), "x.json").look;
-    viewer::Look expected = firstLook({}, {}, wishing({}), "x.json").look;
+    preferences.settings = {{"technique", "raster_of_old"}, {"tile", "7"}, {"samples", "3"}, {"toneMap", "agx"}};
+    const viewer::Look look = firstLook({}, preferences, wishing(), "x.json").look;
+    viewer::Look expected = firstLook({}, {}, wishing(), "x.json").look;
     expected.settings.toneMap = frame::ToneMap::Agx;
     EXPECT_EQ(look, expected);
 }
 
 TEST(FirstLook, optionsThatNameThingsOfTheFirstSceneDoNotApplyToAnother) {
     FrameOptions said;
-    said.settings["camera"] = "side";
-    said.settings["solo"] = "3";
+    said.settings = {{"camera", "side"}, {"solo", "3"}, {"technique", "forward"}};
     said.pose.fovYDegrees = 30.0;
-    said.settings["technique"] = "forward";
-    EXPECT_THROW(firstLook(said, {}, wishing({}), "x.json"), InputError);
-    const viewer::FirstLook first = firstLook(forAnyScene(said), {}, wishing({}), "x.json");
+    EXPECT_THROW(firstLook(said, {}, wishing(), "x.json"), InputError);
+    const viewer::FirstLook first = firstLook(forAnyScene(said), {}, wishing(), "x.json");
     EXPECT_EQ(first.look.technique, Technique::Forward);
     EXPECT_EQ(first.look.settings.camera, 0);
     EXPECT_FALSE(first.look.settings.soloLight);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/FileSizeLimit.h"
 #include "tests/support/TempFolder.h"
 
@@ -95,22 +96,15 @@ TEST_F(FrameJournals, aShardAppendsToItsOwnAndReadsThoseOfAll) {
 TEST_F(FrameJournals, aJournalThatCannotBeWrittenIsAnError) {
     folder_.write("f_frames.png.txt", std::string(999, ' ') + "\n");
     const test::FileSizeLimit fullDisk(1000);
-    try {
-        FrameJournal(pattern(), {}).add(path(1), kSettings, {});
-        FAIL() << "it was not refused";
-    } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("f_frames.png.txt: File too large"));
-    }
+    EXPECT_THAT(
+        test::errorText<std::runtime_error>([this] { FrameJournal(pattern(), {}).add(path(1), kSettings, {}); }),
+        testing::HasSubstr("f_frames.png.txt: File too large"));
 }
 
 TEST_F(FrameJournals, whatIsNoRegularFileIsNoJournal) {
     std::filesystem::create_symlink("/dev/full", folder_.path() / "f_frames.png.txt");
-    try {
-        finish(1, "one");
-        FAIL() << "it was not refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("f_frames.png.txt: is no file that can record"));
-    }
+    EXPECT_THAT(test::errorText<InputError>([this] { finish(1, "one"); }),
+                testing::HasSubstr("f_frames.png.txt: is no file that can record"));
 }
 
 } // namespace

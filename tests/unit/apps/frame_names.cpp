@@ -1,4 +1,3 @@
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "apps/FrameRange.h"
 #include "apps/Shard.h"
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 
 namespace tessera::app {
 namespace {
@@ -16,13 +16,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string wordsOfRefusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+std::string wordsOfRefusal(const auto& action) {
+    return test::errorText<InputError>(action);
 }
 
 std::vector<int> framesOf(const std::string& text) {
@@ -77,14 +72,15 @@ TEST(FrameRange, whatIsNoRangeIsRefused) {
     for (const char* text : {"", "x", "1.5", ":", "1:", ":3", "1:2:", "1:2:3:4", "1-3", " 3", "3 ", "99999999999"})
         EXPECT_THAT(wordsOfRefusal([&] { frameRangeNamed(text); }),
                     HasSubstr("--frames '" + std::string(text) + "' is not a whole number"));
-    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("0"); }),
-                HasSubstr("--frames 0 is less than one picture; give 1 or more"));
-    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("2147483648"); }), HasSubstr("no number is above 2147483647"));
-    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("-1:2"); }), HasSubstr("--frames -1:2: frames are counted from 0"));
-    EXPECT_THAT(wordsOfRefusal([] { frameRangeNamed("5:4"); }), HasSubstr("--frames 5:4 ends before it begins"));
-    for (const char* text : {"0:4:0", "0:4:-1"})
-        EXPECT_THAT(wordsOfRefusal([&] { frameRangeNamed(text); }),
-                    HasSubstr("the step is less than 1; give 1 or more"));
+    const std::pair<const char*, const char*> kRefused[] = {
+        {"0", "--frames 0 is less than one picture; give 1 or more"},
+        {"2147483648", "no number is above 2147483647"},
+        {"-1:2", "--frames -1:2: frames are counted from 0"},
+        {"5:4", "--frames 5:4 ends before it begins"},
+        {"0:4:0", "the step is less than 1; give 1 or more"},
+        {"0:4:-1", "the step is less than 1; give 1 or more"}};
+    for (const auto& [text, why] : kRefused)
+        EXPECT_THAT(wordsOfRefusal([text = text] { frameRangeNamed(text); }), HasSubstr(why));
 }
 
 TEST(Shard, everyPieceBelongsToExactlyOne) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::app {
@@ -13,13 +14,8 @@ namespace {
 
 using tessera::test::TempFolder;
 
-std::string refusal(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
+std::string refusal(const auto& action) {
+    return test::errorText<std::exception>(action);
 }
 
 TEST(Outputs, anInputIsNoOutputInEitherOrder) {

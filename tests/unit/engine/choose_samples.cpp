@@ -6,19 +6,15 @@
 #include "engine/Renderer.h"
 #include "engine/Settings.h"
 #include "scenes/Load.h"
+#include "tests/support/ErrorText.h"
 
 namespace tessera::engine {
 namespace {
 
 using testing::HasSubstr;
 
-std::string faultOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+std::string faultOf(const auto& work) {
+    return test::errorText<InputError>(work);
 }
 
 frame::FrameSettings asking(int samples) {
@@ -38,11 +34,8 @@ gpu::Capabilities giving(const std::vector<std::size_t>& samples) {
 TEST(ChooseSamples, aTechniqueWithAGBufferIsRefusedWithTheNamesOfThoseThatCan) {
     for (const TechniqueInfo& info : techniqueTable()) {
         EXPECT_NO_THROW(requireTaken({info.technique, asking(1)}));
-        EXPECT_EQ(faultOf([&] {
-                      requireTaken({info.technique, asking(4)});
-                  }).empty(),
-                  info.multisamples())
-            << info.name;
+        const ViewRequest request{info.technique, asking(4)};
+        EXPECT_EQ(faultOf([&] { requireTaken(request); }).empty(), info.multisamples()) << info.name;
         EXPECT_FALSE(info.multisamples() && info.usesGBuffer()) << info.name;
     }
     EXPECT_THAT(faultOf([] {
@@ -92,11 +85,10 @@ TEST(ChooseSamples, aDriverGivesItsNextLargerNumberAndThePlanSaysBoth) {
 
     const scenes::Scene room = scenes::loadScene("room");
     const graph::Plan plan = planFrame(room, Technique::ForwardPrepass, settingsOn(fours, asking(2)));
-    std::string chosen, why;
-    for (const graph::Plan::Choice& choice : plan.choices)
-        if (choice.what == "samples") chosen = choice.chosen, why = choice.why;
-    EXPECT_EQ(chosen, "4");
-    EXPECT_EQ(why, "the setting samples is 2; the driver's next larger number");
+    const auto choice = std::ranges::find(plan.choices, "samples", &graph::Plan::Choice::what);
+    ASSERT_NE(choice, plan.choices.end());
+    EXPECT_EQ(choice->chosen, "4");
+    EXPECT_EQ(choice->why, "the setting samples is 2; the driver's next larger number");
     for (const graph::Plan::Resource& resource : plan.resources) {
         const bool drawn = resource.name == "depth" || resource.name == "radiance";
         EXPECT_EQ(resource.samples, drawn ? 4 : 1) << resource.name;

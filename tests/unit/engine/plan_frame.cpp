@@ -10,9 +10,23 @@
 #include "engine/Renderer.h"
 #include "renderer/frame/RefineLayout.h"
 #include "scenes/Load.h"
+#include "tests/support/ErrorText.h"
 
 namespace tessera::engine {
 namespace {
+
+/// The plan's choice of a name; empty where there is none.
+graph::Plan::Choice choiceOf(const graph::Plan& plan, std::string_view what) {
+    const auto found = std::ranges::find(plan.choices, what, &graph::Plan::Choice::what);
+    return found == plan.choices.end() ? graph::Plan::Choice() : *found;
+}
+
+std::uint64_t counterOf(const graph::Plan& plan, std::string_view name) {
+    const auto found =
+        std::ranges::find(plan.counters, name, [](const auto& counter) { return std::string_view(counter.first); });
+    EXPECT_NE(found, plan.counters.end()) << name;
+    return found == plan.counters.end() ? 0 : found->second;
+}
 
 /// What the plan says of channels that are not stored as the layout says.
 std::vector<graph::Plan::Choice> channelChoices(const scenes::Scene& scene, const frame::GBufferLayout& layout) {
@@ -52,10 +66,7 @@ TEST(PlanFrame, aLightThatIsLeftOutSavesJustTheBytesThatALightTakes) {
         const graph::Plan plan = planFrame(scene, Technique::Forward, {});
         const auto left = std::ranges::find(plan.leftOut, "2 lights", &graph::Plan::LeftOut::what);
         ASSERT_NE(left, plan.leftOut.end());
-        const auto isLightBytes = [](const auto& counter) { return counter.first == "lightBytes"; };
-        const auto taken = std::ranges::find_if(plan.counters, isLightBytes);
-        ASSERT_NE(taken, plan.counters.end());
-        EXPECT_EQ(left->bytes, 2 * taken->second);
+        EXPECT_EQ(left->bytes, 2 * counterOf(plan, "lightBytes"));
     }
 }
 
@@ -64,9 +75,7 @@ TEST(PlanFrame, aChoiceThatASettingMadeNamesTheSettingAndItsDefaultGivesAReason)
     const auto whyTile = [&](std::optional<int> tilePixels) {
         frame::FrameSettings settings;
         settings.culling.tilePixels = tilePixels;
-        const graph::Plan plan = planFrame(scene, Technique::ForwardPlus, settings);
-        const auto tile = std::ranges::find(plan.choices, "tile", &graph::Plan::Choice::what);
-        return tile == plan.choices.end() ? "" : tile->why;
+        return choiceOf(planFrame(scene, Technique::ForwardPlus, settings), "tile").why;
     };
     EXPECT_EQ(whyTile(32), "chosen by the setting tile; automatic restores the default");
     EXPECT_THAT(whyTile({}), testing::HasSubstr("fastest"));
@@ -100,9 +109,7 @@ TEST(PlanFrame, texturesThatADriverHasNoRoomForAreNamedWithTheReason) {
     }
     if (scene.images.empty()) scene.images.push_back({"texel", {}, 1, 1, std::vector<std::byte>(4)});
     const auto told = [&](const frame::FrameSettings& settings) {
-        const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
-        const auto found = std::ranges::find(plan.choices, "textures", &graph::Plan::Choice::what);
-        return found == plan.choices.end() ? "" : found->why;
+        return choiceOf(planFrame(scene, Technique::Deferred, settings), "textures").why;
     };
     frame::FrameSettings settings;
     EXPECT_EQ(told(settings), "");
@@ -161,9 +168,7 @@ TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
     frame::FrameSettings settings;
     settings.diffusion.sideTexels = 128;
     const auto told = [&](const char* scene) {
-        const graph::Plan plan = planFrame(scenes::loadScene(scene), Technique::Deferred, settings);
-        const auto found = std::ranges::find(plan.choices, "spread light", &graph::Plan::Choice::what);
-        return found == plan.choices.end() ? graph::Plan::Choice() : *found;
+        return choiceOf(planFrame(scenes::loadScene(scene), Technique::Deferred, settings), "spread light");
     };
     const graph::Plan::Choice choice = told("diffusion_truth");
     // Two cells side by side with a row above, and of each two textures, of 16 bytes a texel.
@@ -174,19 +179,14 @@ TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
 
 TEST(PlanFrame, lightThatIsNarrowerThanATexelIsToldWithTheUnitOfTheModel) {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    const auto told = [&] {
-        const graph::Plan plan = planFrame(scene, Technique::Deferred, {});
-        const auto found = std::ranges::find(plan.choices, "width of spread light", &graph::Plan::Choice::what);
-        return found == plan.choices.end() ? std::string() : found->why;
-    };
+    const auto told = [&] { return choiceOf(planFrame(scene, Technique::Deferred, {}), "width of spread light").why; };
     EXPECT_EQ(told(), "") << "a texel is 0.04 mm";
     for (scenes::Material& material : scene.materials) material.subsurface.scaleMetres = 1e3f;
     const std::string why = told();
-    EXPECT_THAT(why, testing::HasSubstr("light does not spread over mesh '"));
-    EXPECT_THAT(why, testing::HasSubstr("(material 'skin')"));
-    EXPECT_THAT(why, testing::HasSubstr("its widest Gaussian is 2.72 mm, and a texel of its atlas"));
-    EXPECT_THAT(why, testing::HasSubstr("scaleMetres"));
-    EXPECT_THAT(why, testing::HasSubstr("nor over 1 other object"));
+    for (const char* part :
+         {"light does not spread over mesh '", "(material 'skin')",
+          "its widest Gaussian is 2.72 mm, and a texel of its atlas", "scaleMetres", "nor over 1 other object"})
+        EXPECT_THAT(why, testing::HasSubstr(part));
     for (scenes::Material& material : scene.materials) material.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
     EXPECT_EQ(told(), "");
 }
@@ -196,9 +196,7 @@ TEST(PlanFrame, samplesOfAreaLightsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     const auto told = [&](int samples) {
         frame::FrameSettings settings;
         settings.area = {frame::AreaLights::Sampled, samples};
-        const graph::Plan plan = planFrame(scene, Technique::Forward, settings);
-        const auto found = std::ranges::find(plan.choices, "loops of lights", &graph::Plan::Choice::what);
-        return found == plan.choices.end() ? std::string() : found->why;
+        return choiceOf(planFrame(scene, Technique::Forward, settings), "loops of lights").why;
     };
     EXPECT_EQ(told(16), "");
     EXPECT_THAT(told(256), testing::HasSubstr("which gives NaN; give fewer --area-samples"));
@@ -207,34 +205,31 @@ TEST(PlanFrame, samplesOfAreaLightsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
 TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     frame::FrameSettings settings;
     const auto told = [&](const scenes::Scene& scene) {
-        const graph::Plan plan = planFrame(scene, Technique::Deferred, settings);
-        const auto found = std::ranges::find(plan.choices, "loops of lights", &graph::Plan::Choice::what);
-        return found == plan.choices.end() ? std::pair<std::string, std::string>()
-                                           : std::pair(found->chosen, found->why);
+        return choiceOf(planFrame(scene, Technique::Deferred, settings), "loops of lights");
     };
     // 64 lights of two times 1024 texels, a face and themselves; 82 for lights without shadows: lists of two words.
     settings.shadowFilter = frame::ShadowFilter::Pcss;
     settings.shadowSamples = 1024;
-    EXPECT_EQ(told(softLights(64)),
-              std::pair(std::string("up to 131316 iterations"),
-                        std::string("shadows of 64 lights take up to 131316 iterations of a shader's loops where all "
-                                    "reach a pixel, and Mesa ends those after 65535, which gives NaN; give fewer "
-                                    "--shadow-samples or shadows to fewer lights (--shadows N)")));
+    EXPECT_EQ(told(softLights(64)).chosen, "up to 131316 iterations");
+    EXPECT_EQ(told(softLights(64)).why,
+              "shadows of 64 lights take up to 131316 iterations of a shader's loops where all reach a pixel, and Mesa "
+              "ends those after 65535, which gives NaN; give fewer --shadow-samples or shadows to fewer lights "
+              "(--shadows N)");
     settings.softwareBackend = false;
-    EXPECT_EQ(told(softLights(64)).first, "");
+    EXPECT_EQ(told(softLights(64)).chosen, "");
     settings.softwareBackend = true;
     settings.view = frame::DebugView::Normal;
-    EXPECT_EQ(told(softLights(64)).first, "");
+    EXPECT_EQ(told(softLights(64)).chosen, "");
     settings.view = frame::DebugView::Final;
     settings.shadowSamples = 16;
-    EXPECT_EQ(told(softLights(64)).first, "");
+    EXPECT_EQ(told(softLights(64)).chosen, "");
     settings.shadowFilter = frame::ShadowFilter::Traced;
     settings.shadowSamples = 1024;
-    EXPECT_THAT(told(softLights(64)).second, testing::HasSubstr("give fewer --shadow-samples or"));
+    EXPECT_THAT(told(softLights(64)).why, testing::HasSubstr("give fewer --shadow-samples or"));
     settings.shadowFilter = frame::ShadowFilter::Pcf;
-    EXPECT_EQ(told(softLights(1000)).first, "") << "21 iterations a light with 3 texels";
+    EXPECT_EQ(told(softLights(1000)).chosen, "") << "21 iterations a light with 3 texels";
     settings.shadowMaps.widthTexels = 7;
-    EXPECT_THAT(told(softLights(1000)).second, testing::HasSubstr("give a smaller --shadow-width or"));
+    EXPECT_THAT(told(softLights(1000)).why, testing::HasSubstr("give a smaller --shadow-width or"));
     // The object that light spreads over has lights of its own.
     frame::PreparedView whole;
     whole.spreadingViews = {prepareView(softLights(1000), Technique::Deferred, settings)};
@@ -245,9 +240,9 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     // Cascades count each.
     scenes::Scene suns = softLights(300);
     for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;
-    EXPECT_NE(told(suns).first, "");
+    EXPECT_NE(told(suns).chosen, "");
     settings.shadowMaps.cascades = 1;
-    EXPECT_EQ(told(suns).first, "");
+    EXPECT_EQ(told(suns).chosen, "");
 }
 
 TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
@@ -323,10 +318,7 @@ TEST(PlanFrame, aPlanWithPassesOfAnApplicationTellsWhatTheyStoreAndWhichAreLeftO
         return opaque.radiance;
     };
     const graph::Plan plan = planViews(scene, {&view, 1}, {true, add});
-    const auto bytes = std::ranges::find(plan.counters, std::string("gbufferBytesPerPixel"),
-                                         &std::pair<std::string, std::uint64_t>::first);
-    ASSERT_NE(bytes, plan.counters.end());
-    EXPECT_GT(bytes->second, 0u);
+    EXPECT_GT(counterOf(plan, "gbufferBytesPerPixel"), 0u);
     EXPECT_THAT(plan.leftOut,
                 testing::Contains(testing::Field(&graph::Plan::LeftOut::what, testing::HasSubstr("nobody_reads_it"))));
 }
@@ -351,12 +343,8 @@ TEST(PlanFrame, viewsThatCannotBeOneFrameAreAlwaysRefused) {
     const scenes::Scene scene = scenes::loadScene("room");
     std::vector<ViewRequest> views(2);
     views[1].settings.prune = false;
-    try {
-        planViews(scene, views);
-        FAIL() << "one view of the frame is pruned, the other is not";
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "views of a frame have prune on and prune off; give all of them the same");
-    }
+    EXPECT_EQ(test::errorText<InputError>([&] { planViews(scene, views); }),
+              "views of a frame have prune on and prune off; give all of them the same");
     views[1] = views[0];
     views[1].settings.filter = frame::TextureFilter::Exact;
     EXPECT_THROW(planViews(scene, views), InputError);

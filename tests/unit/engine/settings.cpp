@@ -8,6 +8,7 @@
 #include "scenes/Fingerprint.h"
 #include "scenes/Load.h"
 #include "scenes/write/SceneText.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/SettingTexts.h"
 #include "tests/support/TempFolder.h"
 
@@ -19,13 +20,8 @@ using test::sceneOfTwoCameras;
 using test::textsOf;
 using testing::HasSubstr;
 
-std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+std::string refusal(const auto& work) {
+    return test::errorText<InputError>(work);
 }
 
 /// In which members two requests differ: first those that users set, then those that they do not. A struct with a new

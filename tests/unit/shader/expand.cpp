@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "renderer/shader/Preprocess.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/TempFolder.h"
 
 namespace tessera::shader {
@@ -17,13 +18,19 @@ protected:
     ExpandedSource expanded(const std::string& entry, const Defines& defines = {}) {
         return expand(SourceTree(folder.path()), entry, defines);
     }
-    std::string fault(const std::string& entry) {
-        try {
-            expanded(entry);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no InputError";
+    std::string fault(const std::string& entry, const Defines& defines = {}) {
+        return test::errorText<InputError>([&] { expanded(entry, defines); });
+    }
+    /// The expansion of main.frag with this text.
+    ExpandedSource ofMain(const std::string& text, const Defines& defines = {}) {
+        folder.write("main.frag", text);
+        return expanded("main.frag", defines);
+    }
+    /// An entry that calls a hook, whose file has this text.
+    std::string writeHooked(const std::string& hook) {
+        folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
+        folder.write("lib/material/hook_interface.glsl", "\n");
+        return folder.write("tint.glsl", hook).string();
     }
     test::TempFolder folder;
 };
@@ -35,8 +42,7 @@ std::size_t count(const std::string& text, std::string_view piece) {
 }
 
 TEST_F(Expand, versionAndDefinesComeFirst) {
-    folder.write("main.frag", "void main() {}\n");
-    EXPECT_EQ(expanded("main.frag", {{"TILE", "16"}, {"SHADOWS", ""}}).text,
+    EXPECT_EQ(ofMain("void main() {}\n", {{"TILE", "16"}, {"SHADOWS", ""}}).text,
               "#version 450 core\n#define TILE 16\n#define SHADOWS\n#line 1 0\nvoid main() {}\n");
 }
 
@@ -49,17 +55,16 @@ TEST_F(Expand, anIncludeIsFramedByLineDirectives) {
 }
 
 TEST_F(Expand, aFileBesideTheIncludingOneIsFound) {
-    folder.write("main.frag", "#include \"lib/a.glsl\"\n");
     folder.write("lib/a.glsl", "#include \"b.glsl\"\n#include \"../shared/c.h\"\n");
     folder.write("lib/b.glsl", "float b;\n");
     folder.write("shared/c.h", "float c;\n");
-    EXPECT_THAT(expanded("main.frag").files, ElementsAre("main.frag", "lib/a.glsl", "lib/b.glsl", "shared/c.h"));
+    EXPECT_THAT(ofMain("#include \"lib/a.glsl\"\n").files,
+                ElementsAre("main.frag", "lib/a.glsl", "lib/b.glsl", "shared/c.h"));
 }
 
 TEST_F(Expand, aPathAsCppSeesItMeansTheSameFile) {
-    folder.write("main.frag", "#include \"shared/a.h\"\n#include \"shaders/shared/a.h\"\n");
     folder.write("shared/a.h", "#pragma once\nfloat a;\n");
-    EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
+    EXPECT_EQ(count(ofMain("#include \"shared/a.h\"\n#include \"shaders/shared/a.h\"\n").text, "float a;"), 1u);
 }
 
 TEST_F(Expand, aPathOutOfTheTreeIsNotFollowed) {
@@ -69,16 +74,15 @@ TEST_F(Expand, aPathOutOfTheTreeIsNotFollowed) {
 }
 
 TEST_F(Expand, aFileWithPragmaOnceIsExpandedExactlyOnce) {
-    folder.write("main.frag", "#include \"a.glsl\"\n#include \"b.glsl\"\n#include \"a.glsl\"\n");
     folder.write("a.glsl", "#pragma once\nfloat a;\n");
     folder.write("b.glsl", "#include \"a.glsl\"\nfloat b;\n");
-    EXPECT_EQ(count(expanded("main.frag").text, "float a;"), 1u);
+    const std::string text = ofMain("#include \"a.glsl\"\n#include \"b.glsl\"\n#include \"a.glsl\"\n").text;
+    EXPECT_EQ(count(text, "float a;"), 1u);
 }
 
 TEST_F(Expand, aFileWithoutPragmaOnceIsExpandedAgain) {
-    folder.write("main.frag", "#include \"a.glsl\"\n#include \"a.glsl\"\n");
     folder.write("a.glsl", "X\n");
-    EXPECT_EQ(count(expanded("main.frag").text, "X\n"), 2u);
+    EXPECT_EQ(count(ofMain("#include \"a.glsl\"\n#include \"a.glsl\"\n").text, "X\n"), 2u);
 }
 
 TEST_F(Expand, anIncludeInAConditionalNeverSwallowsALaterOne) {
@@ -117,8 +121,7 @@ TEST_F(Expand, otherPreprocessorLinesPassThrough) {
     const std::string lines =
         "#extension GL_ARB_x : enable\n#if A && \\\n    B\n#define F(x) \\\n  (x)\n#elif C\n#endif\n"
         "#pragma optimize(on)\n#undef F\n";
-    folder.write("main.frag", lines);
-    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n" + lines);
+    EXPECT_EQ(ofMain(lines).text, "#version 450 core\n#line 1 0\n" + lines);
 }
 
 TEST_F(Expand, aMissingIncludeIsNamedWithItsPlace) {
@@ -154,8 +157,7 @@ TEST_F(Expand, aMalformedIncludeIsRefused) {
 }
 
 TEST_F(Expand, anotherVersionIsRefused) {
-    folder.write("main.frag", "#version 450 core\nfloat a;\n");
-    EXPECT_EQ(expanded("main.frag").text, "#version 450 core\n#line 1 0\n\nfloat a;\n");
+    EXPECT_EQ(ofMain("#version 450 core\nfloat a;\n").text, "#version 450 core\n#line 1 0\n\nfloat a;\n");
     folder.write("main.frag", "#version 330\n");
     EXPECT_THAT(fault("main.frag"), HasSubstr("shaders/main.frag:1: every shader is '#version 450 core'"));
 }
@@ -168,12 +170,8 @@ TEST_F(Expand, windowsLineEndsNeverReachTheDriver) {
 }
 
 TEST(SourceTree, aMissingFolderIsNamed) {
-    try {
-        SourceTree("no/such/folder");
-        FAIL() << "expected an InputError";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("no/such/folder: no such shader folder"));
-    }
+    EXPECT_THAT(test::errorText<InputError>([] { SourceTree("no/such/folder"); }),
+                HasSubstr("no/such/folder: no such shader folder"));
 }
 
 TEST(SourceTree, embeddedFilesAreNotReadFromDisk) {
@@ -206,9 +204,7 @@ TEST_F(Expand, aHookStandsBehindAllElseWithItsBlockAndOnlyWhereItIsCalled) {
 }
 
 TEST_F(Expand, aHookIsPreparedBeforeAProgramTakesItOrRefused) {
-    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
-    folder.write("lib/material/hook_interface.glsl", "\n");
-    const std::string hook = folder.write("tint.glsl", "void hookSurface()\r\n{}").string();
+    const std::string hook = writeHooked("void hookSurface()\r\n{}");
     SourceTree tree(folder.path());
     tree.prepareHooks([](const std::string&, std::string_view) { return std::string("prepared"); });
     EXPECT_THAT(expand(tree, "main.frag", {{"HOOK_FILE", hook}}).text, HasSubstr("prepared#endif"));
@@ -216,26 +212,18 @@ TEST_F(Expand, aHookIsPreparedBeforeAProgramTakesItOrRefused) {
         EXPECT_EQ(seen, "void hookSurface()\n{}\n");
         throw InputError(file + ": not this one");
     });
-    try {
-        expand(tree, "main.frag", {{"HOOK_FILE", hook}});
-        FAIL() << "expected an InputError";
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.what(), hook + ": not this one");
-    }
+    EXPECT_EQ(test::errorText<InputError>([&] {
+                  expand(tree, "main.frag", {{"HOOK_FILE", hook}});
+              }),
+              hook + ": not this one");
     EXPECT_NO_THROW(expand(tree, "main.frag", {}));
 }
 
 TEST_F(Expand, aHookThatIsNotThereIsNamed) {
-    folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
-    folder.write("lib/material/hook_interface.glsl", "\n");
-    const std::string missing = (folder.path() / "gone.glsl").string();
-    try {
-        expanded("main.frag", {{"HOOK_FILE", missing}});
-        FAIL() << "expected an InputError";
-    } catch (const InputError& error) {
-        EXPECT_EQ(error.what(),
-                  missing + ": the scene's hook is not there any more; bring it back, or load the scene again");
-    }
+    const std::string missing = writeHooked("");
+    std::filesystem::remove(missing);
+    EXPECT_EQ(fault("main.frag", {{"HOOK_FILE", missing}}),
+              missing + ": the scene's hook is not there any more; bring it back, or load the scene again");
 }
 
 } // namespace

@@ -28,21 +28,33 @@
 namespace tessera {
 namespace {
 
+using Programs = std::map<std::string, shader::ProgramDesc>; ///< by their keys
+
+void add(Programs& programs, const shader::ProgramDesc& desc) {
+    programs.emplace(desc.key(), desc);
+}
+void addFrame(Programs& programs, const scenes::Scene& scene, engine::Technique technique,
+              const frame::FrameSettings& settings) {
+    for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings)) add(programs, desc);
+}
+
+frame::FrameSettings smallFrame() {
+    frame::FrameSettings settings;
+    settings.sizePixels = {64, 36};
+    return settings;
+}
+
 /// The settings whose programs differ: layouts x views, and each switch that a shader knows.
 std::vector<frame::FrameSettings> settingsThatMatter() {
     std::vector<frame::FrameSettings> all;
     for (const frame::LayoutInfo& layout : frame::layoutTable()) {
-        for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
-            frame::FrameSettings settings;
-            settings.sizePixels = {64, 36};
-            settings.layout = layout.layout;
-            settings.view = view.view;
-            settings.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
-            all.push_back(settings);
-        }
-        frame::FrameSettings settings;
-        settings.sizePixels = {64, 36};
+        frame::FrameSettings settings = smallFrame();
         settings.layout = layout.layout;
+        for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
+            frame::FrameSettings& ofView = all.emplace_back(settings);
+            ofView.view = view.view;
+            ofView.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
+        }
         settings.prune = false;
         all.push_back(settings);
         settings.filter = frame::TextureFilter::Exact;
@@ -53,30 +65,22 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
         settings.specular = false;
         all.push_back(settings);
     }
-    frame::FrameSettings several;
-    several.sizePixels = {64, 36};
+    frame::FrameSettings several = smallFrame();
     several.samples = 4;
     all.push_back(several);
-    for (const frame::RefractionInfo& info : frame::refractionTable()) {
-        frame::FrameSettings bent;
-        bent.sizePixels = {64, 36};
-        bent.refraction = info.refraction;
-        all.push_back(bent);
-    }
+    for (const frame::RefractionInfo& info : frame::refractionTable())
+        all.emplace_back(smallFrame()).refraction = info.refraction;
     several.prune = false;
     all.push_back(several);
     return all;
 }
 
 /// Those that the measured lower bound of a frame would use.
-void addLowerBoundPrograms(std::map<std::string, shader::ProgramDesc>& programs, const frame::FrameSpec& spec) {
-    const shader::ProgramDesc geometry = validation::LowerBoundGeometry::program(spec);
-    programs.emplace(geometry.key(), geometry);
+void addLowerBoundPrograms(Programs& programs, const frame::FrameSpec& spec) {
+    add(programs, validation::LowerBoundGeometry::program(spec));
     if (!spec.features.litModels()) return;
-    for (const validation::LightStoreInfo& store : validation::lightStoreTable()) {
-        const shader::ProgramDesc lighting = validation::LowerBoundLighting::program(spec, store);
-        programs.emplace(lighting.key(), lighting);
-    }
+    for (const validation::LightStoreInfo& store : validation::lightStoreTable())
+        add(programs, validation::LowerBoundLighting::program(spec, store));
 }
 
 /// Those of light culling by every method and builder, and of lighting in compute shaders.
@@ -86,8 +90,7 @@ std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndS
         int lanes;
     };
     std::vector<std::pair<engine::Technique, frame::FrameSettings>> all;
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
+    frame::FrameSettings settings = smallFrame();
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         if (engine::infoOf(technique.technique).choosesStage) settings.lightOn = frame::LightingStage::Compute;
         for (const culling::Method method : technique.methods) {
@@ -106,27 +109,24 @@ std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndS
 
 /// Adds the variants that frames of the scene would use, by their key; or, unless the sweep is whole, in each third of
 /// the settings, those whose turn it is.
-void addPrograms(std::map<std::string, shader::ProgramDesc>& programs, const scenes::Scene& scene, std::size_t turn) {
+void addPrograms(Programs& programs, const scenes::Scene& scene, std::size_t turn) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
         if (!test::isWholeSweep() && turn++ % 3 != 0) continue;
         if (settings.view == frame::DebugView::Final && settings.samples == 1)
             addLowerBoundPrograms(programs, engine::prepareView(scene, engine::Technique::Forward, settings).spec);
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (!engine::takesSamples(technique, settings.samples)) continue;
-            if (!engine::takesView(technique, settings.view)) continue;
-            for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique.technique, settings))
-                programs.emplace(desc.key(), desc);
+            if (engine::takesSamples(technique, settings.samples) && engine::takesView(technique, settings.view))
+                addFrame(programs, scene, technique.technique, settings);
         }
     }
     for (const auto& [technique, settings] : listBuildersAndStages()) {
         if (!test::isWholeSweep() && turn++ % 3 != 0) continue;
-        for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings))
-            programs.emplace(desc.key(), desc);
+        addFrame(programs, scene, technique, settings);
     }
 }
 
 /// Those of a light whose surface is seen, which no built-in scene has.
-void addSeenLightPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
+void addSeenLightPrograms(Programs& programs) {
     scenes::Scene scene = test::evenScene();
     const glm::dmat4& eye = scene.cameras[0].worldFromCamera;
     scenes::Light& light = scene.lights.emplace_back();
@@ -135,11 +135,10 @@ void addSeenLightPrograms(std::map<std::string, shader::ProgramDesc>& programs) 
     light.positionWS = glm::dvec3(eye[3] - 2.0 * eye[2]);
     bool isThere = false;
     for (const int samples : {1, 4}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {64, 36};
+        frame::FrameSettings settings = smallFrame();
         settings.samples = samples;
         for (const shader::ProgramDesc& desc : engine::framePrograms(scene, engine::Technique::Forward, settings)) {
-            programs.emplace(desc.key(), desc);
+            add(programs, desc);
             isThere = isThere || desc.name == "seen_lights";
         }
     }
@@ -147,40 +146,37 @@ void addSeenLightPrograms(std::map<std::string, shader::ProgramDesc>& programs) 
 }
 
 /// Those of a scene with a hook, in every setting that changes what reaches it.
-void addHookedPrograms(std::map<std::string, shader::ProgramDesc>& programs) {
+void addHookedPrograms(Programs& programs) {
     scenes::Scene scene = test::everythingScene();
     scene.hook.emplace().file =
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
     scene.hook->parameters = {{"breathsASecond"}, {"swell"}, {"glow"}};
     scene.hook->movesVertices = true;
     const shader::ProgramDesc asking = engine::hookProgram(engine::kHookSurfaces, *scene.hook);
-    programs.emplace(asking.key(), asking);
     scenes::Hook waving;
     waving.file = std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "flag.glsl";
     waving.parameters = {{"wind"}};
     waving.movesVertices = true;
     const shader::ProgramDesc moving = engine::hookProgram(engine::kHookVertices, waving);
-    programs.emplace(moving.key(), moving);
-    // What tells whether a hook is at fault must never be.
-    for (const shader::ProgramDesc& desc : {shader::withEmptyHook(asking), shader::withEmptyHook(moving)})
-        programs.emplace(desc.key(), desc);
+    for (const shader::ProgramDesc& desc : {asking, moving}) {
+        add(programs, desc);
+        add(programs, shader::withEmptyHook(desc)); // what tells whether a hook is at fault must never be
+    }
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {
-            frame::FrameSettings settings;
-            settings.sizePixels = {64, 36};
+            frame::FrameSettings settings = smallFrame();
             settings.filter = filter;
             settings.view = view;
             settings.shadows.kind = scenes::ShadowRequest::Kind::All;
             for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::Deferred})
-                for (const shader::ProgramDesc& desc : engine::framePrograms(scene, technique, settings))
-                    programs.emplace(desc.key(), desc);
+                addFrame(programs, scene, technique, settings);
         }
     }
 }
 
 /// Of all built-in scenes, or of those for sweeps.
-std::map<std::string, shader::ProgramDesc> requestedPrograms() {
-    std::map<std::string, shader::ProgramDesc> programs;
+Programs requestedPrograms() {
+    Programs programs;
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : test::builtinsForSweep()) {
         scenes::LoadOptions options;
@@ -258,7 +254,7 @@ private:
 
 /// Every program, or every twelfth of those in turn unless the sweep is whole.
 void expectValidPrograms() {
-    const std::map<std::string, shader::ProgramDesc> programs = requestedPrograms();
+    const Programs programs = requestedPrograms();
     ASSERT_FALSE(programs.empty());
     std::vector<const shader::ProgramDesc*> work;
     std::size_t turn = 0;
@@ -296,8 +292,7 @@ TEST(Offline, programsKeepToTheFewestTexturesThatADriverMayOfferAStage) {
     if (scene.images.empty()) scene.images.push_back({"texel", {}, 1, 1, std::vector<std::byte>(4)});
     const ReferenceCompiler compiler;
     for (const bool prune : {true, false}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {64, 36};
+        frame::FrameSettings settings = smallFrame();
         settings.prune = prune;
         settings.shadows.kind = scenes::ShadowRequest::Kind::All;
         settings.texturesAStage = TEXTURE_UNITS_GUARANTEED;
