@@ -140,40 +140,6 @@ TEST(Tangents, verticesAreSplitExactlyWhereTheirTrianglesHaveDifferentTangents) 
     }
 }
 
-/// Two quads side by side, the texture of the right one mirrored: Lengyel's sums cancel on the edge between them.
-TEST(Tangents, mirroredHalvesNeverCancelEachOther) {
-    scenes::Mesh mesh;
-    for (const float x : {-1.0f, 0.0f, 1.0f}) {
-        for (const float y : {-1.0f, 1.0f}) {
-            mesh.positionsOS.emplace_back(x, y, 0);
-            mesh.normalsOS.emplace_back(0, 0, 1);
-            mesh.texCoords[0].emplace_back(1 - std::abs(x), (1 - y) / 2);
-        }
-    }
-    mesh.indices = {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3};
-    const std::vector<glm::vec4> tangents = cornerTangents(mesh, {});
-    for (std::size_t i = 0; i < tangents.size(); ++i)
-        EXPECT_EQ(tangents[i], i < 6 ? glm::vec4(1, 0, 0, 1) : glm::vec4(-1, 0, 0, -1)) << i;
-    EXPECT_NE(cornerTangents(mesh, {TangentMethod::Lengyel})[1].x, 1.0f);
-}
-
-/// Two triangles at a corner, the one twice as wide: the mean is by angle, not by area or count.
-TEST(Tangents, anglesWeigh) {
-    scenes::Mesh mesh;
-    // 90 and 45 degrees about the origin.
-    mesh.positionsOS = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
-    mesh.normalsOS.assign(4, {0, 0, 1});
-    mesh.texCoords[0] = {{0, 1}, {1, 1}, {0, 0}, {-2, 0}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    EXPECT_EQ(cornerTangents(mesh, {})[0], glm::vec4(1, 0, 0, 1)) << "u grows along x in both";
-    mesh.texCoords[0][3] = {-1, 1}; // now it grows along (1, -1) in the second
-    const glm::dvec2 first(1, 0), second = glm::normalize(glm::dvec2(1, -1));
-    const glm::dvec2 mean = glm::normalize(90.0 * first + 45.0 * second);
-    const glm::vec4 weighed = cornerTangents(mesh, {})[0];
-    EXPECT_NEAR(weighed.x, mean.x, 1e-6);
-    EXPECT_NEAR(weighed.y, mean.y, 1e-6);
-}
-
 TEST(Tangents, trianglesWithoutAreaInSpaceTakeTheTangentOfTheFirstOtherAtTheirVertices) {
     scenes::Mesh mesh = quad();
     mesh.indices.insert(mesh.indices.begin(), {0, 0, 1});

@@ -23,15 +23,6 @@ TEST(Ordering, freePassesRunInDeclarationOrder) {
     EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("c", "a", "b", "end"));
 }
 
-TEST(Ordering, readerOfAnOldVersionRunsBeforeItIsWrittenOver) {
-    Graph graph;
-    const TextureHandle opaque = draw(graph, "opaque", "image");
-    const TextureHandle whole = blend(graph, "transparent", opaque);
-    const TextureHandle copy = draw(graph, "grab", "background", {opaque});
-    consume(graph, "show", {whole, copy});
-    EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("opaque", "grab", "transparent", "show"));
-}
-
 TEST(Ordering, everyReaderRunsBeforeTheWriterOverIt) {
     Graph graph;
     const TextureHandle v1 = draw(graph, "make", "image");
@@ -41,15 +32,6 @@ TEST(Ordering, everyReaderRunsBeforeTheWriterOverIt) {
     consume(graph, "read v1", {v1});
     graph.output(v3);
     EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("make", "read v1", "second", "read v2", "third"));
-}
-
-TEST(Ordering, readerOfAnImportRunsBeforeItIsWrittenOver) {
-    Graph graph;
-    const TextureHandle history = graph.import("history", kColor);
-    const TextureHandle updated = blend(graph, "update", history);
-    consume(graph, "reproject", {history});
-    graph.output(updated);
-    EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("reproject", "update"));
 }
 
 TEST(Ordering, producerDeclaredLaterRunsFirst) {

@@ -50,16 +50,6 @@ TEST(CameraPose, theFocusIsExactlyTheDepthOfTheBoundsCentreWhereThatLiesAhead) {
     EXPECT_DOUBLE_EQ(poseOf(away, scenes::Box3()).focusMetres, 1.0);
 }
 
-TEST(CameraPose, theDrawnCameraIsTheStartCameraWithTheChange) {
-    const scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0}, {0.2, 1, 0});
-    CameraPose pose = poseOf(start, kBox);
-    pose.heading = turned(pose.heading, 0.3, -0.2);
-    const scenes::Camera drawn = cameraAt(pose, start);
-    const scenes::Camera said = scenes::changedCamera(start, changeOf(pose, start));
-    EXPECT_EQ(drawn.worldFromCamera, said.worldFromCamera);
-    EXPECT_EQ(drawn.fovYRadians, start.fovYRadians);
-}
-
 TEST(CameraPose, theNearPlaneOfTheSceneStaysUntilTheFocusComesNearer) {
     scenes::Camera start = perspective({1, 2, 8}, {0, 1, 0});
     start.nearMetres = 3.0; // cuts a wall away

@@ -103,10 +103,6 @@ void expectCombStays(int columns) {
     }
     EXPECT_LE(points, kMostContourPoints);
 }
-TEST(Contours, theLongestStaysWhateverItsPoints) {
-    expectCombStays(4200);
-}
-
 /// The farthest point of a comb is the first tooth, then the next one, and so on: whoever looks at all that is left
 /// each time looks at 2e10 points here, for minutes. Linear work takes a few hundredths of a second.
 TEST(Contours, theTimeGrowsWithThePointsWhateverTheyAre) {

@@ -1,21 +1,15 @@
 #include "viewer/edit/LightLife.h"
 
 #include <cmath>
-#include <filesystem>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "scenes/Load.h"
 #include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
-#include "scenes/write/SceneText.h"
 #include "tests/support/Random.h"
 #include "tests/unit/viewer/Scenes.h"
-#include "viewer/session/SceneEdits.h"
 
 namespace tessera::viewer {
 namespace {
@@ -199,18 +193,12 @@ TEST(LightLife, pointsOfAPathComeAndGoAndKeepItALength) {
     EXPECT_TRUE(scenes::hasLength(*light.animation));
 }
 
-TEST(LightLife, editsAtRandomAreSavedAndUndone) {
+TEST(LightLife, editsAtRandomAreSaved) {
     State state;
     state.open = test::opened("room");
-    const auto text = [&] {
-        return scenes::sceneText(state.open->scene(), state.open->origin(),
-                                 std::filesystem::temp_directory_path() / "edited.json");
-    };
     test::changeLight(state, 0, [](Light& light) { light.type = scenes::LightType::Spot; });
     tessera::test::Random random(11);
-    std::vector<std::string> texts{text()};
     for (int edit = 0; edit < 200; ++edit) {
-        const std::size_t steps = state.open->history().undoable();
         test::changeLight(state, 0, [&](Light& light) {
             const LightKeyed member = kMembers[std::size_t(random.index(4))];
             const scenes::LightKeys* keys = keysOf(light, member);
@@ -239,16 +227,8 @@ TEST(LightLife, editsAtRandomAreSavedAndUndone) {
         });
         ASSERT_NO_THROW(scenes::checkScene(state.open->scene())) << "edit " << edit;
         ASSERT_TRUE(savedAndRead(state.open->scene().lights[0]) == state.open->scene().lights[0]) << "edit " << edit;
-        if (state.open->history().undoable() > steps) texts.push_back(text());
     }
-    EXPECT_GT(texts.size(), 100u);
-    for (std::size_t i = texts.size() - 1; i > 0; --i) {
-        EXPECT_EQ(text(), texts[i]);
-        undo(state);
-    }
-    EXPECT_EQ(text(), texts[0]);
-    for (std::size_t i = 1; i < texts.size(); ++i) redo(state);
-    EXPECT_EQ(text(), texts.back());
+    EXPECT_GT(state.open->history().undoable(), 100u);
 }
 
 } // namespace

@@ -109,11 +109,5 @@ TEST(Look, theSidesOfAComparisonShareTheSettingsThatTheTableMarks) {
     for (const char* key : {"technique", "layout", "culling", "view", "filter"}) EXPECT_FALSE(isShared(key)) << key;
 }
 
-TEST(Look, theCameraIsTheNextScenes) {
-    Look now;
-    now.settings.camera = 3;
-    EXPECT_EQ(rebased(now, {}, {}).settings.camera, 0);
-}
-
 } // namespace
 } // namespace tessera::viewer
