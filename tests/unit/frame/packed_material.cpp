@@ -84,25 +84,6 @@ TEST(PackedMaterial, onlyABodyOfWhatTransmitsDisperses) {
     EXPECT_EQ(spread(), 0.0f);
 }
 
-TEST(PackedMaterial, textureCoordinatesAreScaledThenTurnedThenMoved) {
-    Material material;
-    scenes::TextureUse& use = material.texture(TextureSlot::Emissive);
-    use.transform = {.offset = {0.25f, -0.5f}, .scale = {2.0f, 3.0f}, .rotationRadians = 0.7f};
-    const shared::MaterialConstants packed = packMaterial(material);
-    const glm::vec4 row0 = packed.uvRow0[std::size_t(TextureSlot::Emissive)],
-                    row1 = packed.uvRow1[std::size_t(TextureSlot::Emissive)];
-    const double c = std::cos(0.7f), s = std::sin(0.7f);
-    for (const glm::dvec2 uv : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(0.3, 0.9)}) {
-        // KHR_texture_transform with v down: a positive angle turns u towards -v.
-        const glm::dvec2 expected(0.25 + c * 2.0 * uv.x + s * 3.0 * uv.y, -0.5 - s * 2.0 * uv.x + c * 3.0 * uv.y);
-        EXPECT_NEAR(row0.x * uv.x + row0.y * uv.y + row0.z, expected.x, 1e-6); // fp32 rows of order one
-        EXPECT_NEAR(row1.x * uv.x + row1.y * uv.y + row1.z, expected.y, 1e-6);
-    }
-    EXPECT_EQ(glm::vec3(packed.uvRow0[std::size_t(TextureSlot::Normal)]), glm::vec3(1, 0, 0))
-        << "other slots lie as they are";
-    EXPECT_EQ(glm::vec3(packed.uvRow1[std::size_t(TextureSlot::Normal)]), glm::vec3(0, 1, 0));
-}
-
 TEST(PackedMaterial, filtersGoToTheModesOfTheirSlot) {
     using scenes::Filter;
     const auto modes = [](Filter magnification, Filter minification) {

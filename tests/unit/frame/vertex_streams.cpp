@@ -48,18 +48,6 @@ void mapNormals(scenes::Scene& scene) {
     scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
 }
 
-TEST(VertexStreams, meshesLieEndToEnd) {
-    const VertexStreams streams = makeVertexStreams(twoMeshes(), allFeatures());
-    ASSERT_EQ(streams.ranges.size(), 2u);
-    EXPECT_EQ(streams.ranges.at({0, 0}).firstIndex, 0u);
-    EXPECT_EQ(streams.ranges.at({1, 0}).firstIndex, 3u);
-    EXPECT_EQ(streams.ranges.at({1, 0}).indexCount, 3u);
-    EXPECT_EQ(streams.ranges.at({1, 0}).baseVertex, 3);
-    EXPECT_THAT(streams.indices, ElementsAre(0, 1, 2, 2, 1, 0));
-    EXPECT_EQ(streams.positionsOS.size(), 6u);
-    EXPECT_EQ(streams.positionsOS[5], glm::vec3(0, 4, 0));
-}
-
 TEST(VertexStreams, aMeshThatNothingDrawsIsNotThere) {
     scenes::Scene scene = twoMeshes();
     scene.nodes[0].instances.erase(scene.nodes[0].instances.begin());
