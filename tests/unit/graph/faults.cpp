@@ -44,14 +44,6 @@ TEST(Faults, aVersionWithoutAProducerIsReported) {
                             "the frame outputs version 9 of 'image', which no pass produces"));
 }
 
-TEST(Faults, importNeverNeedsAProducer) {
-    Graph graph;
-    const TextureHandle history = graph.import("history", kColor);
-    consume(graph, "show", {history});
-    graph.output(history);
-    EXPECT_THAT(faultsOf(graph), IsEmpty());
-}
-
 TEST(Faults, invalidHandleIsNamedWithItsPass) {
     Graph graph;
     declare(graph, "lighting", [](PassBuilder& builder) {

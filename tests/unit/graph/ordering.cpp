@@ -42,16 +42,6 @@ TEST(Ordering, producerDeclaredLaterRunsFirst) {
     EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("update", "show"));
 }
 
-TEST(Ordering, aPassMayReadItsOwnOutput) {
-    Graph graph;
-    declare(graph, "bin", [](PassBuilder& builder) {
-        const BufferHandle counts = builder.create("counts", kBytes);
-        builder.read(counts, Access::StorageRead);
-        builder.keep();
-    });
-    EXPECT_THAT(orderOf(graph, compile(graph)), ElementsAre("bin"));
-}
-
 TEST(Ordering, versionReadTooLateIsReportedAsACycle) {
     Graph graph;
     const TextureHandle opaque = draw(graph, "opaque", "image");

@@ -100,29 +100,5 @@ TEST(CameraRig, theWheelZoomsWhereOneOrbitsAndSetsTheSpeedWhereOneFlies) {
     EXPECT_DOUBLE_EQ(next.flyMetresPerSecond(), 2.0 * speed);
 }
 
-TEST(CameraRig, startingHereNeverMovesThePivotAndNeverEndsAMovement) {
-    CameraRig rig = rigOf(kStart), other = rigOf(kStart);
-    for (CameraRig* one : {&rig, &other}) {
-        one->pan({300.0, 50.0}, kHeightPixels);
-        one->zoom(0.5, {}, kHeightPixels);
-        one->advance(0.05, kHeightPixels);
-    }
-    const scenes::Camera here = rig.camera();
-    rig.startHere(here);
-    EXPECT_FALSE(rig.isMoved());
-    EXPECT_FALSE(rig.isAtRest());
-    EXPECT_EQ(rig.camera(), here);
-    for (CameraRig* one : {&rig, &other}) {
-        settle(*one);
-        one->rotate({100.0, 30.0}, kHeightPixels);
-        settle(*one);
-    }
-    EXPECT_EQ(rig.pose(), other.pose());
-    EXPECT_EQ(rig.camera(), other.camera());
-    rig.goHome();
-    settle(rig);
-    EXPECT_EQ(rig.camera(), here);
-}
-
 } // namespace
 } // namespace tessera::viewer

@@ -323,21 +323,6 @@ TEST(History, aDragThatGoesOnAfterASaveIsUndoneToWhatWasSaved) {
     EXPECT_TRUE(open->isEdited()) << "the file has what was undone";
 }
 
-TEST(History, stepsToTheSavedSceneAreNoneWhereAnotherEditTookTheirPlace) {
-    const auto open = opened("room");
-    const auto change = [&](float intensity) { test::setIntensity(*open, intensity); };
-    EXPECT_EQ(open->history().stepsToSaved(), 0);
-    change(0.25f);
-    change(0.5f);
-    EXPECT_EQ(open->history().stepsToSaved(), -2);
-    open->becomes("/saved.json");
-    open->undo();
-    EXPECT_EQ(open->history().stepsToSaved(), 1);
-    change(0.75f);
-    EXPECT_EQ(open->history().stepsToSaved(), std::nullopt);
-    EXPECT_TRUE(open->isEdited());
-}
-
 TEST(History, aSaveLeavesJumpsThatLeadWhereTheyLed) {
     const auto open = opened("room");
     test::turnCamera(*open);

@@ -245,6 +245,8 @@ TEST(OpenScene, savingMovesNeitherPictureNorPivotNorMovements) {
     }
     EXPECT_EQ(opened.shown(), other.shown());
     EXPECT_EQ(scenes::changedCamera(saved, opened.open.cameraChange()), opened.shown());
+    opened.goHome();
+    EXPECT_EQ(opened.shown(), saved) << "home is the camera that was saved";
 }
 
 TEST(OpenScene, aDragOfAHooksParameterIsOneStepAndIsUndone) {
