@@ -1,8 +1,11 @@
 #pragma once
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace tessera::test {
 
@@ -47,6 +50,17 @@ inline std::filesystem::path ownModelsFolder() {
 inline std::filesystem::path sweptFolder() {
     const char* named = std::getenv("TESSERA_ASSETS");
     return named != nullptr && *named != '\0' ? std::filesystem::path(named) : ownModelsFolder();
+}
+
+/// The glTF files of a folder and those below it, in order.
+inline std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> models;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (entry.is_regular_file() && (extension == ".gltf" || extension == ".glb")) models.push_back(entry.path());
+    }
+    std::ranges::sort(models);
+    return models;
 }
 
 } // namespace tessera::test

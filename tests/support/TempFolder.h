@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tessera::test {
 
@@ -20,8 +21,8 @@ public:
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
+    TempFolder(TempFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    TempFolder& operator=(TempFolder&&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
     /// Writes a file, with the folders it needs; replaces one that is there. Returns its path.
@@ -33,6 +34,7 @@ public:
         if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
         return file;
     }
+    std::string file(const std::string& name, std::string_view text) const { return write(name, text).string(); }
 
 private:
     std::filesystem::path path_;

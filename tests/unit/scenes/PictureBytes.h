@@ -1,5 +1,6 @@
 #pragma once
 // Pictures as bytes: seeds of the fuzzers' corpus, TIFFs made entry by entry, and what reading them costs.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -39,6 +40,14 @@ inline std::string refusalOf(const std::string& bytes, const std::string& name,
     return inputErrorOf([&] { decoded(bytes, name, limitBytes); });
 }
 
+/// Numbers of texels as the image stores them.
+template <typename T>
+std::vector<T> storedTexels(const Image& image) {
+    std::vector<T> texels(image.texels.size() / sizeof(T));
+    std::memcpy(texels.data(), image.texels.data(), image.texels.size());
+    return texels;
+}
+
 /// A line of /proc/self/status, or 0.
 inline std::uint64_t statusBytes(std::string_view key) {
     std::ifstream status("/proc/self/status");
@@ -71,6 +80,52 @@ inline std::string numberText(std::uint32_t number, int bytes, ByteOrder order) 
     std::string text;
     for (int i = 0; i < bytes; ++i) text += char(number >> (8 * (order == ByteOrder::Big ? bytes - 1 - i : i)));
     return text;
+}
+
+/// A PFM picture, rows given from the top.
+inline std::string pfmOf(int width, int height, const std::vector<float>& rgb) {
+    std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    for (int y = height - 1; y >= 0; --y)
+        text.append(reinterpret_cast<const char*>(rgb.data() + std::size_t(3 * y * width)),
+                    std::size_t(3 * width) * sizeof(float));
+    return text;
+}
+
+inline const std::string kPngBegin = "\x89PNG\r\n\x1a\n";
+
+/// The check sum of a chunk of a PNG, from its name on. Source: PNG specification, annex D.
+inline std::uint32_t crcOf(const std::string& bytes) {
+    std::uint32_t crc = ~0u;
+    for (const char byte : bytes) {
+        crc ^= std::uint8_t(byte);
+        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+    }
+    return ~crc;
+}
+inline std::string pngChunk(const std::string& name, const std::string& content) {
+    return numberText(std::uint32_t(content.size()), 4, ByteOrder::Big) + name + content +
+           numberText(crcOf(name + content), 4, ByteOrder::Big);
+}
+
+/// An uncompressed PNG of these bits a channel; colour types are 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. `claimedSide`
+/// is what its header says of both sides, if not the truth. Source: RFC 2083, RFC 1951 section 3.2.4.
+inline std::string pngOf(int width, int height, int bits, int colourType, const std::string& texels,
+                         int claimedSide = 0) {
+    const auto big = [](int value, int bytes) { return numberText(std::uint32_t(value), bytes, ByteOrder::Big); };
+    const std::size_t rowBytes = texels.size() / std::size_t(height);
+    std::string rows;
+    for (std::size_t y = 0; y < std::size_t(height); ++y) rows += '\0' + texels.substr(y * rowBytes, rowBytes);
+    const auto size = std::uint32_t(rows.size());
+    std::uint32_t a = 1, b = 0;
+    for (const char byte : rows) b = (b + (a = (a + std::uint8_t(byte)) % 65521)) % 65521;
+    return kPngBegin +
+           pngChunk("IHDR", big(claimedSide > 0 ? claimedSide : width, 4) +
+                                big(claimedSide > 0 ? claimedSide : height, 4) + big(bits, 1) + big(colourType, 1) +
+                                std::string(3, '\0')) +
+           pngChunk("IDAT", "\x78\x01\x01" + numberText(size, 2, ByteOrder::Little) +
+                                numberText(~size, 2, ByteOrder::Little) + rows +
+                                numberText(b << 16 | a, 4, ByteOrder::Big)) +
+           pngChunk("IEND", "");
 }
 
 inline std::string tiffOf(const std::vector<TiffEntry>& entries, const std::string& rest,

@@ -14,6 +14,8 @@
 
 namespace tessera::scenes::test {
 
+using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::StartsWith;
+
 /// A temporary folder that can also hold pictures.
 class TempFolder : public tessera::test::TempFolder {
 public:
@@ -22,12 +24,12 @@ public:
                                        const std::vector<std::array<std::uint8_t, 4>>& texels) const {
         std::string bytes(18, '\0');
         bytes[2] = 2; // uncompressed true colour
-        bytes[12] = static_cast<char>(width);
-        bytes[14] = static_cast<char>(height);
+        bytes[12] = char(width);
+        bytes[14] = char(height);
         bytes[16] = 32;   // bits per texel
         bytes[17] = 0x28; // 8 bits of alpha, first row on top
         for (const auto& [r, g, b, a] : texels)
-            for (const std::uint8_t value : {b, g, r, a}) bytes += static_cast<char>(value);
+            for (const std::uint8_t value : {b, g, r, a}) bytes += char(value);
         return write(name, bytes);
     }
 };
