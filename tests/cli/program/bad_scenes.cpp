@@ -11,8 +11,6 @@ namespace {
 using scenes::gltf::test::Builder;
 using scenes::gltf::test::Json;
 
-constexpr int kFloat = 5126, kUnsignedByte = 5121;
-
 class BadScenes : public Cli {
 protected:
     void SetUp() override { folder_.write("a.png", "an older picture"); }
@@ -68,19 +66,17 @@ TEST_F(BadScenes, gltfDataOutOfRangeIsRefusedByName) {
     accessor.json["accessors"][0]["count"] = 300;
     expectRefused(accessor, {"/accessors/0", "past the end"});
     Builder index;
-    index.primitive()["indices"] = index.add(std::vector<std::uint8_t>{0, 1, 3}, kUnsignedByte, "SCALAR", 3);
+    index.indices({0, 1, 3});
     expectRefused(index, {"/meshes/0/primitives/0", "index 3", "there are 3"});
     Builder positions;
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    positions.primitive()["attributes"]["POSITION"] =
-        positions.add(std::vector<float>{0, 0, 0, 1, nan, 0, 0, 1, 0}, kFloat, "VEC3", 3);
+    positions.attribute("POSITION", "VEC3", {0, 0, 0, 1, nan, 0, 0, 1, 0});
     expectRefused(positions, {"/meshes/0/primitives/0", "vertex 1", "not finite"});
     Builder texture;
     texture.material()["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}};
     texture.json["textures"] = Json::parse(R"([{"source": 0}])");
     texture.json["images"] = Json::parse(R"([{"uri": "nix.png"}])");
-    texture.primitive()["attributes"]["TEXCOORD_0"] =
-        texture.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloat, "VEC2", 3);
+    texture.attribute("TEXCOORD_0", "VEC2", {0, 0, 1, 0, 0, 1});
     folder_.write("m.gltf", texture.json.dump());
     expectError(kBadInput, {"render", "m.gltf", "--strict", "-o", "a.png"}, {"m.gltf: /images/0: ", "nix.png"});
     Builder cycle;

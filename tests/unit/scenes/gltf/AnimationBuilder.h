@@ -19,11 +19,20 @@ inline constexpr float kHalfRoot = 0.70710678f; ///< of 2
 /// Adds a clip with one channel.
 inline void addClip(Builder& builder, const std::vector<float>& times, int output, Json target,
                     const char* interpolation = "LINEAR", const char* name = "clip") {
-    const int input = builder.add(times, kFloatType, "SCALAR", times.size());
+    const int input = builder.add("SCALAR", times);
     builder.json["animations"].push_back(
         {{"name", name},
          {"samplers", Json::array({{{"input", input}, {"output", output}, {"interpolation", interpolation}}})},
          {"channels", Json::array({{{"sampler", 0}, {"target", std::move(target)}}})}});
+}
+
+/// Adds a clip of a node's "translation", "rotation", "scale" or "weights", with these values at as many times.
+template <typename T = float>
+void animate(Builder& builder, int node, const char* path, const char* type, const std::vector<T>& values,
+             bool isNormalized = false, const char* interpolation = "LINEAR",
+             const std::vector<float>& times = {0, 1}) {
+    const int output = builder.add(type, values, isNormalized);
+    addClip(builder, times, output, {{"node", node}, {"path", path}}, interpolation);
 }
 
 /// The target of a channel that changes what a pointer of KHR_animation_pointer names.
@@ -34,15 +43,14 @@ inline Json pointerTo(const std::string& pointer) {
 /// Adds a clip of what a pointer names, from the values at 0 s to as many at 1 s.
 inline void addPointer(Builder& builder, const std::string& pointer, const std::vector<float>& values) {
     constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const int output = builder.add(values, kFloatType, kTypes[values.size() / 2 - 1], 2);
+    const int output = builder.add(kTypes[values.size() / 2 - 1], values);
     addClip(builder, {0, 1}, output, pointerTo(pointer));
 }
 
 /// A triangle that moves 2 along x within a second.
 inline Builder movingTriangle() {
     Builder builder;
-    const int output = builder.add(std::vector<float>{0, 0, 0, 2, 0, 0}, kFloatType, "VEC3", 2);
-    addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "translation"}});
+    animate(builder, 0, "translation", "VEC3", {0, 0, 0, 2, 0, 0});
     return builder;
 }
 

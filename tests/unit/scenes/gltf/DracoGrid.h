@@ -38,8 +38,8 @@ struct Grid {
         };
         for (std::size_t y = 0; y < kGridSide; ++y)
             for (std::size_t x = 0; x < kGridSide; ++x) {
-                const float u = static_cast<float>(x) / (kGridSide - 1), v = static_cast<float>(y) / (kGridSide - 1);
-                add(positions, 5.0f * u, 5.0f * v, 0.25f * static_cast<float>(x * y % 3));
+                const float u = float(x) / (kGridSide - 1), v = float(y) / (kGridSide - 1);
+                add(positions, 5.0f * u, 5.0f * v, 0.25f * float(x * y % 3));
                 const glm::vec3 normal = glm::normalize(glm::vec3(u - 0.5f, v - 0.5f, 1.0f));
                 const glm::vec3 tangent = glm::normalize(glm::cross(glm::vec3(0, 1, 0), normal));
                 add(normals, normal.x, normal.y, normal.z);
@@ -78,10 +78,11 @@ struct Grid {
         builder.json["meshes"][0]["name"] = "grid";
         Json& named = builder.primitive()["attributes"] = Json::object();
         for (const Attribute& attribute : attributes)
-            named[attribute.name] = builder.add(std::vector<std::byte>(attribute.bytes), attribute.componentType,
-                                                std::array{"", "SCALAR", "VEC2", "VEC3", "VEC4"}[attribute.components],
-                                                kGridVertices, attribute.normalized);
-        builder.primitive()["indices"] = builder.add(corners, 5123, "SCALAR", corners.size());
+            named[attribute.name] =
+                builder.addAccessor(builder.addView(attribute.bytes), attribute.componentType,
+                                    std::array{"", "SCALAR", "VEC2", "VEC3", "VEC4"}[attribute.components],
+                                    kGridVertices, attribute.normalized);
+        builder.indices(corners);
         return builder;
     }
 
@@ -91,7 +92,7 @@ struct Grid {
         for (const Attribute& attribute : attributes) {
             const std::size_t bytesEach = attribute.bytes.size() / kGridVertices;
             draco::GeometryAttribute layout;
-            layout.Init(attribute.kind, nullptr, static_cast<std::uint8_t>(attribute.components), attribute.type,
+            layout.Init(attribute.kind, nullptr, std::uint8_t(attribute.components), attribute.type,
                         attribute.normalized, static_cast<std::int64_t>(bytesEach), 0);
             draco::PointAttribute& added = *mesh->attribute(mesh->AddAttribute(layout, true, kGridVertices));
             for (std::uint32_t i = 0; i < kGridVertices; ++i)

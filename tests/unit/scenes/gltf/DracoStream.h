@@ -20,8 +20,8 @@ inline Bytes dracoTriangle(DracoClaims claims = {}) {
     std::vector<std::uint8_t> bytes = {'D', 'R', 'A', 'C', 'O', 2,
                                        2,   1,   0,   0,   0}; // version, mesh, sequential, no flags
     const auto addVarint = [&](std::uint32_t value) {
-        for (; value >= 128; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(value | 128));
-        bytes.push_back(static_cast<std::uint8_t>(value));
+        for (; value >= 128; value >>= 7) bytes.push_back(std::uint8_t(value | 128));
+        bytes.push_back(std::uint8_t(value));
     };
     addVarint(claims.faces);
     addVarint(claims.vertices);

@@ -1,27 +1,27 @@
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "base/Error.h"
 #include "scenes/import/Importers.h"
+#include "tests/support/TempFolder.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/PictureBytes.h"
 
 /// Small glTF documents for the importer's tests.
 namespace tessera::scenes::gltf::test {
 
 using Json = nlohmann::json;
 using Bytes = std::vector<std::byte>;
+using testing::AllOf, testing::Contains, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::SizeIs;
 
 template <typename T>
 Bytes bytesOf(const std::vector<T>& values) {
@@ -46,38 +46,29 @@ inline std::string dataUri(const Bytes& bytes) {
     return "data:application/octet-stream;base64," + base64(bytes);
 }
 
+inline Bytes bytesOf(std::string_view text) {
+    return bytesOf(std::vector<char>(text.begin(), text.end()));
+}
+
 /// A 2x1 PNG, red and half-transparent blue, RGBA 8 bit.
-Bytes pngRedBlue();
+inline Bytes pngRedBlue() {
+    return bytesOf(scenes::test::pngOf(2, 1, 8, 6, std::string("\xff\0\0\xff\x0a\x14\xc8\x80", 8)));
+}
 
-/// A folder of the running test's own, removed with this object.
-class Folder {
+/// A temporary folder that also takes bytes.
+class Folder : public tessera::test::TempFolder {
 public:
-    Folder() {
-        static int made = 0; // tests run one after the other
-        path_ = std::filesystem::temp_directory_path() /
-                ("tessera-test-" + std::to_string(::getpid()) + "-" + std::to_string(++made));
-        std::filesystem::create_directories(path_);
-    }
-    Folder(Folder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-    Folder& operator=(Folder&&) = delete;
-    ~Folder() {
-        if (!path_.empty()) std::filesystem::remove_all(path_);
-    }
-
+    using TempFolder::write;
     std::filesystem::path write(const std::string& name, const Bytes& bytes) const {
-        const std::filesystem::path file = path_ / std::filesystem::path(std::u8string(name.begin(), name.end()));
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary)
-            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        return file;
+        return write(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     }
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        return write(name, bytesOf(std::vector<char>(text.begin(), text.end())));
-    }
-
-private:
-    std::filesystem::path path_;
 };
+
+/// The number of a component's type in glTF.
+template <typename T>
+inline constexpr int kComponentType = std::is_floating_point_v<T> ? 5126
+                                      : sizeof(T) == 4            ? 5125
+                                                       : (sizeof(T) == 1 ? 5120 : 5122) + int(std::is_unsigned_v<T>);
 
 /// One triangle (0,0,0) (1,0,0) (0,1,0) at node 0 of scene 0: accessor 0 is POSITION, in buffer view 0 of buffer 0.
 /// Tests change `json`.
@@ -87,7 +78,7 @@ public:
         json =
             Json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
                                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})");
-        add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3", 3);
+        add("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
     }
 
     /// A buffer with one view of all its bytes; returns the view's number.
@@ -95,18 +86,47 @@ public:
         json["buffers"].push_back({{"uri", dataUri(bytes)}, {"byteLength", bytes.size()}});
         json["bufferViews"].push_back({{"buffer", json["buffers"].size() - 1}, {"byteLength", bytes.size()}});
         if (byteStride > 0) json["bufferViews"].back()["byteStride"] = byteStride;
-        return static_cast<int>(json["bufferViews"].size()) - 1;
+        return int(json["bufferViews"].size()) - 1;
     }
 
-    /// An accessor in a buffer of its own; returns its number.
-    template <typename T>
-    int add(const std::vector<T>& values, int componentType, const char* type, std::size_t count,
-            bool normalized = false, int byteStride = 0) {
-        const int view = addView(bytesOf(values), byteStride);
+    int addAccessor(int view, int componentType, const char* type, std::size_t count, bool normalized = false) {
         json["accessors"].push_back(
             {{"bufferView", view}, {"componentType", componentType}, {"type", type}, {"count", count}});
         if (normalized) json["accessors"].back()["normalized"] = true;
-        return static_cast<int>(json["accessors"].size()) - 1;
+        return int(json["accessors"].size()) - 1;
+    }
+
+    /// An accessor in a buffer of its own, of as many elements as the values make; returns its number.
+    template <typename T = float>
+    int add(const char* type, const std::vector<T>& values, bool normalized = false, int byteStride = 0) {
+        const std::size_t components = *type == 'S' ? 1 : *type == 'M' ? 16 : std::size_t(type[3] - '0');
+        const std::size_t bytesEach = byteStride > 0 ? std::size_t(byteStride) : components * sizeof(T);
+        return addAccessor(addView(bytesOf(values), byteStride), kComponentType<T>, type,
+                           values.size() * sizeof(T) / bytesEach, normalized);
+    }
+    /// The same for an attribute of the primitive.
+    template <typename T = float>
+    void attribute(const char* name, const char* type, const std::vector<T>& values, bool normalized = false,
+                   int byteStride = 0) {
+        const int accessor = add(type, values, normalized, byteStride);
+        primitive()["attributes"][name] = accessor;
+    }
+    template <typename T = std::uint8_t>
+    void indices(const std::vector<T>& corners) {
+        primitive()["indices"] = add("SCALAR", corners);
+    }
+    /// Replaces elements of an accessor; returns its "sparse".
+    template <typename Index, typename Value = float>
+    Json& makeSparse(std::size_t accessor, const std::vector<Index>& places, const std::vector<Value>& values) {
+        const int indices = addView(bytesOf(places)), replacing = addView(bytesOf(values));
+        return json["accessors"][accessor]["sparse"] = {
+                   {"count", places.size()},
+                   {"indices", {{"bufferView", indices}, {"componentType", kComponentType<Index>}}},
+                   {"values", {{"bufferView", replacing}}}};
+    }
+    /// Gives the primitive a morph target of positions.
+    void target(const std::vector<float>& positions) {
+        primitive()["targets"] = Json::array({Json::object({{"POSITION", add("VEC3", positions)}})});
     }
 
     Json& primitive() { return json["meshes"][0]["primitives"][0]; }
@@ -122,8 +142,7 @@ public:
     void addTexture(const Bytes& picture = pngRedBlue()) {
         Json& attributes = primitive()["attributes"];
         if (!attributes.contains("TEXCOORD_0"))
-            attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] =
-                add(std::vector<float>{0, 0, 1, 0, 0, 1}, 5126, "VEC2", 3);
+            attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] = add("VEC2", {0, 0, 1, 0, 0, 1});
         json["images"] = Json::array({Json::object({{"uri", "data:image/png;base64," + base64(picture)}})});
         json["textures"] = Json::parse(R"([{"source": 0}])");
     }
@@ -176,7 +195,7 @@ inline Builder withMaterial(const char* patch) {
 /// That material as it is imported.
 inline Material importedMaterial(const char* patch) {
     const Scene scene = withMaterial(patch).import();
-    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(0).material));
+    return scene.materials.at(std::size_t(scene.nodes.at(0).instances.at(0).material));
 }
 
 inline bool hasWarning(const Scene& scene, const std::string& part) {

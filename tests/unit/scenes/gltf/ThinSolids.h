@@ -16,14 +16,13 @@ inline const std::vector<float> kFivePlaces{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 
 /// The builder's primitive as one of a mode, of its own positions.
 inline Builder thin(int mode, const std::vector<float>& positions = kFivePlaces) {
     Builder builder;
-    builder.primitive()["attributes"]["POSITION"] = builder.add(positions, kFloatType, "VEC3", positions.size() / 3);
+    builder.attribute("POSITION", "VEC3", positions);
     builder.primitive()["mode"] = mode;
     return builder;
 }
 
 inline void addNormals(Builder& builder, std::size_t count) {
-    builder.primitive()["attributes"]["NORMAL"] =
-        builder.add(std::vector<float>(3 * count, 1.0f), kFloatType, "VEC3", count);
+    builder.attribute("NORMAL", "VEC3", std::vector<float>(3 * count, 1.0f));
 }
 
 inline glm::dvec3 cornerOS(const Mesh& mesh, std::size_t i) {
@@ -45,7 +44,7 @@ inline double volumeOf(const Mesh& mesh, std::size_t solid) {
 }
 
 inline const Material& materialOf(const Scene& scene, std::size_t instance = 0) {
-    return scene.materials.at(static_cast<std::size_t>(scene.nodes.at(0).instances.at(instance).material));
+    return scene.materials.at(std::size_t(scene.nodes.at(0).instances.at(instance).material));
 }
 
 } // namespace tessera::scenes::gltf::test

@@ -7,23 +7,23 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 /// Where the vertices of a glTF file are at a time of a clip, computed a second time from the file: own reading of
 /// accessors, linear search of keys, turns by axis and angle, splines by de Casteljau, and points that climb the
-/// hierarchy node by node instead of products of matrices. It shares nothing with the importer and the poses.
+/// hierarchy node by node instead of products of matrices. It shares nothing with the importer and the poses but the
+/// vectors of GLM.
 namespace tessera::scenes::gltf::test {
 
 class TruthOfAnimation {
 public:
     using Json = nlohmann::json;
-    struct Point {
-        double x = 0.0, y = 0.0, z = 0.0;
-    };
+    using Point = glm::dvec3;
     /// A triangle's corner.
     struct Corner {
-        Point placeWS;
-        Point normalWS; ///< not of unit length; of the triangle where the mesh has no normals
+        Point placeWS{0.0};
+        Point normalWS{0.0}; ///< not of unit length; of the triangle where the mesh has no normals
         bool mirrored = false;
     };
 
@@ -280,15 +280,9 @@ private:
         }
     }
 
-    static Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    static Point crossed(const Point& a, const Point& b) {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    }
-
     static Point rotated(const Numbers& q, const Point& p) {
-        const Point axis{q[0], q[1], q[2]}, across = crossed(axis, p), twice = crossed(axis, across);
-        return {p.x + 2.0 * (q[3] * across.x + twice.x), p.y + 2.0 * (q[3] * across.y + twice.y),
-                p.z + 2.0 * (q[3] * across.z + twice.z)};
+        const Point axis{q[0], q[1], q[2]}, across = glm::cross(axis, p);
+        return p + 2.0 * (q[3] * across + glm::cross(axis, across));
     }
 
     /// `w` 1 for places, 0 for directions.
@@ -299,14 +293,16 @@ private:
                 p = byMatrix(parts.matrix, p, w);
                 continue;
             }
-            p = rotated(parts.rotation, {p.x * parts.scale[0], p.y * parts.scale[1], p.z * parts.scale[2]});
-            p = {p.x + w * parts.translation[0], p.y + w * parts.translation[1], p.z + w * parts.translation[2]};
+            p = rotated(parts.rotation, p * pointOf(parts.scale)) + w * pointOf(parts.translation);
         }
         return p;
     }
+    static Point pointOf(const Numbers& n) { return {n[0], n[1], n[2]}; }
     static Point byMatrix(const Numbers& m, const Point& p, double w) {
-        return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12] * w, m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13] * w,
-                m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14] * w};
+        Point result{0.0};
+        for (std::size_t column = 0; column < 4; ++column)
+            result += (column < 3 ? p[int(column)] : w) * Point(m[4 * column], m[4 * column + 1], m[4 * column + 2]);
+        return result;
     }
 
     struct Influence {
@@ -316,17 +312,14 @@ private:
     };
 
     Point moved(int node, const std::vector<Influence>& influences, const Point& p, double w) const {
-        Point sum;
+        Point sum{0.0};
         double weights = 0.0;
         for (const Influence& influence : influences) {
             const Point bound = influence.inverseBind.empty() ? p : byMatrix(influence.inverseBind, p, w);
-            const Point one = outOf(influence.joint, bound, w);
-            sum = {sum.x + influence.weight * one.x, sum.y + influence.weight * one.y,
-                   sum.z + influence.weight * one.z};
+            sum += influence.weight * outOf(influence.joint, bound, w);
             weights += influence.weight;
         }
-        if (weights == 0.0) return outOf(node, p, w);
-        return {sum.x / weights, sum.y / weights, sum.z / weights};
+        return weights == 0.0 ? outOf(node, p, w) : sum / weights;
     }
 
     void addBelow(int index, bool skinned, std::vector<Corner>& all) const {
@@ -368,7 +361,7 @@ private:
                 if (targets[t].contains(attribute))
                     for (std::size_t c = 0; c < 3; ++c)
                         sum[c] += targetWeights[t] * accessor(targets[t][attribute])[vertex][c];
-            return Point{sum[0], sum[1], sum[2]};
+            return pointOf(sum);
         };
         std::vector<Corner> corners;
         for (std::size_t vertex = 0; vertex < rest.size(); ++vertex) {
@@ -378,12 +371,11 @@ private:
             // A plane's normal, by two directions in it.
             const Point a = moved(index, influences, {1, 0, 0}, 0.0), b = moved(index, influences, {0, 1, 0}, 0.0),
                         c = moved(index, influences, {0, 0, 1}, 0.0);
-            const Point bc = crossed(b, c), ca = crossed(c, a), ab = crossed(a, b);
-            corner.mirrored = a.x * bc.x + a.y * bc.y + a.z * bc.z < 0.0;
+            const Point bc = glm::cross(b, c);
+            corner.mirrored = glm::dot(a, bc) < 0.0;
             if (!attributes.contains("NORMAL")) continue;
             const Point n = morphed("NORMAL", vertex);
-            corner.normalWS = {n.x * bc.x + n.y * ca.x + n.z * ab.x, n.x * bc.y + n.y * ca.y + n.z * ab.y,
-                               n.x * bc.z + n.y * ca.z + n.z * ab.z};
+            corner.normalWS = n.x * bc + n.y * glm::cross(c, a) + n.z * glm::cross(a, b);
         }
         const std::size_t first = all.size();
         if (primitive.contains("indices"))
@@ -393,8 +385,7 @@ private:
             all.insert(all.end(), corners.begin(), corners.end());
         if (attributes.contains("NORMAL")) return;
         for (std::size_t i = first; i + 2 < all.size(); i += 3) { // flat
-            const Point normalWS =
-                crossed(difference(all[i + 1].placeWS, all[i].placeWS), difference(all[i + 2].placeWS, all[i].placeWS));
+            const Point normalWS = glm::cross(all[i + 1].placeWS - all[i].placeWS, all[i + 2].placeWS - all[i].placeWS);
             for (std::size_t corner = i; corner < i + 3; ++corner) all[corner].normalWS = normalWS;
         }
     }

@@ -1,11 +1,5 @@
 // Clips of glTF files: what their channels say of nodes, and what of them is refused or left out.
 #include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "scenes/Clips.h"
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
@@ -13,7 +7,6 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-using testing::HasSubstr;
 using testing::Not;
 
 TEST(GltfAnimation, aNodeMovesAsItsChannelsSay) {
@@ -30,7 +23,7 @@ TEST(GltfAnimation, ofChannelsThatChangeTheSameThingTheLastIsKept) {
     Json& clip = builder.json["animations"][0];
     const Json channel = clip["channels"][0];
     clip["samplers"].push_back(clip["samplers"][0]);
-    clip["samplers"][1]["output"] = builder.add(std::vector<float>{0, 0, 0, 0, 8, 0}, kFloatType, "VEC3", 2);
+    clip["samplers"][1]["output"] = builder.add("VEC3", {0, 0, 0, 0, 8, 0});
     for (int i = 0; i < 99; ++i) clip["channels"].push_back(channel);
     clip["channels"].push_back(channel);
     clip["channels"].back()["sampler"] = 1;
@@ -41,21 +34,18 @@ TEST(GltfAnimation, ofChannelsThatChangeTheSameThingTheLastIsKept) {
 
 TEST(GltfAnimation, normalizedIntegersAreFractions) {
     Builder builder;
-    const int output =
-        builder.add(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 0, 32767, 0}, kShortType, "VEC4", 2, true);
-    addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "rotation"}});
+    animate<std::int16_t>(builder, 0, "rotation", "VEC4", {0, 0, 0, 32767, 0, 0, 32767, 0}, true);
     expectPlace(drawnAt(builder.import(), 1.0)[1], {-1.0, 0.0, 0.0});
     Builder plain;
-    const int integers = plain.add(std::vector<std::int16_t>{0, 0, 0, 1, 0, 0, 1, 0}, kShortType, "VEC4", 2);
-    addClip(plain, {0, 1}, integers, {{"node", 0}, {"path", "rotation"}});
-    EXPECT_THAT(plain.error(), HasSubstr("/animations/0/samplers/0/output: accessor 1 holds integers that are not "
-                                         "normalized"));
+    animate<std::int16_t>(plain, 0, "rotation", "VEC4", {0, 0, 0, 1, 0, 0, 1, 0});
+    EXPECT_THAT(plain.error(),
+                HasSubstr("/animations/0/samplers/0/output: accessor 1 holds integers that are not normalized"));
 }
 
 TEST(GltfAnimation, keyTimesThatDoNotAscendAreRefusedByName) {
     const auto errorWith = [](const std::vector<float>& times) {
         Builder builder;
-        const int output = builder.add(std::vector<float>(3 * times.size(), 0.0f), kFloatType, "VEC3", times.size());
+        const int output = builder.add("VEC3", std::vector<float>(3 * times.size(), 0.0f));
         addClip(builder, times, output, {{"node", 0}, {"path", "scale"}});
         return builder.error();
     };
@@ -67,19 +57,19 @@ TEST(GltfAnimation, keyTimesThatDoNotAscendAreRefusedByName) {
 }
 
 TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
-    const auto errorWith = [](const std::vector<float>& values, const char* type, std::size_t count, const char* path,
+    const auto errorWith = [](const std::vector<float>& values, const char* type, const char* path,
                               const char* interpolation = "LINEAR") {
         Builder builder;
-        const int output = builder.add(values, kFloatType, type, count);
+        const int output = builder.add(type, values);
         addClip(builder, {0, 1}, output, {{"node", 0}, {"path", path}}, interpolation);
         return builder.error();
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_THAT(errorWith({0, 0, 0, 0, nan, 0}, "VEC3", 2, "translation"), HasSubstr("holds nan in element 1"));
-    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2, "rotation"), HasSubstr("key 1 is the zero quaternion"));
-    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 2, "scale"),
+    EXPECT_THAT(errorWith({0, 0, 0, 0, nan, 0}, "VEC3", "translation"), HasSubstr("holds nan in element 1"));
+    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", "rotation"), HasSubstr("key 1 is the zero quaternion"));
+    EXPECT_THAT(errorWith({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", "scale"),
                 HasSubstr("has 4 components an element; scale needs 3"));
-    EXPECT_THAT(errorWith({0, 0, 0, 0, 0, 0}, "VEC3", 2, "scale", "CUBICSPLINE"),
+    EXPECT_THAT(errorWith({0, 0, 0, 0, 0, 0}, "VEC3", "scale", "CUBICSPLINE"),
                 HasSubstr("has 2 elements, but 2 keys of scale need 6"));
 }
 
@@ -88,8 +78,7 @@ TEST(GltfAnimation, ofACubicKeyTheValueAloneMustBeARotation) {
     const auto with = [](const std::vector<float>& values) {
         Builder builder = movingTriangle();
         builder.json["animations"] = Json::array();
-        const int output = builder.add(values, kFloatType, "VEC4", 6);
-        addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "rotation"}}, "CUBICSPLINE");
+        animate(builder, 0, "rotation", "VEC4", values, false, "CUBICSPLINE");
         return builder;
     };
     std::vector<float> values(24, 0.0f);
@@ -108,7 +97,7 @@ TEST(GltfAnimation, aHundredThousandKeysOfAFileAreFollowed) {
         times.push_back(float(key));
         values.insert(values.end(), {float(key % 1000), 0.0f, 0.0f});
     }
-    addClip(builder, times, builder.add(values, kFloatType, "VEC3", kKeys), {{"node", 0}, {"path", "translation"}});
+    addClip(builder, times, builder.add("VEC3", values), {{"node", 0}, {"path", "translation"}});
     const Scene scene = builder.import();
     for (const auto& [seconds, x] :
          {std::pair(-1.0, 0.0), std::pair(0.25, 0.25), std::pair(54'321.5, 321.5), std::pair(1e9, 999.0)})
@@ -136,7 +125,7 @@ TEST(GltfAnimation, weightsOfMeshesWithoutTargetsAreLeftOutWithOneWarningByName)
     Builder builder;
     builder.merge(R"({"nodes": [{"mesh": 0, "name": "face"}, {"name": "bone"}], "scenes": [{"nodes": [0, 1]}]})");
     builder.json["meshes"][0]["name"] = "head";
-    const int output = builder.add(std::vector<float>{0, 1}, kFloatType, "SCALAR", 2);
+    const int output = builder.add("SCALAR", {0, 1});
     for (int clip = 0; clip < 2; ++clip) addClip(builder, {0, 1}, output, {{"node", 0}, {"path", "weights"}});
     Scene scene = builder.import();
     ASSERT_EQ(scene.warnings.size(), 1u);

@@ -1,14 +1,8 @@
 // Clips of models that are loaded, included by scene files and saved.
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "scenes/Load.h"
 #include "scenes/write/SceneText.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 namespace tessera::scenes::gltf::test {
@@ -16,13 +10,10 @@ namespace {
 
 TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsAskedFor) {
     Builder builder = movingTriangle();
-    const int output = builder.add(std::vector<float>{0, 4, 0}, kFloatType, "VEC3", 1);
-    addClip(builder, {0}, output, {{"node", 0}, {"path", "translation"}}, "STEP", "up");
-    const std::string file = builder.folder.write("clips.gltf", builder.json.dump()).string();
+    addClip(builder, {0}, builder.add("VEC3", {0, 4, 0}), {{"node", 0}, {"path", "translation"}}, "STEP", "up");
+    const std::string file = builder.folder.file("clips.gltf", builder.json.dump());
     const auto placeWith = [&](std::optional<std::string> clip) {
-        LoadOptions options;
-        options.clip = std::move(clip);
-        return glm::dvec3(loadScene(file, options).nodes[0].parentFromNode[3]);
+        return glm::dvec3(loadScene(file, loading(&LoadOptions::clip, std::move(clip))).nodes[0].parentFromNode[3]);
     };
     expectPlace(placeWith({}), {0.0, 0.0, 0.0});
     expectPlace(placeWith("up"), {0.0, 4.0, 0.0});
@@ -39,12 +30,10 @@ TEST(GltfAnimation, clipsOfModelsThatASceneFileIncludesPlayTogetherAndFindTheirM
                                  {"primitives": [{"attributes": {"POSITION": 0}, "material": 1}]}]})");
     addPointer(builder, "/materials/1/pbrMetallicRoughness/metallicFactor", {0.25f, 0.75f});
     builder.folder.write("model.gltf", builder.json.dump());
-    const std::string file = builder.folder
-                                 .write("scene.json", std::string(R"({"tessera": 1,
+    const std::string file = builder.folder.file("scene.json", R"({"tessera": 1,
         "include": [{"file": "model.gltf"}, {"file": "model.gltf", "name": "other"}],
         "materials": [{"name": "paint", "model": "lambert"}],
-        "overrides": [{"node": "first", "material": "paint"}]})"))
-                                 .string();
+        "overrides": [{"node": "first", "material": "paint"}]})");
     Scene scene = loadScene(file);
     ASSERT_EQ(scene.rig.playing.size(), 2u);
     poseScene(scene, 1.0);
@@ -61,21 +50,17 @@ TEST(GltfAnimation, whatASceneFileSaysOfAMaterialHoldsWhereNoClipPlays) {
     builder.material();
     addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0.25f, 0.75f});
     builder.folder.write("model.gltf", builder.json.dump());
-    const std::string file = builder.folder
-                                 .write("scene.json", std::string(R"({"tessera": 1, "base": {"file": "model.gltf"},
-        "materials": [{"replaces": 0, "name": "gold", "model": "metallic_roughness", "metallic": 0.5}]})"))
-                                 .string();
+    const std::string file = builder.folder.file("scene.json", R"({"tessera": 1, "base": {"file": "model.gltf"},
+        "materials": [{"replaces": 0, "name": "gold", "model": "metallic_roughness", "metallic": 0.5}]})");
     EXPECT_EQ(loadScene(file).materials.at(0).metallic, 0.25f);
-    LoadOptions still;
-    still.clip = "none";
-    EXPECT_EQ(loadScene(file, still).materials.at(0).metallic, 0.5f);
+    EXPECT_EQ(loadScene(file, loading(&LoadOptions::clip, "none")).materials.at(0).metallic, 0.5f);
 }
 
 TEST(GltfAnimation, savingAPosedSceneWritesNoMaterialUnlessItWasEdited) {
     Builder builder;
     builder.material();
     addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0.25f, 0.75f});
-    const std::string file = builder.folder.write("model.gltf", builder.json.dump()).string();
+    const std::string file = builder.folder.file("model.gltf", builder.json.dump());
     const std::filesystem::path copy = std::filesystem::path(file).parent_path() / "saved.json";
     Scene scene = loadScene(file);
     const SceneOrigin origin = originOf(file, {}, scene);
@@ -94,11 +79,9 @@ TEST(GltfAnimation, aSceneFileThatReplacesLightsAndCamerasLeavesTheOldOnesToNoCl
                       "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
                       "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}})");
     builder.folder.write("model.gltf", builder.json.dump());
-    const std::string file = builder.folder
-                                 .write("scene.json", std::string(R"({"tessera": 1, "base": {"file": "model.gltf"},
+    const std::string file = builder.folder.file("scene.json", R"({"tessera": 1, "base": {"file": "model.gltf"},
         "lights": [{"type": "point", "position": [0, 3, 0]}],
-        "cameras": [{"name": "own", "position": [0, 0, 9], "target": [0, 0, 0]}]})"))
-                                 .string();
+        "cameras": [{"name": "own", "position": [0, 0, 9], "target": [0, 0, 0]}]})");
     Scene scene = loadScene(file);
     poseScene(scene, 1.0);
     expectPlace(scene.lights.at(0).positionWS, {0.0, 3.0, 0.0});

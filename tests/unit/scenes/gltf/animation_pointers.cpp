@@ -1,14 +1,6 @@
 // What KHR_animation_pointer names: numbers of lights, materials, textures and cameras.
-#include <cstdint>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "scenes/Clips.h"
 #include "scenes/Rest.h"
@@ -19,7 +11,6 @@ namespace tessera::scenes::gltf::test {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 /// All clips of a scene at a time.
 void poseAll(Scene& scene, double timeSeconds) {
@@ -54,7 +45,7 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
 TEST(GltfAnimation, pointersTakePlainIntegers) {
     Builder builder;
     builder.material();
-    const int output = builder.add(std::vector<std::uint8_t>{0, 1}, kUnsignedByteType, "SCALAR", 2);
+    const int output = builder.add<std::uint8_t>("SCALAR", {0, 1});
     addClip(builder, {0, 1}, output, pointerTo("/materials/0/pbrMetallicRoughness/roughnessFactor"));
     Scene scene = builder.import();
     poseAll(scene, 0.5);

@@ -1,18 +1,9 @@
 // Skins and morph targets of glTF files.
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
-
-using testing::HasSubstr;
 
 /// The triangle with a skin of joints 1 and 2, of which 2 is a child of 1, 1 along x. Every vertex follows joint 2.
 Builder skinnedTriangle() {
@@ -20,11 +11,8 @@ Builder skinnedTriangle() {
     builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0, "translation": [7, 7, 7]}, {"children": [2]},
                                 {"translation": [1, 0, 0]}],
                       "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1, 2]}]})");
-    Json& attributes = builder.primitive()["attributes"];
-    attributes["JOINTS_0"] =
-        builder.add(std::vector<std::uint8_t>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kUnsignedByteType, "VEC4", 3);
-    attributes["WEIGHTS_0"] =
-        builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC4", 3);
+    builder.attribute<std::uint8_t>("JOINTS_0", "VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    builder.attribute("WEIGHTS_0", "VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
     return builder;
 }
 
@@ -32,8 +20,7 @@ Builder skinnedTriangle() {
 
 TEST(GltfSkins, verticesFollowTheirJointsAndNotTheirNode) {
     Builder builder = skinnedTriangle();
-    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, kHalfRoot, kHalfRoot}, kFloatType, "VEC4", 2);
-    addClip(builder, {0, 1}, output, {{"node", 2}, {"path", "rotation"}});
+    animate(builder, 2, "rotation", "VEC4", {0, 0, 0, 1, 0, 0, kHalfRoot, kHalfRoot});
     const Scene scene = builder.import();
     EXPECT_TRUE(scene.warnings.empty());
     expectPlace(drawnAt(scene, 0.0)[1], {2.0, 0.0, 0.0});
@@ -45,7 +32,7 @@ TEST(GltfSkins, inverseBindMatricesComeFirst) {
     std::vector<float> matrices(32, 0.0f);
     for (std::size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u}) matrices[i] = 1.0f;
     matrices[16 + 12] = -1.0f;
-    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloatType, "MAT4", 2);
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add("MAT4", matrices);
     expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
     builder.json["accessors"].back()["count"] = 1;
     EXPECT_THAT(builder.error(), HasSubstr("/skins/0/inverseBindMatrices: accessor 3 has 1 matrices for 2 joints"));
@@ -60,7 +47,7 @@ TEST(GltfSkins, theLastRowOfAnInverseBindMatrixIsNotRead) {
     for (std::size_t i : {0u, 5u, 10u, 16u, 21u, 26u}) matrices[i] = 1.0f;
     for (std::size_t i : {3u, 7u, 11u, 15u, 19u, 23u, 27u, 31u}) matrices[i] = 0.25f;
     matrices[16 + 12] = -1.0f;
-    builder.json["skins"][0]["inverseBindMatrices"] = builder.add(matrices, kFloatType, "MAT4", 2);
+    builder.json["skins"][0]["inverseBindMatrices"] = builder.add("MAT4", matrices);
     expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
     for (const glm::dmat4& matrix : builder.import().rig.skins[0].jointFromBind)
         EXPECT_EQ(glm::transpose(matrix)[3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
@@ -68,10 +55,8 @@ TEST(GltfSkins, theLastRowOfAnInverseBindMatrixIsNotRead) {
 
 TEST(GltfSkins, aVertexMayFollowEightJoints) {
     Builder builder = skinnedTriangle();
-    Json& attributes = builder.primitive()["attributes"];
-    attributes["JOINTS_1"] = builder.add(std::vector<std::uint16_t>(12, 0), kUnsignedShortType, "VEC4", 3);
-    attributes["WEIGHTS_1"] =
-        builder.add(std::vector<std::uint8_t>(12, 85), kUnsignedByteType, "VEC4", 3, true); // four thirds in all
+    builder.attribute("JOINTS_1", "VEC4", std::vector<std::uint16_t>(12, 0));
+    builder.attribute("WEIGHTS_1", "VEC4", std::vector<std::uint8_t>(12, 85), true); // four thirds in all
     // 1 of joint 2 and 4/3 of joint 1.
     expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
 }
@@ -90,9 +75,8 @@ TEST(GltfSkins, tenThousandJointsAreFollowed) {
     builder.json["skins"][0]["joints"] = joints;
     std::vector<std::uint16_t> followed(12, 0);
     for (std::size_t vertex = 0; vertex < 3; ++vertex) followed[4 * vertex] = kJoints - 1;
-    builder.primitive()["attributes"]["JOINTS_0"] = builder.add(followed, kUnsignedShortType, "VEC4", 3);
-    const int output = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}, kFloatType, "VEC4", 2);
-    addClip(builder, {0, 1}, output, {{"node", kMiddle}, {"path", "rotation"}});
+    builder.attribute("JOINTS_0", "VEC4", followed);
+    animate(builder, kMiddle, "rotation", "VEC4", {0, 0, 0, 1, 0, 0, 1, 0});
     const Scene scene = builder.import();
     expectPlace(drawnAt(scene, 0.0)[1], {11.0, 0.0, 0.0});
     expectPlace(drawnAt(scene, 1.0)[1], {-1.0, 0.0, 0.0}); // half a turn about (5, 0)
@@ -115,8 +99,7 @@ TEST(GltfSkins, jointsThatTheSkinLacksAreRefusedUnlessTheirWeightIsZero) {
     EXPECT_THAT(builder.error(), HasSubstr("/meshes/0: vertex 0 of mesh 'mesh 0' follows joint 1, but /skins/0 has "
                                            "only 1"));
     Builder spare = skinnedTriangle();
-    spare.primitive()["attributes"]["JOINTS_0"] =
-        spare.add(std::vector<std::uint8_t>{1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0}, kUnsignedByteType, "VEC4", 3);
+    spare.attribute<std::uint8_t>("JOINTS_0", "VEC4", {1, 200, 0, 0, 1, 200, 0, 0, 1, 200, 0, 0});
     expectPlace(drawnAt(spare.import(), 0.0)[0], {1.0, 0.0, 0.0});
 }
 
@@ -137,8 +120,7 @@ TEST(GltfSkins, instancesOfOneMeshAreDeformedEachByItsOwnSkin) {
 
 TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
     Builder builder;
-    builder.primitive()["targets"] = Json::array({Json::object(
-        {{"POSITION", builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3)}})});
+    builder.target({0, 0, 1, 0, 0, 1, 0, 0, 1});
     EXPECT_TRUE(builder.import().rig.deformed.empty()) << "nothing can move it";
     builder.json["meshes"][0]["weights"] = Json::array({0.5});
     expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.5});
@@ -148,21 +130,17 @@ TEST(GltfMorphTargets, weightsOfTheNodeGoBeforeThoseOfTheMesh) {
 
 TEST(GltfMorphTargets, everyAttributeIsMorphedAndWeightsAreAnimated) {
     Builder builder;
-    Json& attributes = builder.primitive()["attributes"];
-    attributes["NORMAL"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloatType, "VEC3", 3);
-    attributes["TANGENT"] =
-        builder.add(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, kFloatType, "VEC4", 3);
-    attributes["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, kFloatType, "VEC2", 3);
-    attributes["COLOR_0"] = builder.add(std::vector<float>(12, 0.5f), kFloatType, "VEC4", 3);
-    const int ones = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
-    builder.primitive()["targets"] = Json::array(
-        {Json::object({{"POSITION", ones}}),
-         {{"NORMAL", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
-          {"TANGENT", builder.add(std::vector<float>{-1, 1, 0, 0, 0, 0, 0, 0, 0}, kFloatType, "VEC3", 3)},
-          {"TEXCOORD_0", builder.add(std::vector<float>(6, 0.25f), kFloatType, "VEC2", 3)},
-          {"COLOR_0", builder.add(std::vector<float>{1, 0, 0, 0, 0, 0, -1, 0, 0}, kFloatType, "VEC3", 3)}}});
-    const int weights = builder.add(std::vector<float>{0, 0, 0.5f, 1}, kFloatType, "SCALAR", 4);
-    addClip(builder, {0, 1}, weights, {{"node", 0}, {"path", "weights"}});
+    builder.attribute("NORMAL", "VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1});
+    builder.attribute("TANGENT", "VEC4", {1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1});
+    builder.attribute("TEXCOORD_0", "VEC2", {0, 0, 1, 0, 0, 1});
+    builder.attribute("COLOR_0", "VEC4", std::vector<float>(12, 0.5f));
+    const int ones = builder.add("VEC3", std::vector<float>(9, 1.0f));
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", ones}}),
+                                                  {{"NORMAL", builder.add("VEC3", {1, 0, 0, 0, 0, 0, 0, 0, 0})},
+                                                   {"TANGENT", builder.add("VEC3", {-1, 1, 0, 0, 0, 0, 0, 0, 0})},
+                                                   {"TEXCOORD_0", builder.add("VEC2", std::vector<float>(6, 0.25f))},
+                                                   {"COLOR_0", builder.add("VEC3", {1, 0, 0, 0, 0, 0, -1, 0, 0})}}});
+    animate(builder, 0, "weights", "SCALAR", {0, 0, 0.5f, 1});
     Scene scene = builder.import();
     poseScene(scene, 1.0);
     const Mesh& mesh = scene.meshes.at(0);
@@ -177,17 +155,9 @@ TEST(GltfMorphTargets, everyAttributeIsMorphedAndWeightsAreAnimated) {
 
 TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
     Builder builder;
-    const int indices = builder.addView(bytesOf(std::vector<std::uint16_t>{2, 0}));
-    const int values = builder.addView(bytesOf(std::vector<float>{0, 0, 3}));
-    builder.json["accessors"].push_back(
-        {{"componentType", kFloatType},
-         {"type", "VEC3"},
-         {"count", 3},
-         {"sparse",
-          {{"count", 1},
-           {"indices", {{"bufferView", indices}, {"componentType", kUnsignedShortType}}},
-           {"values", {{"bufferView", values}}}}}});
-    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", builder.json["accessors"].size() - 1}})});
+    builder.json["accessors"].push_back({{"componentType", kFloatType}, {"type", "VEC3"}, {"count", 3}});
+    builder.makeSparse<std::uint16_t>(1, {2}, {0, 0, 3});
+    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", 1}})});
     builder.json["nodes"][0]["weights"] = Json::array({1});
     const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
     expectPlace(places[0], {0.0, 0.0, 0.0});
@@ -196,9 +166,8 @@ TEST(GltfMorphTargets, sparseTargetsWithoutAViewAddToTheirVerticesAlone) {
 
 TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
     Builder builder;
-    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{2, 0, 1}, kUnsignedByteType, "SCALAR", 3);
-    builder.primitive()["targets"] = Json::array({Json::object(
-        {{"POSITION", builder.add(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC3", 3)}})});
+    builder.indices({2, 0, 1});
+    builder.target({0, 0, 0, 0, 0, 1, 0, 0, 0});
     builder.json["nodes"][0]["weights"] = Json::array({1});
     Scene scene = builder.import();
     poseScene(scene, 0.0);
@@ -211,8 +180,7 @@ TEST(GltfMorphTargets, flatNormalsFollowTheDeformedTriangle) {
 
 TEST(GltfMorphTargets, anotherLengthIsRefusedByName) {
     Builder builder;
-    builder.primitive()["targets"] =
-        Json::array({Json::object({{"POSITION", builder.add(std::vector<float>(6, 0.0f), kFloatType, "VEC3", 2)}})});
+    builder.target(std::vector<float>(6, 0.0f));
     builder.json["nodes"][0]["weights"] = Json::array({1});
     EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/targets/0/POSITION: accessor 1 of mesh 'mesh 0' "
                                            "has 2 elements, but there are 3 positions"));
@@ -224,11 +192,9 @@ TEST(GltfSkins, deformedInstancesAreChargedBeforeTheyAreCopied) {
     const auto errorWith = [](int instances) {
         constexpr std::size_t kVertices = 3000;
         Builder builder = skinnedTriangle();
-        Json& attributes = builder.primitive()["attributes"];
-        attributes["POSITION"] = builder.add(std::vector<float>(3 * kVertices), kFloatType, "VEC3", kVertices);
-        attributes["JOINTS_0"] =
-            builder.add(std::vector<std::uint8_t>(4 * kVertices), kUnsignedByteType, "VEC4", kVertices);
-        attributes["WEIGHTS_0"] = builder.add(std::vector<float>(4 * kVertices), kFloatType, "VEC4", kVertices);
+        builder.attribute("POSITION", "VEC3", std::vector<float>(3 * kVertices));
+        builder.attribute("JOINTS_0", "VEC4", std::vector<std::uint8_t>(4 * kVertices));
+        builder.attribute("WEIGHTS_0", "VEC4", std::vector<float>(4 * kVertices));
         Json roots = Json::array({0, 1});
         for (int i = 0; i < instances; ++i) {
             roots.push_back(builder.json["nodes"].size());
@@ -245,7 +211,7 @@ TEST(GltfSkins, deformedInstancesAreChargedBeforeTheyAreCopied) {
 TEST(GltfMorphTargets, weightsOfNodesAreChargedByTargetsAndNodes) {
     const auto errorWith = [](int targets, int nodes) {
         Builder builder;
-        const int moved = builder.add(std::vector<float>(9, 1.0f), kFloatType, "VEC3", 3);
+        const int moved = builder.add("VEC3", std::vector<float>(9, 1.0f));
         builder.primitive()["targets"] = Json::array();
         for (int i = 0; i < targets; ++i) builder.primitive()["targets"].push_back(Json::object({{"POSITION", moved}}));
         builder.json["meshes"][0]["weights"] = Json::array({1});

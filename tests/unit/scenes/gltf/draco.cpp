@@ -1,11 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <set>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include "DracoGrid.h"
 #include "tests/support/Sweep.h"
@@ -37,7 +33,7 @@ std::multiset<std::array<std::uint32_t, 3>> turnedTriangles(const std::vector<st
 
 std::vector<std::uint32_t> inOrder(std::size_t count) {
     std::vector<std::uint32_t> all(count);
-    for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < count; ++i) all[i] = std::uint32_t(i);
     return all;
 }
 
@@ -51,7 +47,7 @@ void expectNearly(const Shape& got, const Shape& wanted) {
         const auto nearest = std::ranges::min_element(
             wanted.rest.positionsOS, {}, [&](const glm::vec3& other) { return mostApart(position, other); });
         EXPECT_LT(mostApart(position, *nearest), 5.0f / 16383.0f);
-        vertices.push_back(static_cast<std::uint32_t>(nearest - wanted.rest.positionsOS.begin()));
+        vertices.push_back(std::uint32_t(nearest - wanted.rest.positionsOS.begin()));
     }
     EXPECT_EQ(std::set<std::uint32_t>(vertices.begin(), vertices.end()).size(), count) << "each vertex once";
     const auto expectNear = [&](const char* name, const auto& values, const auto& others, float tolerance) {
@@ -115,10 +111,8 @@ TEST(GltfDraco, quantisedStreamsAreTheModelToTheirSteps) {
 
 TEST(GltfDraco, attributesOutsideTheStreamAndMorphTargetsAreReadAsUsual) {
     Builder builder;
-    builder.primitive()["attributes"]["TEXCOORD_0"] =
-        builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, 5126, "VEC2", 3);
-    const int moved = builder.add(std::vector<float>{0, 0, 1, 0, 0, 2, 0, 0, 3}, 5126, "VEC3", 3);
-    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", moved}})});
+    builder.attribute("TEXCOORD_0", "VEC2", {0, 0, 1, 0, 0, 1});
+    builder.target({0, 0, 1, 0, 0, 2, 0, 0, 3});
     builder.json["meshes"][0]["weights"] = Json::array({1});
     addDraco(builder, dracoTriangle());
     const Shape shape = builder.import().rig.shapes.at(0);
@@ -133,9 +127,9 @@ TEST(GltfDraco, whatIsEncodedAsStripsIsAList) {
     addDraco(builder, dracoTriangle());
     EXPECT_EQ(builder.import().meshes.at(0).indices, (std::vector<std::uint32_t>{0, 1, 2}));
     builder.primitive()["mode"] = 6;
-    EXPECT_NE(builder.error().find("/meshes/0/primitives/0/mode: is 6, a fan"), std::string::npos);
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/mode: is 6, a fan"));
     builder.primitive()["mode"] = 1;
-    EXPECT_NE(builder.error().find("/meshes/0/primitives/0/mode: is 1, points or lines"), std::string::npos);
+    EXPECT_THAT(builder.error(), HasSubstr("/meshes/0/primitives/0/mode: is 1, points or lines"));
 }
 
 TEST(GltfDraco, modelsOfTheAssetsFolderAreRead) {
@@ -161,10 +155,10 @@ void expectStreamsCutShortRefused() {
     for (const Bytes& good : {grid.lossless(), grid.quantised(draco::MESH_EDGEBREAKER_ENCODING, 0)}) {
         Builder builder = compressed(grid, good);
         for (std::size_t size = 1; size < good.size(); size += ::tessera::test::isWholeSweep() ? 1 : 5) {
-            setStream(builder, Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)));
+            setStream(builder, Bytes(good.begin(), good.begin() + std::ptrdiff_t(size)));
             const std::string error = builder.error();
-            EXPECT_NE(error.find("model.gltf: "), std::string::npos) << size << " of " << good.size();
-            EXPECT_NE(error.find(std::string(kDracoPlace) + "the stream of mesh 'grid' "), std::string::npos) << error;
+            EXPECT_THAT(error, HasSubstr("model.gltf: ")) << size << " of " << good.size();
+            EXPECT_THAT(error, HasSubstr(std::string(kDracoPlace) + "the stream of mesh 'grid' ")) << error;
         }
     }
 }
@@ -188,7 +182,7 @@ void expectChangedBytesReadOrRefused() {
         for (std::size_t at = 0; at < good.size(); ++at)
             for (const unsigned change : ::tessera::test::inTurn(kChanges, at)) {
                 Bytes harmed = good;
-                harmed[at] ^= static_cast<std::byte>(change);
+                harmed[at] ^= std::byte(change);
                 SCOPED_TRACE(testing::Message() << "byte " << at << " changed by " << change);
                 setStream(builder, harmed);
                 refusedCount += builder.error().empty() ? 0 : 1; // throws what is not an InputError
@@ -207,18 +201,17 @@ TEST(GltfDracoSlow, anyChangedByteIsReadOrRefused) {
 std::string errorWithByte(std::size_t at, unsigned value) {
     Builder builder;
     Bytes stream = dracoTriangle();
-    stream.at(at) = static_cast<std::byte>(value);
+    stream.at(at) = std::byte(value);
     addDraco(builder, stream);
     return builder.error();
 }
 
 TEST(GltfDraco, headersOfOtherStreamsAreRefused) {
-    EXPECT_NE(
-        errorWithByte(0, 'd').find(std::string(kDracoPlace) + "the stream of mesh 'mesh 0' is no stream of Draco"),
-        std::string::npos);
-    EXPECT_NE(errorWithByte(6, 1).find("is of version 2.1 of Draco's format; 2.2 is glTF's"), std::string::npos);
-    EXPECT_NE(errorWithByte(7, 0).find("is of points, not of a mesh"), std::string::npos);
-    EXPECT_NE(errorWithByte(8, 7).find("is of the unknown method 7; compress the mesh anew"), std::string::npos);
+    EXPECT_THAT(errorWithByte(0, 'd'),
+                HasSubstr(std::string(kDracoPlace) + "the stream of mesh 'mesh 0' is no stream of Draco"));
+    EXPECT_THAT(errorWithByte(6, 1), HasSubstr("is of version 2.1 of Draco's format; 2.2 is glTF's"));
+    EXPECT_THAT(errorWithByte(7, 0), HasSubstr("is of points, not of a mesh"));
+    EXPECT_THAT(errorWithByte(8, 7), HasSubstr("is of the unknown method 7; compress the mesh anew"));
 }
 
 TEST(GltfDraco, streamsThatAreNotAsTheirAccessorsSayAreRefused) {
@@ -230,31 +223,22 @@ TEST(GltfDraco, streamsThatAreNotAsTheirAccessorsSayAreRefused) {
     };
     const auto nothing = [](Builder&, Json&) {};
     EXPECT_EQ(errorAfter(nothing), "");
-    EXPECT_NE(errorAfter([](Builder&, Json& draco) {
-                  draco["attributes"]["POSITION"] = 99;
-              }).find("holds no attribute 99, which POSITION names"),
-              std::string::npos);
-    EXPECT_NE(errorAfter([](Builder& builder, Json&) {
-                  builder.json["accessors"][0]["count"] = 2;
-              }).find("holds 3 vertices, but accessor 0 of POSITION says 2"),
-              std::string::npos);
-    EXPECT_NE(errorAfter([](Builder& builder, Json&) {
-                  builder.json["accessors"][0]["type"] = "VEC2";
-              }).find("holds POSITION with 3 components an element, but accessor 0 says 2"),
-              std::string::npos);
-    EXPECT_NE(errorAfter([](Builder& builder, Json&) {
-                  builder.primitive()["indices"] =
-                      builder.add(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, 5123, "SCALAR", 6);
-              }).find("holds 1 triangles, but accessor 1 says 6 indices"),
-              std::string::npos);
-    EXPECT_NE(errorAfter(nothing, {.componentType = 11}).find("holds POSITION in a component type that glTF does not"),
-              std::string::npos);
-    EXPECT_NE(errorAfter([](Builder&, Json& draco) { draco["bufferView"] = 9; }).find("points at /bufferViews/9"),
-              std::string::npos);
-    EXPECT_NE(errorAfter([](Builder&, Json& draco) {
-                  draco.erase("bufferView");
-              }).find("the required property 'bufferView' is missing"),
-              std::string::npos);
+    EXPECT_THAT(errorAfter([](Builder&, Json& draco) { draco["attributes"]["POSITION"] = 99; }),
+                HasSubstr("holds no attribute 99, which POSITION names"));
+    EXPECT_THAT(errorAfter([](Builder& builder, Json&) { builder.json["accessors"][0]["count"] = 2; }),
+                HasSubstr("holds 3 vertices, but accessor 0 of POSITION says 2"));
+    EXPECT_THAT(errorAfter([](Builder& builder, Json&) { builder.json["accessors"][0]["type"] = "VEC2"; }),
+                HasSubstr("holds POSITION with 3 components an element, but accessor 0 says 2"));
+    EXPECT_THAT(errorAfter([](Builder& builder, Json&) {
+                    builder.indices<std::uint16_t>({0, 1, 2, 2, 1, 0});
+                }),
+                HasSubstr("holds 1 triangles, but accessor 1 says 6 indices"));
+    EXPECT_THAT(errorAfter(nothing, {.componentType = 11}),
+                HasSubstr("holds POSITION in a component type that glTF does not"));
+    EXPECT_THAT(errorAfter([](Builder&, Json& draco) { draco["bufferView"] = 9; }),
+                HasSubstr("points at /bufferViews/9"));
+    EXPECT_THAT(errorAfter([](Builder&, Json& draco) { draco.erase("bufferView"); }),
+                HasSubstr("the required property 'bufferView' is missing"));
 }
 
 TEST(GltfDraco, anIndexBeyondTheVerticesIsRefused) {
@@ -262,7 +246,7 @@ TEST(GltfDraco, anIndexBeyondTheVerticesIsRefused) {
     Bytes stream = dracoTriangle();
     stream.at(16) = std::byte{7}; // behind the header, two counts and the method: the last index
     addDraco(builder, stream);
-    EXPECT_NE(builder.error().find(kDracoPlace), std::string::npos) << builder.error();
+    EXPECT_THAT(builder.error(), HasSubstr(kDracoPlace)) << builder.error();
 }
 
 } // namespace

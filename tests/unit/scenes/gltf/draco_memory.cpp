@@ -16,22 +16,20 @@ TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
     };
     constexpr std::uint32_t kMany = 1u << 30;
     Builder faces;
-    faces.primitive()["indices"] = faces.add(std::vector<std::uint16_t>{0, 1, 2}, 5123, "SCALAR", 3);
+    faces.indices<std::uint16_t>({0, 1, 2});
     addDraco(faces, dracoTriangle({.faces = kMany}));
-    EXPECT_NE(faces.error().find("holds 1073741824 triangles, but accessor 1 says 3 indices"), std::string::npos)
-        << faces.error();
+    EXPECT_THAT(faces.error(), HasSubstr("holds 1073741824 triangles, but accessor 1 says 3 indices")) << faces.error();
     // Nothing says how many triangles a primitive without indices has.
     faces.primitive().erase("indices");
-    EXPECT_NE(refusal(faces).find("/KHR_draco_mesh_compression: asks for 240.0 GiB"), std::string::npos)
-        << refusal(faces);
+    EXPECT_THAT(refusal(faces), HasSubstr("/KHR_draco_mesh_compression: asks for 240.0 GiB")) << refusal(faces);
 
     Builder vertices;
     Json& stream = addDraco(vertices, dracoTriangle({.faces = 20000, .vertices = 60000, .components = 255}));
-    EXPECT_NE(vertices.error().find("holds 60000 vertices, but accessor 0 of POSITION says 3"), std::string::npos)
+    EXPECT_THAT(vertices.error(), HasSubstr("holds 60000 vertices, but accessor 0 of POSITION says 3"))
         << vertices.error();
     // Nor what an attribute holds that nobody names.
     stream["attributes"] = Json::object();
-    EXPECT_NE(refusal(vertices).find("/KHR_draco_mesh_compression: asks for "), std::string::npos) << refusal(vertices);
+    EXPECT_THAT(refusal(vertices), HasSubstr("/KHR_draco_mesh_compression: asks for ")) << refusal(vertices);
 }
 
 TEST(GltfDraco, whatADecoderTookIsGivenBack) {
@@ -84,17 +82,16 @@ TEST(GltfDraco, aSharedStreamIsComparedWithTheAccessorsOfEachPrimitive) {
     Builder builder;
     addDraco(builder, dracoTriangle());
     Json second = builder.primitive();
-    second["attributes"]["POSITION"] = builder.add(std::vector<float>(12), 5126, "VEC3", 4);
+    second["attributes"]["POSITION"] = builder.add("VEC3", std::vector<float>(12));
     builder.json["meshes"][0]["primitives"].push_back(second);
-    EXPECT_NE(builder.error().find("/meshes/0/primitives/1/extensions/KHR_draco_mesh_compression: the stream of mesh "
-                                   "'mesh 0 primitive 1' holds 3 vertices, but accessor 1 of POSITION says 4"),
-              std::string::npos)
+    EXPECT_THAT(builder.error(),
+                HasSubstr("/meshes/0/primitives/1/extensions/KHR_draco_mesh_compression: the stream of mesh "
+                          "'mesh 0 primitive 1' holds 3 vertices, but accessor 1 of POSITION says 4"))
         << builder.error();
     second["attributes"]["POSITION"] = 0;
-    second["indices"] = builder.add(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, 5123, "SCALAR", 6);
+    second["indices"] = builder.add<std::uint16_t>("SCALAR", {0, 1, 2, 2, 1, 0});
     builder.json["meshes"][0]["primitives"][1] = second;
-    EXPECT_NE(builder.error().find("holds 1 triangles, but accessor 2 says 6 indices"), std::string::npos)
-        << builder.error();
+    EXPECT_THAT(builder.error(), HasSubstr("holds 1 triangles, but accessor 2 says 6 indices")) << builder.error();
 }
 
 } // namespace

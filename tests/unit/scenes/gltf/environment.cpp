@@ -1,125 +1,64 @@
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <numbers>
+#include <tuple>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "GltfBuilder.h"
 #include "base/Srgb.h"
 #include "scenes/Environment.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
+#include "tests/unit/scenes/PictureBytes.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
 
+using namespace scenes::test;
 using std::numbers::pi;
-using testing::HasSubstr;
 
-/// An uncompressed PNG of 8 bits a channel; `channels` 3 or 4. Source: RFC 2083, RFC 1951 section 3.2.4.
-Bytes png(int width, int height, int channels, const std::vector<unsigned char>& pixels) {
-    using Data = std::vector<unsigned char>;
-    const auto word = [](Data& to, std::uint32_t value) {
-        for (int shift = 24; shift >= 0; shift -= 8) to.push_back(static_cast<unsigned char>(value >> shift));
-    };
-    Data file{0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
-    const auto chunk = [&](const char* type, const Data& content) {
-        word(file, static_cast<std::uint32_t>(content.size()));
-        const std::size_t begin = file.size();
-        file.insert(file.end(), type, type + 4);
-        file.insert(file.end(), content.begin(), content.end());
-        std::uint32_t crc = ~0u;
-        for (std::size_t i = begin; i < file.size(); ++i) {
-            crc ^= file[i];
-            for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xedb88320u & (0u - (crc & 1u)));
-        }
-        word(file, ~crc);
-    };
-    Data header;
-    word(header, static_cast<std::uint32_t>(width));
-    word(header, static_cast<std::uint32_t>(height));
-    header.insert(header.end(), {8, static_cast<unsigned char>(channels == 4 ? 6 : 2), 0, 0, 0});
-    chunk("IHDR", header);
-    Data rows;
-    const auto rowBytes = std::ptrdiff_t(width) * channels;
-    for (int y = 0; y < height; ++y) {
-        rows.push_back(0);
-        rows.insert(rows.end(), pixels.begin() + y * rowBytes, pixels.begin() + (y + 1) * rowBytes);
-    }
-    const auto size = static_cast<unsigned>(rows.size());
-    Data stream{0x78,
-                0x01,
-                1,
-                static_cast<unsigned char>(size),
-                static_cast<unsigned char>(size >> 8),
-                static_cast<unsigned char>(~size),
-                static_cast<unsigned char>(~size >> 8)};
-    stream.insert(stream.end(), rows.begin(), rows.end());
-    std::uint32_t a = 1, b = 0;
-    for (const unsigned char byte : rows) b = (b + (a = (a + byte) % 65521)) % 65521;
-    word(stream, b << 16 | a);
-    chunk("IDAT", stream);
-    chunk("IEND", {});
-    return bytesOf(file);
-}
-
-Bytes pfm(int side, const std::function<glm::vec3(int, int)>& light) {
-    const std::string head = fmt::format("PF\n{} {}\n-1.0\n", side, side);
-    Bytes bytes = bytesOf(std::vector<char>(head.begin(), head.end()));
-    for (int y = side - 1; y >= 0; --y)
+std::string pfm(int side, const std::function<glm::vec3(int, int)>& light) {
+    std::vector<float> rgb;
+    for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const glm::vec3 texel = light(x, y);
-            const Bytes row = bytesOf(std::vector<float>{texel.r, texel.g, texel.b});
-            bytes.insert(bytes.end(), row.begin(), row.end());
+            rgb.insert(rgb.end(), {texel.r, texel.g, texel.b});
         }
-    return bytes;
+    return pfmOf(side, side, rgb);
 }
 
 /// The direction that is seen at a place of a face, from the upper left corner, 0..1: what a viewer in the middle of
 /// the room sees who looks along the axis, its head up, or towards -Z where it looks up and +Z where it looks down.
 glm::dvec3 seenAt(int face, double x, double y) {
     const double right = 2.0 * x - 1.0, up = 1.0 - 2.0 * y;
-    switch (face) {
-    case 0:
-        return {1.0, up, right};
-    case 1:
-        return {-1.0, up, -right};
-    case 2:
-        return {-right, 1.0, -up};
-    case 3:
-        return {-right, -1.0, up};
-    case 4:
-        return {-right, up, 1.0};
-    default:
-        return {right, up, -1.0};
-    }
-}
-
-/// A light whose faces are pictures; its irradiance is that of nothing.
-void addLight(Builder& builder, int side, const std::array<Bytes, 6>& faces) {
-    Json& light = builder.json["extensions"]["EXT_lights_image_based"]["lights"][0];
-    light = {{"name", "room"}, {"specularImageSize", side}, {"specularImages", Json::array({Json::array()})}};
-    builder.json["images"] = Json::array();
-    for (const Bytes& face : faces) {
-        light["specularImages"][0].push_back(builder.json["images"].size());
-        builder.json["images"].push_back({{"uri", dataUri(face)}});
-    }
-    light["irradianceCoefficients"] = std::vector<std::array<double, 3>>(9);
-    builder.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
-    builder.json["extensionsUsed"] = {"EXT_lights_image_based"};
+    const glm::dvec3 directions[] = {{1.0, up, right},   {-1.0, up, -right}, {-right, 1.0, -up},
+                                     {-right, -1.0, up}, {-right, up, 1.0},  {right, up, -1.0}};
+    return directions[face];
 }
 
 Json& lightOf(Builder& builder) {
     return builder.json["extensions"]["EXT_lights_image_based"]["lights"][0];
 }
 
+/// A light whose faces are pictures; its irradiance is that of nothing.
+void addLight(Builder& builder, int side, const std::array<std::string, 6>& faces) {
+    Json& light = lightOf(builder);
+    light = {{"name", "room"}, {"specularImageSize", side}, {"specularImages", Json::array({Json::array()})}};
+    builder.json["images"] = Json::array();
+    for (const std::string& face : faces) {
+        light["specularImages"][0].push_back(builder.json["images"].size());
+        builder.json["images"].push_back({{"uri", dataUri(bytesOf(face))}});
+    }
+    light["irradianceCoefficients"] = std::vector<std::array<double, 3>>(9);
+    builder.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    builder.json["extensionsUsed"] = {"EXT_lights_image_based"};
+}
+
 /// A cube whose light is a function of the unit direction.
 Builder cubeOf(int side, const std::function<glm::dvec3(glm::dvec3)>& light) {
-    std::array<Bytes, 6> faces;
+    std::array<std::string, 6> faces;
     for (int face = 0; face < 6; ++face)
         faces[std::size_t(face)] = pfm(side, [&](int x, int y) {
             return glm::vec3(light(glm::normalize(seenAt(face, (x + 0.5) / side, (y + 0.5) / side))));
@@ -129,7 +68,7 @@ Builder cubeOf(int side, const std::function<glm::dvec3(glm::dvec3)>& light) {
     return builder;
 }
 
-std::array<Bytes, 6> sixOf(const Bytes& face) {
+std::array<std::string, 6> sixOf(const std::string& face) {
     return {face, face, face, face, face, face};
 }
 
@@ -171,7 +110,7 @@ TEST(GltfEnvironment, aCubeKeepsTheLightOfABrightTexelAnywhere) {
     constexpr int kSide = 8;
     for (const int face : {0, 2, 5})
         for (const auto& [column, row] : {std::pair(3, 4), std::pair(0, 0), std::pair(7, 3)}) {
-            std::array<Bytes, 6> faces = sixOf(pfm(kSide, [](int, int) { return glm::vec3(0.0f); }));
+            std::array<std::string, 6> faces = sixOf(pfm(kSide, [](int, int) { return glm::vec3(0.0f); }));
             faces[std::size_t(face)] = pfm(
                 kSide, [&, x = column, y = row](int i, int j) { return glm::vec3(i == x && j == y ? 1000.0f : 0.0f); });
             Builder builder;
@@ -202,14 +141,12 @@ TEST(GltfEnvironment, itsRotationTurnsItAndItsIntensityIsTheScenes) {
 
 TEST(GltfEnvironment, picturesWithOpacityHoldLightDividedByIt) {
     const double code200 = linearFromSrgb(200.0 / 255.0);
-    const auto lightOf8Bits = [](int channels, unsigned char alpha) {
-        std::vector<unsigned char> pixels;
-        for (int i = 0; i < 4; ++i) {
-            pixels.insert(pixels.end(), {200, 255, 0});
-            if (channels == 4) pixels.push_back(alpha);
-        }
+    const auto lightOf8Bits = [](int channels, int alpha) {
+        std::string pixels;
+        for (int i = 0; i < 4; ++i)
+            pixels += std::string{char(200), char(255), '\0', char(alpha)}.substr(0, std::size_t(channels));
         Builder builder;
-        addLight(builder, 2, sixOf(png(2, 2, channels, pixels)));
+        addLight(builder, 2, sixOf(pngOf(2, 2, 8, channels == 4 ? 6 : 2, pixels)));
         return builder.import().environment.value().map;
     };
     const auto expectEven = [](const Image& map, const glm::dvec3& light) {
@@ -223,44 +160,34 @@ TEST(GltfEnvironment, picturesWithOpacityHoldLightDividedByIt) {
 TEST(GltfEnvironment, numbersOfItsFacesThatAreNoLightAreReplacedAndCounted) {
     Builder builder;
     // Opacity 0: red and green are infinite, blue is 0 by 0.
-    const std::vector<unsigned char> texel{255, 10, 0, 0};
-    addLight(builder, 1, sixOf(png(1, 1, 4, texel)));
+    addLight(builder, 1, sixOf(pngOf(1, 1, 8, 6, std::string("\xff\x0a\0\0", 4))));
     const Scene scene = builder.import();
     EXPECT_TRUE(hasWarning(scene, "the environment 'room' holds NaN in 6 numbers, taken as 0"));
     EXPECT_TRUE(hasWarning(scene, "the environment 'room' holds infinity in 12 numbers, taken as its brightest"));
     EXPECT_LT(worst(scene.environment.value().map, [](glm::dvec3) { return glm::dvec3(1, 1, 0); }), 1e-6);
 }
 
-TEST(GltfEnvironment, aFaceThatCannotBeReadIsACheckerboardUnlessLoadsAreStrict) {
-    std::array<Bytes, 6> faces = sixOf(pfm(8, [](int, int) { return glm::vec3(0.25f); }));
-    faces[2] = bytesOf(std::vector<char>{'n', 'o'});
-    Builder builder;
-    addLight(builder, 8, faces);
-    const Scene scene = builder.import();
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("/images/2"));
-    EXPECT_THAT(scene.warnings[0], HasSubstr("; its side of the environment is a checkerboard"));
-    const Image& map = scene.environment.value().map;
-    EXPECT_EQ(map.width, 4 * 64) << "that of the checkerboard, which is the largest";
-    EXPECT_NE(texelAt(map, 0, 0), glm::dvec3(0.25)) << "above";
-    EXPECT_EQ(texelAt(map, 0, map.height - 1), glm::dvec3(0.25)) << "below";
-    builder.wishes.isStrict = true;
-    EXPECT_THAT(builder.error(), HasSubstr("/images/2"));
-}
-
-TEST(GltfEnvironment, aFaceThatIsNotSquareIsACheckerboardUnlessLoadsAreStrict) {
-    std::array<Bytes, 6> faces = sixOf(pfm(8, [](int, int) { return glm::vec3(0.25f); }));
-    const std::string line = "PF\n512 1\n-1.0\n" + std::string(512 * 12, '\0'); // of 512x512 the map would be large
-    faces[2] = bytesOf(std::vector<char>(line.begin(), line.end()));
-    Builder builder;
-    addLight(builder, 8, faces);
-    const Scene scene = builder.import();
-    ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_THAT(scene.warnings[0], HasSubstr("/images/2: has 512x1 texels, and is a face of an environment, which is "
-                                             "square; its side of the environment is a checkerboard"));
-    EXPECT_EQ(scene.environment.value().map.width, 4 * 64) << "that of the checkerboard, which is the largest";
-    builder.wishes.isStrict = true;
-    EXPECT_THAT(builder.error(), HasSubstr("/images/2: has 512x1 texels"));
+TEST(GltfEnvironment, aFaceThatCannotBeReadOrIsNotSquareIsACheckerboardUnlessLoadsAreStrict) {
+    // As a face of 512x512 the line would make the map large.
+    for (const auto& [face, flaw] :
+         {std::pair<std::string, const char*>("no", "/images/2"),
+          {pfmOf(512, 1, std::vector<float>(3 * 512, 0.0f)),
+           "/images/2: has 512x1 texels, and is a face of an environment, which is square"}}) {
+        std::array<std::string, 6> faces = sixOf(pfm(8, [](int, int) { return glm::vec3(0.25f); }));
+        faces[2] = face;
+        Builder builder;
+        addLight(builder, 8, faces);
+        const Scene scene = builder.import();
+        ASSERT_EQ(scene.warnings.size(), 1u);
+        EXPECT_THAT(scene.warnings[0],
+                    AllOf(HasSubstr(flaw), HasSubstr("; its side of the environment is a checkerboard")));
+        const Image& map = scene.environment.value().map;
+        EXPECT_EQ(map.width, 4 * 64) << "that of the checkerboard, which is the largest";
+        EXPECT_NE(texelAt(map, 0, 0), glm::dvec3(0.25)) << "above";
+        EXPECT_EQ(texelAt(map, 0, map.height - 1), glm::dvec3(0.25)) << "below";
+        builder.wishes.isStrict = true;
+        EXPECT_THAT(builder.error(), HasSubstr(flaw));
+    }
 }
 
 TEST(GltfEnvironment, facesOfOtherSizesThanStatedAreStretchedToTheLargestWithAWarning) {
@@ -294,14 +221,15 @@ TEST(GltfEnvironment, irradianceThatIsNotThatOfTheFacesIsNoted) {
     Builder builder = cubeOf(16, byDirection);
     std::vector<std::array<double, 3>> irradiance = irradianceByDirection();
     lightOf(builder)["irradianceCoefficients"] = irradiance;
-    EXPECT_THAT(builder.import().notes, testing::IsEmpty());
-    for (std::array<double, 3>& coefficient : irradiance)
-        for (double& number : coefficient) number *= 1.04;
-    lightOf(builder)["irradianceCoefficients"] = irradiance;
-    EXPECT_THAT(builder.import().notes, testing::IsEmpty()) << "within five percent";
-    for (std::array<double, 3>& coefficient : irradiance)
-        for (double& number : coefficient) number *= 1.10 / 1.04;
-    lightOf(builder)["irradianceCoefficients"] = irradiance;
+    EXPECT_THAT(builder.import().notes, IsEmpty());
+    const auto scale = [&](double factor) {
+        for (std::array<double, 3>& coefficient : irradiance)
+            for (double& number : coefficient) number *= factor;
+        lightOf(builder)["irradianceCoefficients"] = irradiance;
+    };
+    scale(1.04);
+    EXPECT_THAT(builder.import().notes, IsEmpty()) << "within five percent";
+    scale(1.10 / 1.04);
     const std::vector<std::string> notes = builder.import().notes;
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_THAT(notes[0], HasSubstr("the irradianceCoefficients of the environment 'room' differ from the irradiance "
@@ -331,17 +259,16 @@ TEST(GltfEnvironment, brokenOnesAreRefusedByPlace) {
         lightOf(builder)[key] = value;
         return builder.error();
     };
-    EXPECT_THAT(errorOf("specularImages", Json::parse("[[0, 1, 2, 3, 4]]")),
-                HasSubstr("/specularImages: must hold 6 faces of a cube in each element, but one holds 5"));
-    EXPECT_THAT(errorOf("specularImages", Json::array()),
-                HasSubstr("/specularImages: is empty; the six faces of a cube are needed"));
-    EXPECT_THAT(errorOf("specularImages", Json::parse("[[0, 1, 2, 3, 4, 9]]")), HasSubstr("points at /images/9"));
-    EXPECT_THAT(errorOf("irradianceCoefficients", Json::parse("[[1, 1, 1]]")),
-                HasSubstr("/irradianceCoefficients: must hold 9 colours, but holds 1"));
-    EXPECT_THAT(errorOf("rotation", Json::parse("[0, 0, 0, 0]")),
-                HasSubstr("/rotation: is the zero quaternion, which is no rotation"));
-    EXPECT_THAT(errorOf("intensity", -1), HasSubstr("/intensity: is -1; it must be at least 0"));
-    EXPECT_THAT(errorOf("specularImageSize", 0), HasSubstr("/specularImageSize: is 0; it must be at least 1"));
+    for (const auto& [key, value, error] :
+         {std::tuple("specularImages", "[[0, 1, 2, 3, 4]]",
+                     "/specularImages: must hold 6 faces of a cube in each element, but one holds 5"),
+          {"specularImages", "[]", "/specularImages: is empty; the six faces of a cube are needed"},
+          {"specularImages", "[[0, 1, 2, 3, 4, 9]]", "points at /images/9"},
+          {"irradianceCoefficients", "[[1, 1, 1]]", "/irradianceCoefficients: must hold 9 colours, but holds 1"},
+          {"rotation", "[0, 0, 0, 0]", "/rotation: is the zero quaternion, which is no rotation"},
+          {"intensity", "-1", "/intensity: is -1; it must be at least 0"},
+          {"specularImageSize", "0", "/specularImageSize: is 0; it must be at least 1"}})
+        EXPECT_THAT(errorOf(key, Json::parse(value)), HasSubstr(error));
     Builder builder = cubeOf(1, byDirection);
     builder.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 1;
     EXPECT_THAT(builder.error(), HasSubstr("points at /extensions/EXT_lights_image_based/lights/1"));
@@ -351,8 +278,7 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     Builder builder = cubeOf(4, byDirection);
     lightOf(builder)["intensity"] = 3.0;
     const auto file = builder.folder.write("model.gltf", builder.json.dump());
-    LoadOptions options;
-    options.environment = file.string();
+    LoadOptions options = loading(&LoadOptions::environment, file.string());
     const Scene scene = loadScene("spheres", options);
     EXPECT_EQ(scene.environment.value().source, file.string());
     EXPECT_EQ(scene.environment->intensity, 3.0f);
@@ -361,10 +287,9 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     EXPECT_EQ(loadScene(file.string(), {}).environment.value().source, file.string());
     // Scene files take the intensity too, unless they state one.
     const auto loaded = [&](const char* how) {
-        return loadScene(builder.folder
-                             .write("scene.json",
-                                    std::string(R"({"tessera": 1, "environment": {"map": "model.gltf")") + how + "}}")
-                             .string())
+        return loadScene(builder.folder.file("scene.json",
+                                             std::string(R"({"tessera": 1, "environment": {"map": "model.gltf")") +
+                                                 how + "}}"))
             .environment.value()
             .intensity;
     };
@@ -373,21 +298,14 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     lightOf(builder)["intensity"] = 1e38;
     LoadLedger ledger;
     std::vector<std::string> warnings;
-    const std::string bright = builder.folder.write("bright.gltf", builder.json.dump()).string();
-    try {
-        environmentCalled(bright, ledger, warnings); // as the window calls it, without a scene
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("at most 1e+30 can be shown"));
-    }
+    const std::string bright = builder.folder.file("bright.gltf", builder.json.dump());
+    // as the window calls it, without a scene
+    EXPECT_THAT(inputErrorOf([&] { environmentCalled(bright, ledger, warnings); }),
+                HasSubstr("at most 1e+30 can be shown"));
     builder.json["scenes"][0].erase("extensions");
-    options.environment = builder.folder.write("dark.gltf", builder.json.dump()).string();
-    try {
-        loadScene("spheres", options);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("dark.gltf: its scene has no light of EXT_lights_image_based"));
-    }
+    options.environment = builder.folder.file("dark.gltf", builder.json.dump());
+    EXPECT_THAT(inputErrorOf([&] { loadScene("spheres", options); }),
+                HasSubstr("dark.gltf: its scene has no light of EXT_lights_image_based"));
 }
 
 } // namespace

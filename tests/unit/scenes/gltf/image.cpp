@@ -1,53 +1,18 @@
-#include <gtest/gtest.h>
 #include <webp/encode.h>
 
 #include "GltfBuilder.h"
 #include "base/PictureLibrary.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/PictureBytes.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
 
-const std::vector<unsigned char> kGrey /* 7, 200 */ = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
-    0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0xd1, 0x49, 0x20, 0x56, 0x00,
-    0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x3f, 0x01, 0x00, 0x00, 0xd9, 0x00,
-    0xd0, 0xd7, 0xa6, 0x22, 0x3c, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-const std::vector<unsigned char> kGreyAlpha /* 9, alpha 77 */ = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
-    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x04, 0x00, 0x00, 0x00, 0xb5, 0x1c, 0x0c, 0x02, 0x00,
-    0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0xe0, 0xf4, 0x05, 0x00, 0x00, 0x62, 0x00,
-    0x57, 0x6b, 0xc1, 0x29, 0xf3, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-const std::vector<unsigned char> kRgb /* 1, 2, 3 */ = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-    0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00,
-    0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x64, 0x62, 0x06, 0x00, 0x00, 0x0e, 0x00, 0x07, 0xd7,
-    0x6f, 0xe4, 0x78, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-const std::vector<unsigned char> kRgb16 /* 1000, 2000, 65535 */ = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-    0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x10, 0x02, 0x00, 0x00, 0x00, 0xc0, 0xe7, 0x8f, 0x9d, 0x00, 0x00, 0x00,
-    0x0f, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x7e, 0xc1, 0x7e, 0xe1, 0xff, 0x7f, 0x00, 0x0a, 0x2a,
-    0x03, 0xc1, 0x1a, 0x3d, 0xed, 0xf9, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-const std::vector<unsigned char> kHugeClaim /* says 16000 x 16000 */ = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-    0x3e, 0x80, 0x00, 0x00, 0x3e, 0x80, 0x08, 0x06, 0x00, 0x00, 0x00, 0x41, 0x7e, 0xdf, 0xde, 0x00, 0x00, 0x00,
-    0x0c, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0xa0, 0x3d, 0x00, 0x00, 0x00, 0x64, 0x00, 0x01, 0x86,
-    0x64, 0x3c, 0x35, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-const std::vector<unsigned char> kHdr /* (128, 64, 32) x 2^(130 - 136) */ = {
-    0x23, 0x3f, 0x52, 0x41, 0x44, 0x49, 0x41, 0x4e, 0x43, 0x45, 0x0a, 0x46, 0x4f, 0x52, 0x4d, 0x41, 0x54,
-    0x3d, 0x33, 0x32, 0x2d, 0x62, 0x69, 0x74, 0x5f, 0x72, 0x6c, 0x65, 0x5f, 0x72, 0x67, 0x62, 0x65, 0x0a,
-    0x0a, 0x2d, 0x59, 0x20, 0x31, 0x20, 0x2b, 0x58, 0x20, 0x31, 0x0a, 0x80, 0x40, 0x20, 0x82};
-const std::vector<unsigned char> kTga /* lower row 10, 20, 30, upper row 40, 50, 60 */ = {
-    0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
-    0x01, 0x00, 0x02, 0x00, 0x18, 0x00, 0x1e, 0x14, 0x0a, 0x3c, 0x32, 0x28};
+using scenes::test::pngOf;
+using scenes::test::storedTexels;
 
-template <typename T>
-std::vector<T> texelsOf(const Image& image) {
-    std::vector<T> texels(image.texels.size() / sizeof(T));
-    std::memcpy(texels.data(), image.texels.data(), image.texels.size());
-    return texels;
-}
+const std::string kRgb = pngOf(1, 1, 8, 2, "\x01\x02\x03");
 
 /// What every refused picture may be converted to.
 const std::string kConvert = "; convert the picture to png, jpeg, openexr, hdr, pfm, tiff, webp, bmp, gif or tga";
@@ -60,18 +25,15 @@ Image decoded(const Bytes& bytes, const std::string& name) {
 }
 
 std::string decodeError(const Bytes& bytes, const std::string& name) {
-    try {
-        decoded(bytes, name);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return scenes::test::inputErrorOf([&] { decoded(bytes, name); });
 }
 
 TEST(Image, greyIsReplicatedAndMissingAlphaIsOne) {
-    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGrey), "grey")), (Texels8{7, 7, 7, 255, 200, 200, 200, 255}));
-    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kGreyAlpha), "grey")), (Texels8{9, 9, 9, 77}));
-    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytesOf(kRgb), "rgb")), (Texels8{1, 2, 3, 255}));
+    EXPECT_EQ(storedTexels<std::uint8_t>(decoded(bytesOf(pngOf(2, 1, 8, 0, "\x07\xc8")), "grey")),
+              (Texels8{7, 7, 7, 255, 200, 200, 200, 255}));
+    EXPECT_EQ(storedTexels<std::uint8_t>(decoded(bytesOf(pngOf(1, 1, 8, 4, "\x09\x4d")), "grey")),
+              (Texels8{9, 9, 9, 77}));
+    EXPECT_EQ(storedTexels<std::uint8_t>(decoded(bytesOf(kRgb), "rgb")), (Texels8{1, 2, 3, 255}));
 }
 
 TEST(Image, colorIsNotMultipliedByAlpha) {
@@ -79,7 +41,7 @@ TEST(Image, colorIsNotMultipliedByAlpha) {
     EXPECT_EQ(image.format, TexelFormat::Rgba8Unorm);
     EXPECT_EQ(image.width, 2);
     EXPECT_EQ(image.height, 1);
-    EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{255, 0, 0, 255, 10, 20, 200, 128}));
+    EXPECT_EQ(storedTexels<std::uint8_t>(image), (Texels8{255, 0, 0, 255, 10, 20, 200, 128}));
 }
 
 TEST(Image, colorsOfWebpAreNotMultipliedByAlpha) {
@@ -89,7 +51,7 @@ TEST(Image, colorsOfWebpAreNotMultipliedByAlpha) {
     const std::span stored = std::as_bytes(std::span(file, size));
     const Bytes bytes(stored.begin(), stored.end());
     WebPFree(file);
-    EXPECT_EQ(texelsOf<std::uint8_t>(decoded(bytes, "leaf.webp")), rgba);
+    EXPECT_EQ(storedTexels<std::uint8_t>(decoded(bytes, "leaf.webp")), rgba);
 }
 
 /// OpenEXR multiplies colours by alpha (Technical Introduction to OpenEXR, "Alpha"), glTF does not.
@@ -99,21 +61,21 @@ TEST(Image, colorsOfExrAreDividedByAlphaInTexturesAlone) {
     const std::vector<std::uint8_t> file = PictureLibrary::get().encodeExr(2, 1, rgba);
     const std::filesystem::path path = folder.write("leaf.exr", std::string(file.begin(), file.end()));
     LoadLedger ledger;
-    EXPECT_EQ(texelsOf<float>(readImage(path, ledger)), (std::vector<float>{2, 1, 0.5f, 0.25f, 3, 2, 1, 0}));
-    EXPECT_EQ(texelsOf<float>(readPicture(path, ledger).image),
+    EXPECT_EQ(storedTexels<float>(readImage(path, ledger)), (std::vector<float>{2, 1, 0.5f, 0.25f, 3, 2, 1, 0}));
+    EXPECT_EQ(storedTexels<float>(readPicture(path, ledger).image),
               (std::vector<float>{0.5f, 0.25f, 0.125f, 0.25f, 3, 2, 1, 0}));
 }
 
 TEST(Image, sixteenBitsAreKept) {
-    const Image image = decoded(bytesOf(kRgb16), "deep");
+    const Image image = decoded(bytesOf(pngOf(1, 1, 16, 2, "\x03\xe8\x07\xd0\xff\xff")), "deep");
     EXPECT_EQ(image.format, TexelFormat::Rgba16Unorm);
-    EXPECT_EQ(texelsOf<std::uint16_t>(image), (std::vector<std::uint16_t>{1000, 2000, 65535, 65535}));
+    EXPECT_EQ(storedTexels<std::uint16_t>(image), (std::vector<std::uint16_t>{1000, 2000, 65535, 65535}));
 }
 
 TEST(Image, radianceIsReadExactlyAsFloat) {
-    const Image image = decoded(bytesOf(kHdr), "sky");
+    const Image image = decoded(bytesOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x82"), "sky");
     EXPECT_EQ(image.format, TexelFormat::Rgba32Float);
-    const std::vector<float> texels = texelsOf<float>(image);
+    const std::vector<float> texels = storedTexels<float>(image);
     ASSERT_EQ(texels.size(), 4u);
     // RGBE has an 8-bit mantissa; some readers add half a step, 2^-7 here.
     EXPECT_NEAR(texels[0], 2.0f, 0.01f);
@@ -124,8 +86,10 @@ TEST(Image, radianceIsReadExactlyAsFloat) {
 
 TEST(Image, rowsStartAtTheTop) {
     const Folder folder;
-    const Image image = underLedger(readImage, folder.write("two rows.tga", bytesOf(kTga)));
-    EXPECT_EQ(texelsOf<std::uint8_t>(image), (Texels8{40, 50, 60, 255, 10, 20, 30, 255}));
+    // Lower row 10, 20, 30, upper row 40, 50, 60.
+    const std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\2\0\x18\0\x1e\x14\x0a\x3c\x32\x28", 24);
+    const Image image = underLedger(readImage, folder.write("two rows.tga", tga));
+    EXPECT_EQ(storedTexels<std::uint8_t>(image), (Texels8{40, 50, 60, 255, 10, 20, 30, 255}));
 }
 
 TEST(Image, formatIsFoundByContentBeforeExtension) {
@@ -136,20 +100,18 @@ TEST(Image, formatIsFoundByContentBeforeExtension) {
 
 TEST(Image, unusablePicturesAreRefusedByName) {
     EXPECT_EQ(decodeError({}, "a.png"), "a.png: the picture is empty (0 bytes); save it again");
-    EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "thing"),
-              "thing: is in no known picture format" + kConvert);
+    EXPECT_EQ(decodeError(bytesOf("abc"), "thing"), "thing: is in no known picture format" + kConvert);
     const std::string ktx2 = "\xabKTX 20\xbb\r\n\x1a\n";
-    EXPECT_EQ(decodeError(bytesOf(std::vector<char>(ktx2.begin(), ktx2.end())), "t"),
-              "t: the picture format ktx2 is not supported" + kConvert);
-    EXPECT_EQ(decodeError(bytesOf(std::vector<char>{'a', 'b', 'c'}), "a.nonsense"),
+    EXPECT_EQ(decodeError(bytesOf(ktx2), "t"), "t: the picture format ktx2 is not supported" + kConvert);
+    EXPECT_EQ(decodeError(bytesOf("abc"), "a.nonsense"),
               "a.nonsense: the picture format nonsense is not supported" + kConvert);
     Bytes cut = pngRedBlue();
     cut.resize(45); // inside the texels
-    EXPECT_NE(decodeError(cut, "cut.png").find("cut.png: the png picture is broken or cut short"), std::string::npos);
+    EXPECT_THAT(decodeError(cut, "cut.png"), HasSubstr("cut.png: the png picture is broken or cut short"));
     cut.resize(20); // inside the header
-    EXPECT_NE(decodeError(cut, "cut.png").find("cut.png: the png picture is broken or cut short"), std::string::npos);
-    EXPECT_NE(decodeError(bytesOf(kHugeClaim), "huge.png").find("the header claims 16000x16000 texels, more than"),
-              std::string::npos);
+    EXPECT_THAT(decodeError(cut, "cut.png"), HasSubstr("cut.png: the png picture is broken or cut short"));
+    EXPECT_THAT(decodeError(bytesOf(pngOf(1, 1, 8, 6, std::string(4, '\0'), 16000)), "huge.png"),
+                HasSubstr("the header claims 16000x16000 texels, more than"));
     EXPECT_THROW(underLedger(readImage, "/nowhere/at/all.png"), InputError);
 }
 
@@ -165,7 +127,7 @@ TEST(Image, paletteIndicesBeyondThePaletteAreNotReadPastIt) {
     bmp.insert(bmp.end(), {9, 9, 9, 0, 255, 255, 255, 255});
     EXPECT_EQ(decodeError(bytesOf(tga), "a.tga"),
               "a.tga: the tga picture is broken or cut short (unknown image type); save it again");
-    const Texels8 texel = texelsOf<std::uint8_t>(decoded(bytesOf(bmp), "a.bmp"));
+    const Texels8 texel = storedTexels<std::uint8_t>(decoded(bytesOf(bmp), "a.bmp"));
     ASSERT_EQ(texel.size(), 4u); // of a colour that stb_image does not set
     EXPECT_EQ(texel[3], 255);
 }
@@ -179,11 +141,9 @@ TEST(Image, readersOfOtherFormatsAreNotAsked) {
         EXPECT_EQ(error, name + ": the picture format " + extension + " is not supported" + kConvert);
     }
     const std::string psd = "8BPS";
-    EXPECT_NE(decodeError(bytesOf(std::vector<char>(psd.begin(), psd.end())), "a.png").find("format psd is not"),
-              std::string::npos);
+    EXPECT_THAT(decodeError(bytesOf(psd), "a.png"), HasSubstr("format psd is not"));
     for (const char* misnamed : {"a.png", "a.jpg", "a.exr", "a.gif"})
-        EXPECT_NE(decodeError(bytesOf(std::vector<char>{'n', 'o'}), misnamed).find("is in no known picture format"),
-                  std::string::npos);
+        EXPECT_THAT(decodeError(bytesOf("no"), misnamed), HasSubstr("is in no known picture format"));
 }
 
 } // namespace

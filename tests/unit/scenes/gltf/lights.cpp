@@ -1,6 +1,8 @@
 #include <numbers>
 
 #include "NodeBuilder.h"
+#include "tests/unit/scenes/Members.h"
+#include "tests/unit/scenes/gltf/AnimationBuilder.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
@@ -23,19 +25,11 @@ TEST(GltfLights, pointLightIsImportedExactly) {
     EXPECT_EQ(light.name, "lamp");
     EXPECT_EQ(light.type, LightType::Point);
     EXPECT_EQ(light.falloff, Falloff::InverseSquare);
-    EXPECT_EQ(light.color, glm::vec3(1, 0.5f, 0.25f));
-    EXPECT_EQ(light.intensity, 40.0f);
-    EXPECT_EQ(light.rangeMetres, 8.0f);
-    EXPECT_EQ(light.positionWS, glm::dvec3(1, 2, 3));
-    EXPECT_TRUE(light.enabled);
+    expectMembers(light, "color 1 0.5 0.25, intensity 40, rangeMetres 8, positionWS 1 2 3, enabled 1");
     EXPECT_TRUE(scene.warnings.empty());
-}
-
-TEST(GltfLights, absentRangeIsInfinite) {
-    const Light light = withLight(R"({"type": "point"})").import().lights.at(0);
-    EXPECT_EQ(light.rangeMetres, kInfinity);
-    EXPECT_EQ(light.intensity, 1.0f);
-    EXPECT_EQ(light.name, "light 0");
+    const Light plain = withLight(R"({"type": "point"})").import().lights.at(0);
+    EXPECT_EQ(plain.name, "light 0");
+    expectMembers(plain, "rangeMetres inf, intensity 1");
 }
 
 TEST(GltfLights, directionIsMinusZOfTheNode) {
@@ -62,23 +56,20 @@ TEST(GltfLights, hugeAndTinyNestedScalesLeaveTheDirection) {
 }
 
 TEST(GltfLights, spotConesAreImportedExactly) {
-    const Light spot =
-        withLight(R"({"type": "spot", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}})").import().lights.at(0);
-    EXPECT_EQ(spot.type, LightType::Spot);
-    EXPECT_EQ(spot.innerConeRadians, 0.25f);
-    EXPECT_EQ(spot.outerConeRadians, 0.5f);
-    const Light wide = withLight(R"({"type": "spot", "spot": {}})").import().lights.at(0);
-    EXPECT_EQ(wide.innerConeRadians, 0.0f);
-    EXPECT_FLOAT_EQ(wide.outerConeRadians, static_cast<float>(std::numbers::pi / 4));
-}
-
-TEST(GltfLights, aSpotOfEqualAnglesHasAHardEdgeWithoutAWarning) {
-    Builder builder = withLight(R"({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}})");
-    builder.wishes.isStrict = true;
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.lights.at(0).innerConeRadians, 0.5f);
-    EXPECT_EQ(scene.lights.at(0).outerConeRadians, 0.5f);
-    EXPECT_TRUE(scene.warnings.empty());
+    for (const auto& [spot, members] :
+         {std::pair(R"({"innerConeAngle": 0.25, "outerConeAngle": 0.5})",
+                    "innerConeRadians 0.25, outerConeRadians 0.5"),
+          {R"({"innerConeAngle": 0.5, "outerConeAngle": 0.5})", "innerConeRadians 0.5, outerConeRadians 0.5"},
+          {"{}", "innerConeRadians 0"}}) {
+        Builder builder = withLight((std::string(R"({"type": "spot", "spot": )") + spot + "}").c_str());
+        builder.wishes.isStrict = true;
+        const Scene scene = builder.import();
+        EXPECT_EQ(scene.lights.at(0).type, LightType::Spot);
+        expectMembers(scene.lights[0], members);
+        EXPECT_TRUE(scene.warnings.empty()) << spot;
+    }
+    EXPECT_FLOAT_EQ(withLight(R"({"type": "spot", "spot": {}})").import().lights.at(0).outerConeRadians,
+                    std::numbers::pi_v<float> / 4);
 }
 
 TEST(GltfLights, conesAndRangesOutOfBoundsAreRepairedWithAWarningAndRefusedByAStrictLoad) {
@@ -104,24 +95,21 @@ TEST(GltfLights, conesAndRangesOutOfBoundsAreRepairedWithAWarningAndRefusedByASt
         EXPECT_FLOAT_EQ(scene.lights.at(0).outerConeRadians, one.outer);
         EXPECT_EQ(scene.lights.at(0).rangeMetres, one.range);
         ASSERT_FALSE(scene.warnings.empty());
-        EXPECT_NE(scene.warnings.at(0).find(one.warning), std::string::npos) << scene.warnings.at(0);
-        EXPECT_NE(builder.error().find("KHR_lights_punctual/lights/0/"), std::string::npos);
+        EXPECT_THAT(scene.warnings.at(0), HasSubstr(one.warning)) << scene.warnings.at(0);
+        EXPECT_THAT(builder.error(), HasSubstr("KHR_lights_punctual/lights/0/"));
     }
 }
 
 TEST(GltfLights, impossibleLightIsRefused) {
-    EXPECT_NE(
-        withLight(R"({"type": "lamp"})").error().find("lights/0/type: is 'lamp'; valid are directional, point, spot"),
-        std::string::npos);
-    EXPECT_NE(
-        withLight(R"({"type": "point", "intensity": -1})").error().find("intensity: is -1; it must be at least 0"),
-        std::string::npos);
-    EXPECT_NE(withLight(R"({"type": "spot"})").error().find("lights/0: the required property 'spot' is missing"),
-              std::string::npos);
+    EXPECT_THAT(withLight(R"({"type": "lamp"})").error(),
+                HasSubstr("lights/0/type: is 'lamp'; valid are directional, point, spot"));
+    EXPECT_THAT(withLight(R"({"type": "point", "intensity": -1})").error(),
+                HasSubstr("intensity: is -1; it must be at least 0"));
+    EXPECT_THAT(withLight(R"({"type": "spot"})").error(),
+                HasSubstr("lights/0: the required property 'spot' is missing"));
     Builder builder = withLight(R"({"type": "point"})");
     builder.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
-    EXPECT_NE(builder.error().find("points at /extensions/KHR_lights_punctual/lights/1, but there are only 1"),
-              std::string::npos);
+    EXPECT_THAT(builder.error(), HasSubstr("points at /extensions/KHR_lights_punctual/lights/1, but there are only 1"));
 }
 
 TEST(GltfLights, orderIsThatOfTheNodes) {
@@ -171,16 +159,13 @@ TEST(GltfLights, thoseThatBlenderExportedAreReadInWatts) {
 TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
     Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
     builder.wishes.lightUnits = LightUnits::Lumen;
-    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
-    const int values = builder.add(std::vector<float>{683, 1366}, 5126, "SCALAR", 2);
+    const int times = builder.add("SCALAR", {0, 1}), values = builder.add("SCALAR", {683, 1366});
     Json& animation = builder.json["animations"][0];
     animation["samplers"][0] = {{"input", times}, {"output", values}};
-    for (const char* property : {"intensity", "range"}) { // of one sampler, and only one of them counts lumens
-        const std::string pointer = std::string("/extensions/KHR_lights_punctual/lights/0/") + property;
+    for (const char* property : {"intensity", "range"}) // of one sampler, and only one of them counts lumens
         animation["channels"].push_back(
             {{"sampler", 0},
-             {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}}}});
-    }
+             {"target", pointerTo(std::string("/extensions/KHR_lights_punctual/lights/0/") + property)}});
     const Clip clip = builder.import().rig.clips.at(0);
     ASSERT_EQ(clip.channels.size(), 2u);
     for (const AnimationChannel& channel : clip.channels) {
@@ -199,24 +184,18 @@ TEST(GltfLights, ofChannelsThatChangeTheSameThingTheLastCountsAndOnlyItIsCharged
         builder.json["scenes"][0]["nodes"].push_back(builder.json["nodes"].size());
         builder.json["nodes"].push_back(carrier);
     }
-    const int times = builder.add(std::vector<float>{0, 1}, 5126, "SCALAR", 2);
+    const int times = builder.add("SCALAR", {0, 1});
     Json animation;
     for (const float watts : {1.0f, 7.0f}) {
-        const int values = builder.add(std::vector<float>{watts, watts}, 5126, "SCALAR", 2);
+        const int values = builder.add("SCALAR", {watts, watts});
         animation["samplers"].push_back({{"input", times}, {"output", values}});
     }
-    Json channel = {
-        {"sampler", 0},
-        {"target",
-         {{"path", "pointer"},
-          {"extensions",
-           {{"KHR_animation_pointer", {{"pointer", "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}}}}};
+    Json channel = {{"sampler", 0}, {"target", pointerTo("/extensions/KHR_lights_punctual/lights/0/intensity")}};
     Json channels = Json::array();
     for (int i = 0; i < kChannels; ++i) channels.push_back(channel);
     // The same place, written another way.
     channel["sampler"] = 1;
-    channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"] =
-        "/extensions/KHR_lights_punctual/lights/00/intensity";
+    channel["target"] = pointerTo("/extensions/KHR_lights_punctual/lights/00/intensity");
     channels.push_back(channel);
     animation["channels"] = channels;
     builder.json["animations"] = Json::array({animation});

@@ -1,10 +1,6 @@
 // Materials of glTF files and their extensions, but for textures and variants.
-#include <iterator>
-#include <string>
-#include <utility>
 
-#include <gtest/gtest.h>
-
+#include "tests/unit/scenes/Members.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
 namespace tessera::scenes::gltf::test {
@@ -15,63 +11,51 @@ TEST(GltfMaterials, factorsAreImportedExactly) {
         "metallicFactor": 0.5, "roughnessFactor": 0.25}, "emissiveFactor": [1, 2, 3], "doubleSided": true})");
     EXPECT_EQ(material.name, "paint");
     EXPECT_EQ(material.model, MaterialModel::MetallicRoughness);
-    EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
-    EXPECT_EQ(material.metallic, 0.5f);
-    EXPECT_EQ(material.perceptualRoughness, 0.25f);
-    EXPECT_EQ(material.emissive, glm::vec3(1, 2, 3));
-    EXPECT_TRUE(material.doubleSided);
+    expectMembers(material, "baseColor 0.1 0.2 0.3 0.4, metallic 0.5, perceptualRoughness 0.25, emissive 1 2 3, "
+                            "doubleSided 1");
 }
 
 TEST(GltfMaterials, defaultsAreThoseOfTheSpecification) {
     const Material material = importedMaterial("{}");
-    EXPECT_EQ(material.baseColor, glm::vec4(1));
-    EXPECT_EQ(material.metallic, 1.0f);
-    EXPECT_EQ(material.perceptualRoughness, 1.0f);
-    EXPECT_EQ(material.emissive, glm::vec3(0));
-    EXPECT_EQ(material.ior, 1.5f);
+    expectMembers(material,
+                  "baseColor 1 1 1 1, metallic 1, perceptualRoughness 1, emissive 0 0 0, ior 1.5, doubleSided 0");
     EXPECT_EQ(material.alphaMode, AlphaMode::Opaque);
-    EXPECT_FALSE(material.doubleSided);
     for (const TextureUse& use : material.textures) EXPECT_EQ(use.image, kNone);
 }
 
-TEST(GltfMaterials, transmissionAndVolumeAreImportedExactly) {
-    const Material material = importedMaterial(R"({"extensions": {
-        "KHR_materials_transmission": {"transmissionFactor": 0.75},
-        "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2,
-                                 "attenuationColor": [0.25, 0.5, 1]},
-        "KHR_materials_dispersion": {"dispersion": 0.375}}})");
-    EXPECT_EQ(material.transmission, 0.75f);
-    EXPECT_EQ(material.thicknessMetres, 0.5f);
-    EXPECT_EQ(material.attenuationDistanceMetres, 2.0f);
-    EXPECT_EQ(material.attenuationColor, glm::vec3(0.25f, 0.5f, 1.0f));
-    EXPECT_EQ(material.dispersion, 0.375f);
-    const Material plain = importedMaterial(R"({"extensions": {"KHR_materials_transmission": {},
-                                               "KHR_materials_volume": {},
-                                               "KHR_materials_dispersion": {}}})");
-    EXPECT_EQ(plain.transmission, 0.0f);
-    EXPECT_EQ(plain.thicknessMetres, 0.0f);
-    EXPECT_EQ(plain.attenuationDistanceMetres, 0.0f) << "nothing is absorbed";
-    EXPECT_EQ(plain.attenuationColor, glm::vec3(1.0f));
-    EXPECT_EQ(plain.dispersion, 0.0f);
-}
-
-TEST(GltfMaterials, iridescenceIsImportedExactlyWithItsRangeOfThicknesses) {
-    const Material material = importedMaterial(R"({"extensions": {"KHR_materials_iridescence": {
-        "iridescenceFactor": 0.75, "iridescenceIor": 1.5, "iridescenceThicknessMinimum": 50,
-        "iridescenceThicknessMaximum": 250}}})");
-    EXPECT_EQ(material.iridescence, 0.75f);
-    EXPECT_EQ(material.iridescenceIor, 1.5f);
-    EXPECT_EQ(material.iridescenceThicknessNm, 250.0f);
-    EXPECT_EQ(material.iridescenceLeastThicknessNm, 50.0f);
-    const Material plain = importedMaterial(R"({"extensions": {"KHR_materials_iridescence": {}}})");
-    EXPECT_EQ(plain.iridescence, 0.0f);
-    EXPECT_EQ(plain.iridescenceIor, 1.3f);
-    EXPECT_EQ(plain.iridescenceThicknessNm, 400.0f);
-    EXPECT_EQ(plain.iridescenceLeastThicknessNm, 100.0f);
-    Builder builder;
-    builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_iridescence": {
-        "iridescenceIor": 0.5}}})"));
-    EXPECT_NE(builder.error().find("iridescenceIor: is 0.5"), std::string::npos) << builder.error();
+TEST(GltfMaterials, factorsOfExtensionsAreImportedExactly) {
+    for (const auto& [extensions, members] : {
+             std::pair(R"("KHR_materials_transmission": {"transmissionFactor": 0.75})", "transmission 0.75"),
+             {R"("KHR_materials_transmission": {})", "transmission 0"},
+             {R"("KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 2,
+                                          "attenuationColor": [0.25, 0.5, 1]})",
+              "thicknessMetres 0.5, attenuationDistanceMetres 2, attenuationColor 0.25 0.5 1"},
+             {R"("KHR_materials_volume": {})", // nothing is absorbed
+              "thicknessMetres 0, attenuationDistanceMetres 0, attenuationColor 1 1 1"},
+             {R"("KHR_materials_dispersion": {"dispersion": 0.375})", "dispersion 0.375"},
+             {R"("KHR_materials_dispersion": {})", "dispersion 0"},
+             {R"("KHR_materials_iridescence": {"iridescenceFactor": 0.75, "iridescenceIor": 1.5,
+                  "iridescenceThicknessMinimum": 50, "iridescenceThicknessMaximum": 250})",
+              "iridescence 0.75, iridescenceIor 1.5, iridescenceThicknessNm 250, iridescenceLeastThicknessNm 50"},
+             {R"("KHR_materials_iridescence": {})",
+              "iridescence 0, iridescenceIor 1.3, iridescenceThicknessNm 400, iridescenceLeastThicknessNm 100"},
+             {R"("KHR_materials_ior": {"ior": 1.25})", "ior 1.25"},
+             {R"("KHR_materials_ior": {})", "ior 1.5"},
+             {R"("KHR_materials_ior": {"ior": 65536})", "ior 65536"},
+             {R"("KHR_materials_ior": {"ior": 0})", "ior 0"},
+             {R"("KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [1, 2, 0.5]})",
+              "specularFactor 0.25, specularColor 1 2 0.5"},
+             {R"("KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": 1.5})",
+              "anisotropyStrength 0.6, anisotropyRotationRadians 1.5"},
+             {R"("KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+                                             "clearcoatNormalTexture": {"index": 0, "scale": 2}})",
+              "clearcoat 0.5, clearcoatPerceptualRoughness 0.25, clearcoatNormalScale 2"},
+             {R"("KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenRoughnessFactor": 0.75})",
+              "sheenColor 0.1 0.2 0.3, sheenPerceptualRoughness 0.75"},
+         }) {
+        SCOPED_TRACE(extensions);
+        expectMembers(importedMaterial((std::string(R"({"extensions": {)") + extensions + "}}").c_str()), members);
+    }
 }
 
 /// A pane 0.5 thick in its mesh's space, and what is imported of it.
@@ -135,13 +119,6 @@ TEST(GltfMaterials, aMaterialThatNodesShowAtSeveralScalesIsAsThickAsEachMakesIt)
     checkScene(scene);
 }
 
-TEST(GltfMaterials, anAttenuationDistanceOf0IsRefused) {
-    Builder builder;
-    builder.material().merge_patch(Json::parse(R"({"extensions": {
-        "KHR_materials_volume": {"attenuationDistance": 0}}})"));
-    EXPECT_NE(builder.error().find("attenuationDistance: is 0; more than 0 is needed"), std::string::npos);
-}
-
 TEST(GltfMaterials, alphaModesAreImportedExactly) {
     const Material mask = importedMaterial(R"({"alphaMode": "MASK", "alphaCutoff": 0.75})");
     EXPECT_EQ(mask.alphaMode, AlphaMode::Mask);
@@ -151,59 +128,59 @@ TEST(GltfMaterials, alphaModesAreImportedExactly) {
 }
 
 TEST(GltfMaterials, everyTextureLandsInItsSlot) {
-    const std::pair<const char*, TextureSlot> places[] = {
-        {R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})", TextureSlot::BaseColor},
-        {R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}})", TextureSlot::MetallicRoughness},
-        {R"({"normalTexture": {"index": 0}})", TextureSlot::Normal},
-        {R"({"emissiveTexture": {"index": 0}})", TextureSlot::Emissive},
-        {R"({"extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0}}}})",
-         TextureSlot::SpecularFactor},
-        {R"({"extensions": {"KHR_materials_specular": {"specularColorTexture": {"index": 0}}}})",
-         TextureSlot::SpecularColor},
-        {R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyTexture": {"index": 0}}}})",
-         TextureSlot::Anisotropy},
-        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0}}}})", TextureSlot::Clearcoat},
-        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessTexture": {"index": 0}}}})",
-         TextureSlot::ClearcoatRoughness},
-        {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatNormalTexture": {"index": 0}}}})",
-         TextureSlot::ClearcoatNormal},
-        {R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 0}}}})", TextureSlot::SheenColor},
-        {R"({"extensions": {"KHR_materials_sheen": {"sheenRoughnessTexture": {"index": 0}}}})",
-         TextureSlot::SheenRoughness},
-        {R"({"occlusionTexture": {"index": 0}})", TextureSlot::Occlusion},
-        {R"({"extensions": {"KHR_materials_transmission": {"transmissionTexture": {"index": 0}}}})",
-         TextureSlot::Transmission},
-        {R"({"extensions": {"KHR_materials_volume": {"thicknessTexture": {"index": 0}}}})", TextureSlot::Thickness},
-        {R"({"extensions": {"KHR_materials_iridescence": {"iridescenceTexture": {"index": 0}}}})",
-         TextureSlot::Iridescence},
-        {R"({"extensions": {"KHR_materials_iridescence": {"iridescenceThicknessTexture": {"index": 0}}}})",
-         TextureSlot::IridescenceThickness},
+    using enum TextureSlot;
+    struct Place {
+        TextureSlot slot;
+        const char* owner; ///< the object that has it
+        const char* key;
     };
-    EXPECT_EQ(std::size(places) + 1, kTextureSlotCount) << "all but that of the index of refraction, which glTF lacks";
-    for (const auto& [patch, slot] : places) {
-        const Material material = importedMaterial(patch);
+    constexpr Place kPlaces[] = {
+        {BaseColor, "pbrMetallicRoughness", "baseColorTexture"},
+        {MetallicRoughness, "pbrMetallicRoughness", "metallicRoughnessTexture"},
+        {Normal, "", "normalTexture"},
+        {Emissive, "", "emissiveTexture"},
+        {Occlusion, "", "occlusionTexture"},
+        {SpecularFactor, "extensions/KHR_materials_specular", "specularTexture"},
+        {SpecularColor, "extensions/KHR_materials_specular", "specularColorTexture"},
+        {Anisotropy, "extensions/KHR_materials_anisotropy", "anisotropyTexture"},
+        {Clearcoat, "extensions/KHR_materials_clearcoat", "clearcoatTexture"},
+        {ClearcoatRoughness, "extensions/KHR_materials_clearcoat", "clearcoatRoughnessTexture"},
+        {ClearcoatNormal, "extensions/KHR_materials_clearcoat", "clearcoatNormalTexture"},
+        {SheenColor, "extensions/KHR_materials_sheen", "sheenColorTexture"},
+        {SheenRoughness, "extensions/KHR_materials_sheen", "sheenRoughnessTexture"},
+        {Transmission, "extensions/KHR_materials_transmission", "transmissionTexture"},
+        {Thickness, "extensions/KHR_materials_volume", "thicknessTexture"},
+        {Iridescence, "extensions/KHR_materials_iridescence", "iridescenceTexture"},
+        {IridescenceThickness, "extensions/KHR_materials_iridescence", "iridescenceThicknessTexture"}};
+    EXPECT_EQ(std::size(kPlaces) + 1, kTextureSlotCount) << "all but that of the index of refraction, which glTF lacks";
+    for (const Place& place : kPlaces) {
+        Json patch;
+        const std::string pointer = std::string(*place.owner == '\0' ? "" : "/") + place.owner + "/" + place.key;
+        patch[Json::json_pointer(pointer)]["index"] = 0;
+        const Material material = importedMaterial(patch.dump().c_str());
         for (std::size_t i = 0; i < kTextureSlotCount; ++i)
-            EXPECT_EQ(material.textures[i].image, i == static_cast<std::size_t>(slot) ? 0 : kNone) << patch;
+            EXPECT_EQ(material.textures[i].image, i == std::size_t(place.slot) ? 0 : kNone) << pointer;
     }
 }
 
-TEST(GltfMaterials, normalScaleIsImportedExactly) {
-    EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0, "scale": 0.5}})").normalScale, 0.5f);
-    EXPECT_EQ(importedMaterial(R"({"normalTexture": {"index": 0}})").normalScale, 1.0f);
-}
-
-TEST(GltfMaterials, occlusionStrengthIsImportedExactly) {
-    EXPECT_EQ(importedMaterial(R"({"occlusionTexture": {"index": 0, "strength": 0.25}})").occlusionStrength, 0.25f);
-    EXPECT_EQ(importedMaterial(R"({"occlusionTexture": {"index": 0}})").occlusionStrength, 1.0f);
+TEST(GltfMaterials, scalesAndStrengthsAreImportedExactly) {
+    for (const auto& [patch, member] :
+         {std::pair(R"({"normalTexture": {"index": 0, "scale": 0.5}})", "normalScale 0.5"),
+          {R"({"normalTexture": {"index": 0}})", "normalScale 1"},
+          {R"({"occlusionTexture": {"index": 0, "strength": 0.25}})", "occlusionStrength 0.25"},
+          {R"({"occlusionTexture": {"index": 0}})", "occlusionStrength 1"},
+          {R"({"emissiveFactor": [1, 0.5, 0],
+               "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})",
+           "emissive 8 4 0"}})
+        expectMembers(importedMaterial(patch), member);
 }
 
 TEST(GltfMaterials, unlitIsASingleColor) {
     const Material material = importedMaterial(R"({"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1],
         "baseColorTexture": {"index": 0}}, "emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_unlit": {}}})");
     EXPECT_EQ(material.model, MaterialModel::SingleColor);
-    EXPECT_EQ(material.baseColor, glm::vec4(0.5f, 0.25f, 1, 1));
+    expectMembers(material, "baseColor 0.5 0.25 1 1, emissive 0 0 0");
     EXPECT_EQ(material.texture(TextureSlot::BaseColor).image, 0);
-    EXPECT_EQ(material.emissive, glm::vec3(0));
 }
 
 TEST(GltfMaterials, layersOfAnUnlitMaterialAreCheckedAndLeftOut) {
@@ -216,47 +193,10 @@ TEST(GltfMaterials, layersOfAnUnlitMaterialAreCheckedAndLeftOut) {
         return builder;
     };
     const Scene scene = unlitWith(R"({"clearcoatFactor": 1, "clearcoatTexture": {"index": 0}})").import();
-    EXPECT_EQ(scene.materials.at(0).clearcoat, 0.0f);
-    EXPECT_EQ(scene.materials.at(0).ior, 1.5f);
+    expectMembers(scene.materials.at(0), "clearcoat 0, ior 1.5");
     EXPECT_TRUE(scene.images.empty());
-    EXPECT_NE(unlitWith(R"({"clearcoatFactor": 2})").error().find("clearcoatFactor: is 2; it must be at most 1"),
-              std::string::npos);
-}
-
-TEST(GltfMaterials, emissiveStrengthMultipliesTheEmission) {
-    EXPECT_EQ(importedMaterial(R"({"emissiveFactor": [1, 0.5, 0],
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})")
-                  .emissive,
-              glm::vec3(8, 4, 0));
-}
-
-TEST(GltfMaterials, iorIsImportedExactly) {
-    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 1.25}}})").ior, 1.25f);
-    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {}}})").ior, 1.5f);
-    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 65536}}})").ior, 65536.0f);
-    EXPECT_EQ(importedMaterial(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").ior, 0.0f);
-}
-
-TEST(GltfMaterials, specularFactorsAreImportedExactly) {
-    const Material material = importedMaterial(
-        R"({"extensions": {"KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [1, 2, 0.5]}}})");
-    EXPECT_EQ(material.specularFactor, 0.25f);
-    EXPECT_EQ(material.specularColor, glm::vec3(1, 2, 0.5f));
-}
-
-TEST(GltfMaterials, layersAreImportedExactly) {
-    const Material material = importedMaterial(R"({"extensions": {
-        "KHR_materials_anisotropy": {"anisotropyStrength": 0.6, "anisotropyRotation": 1.5},
-        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
-                                    "clearcoatNormalTexture": {"index": 0, "scale": 2}},
-        "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenRoughnessFactor": 0.75}}})");
-    EXPECT_EQ(material.anisotropyStrength, 0.6f);
-    EXPECT_EQ(material.anisotropyRotationRadians, 1.5f);
-    EXPECT_EQ(material.clearcoat, 0.5f);
-    EXPECT_EQ(material.clearcoatPerceptualRoughness, 0.25f);
-    EXPECT_EQ(material.clearcoatNormalScale, 2.0f);
-    EXPECT_EQ(material.sheenColor, glm::vec3(0.1f, 0.2f, 0.3f));
-    EXPECT_EQ(material.sheenPerceptualRoughness, 0.75f);
+    EXPECT_THAT(unlitWith(R"({"clearcoatFactor": 2})").error(),
+                HasSubstr("clearcoatFactor: is 2; it must be at most 1"));
 }
 
 TEST(GltfMaterials, layersAreOffByDefaultAndNeverWarnedOf) {
@@ -267,20 +207,24 @@ TEST(GltfMaterials, layersAreOffByDefaultAndNeverWarnedOf) {
         "KHR_materials_clearcoat": {}, "KHR_materials_sheen": {}}})"));
     const Scene scene = builder.import();
     EXPECT_TRUE(scene.warnings.empty());
-    const Material& material = scene.materials.at(0);
-    EXPECT_EQ(material.anisotropyStrength, 0.0f);
-    EXPECT_EQ(material.clearcoat, 0.0f);
-    EXPECT_EQ(material.sheenColor, glm::vec3(0));
+    expectMembers(scene.materials.at(0), "anisotropyStrength 0, clearcoat 0, sheenColor 0 0 0");
 }
 
 TEST(GltfMaterials, layersOutOfRangeAreRefused) {
-    for (const char* patch : {R"({"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1.5}}})",
-                              R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": -1}}})",
-                              R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 2}}})",
-                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0, 2]}}})",
-                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0]}}})",
-                              R"({"extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 9}}}})"})
-        EXPECT_NE(withMaterial(patch).error(), "") << patch;
+    for (const auto& [extension, error] :
+         {std::pair(R"("KHR_materials_anisotropy": {"anisotropyStrength": 1.5})", ""),
+          {R"("KHR_materials_clearcoat": {"clearcoatFactor": -1})", ""},
+          {R"("KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 2})", ""},
+          {R"("KHR_materials_sheen": {"sheenColorFactor": [0, 0, 2]})", ""},
+          {R"("KHR_materials_sheen": {"sheenColorFactor": [0, 0]})", ""},
+          {R"("KHR_materials_sheen": {"sheenColorTexture": {"index": 9}})", ""},
+          {R"("KHR_materials_iridescence": {"iridescenceIor": 0.5})", "iridescenceIor: is 0.5"},
+          {R"("KHR_materials_volume": {"attenuationDistance": 0})",
+           "attenuationDistance: is 0; more than 0 is needed"}}) {
+        const std::string found = withMaterial((std::string(R"({"extensions": {)") + extension + "}}").c_str()).error();
+        EXPECT_NE(found, "") << extension;
+        EXPECT_THAT(found, HasSubstr(error)) << extension;
+    }
 }
 
 TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {
@@ -293,14 +237,11 @@ TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {
     const Scene scene = builder.import();
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.model, MaterialModel::MetallicRoughness);
-    EXPECT_EQ(material.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
-    EXPECT_EQ(material.specularColor, glm::vec3(0.5f, 0.6f, 0.7f)) << "F0 with an index of 0";
-    EXPECT_EQ(material.ior, 0.0f);
-    EXPECT_EQ(material.metallic, 0.0f);
-    EXPECT_EQ(material.perceptualRoughness, 0.25f);
+    expectMembers(material, "baseColor 0.1 0.2 0.3 0.4, metallic 0, perceptualRoughness 0.25");
+    expectMembers(material, "specularColor 0.5 0.6 0.7, ior 0"); // F0 with an index of 0
     EXPECT_TRUE(scene.images.empty()) << "what stands in for programs without the extension is not read";
     ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_NE(scene.notes[0].find("(KHR_materials_pbrSpecularGlossiness) are converted"), std::string::npos);
+    EXPECT_THAT(scene.notes[0], HasSubstr("(KHR_materials_pbrSpecularGlossiness) are converted"));
     EXPECT_TRUE(scene.warnings.empty());
 }
 

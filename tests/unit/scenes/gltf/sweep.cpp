@@ -1,32 +1,12 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <gtest/gtest.h>
-
 #include "GltfBuilder.h"
 #include "tests/support/AnimatedModels.h"
 #include "tests/support/UnderLedger.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
-
-std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> models;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        const std::string extension = entry.path().extension().string();
-        if (entry.is_regular_file() && (extension == ".gltf" || extension == ".glb")) models.push_back(entry.path());
-    }
-    std::ranges::sort(models);
-    return models;
-}
-
-std::size_t drawnTriangles(const Scene& scene) {
-    std::size_t triangles = 0;
-    for (const Node& node : scene.nodes)
-        for (const MeshInstance& instance : node.instances)
-            triangles += scene.meshes.at(static_cast<std::size_t>(instance.mesh)).indices.size() / 3;
-    return triangles;
-}
 
 /// What the scene's contract promises of meshes, wherever they come from.
 void expectSound(const Scene& scene) {
@@ -40,8 +20,8 @@ void expectSound(const Scene& scene) {
     }
     for (const Node& node : scene.nodes)
         for (const MeshInstance& instance : node.instances)
-            EXPECT_LT(static_cast<std::size_t>(instance.material), scene.materials.size());
-    const int imageCount = static_cast<int>(scene.images.size());
+            EXPECT_LT(std::size_t(instance.material), scene.materials.size());
+    const int imageCount = int(scene.images.size());
     for (const Material& material : scene.materials)
         for (const TextureUse& use : material.textures) EXPECT_LT(use.image, imageCount);
 }
@@ -49,7 +29,7 @@ void expectSound(const Scene& scene) {
 /// Every model imports, or is refused with a reason; the refusals and the empty ones are printed to be judged by eye.
 void sweep(const std::filesystem::path& folder) {
     std::size_t importedCount = 0;
-    const std::vector<std::filesystem::path> models = modelsBelow(folder);
+    const std::vector<std::filesystem::path> models = tessera::test::modelsBelow(folder);
     for (const std::filesystem::path& model : models) {
         SCOPED_TRACE(model.string());
         const std::string name = std::filesystem::relative(model, folder).string();
@@ -57,7 +37,7 @@ void sweep(const std::filesystem::path& folder) {
             const Scene scene = underLedger(importGltf, model);
             expectSound(scene);
             ++importedCount;
-            if (drawnTriangles(scene) == 0) {
+            if (triangleCount(scene) == 0) {
                 std::printf("%-60s draws nothing\n", name.c_str());
                 for (const std::string& warning : scene.warnings) std::printf("%60s %s\n", "", warning.c_str());
             }

@@ -1,10 +1,4 @@
 // Textures of glTF files: samplers, transforms, and where their pictures come from.
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
@@ -20,6 +14,11 @@ TextureUse importedUse(const char* info, const char* sampler = nullptr) {
         builder.json["textures"][0]["sampler"] = 0;
     }
     return builder.import().materials.at(0).texture(TextureSlot::BaseColor);
+}
+
+/// The triangle with texture 0 as its base colour.
+Builder textured() {
+    return withMaterial(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})");
 }
 
 TEST(GltfTextures, samplerSettingsAreImportedExactly) {
@@ -68,9 +67,7 @@ TEST(GltfTextures, secondTexCoordSetIsImportedAndAThirdIsWarnedOf) {
 }
 
 TEST(GltfTextures, imageIsReadTheSameFromDataUriFileAndBufferView) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
+    Builder builder = textured();
     const Image embedded = builder.import().images.at(0);
     EXPECT_EQ(embedded.name, "image 0");
     EXPECT_EQ(embedded.width, 2);
@@ -123,9 +120,7 @@ TEST(GltfTextures, missingOrBrokenImageIsACheckerboardOfColoursAndNothingElse) {
 }
 
 TEST(GltfTextures, webpGoesBeforeTheOtherPictureAndThatStandsInForIt) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
+    Builder builder = textured();
     std::filesystem::copy_file(std::filesystem::path(TESSERA_SOURCE_DIR) / "tests/fuzz/corpus/picture/small.webp",
                                builder.folder.write("a.webp", std::string()),
                                std::filesystem::copy_options::overwrite_existing);
@@ -150,9 +145,7 @@ TEST(GltfTextures, webpGoesBeforeTheOtherPictureAndThatStandsInForIt) {
 }
 
 TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
-    Builder builder;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
+    Builder builder = textured();
     // A TGA of one grey, whose runs of 128 texels take two bytes each.
     std::vector<std::uint8_t> tga{0, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 16, 0, 8, 8, 0x20};
     for (int run = 0; run < 4096 * 2048 / 128; ++run) tga.insert(tga.end(), {0xff, 7});
@@ -164,24 +157,21 @@ TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
 }
 
 TEST(GltfTextures, missingOrBrokenImageIsRefusedByNameWhereTheLoadIsStrict) {
-    Builder builder;
+    Builder builder = textured();
     builder.wishes.isStrict = true;
-    builder.material()["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
-    builder.addTexture();
-    builder.json["images"][0] = Json::parse(R"({"uri": "gone.png"})");
-    EXPECT_NE(builder.error().find("gone.png: there is no such file"), std::string::npos);
-    EXPECT_NE(builder.error().find("model.gltf: /images/0: "), std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "https://example.org/a.png"})");
-    EXPECT_NE(builder.error().find("/images/0: its uri 'https://example.org/a.png' is not a relative path"),
-              std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,QUJD"})");
-    EXPECT_NE(builder.error().find("/images/0: is in no known picture format"), std::string::npos);
-    builder.json["images"][0] = Json::parse(R"({"uri": "data:image/png;base64,*"})");
-    EXPECT_NE(builder.error().find("/images/0: its base64 has an invalid character at position 0"), std::string::npos);
-    builder.json["images"][0] = Json::object();
-    EXPECT_NE(builder.error().find("/images/0: has neither a uri nor a bufferView"), std::string::npos);
+    for (const auto& [image, error] :
+         {std::pair(R"({"uri": "gone.png"})", "gone.png: there is no such file"),
+          {R"({"uri": "gone.png"})", "model.gltf: /images/0: "},
+          {R"({"uri": "https://example.org/a.png"})",
+           "/images/0: its uri 'https://example.org/a.png' is not a relative path"},
+          {R"({"uri": "data:image/png;base64,QUJD"})", "/images/0: is in no known picture format"},
+          {R"({"uri": "data:image/png;base64,*"})", "/images/0: its base64 has an invalid character at position 0"},
+          {"{}", "/images/0: has neither a uri nor a bufferView"}}) {
+        builder.json["images"][0] = Json::parse(image);
+        EXPECT_THAT(builder.error(), HasSubstr(error));
+    }
     builder.json["textures"][0] = Json::object();
-    EXPECT_NE(builder.error().find("/textures/0: has no source in a supported format"), std::string::npos);
+    EXPECT_THAT(builder.error(), HasSubstr("/textures/0: has no source in a supported format"));
 }
 
 } // namespace

@@ -1,6 +1,4 @@
 // What points and lines are painted with.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 #include "tests/unit/scenes/gltf/ThinSolids.h"
@@ -8,36 +6,33 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
+/// Beside the points or lines, of the same material.
+void addTriangle(Builder& builder) {
+    builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})"));
+}
 
 TEST(GltfThinSolidMaterials, withoutNormalsTheyShowBaseColourAndEmissionUnlit) {
     Builder builder = thin(0);
     builder.material().merge_patch(Json::parse(R"({"emissiveFactor": [0.5, 0, 0.25], "alphaMode": "MASK",
         "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 0.5]}})"));
-    Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    addTriangle(builder);
     const Scene scene = builder.import();
-    EXPECT_EQ(materialOf(scene).model, MaterialModel::SingleColor);
-    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.75f, 0.5f, 1.0f, 0.5f));
+    const auto expectMaterial = [](const Material& material, const char* name, MaterialModel model,
+                                   const glm::vec4& color) {
+        EXPECT_EQ(material.name, name);
+        EXPECT_EQ(material.model, model) << name;
+        EXPECT_EQ(material.baseColor, color) << name;
+    };
+    expectMaterial(materialOf(scene), "paint, unlit", MaterialModel::SingleColor, {0.75f, 0.5f, 1.0f, 0.5f});
     EXPECT_EQ(materialOf(scene).alphaMode, AlphaMode::Mask);
-    EXPECT_EQ(materialOf(scene).name, "paint, unlit");
-    EXPECT_EQ(materialOf(scene, 1).name, "paint");
-    EXPECT_EQ(materialOf(scene, 1).model, MaterialModel::MetallicRoughness);
-    EXPECT_EQ(materialOf(scene, 1).baseColor, glm::vec4(0.25f, 0.5f, 0.75f, 0.5f));
-
-    const Scene plain = thin(3).import();
-    EXPECT_EQ(materialOf(plain).model, MaterialModel::SingleColor);
-    EXPECT_EQ(materialOf(plain).baseColor, glm::vec4(1.0f));
-    EXPECT_EQ(materialOf(plain).name, "default, unlit");
+    expectMaterial(materialOf(scene, 1), "paint", MaterialModel::MetallicRoughness, {0.25f, 0.5f, 0.75f, 0.5f});
+    expectMaterial(materialOf(thin(3).import()), "default, unlit", MaterialModel::SingleColor, glm::vec4(1.0f));
 }
 
 TEST(GltfThinSolidMaterials, aMaterialThatIsUnlitAnywayStaysOne) {
     Builder builder = thin(0);
     builder.material().merge_patch(Json::parse(R"({"extensions": {"KHR_materials_unlit": {}}})"));
-    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    addTriangle(builder);
     const Scene scene = builder.import();
     EXPECT_EQ(scene.materials.size(), 1u);
     EXPECT_EQ(materialOf(scene).name, "paint");
@@ -93,8 +88,7 @@ TEST(GltfThinSolidMaterials, variantsAreUnlitToo) {
 TEST(GltfThinSolidMaterials, clipsChangeTheColourOfBothMaterials) {
     Builder builder = thin(0);
     builder.material();
-    const Json triangle = Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})");
-    builder.json["meshes"][0]["primitives"].push_back(triangle);
+    addTriangle(builder);
     addPointer(builder, "/materials/0/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1, 0, 0, 0, 1});
     addPointer(builder, "/materials/0/pbrMetallicRoughness/metallicFactor", {0, 1});
     const Scene scene = builder.import();

@@ -2,24 +2,13 @@
 #include "scenes/import/GltfSteps.h"
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <utility>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 #include "tests/unit/scenes/gltf/ThinSolids.h"
 
 namespace tessera::scenes::gltf::test {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// Of lengths of about 1: far above the rounding of positions, 6e-8, and far below a line's width, 2.5e-3.
 constexpr double kRoundedLength = 1e-6;
@@ -33,7 +22,7 @@ std::size_t solidsOf(const Mesh& mesh) {
 glm::dvec3 middleOS(const Mesh& mesh, std::size_t first, std::size_t corners) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < corners; ++i) sum += cornerOS(mesh, first + i);
-    return sum / static_cast<double>(corners);
+    return sum / double(corners);
 }
 
 struct Segment {
@@ -110,20 +99,20 @@ TEST(GltfThinSolids, linesLoopsAndStripsPairTheirVertices) {
     EXPECT_THAT(loop.warnings, IsEmpty());
     EXPECT_THAT(strip.warnings, IsEmpty());
     Builder indexed = thin(3);
-    indexed.primitive()["indices"] = indexed.add(std::vector<std::uint8_t>{4, 0, 3}, kUnsignedByteType, "SCALAR", 3);
+    indexed.indices({4, 0, 3});
     expectSegments(indexed.import().meshes.at(0), {{4, 0}, {0, 3}});
 }
 
 TEST(GltfThinSolids, aLoopOfTwoVerticesIsOneSegment) {
     Builder builder = thin(2);
-    builder.primitive()["indices"] = builder.add(std::vector<std::uint8_t>{1, 4}, kUnsignedByteType, "SCALAR", 2);
+    builder.indices({1, 4});
     expectSegments(builder.import().meshes.at(0), {{1, 4}});
 }
 
 /// A triangle of the world's size 1 beside a line at a node of scale 0.1.
 TEST(GltfThinSolids, widthsAreOfTheWholeModelInTheWorld) {
     Builder builder;
-    const int line = builder.add(std::vector<float>{0, 0, 0, 1, 0, 0}, kFloatType, "VEC3", 2);
+    const int line = builder.add("VEC3", {0, 0, 0, 1, 0, 0});
     builder.json["meshes"].push_back(Json::parse(R"({"primitives": [{"attributes": {}, "mode": 1}]})"));
     builder.json["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = line;
     builder.merge(R"({"nodes": [{"mesh": 0}, {"mesh": 1, "scale": [0.1, 0.1, 0.1]}], "scenes": [{"nodes": [0, 1]}]})");
@@ -174,9 +163,8 @@ TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
 TEST(GltfThinSolids, coloursAndTextureCoordinatesGoWithTheVertices) {
     for (const int mode : {0, 1}) {
         Builder builder = thin(mode, {0, 0, 0, 1, 0, 0});
-        Json& attributes = builder.primitive()["attributes"];
-        attributes["COLOR_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0}, kFloatType, "VEC3", 2);
-        attributes["TEXCOORD_1"] = builder.add(std::vector<float>{3, 4, 5, 6}, kFloatType, "VEC2", 2);
+        builder.attribute("COLOR_0", "VEC3", {1, 0, 0, 0, 1, 0});
+        builder.attribute("TEXCOORD_1", "VEC2", {3, 4, 5, 6});
         const Mesh mesh = builder.import().meshes.at(0);
         ASSERT_EQ(mesh.colors.size(), mesh.positionsOS.size());
         ASSERT_EQ(mesh.texCoords[1].size(), mesh.positionsOS.size());
@@ -191,8 +179,7 @@ TEST(GltfThinSolids, coloursAndTextureCoordinatesGoWithTheVertices) {
 
 TEST(GltfThinSolids, morphTargetsGoWithTheVertices) {
     Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
-    const int moved = builder.add(std::vector<float>{0, 1, 0, 0, 2, 0}, kFloatType, "VEC3", 2);
-    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", moved}})});
+    builder.target({0, 1, 0, 0, 2, 0});
     builder.json["meshes"][0]["weights"] = Json::array({1});
     Scene scene = builder.import();
     const Mesh rest = scene.rig.shapes.at(0).rest;
@@ -207,8 +194,7 @@ TEST(GltfThinSolids, morphTargetsGoWithTheVertices) {
 
 TEST(GltfThinSolids, segmentsThatGrowAreThereFromTheBegin) {
     Builder builder = thin(1, {1, 2, 3, 1, 2, 3});
-    const int moved = builder.add(std::vector<float>{0, 0, 0, 0, 2, 0}, kFloatType, "VEC3", 2);
-    builder.primitive()["targets"] = Json::array({Json::object({{"POSITION", moved}})});
+    builder.target({0, 0, 0, 0, 2, 0});
     builder.json["meshes"][0]["weights"] = Json::array({1});
     EXPECT_EQ(solidsOf(builder.import().meshes.at(0)), 1u);
 }
@@ -218,9 +204,8 @@ TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
     Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
     builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0}, {"translation": [7, 0, 0], "scale": [10, 10, 10]}],
                       "scenes": [{"nodes": [0, 1]}], "skins": [{"joints": [1]}]})");
-    Json& attributes = builder.primitive()["attributes"];
-    attributes["JOINTS_0"] = builder.add(std::vector<std::uint8_t>(8, 0), kUnsignedByteType, "VEC4", 2);
-    attributes["WEIGHTS_0"] = builder.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0}, kFloatType, "VEC4", 2);
+    builder.attribute("JOINTS_0", "VEC4", std::vector<std::uint8_t>(8, 0));
+    builder.attribute("WEIGHTS_0", "VEC4", {1, 0, 0, 0, 1, 0, 0, 0});
     Scene scene = builder.import();
     EXPECT_EQ(scene.rig.shapes.at(0).joints.size(), 4 * kCornersOfSolid);
     checkScene(scene);
@@ -299,8 +284,7 @@ TEST(GltfThinSolids, brokenOnesAreRefusedByName) {
                     HasSubstr("/meshes/0/primitives/0: vertex 1 of mesh 'mesh 0' has a position that is not finite"));
         const auto errorOf = [mode](std::uint8_t index) {
             Builder builder = thin(mode);
-            builder.primitive()["indices"] =
-                builder.add(std::vector<std::uint8_t>{0, index}, kUnsignedByteType, "SCALAR", 2);
+            builder.indices({0, index});
             return builder.error();
         };
         EXPECT_EQ(errorOf(4), "");
@@ -313,8 +297,8 @@ TEST(GltfThinSolids, theirSolidsAreChargedBeforeTheyAreMade) {
     const auto errorOf = [](int mode, std::size_t count) {
         Builder builder = thin(mode);
         std::vector<std::uint8_t> indices(count);
-        for (std::size_t i = 0; i < count; ++i) indices[i] = static_cast<std::uint8_t>(i % 5);
-        builder.primitive()["indices"] = builder.add(indices, kUnsignedByteType, "SCALAR", count);
+        for (std::size_t i = 0; i < count; ++i) indices[i] = std::uint8_t(i % 5);
+        builder.indices(indices);
         return builder.error(16 * kMiB);
     };
     for (const int mode : {0, 2, 3}) {

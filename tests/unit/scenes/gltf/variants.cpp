@@ -1,9 +1,4 @@
 // Variants of materials: KHR_materials_variants.
-#include <cstddef>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
@@ -61,9 +56,8 @@ TEST(GltfVariants, skinnedAndMorphedMeshesShowThemToo) {
 TEST(GltfVariants, whatIsNotThereIsRefused) {
     Builder builder = withVariants();
     builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"][0]["variants"][0] = 2;
-    EXPECT_NE(builder.error().find("/variants/0: points at /extensions/KHR_materials_variants/variants/2, but there "
-                                   "are only 2"),
-              std::string::npos)
+    EXPECT_THAT(builder.error(),
+                HasSubstr("/variants/0: points at /extensions/KHR_materials_variants/variants/2, but there are only 2"))
         << builder.error();
 }
 
