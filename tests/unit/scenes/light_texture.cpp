@@ -4,8 +4,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "scenes/Fingerprint.h"
 #include "scenes/LoadLedger.h"
@@ -15,22 +13,13 @@
 #include "scenes/write/SceneText.h"
 #include "tests/support/LightPictures.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/PictureBytes.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-
-/// A PFM picture, rows given from the top.
-std::string glowFile(int width, int height, const std::vector<float>& rgb) {
-    std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
-    for (int y = height - 1; y >= 0; --y)
-        text.append(reinterpret_cast<const char*>(rgb.data() + std::size_t(3 * y * width)),
-                    std::size_t(3 * width) * sizeof(float));
-    return text;
-}
+using namespace test;
 
 std::string glowLights(const std::string& lights) {
     return R"({"tessera": 1, "lights": [)" + lights + "]}";
@@ -41,8 +30,8 @@ const std::string kDisk =
     R"({"type": "disk", "position": [0, 0, 0], "direction": [0, 0, 1], "radius": 1, "texture": "glow.pfm"})";
 
 TEST(LightTexture, lightsThatNameAFileShareItsPictureAndTheLedgerCountsItOnce) {
-    const test::SceneFolder folder;
-    folder.write("glow.pfm", glowFile(2, 1, {0.5f, 2.0f, 0.0f, 0.25f, 3.0f, 0.125f}));
+    const SceneFolder folder;
+    folder.write("glow.pfm", pfmOf(2, 1, {0.5f, 2.0f, 0.0f, 0.25f, 3.0f, 0.125f}));
     const Scene scene = folder.import(glowLights(kPanel + "," + kDisk));
     ASSERT_EQ(scene.lights.size(), 2u);
     const LightTexture& texture = scene.lights[0].texture;
@@ -62,8 +51,8 @@ TEST(LightTexture, lightsThatNameAFileShareItsPictureAndTheLedgerCountsItOnce) {
 
 TEST(LightTexture, picturesStayChargedWhileALoadKeepsThemThoughABasesLightsAreReplaced) {
     constexpr int kSide = 512, kParts = 8; // 4 MiB each
-    const test::SceneFolder folder;
-    const std::string picture = glowFile(kSide, kSide, std::vector<float>(3 * kSide * kSide, 1.0f));
+    const SceneFolder folder;
+    const std::string picture = pfmOf(kSide, kSide, std::vector<float>(3 * kSide * kSide, 1.0f));
     for (int i = 0; i < kParts; ++i) {
         folder.write(fmt::format("glow{}.pfm", i), picture);
         folder.write(fmt::format("base{}.json", i),
@@ -74,10 +63,10 @@ TEST(LightTexture, picturesStayChargedWhileALoadKeepsThemThoughABasesLightsAreRe
                      fmt::format(R"({{"tessera": 1, "base": {{"file": "base{}.json"}}, "lights": []}})", i));
     }
     const std::filesystem::path file =
-        folder.write("parts.json", R"({"tessera": 1, "include": [)" + test::listOf(kParts, [](int i) {
+        folder.write("parts.json", R"({"tessera": 1, "include": [)" + listOf(kParts, [](int i) {
                                        return fmt::format(R"({{"file": "part{}.json"}})", i);
                                    }) + "]}");
-    EXPECT_THAT(test::inputErrorOf([&] { underLedger(importSceneJson, file, 24 * kMiB); }), HasSubstr("of memory"));
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, 24 * kMiB); }), HasSubstr("of memory"));
     LoadLedger ledger(64 * kMiB);
     const Scene scene = importSceneJson(file, ledger);
     EXPECT_EQ(ledger.usedBytes(), bytesOf(scene)) << "which has none of them";
@@ -85,9 +74,9 @@ TEST(LightTexture, picturesStayChargedWhileALoadKeepsThemThoughABasesLightsAreRe
 }
 
 TEST(LightTexture, numbersThatAreNoLightAreReplacedAndTold) {
-    const test::SceneFolder folder;
+    const SceneFolder folder;
     const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-    folder.write("glow.pfm", glowFile(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, 0.0f}));
+    folder.write("glow.pfm", pfmOf(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, 0.0f}));
     const Scene scene = folder.import(glowLights(kPanel));
     EXPECT_EQ(scene.lights[0].texture.most(), glm::vec3(3.0f, 0.5f, 3.0f));
     EXPECT_THAT(scene.warnings,
@@ -97,7 +86,7 @@ TEST(LightTexture, numbersThatAreNoLightAreReplacedAndTold) {
 }
 
 TEST(LightTexture, roundShapesAndMissingFilesAreRefusedByName) {
-    const test::SceneFolder folder;
+    const SceneFolder folder;
     EXPECT_THAT(
         folder.errorOf(glowLights(R"({"type": "sphere", "position": [0, 0, 0], "radius": 1, "texture": "glow.pfm"})")),
         HasSubstr("/lights/0/texture: a sphere light has no texture"));

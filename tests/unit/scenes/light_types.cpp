@@ -3,7 +3,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "renderer/frame/FeatureDefines.h"
 #include "renderer/frame/Features.h"
@@ -13,6 +12,8 @@
 
 namespace tessera::scenes {
 namespace {
+
+using LightTypes = test::SceneFiles;
 
 /// Keys of a light of a type: all that its row gives it, each parameter at `share` of what scene files may say.
 std::string keysOf(const LightTypeInfo& type, float share) {
@@ -34,7 +35,7 @@ std::string document(const std::string& keys) {
     return R"({"tessera": 1, "lights": [{)" + keys + "}]}";
 }
 
-TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
+TEST_F(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     std::set<std::string_view> names, fields;
     for (const LightTypeInfo& type : lightTypes()) {
         EXPECT_TRUE(names.insert(type.name).second) << type.name;
@@ -47,8 +48,7 @@ TEST(LightTypes, namesKeysAndMembersAreNeverTheSame) {
     visitFields(kLightFields, [&](const auto& field) { EXPECT_TRUE(fields.insert(field.name).second) << field.name; });
 }
 
-TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
-    const test::SceneFolder folder;
+TEST_F(LightTypes, everyTypeReadsTheKeysOfItsRow) {
     for (const LightTypeInfo& type : lightTypes()) {
         SCOPED_TRACE(type.name);
         for (const float share : {0.0f, 0.5f, 1.0f}) {
@@ -76,8 +76,7 @@ TEST(LightTypes, everyTypeReadsTheKeysOfItsRow) {
     }
 }
 
-TEST(LightTypes, everyTypeTakesKeyframesOfTheMembersThatItHas) {
-    const test::SceneFolder folder;
+TEST_F(LightTypes, everyTypeTakesKeyframesOfTheMembersThatItHas) {
     for (const LightTypeInfo& type : lightTypes())
         for (const LightKeyedInfo& member : keyedMembers()) {
             SCOPED_TRACE(fmt::format("{} {}", type.name, member.name));
@@ -96,8 +95,7 @@ TEST(LightTypes, everyTypeTakesKeyframesOfTheMembersThatItHas) {
         }
 }
 
-TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
-    const test::SceneFolder folder;
+TEST_F(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
     const auto isRefused = [&](const std::string& keys) { EXPECT_NE(folder.errorOf(document(keys)), ""); };
     for (const LightTypeInfo& type : lightTypes()) {
         const std::string keys = keysOf(type, 0.5f);
@@ -123,7 +121,7 @@ TEST(LightTypes, aTypeNeverTakesWhatItsRowDoesNotGiveIt) {
     }
 }
 
-TEST(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
+TEST_F(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
     for (const LightTypeInfo& type : lightTypes()) {
         SCOPED_TRACE(type.name);
         Light light;
@@ -145,7 +143,7 @@ TEST(LightTypes, everyTypeIsAlwaysWrittenByItsKeysAndReadBackIdentically) {
     }
 }
 
-TEST(LightTypes, aNumberOfALightOutsideTheBoundsOfItsRowIsAlwaysRefused) {
+TEST_F(LightTypes, aNumberOfALightOutsideTheBoundsOfItsRowIsAlwaysRefused) {
     Scene scene;
     scene.lights.emplace_back();
     EXPECT_NO_THROW(checkScene(scene));
@@ -162,7 +160,7 @@ TEST(LightTypes, aNumberOfALightOutsideTheBoundsOfItsRowIsAlwaysRefused) {
     });
 }
 
-TEST(LightTypes, everyTypeAlwaysHasItsNumberAndItsFlagInShaders) {
+TEST_F(LightTypes, everyTypeAlwaysHasItsNumberAndItsFlagInShaders) {
     const frame::Defines defines = frame::featureDefines({});
     const auto valueOf = [&](const std::string& name) {
         for (const auto& [defined, value] : defines)

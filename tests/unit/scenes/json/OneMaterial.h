@@ -17,25 +17,27 @@ inline std::string bound(const std::string& material) {
                        material);
 }
 
-/// The scene of a bust with one material, which its own default one gave way to.
-inline Scene sceneOf(const SceneFolder& folder, const std::string& material) {
-    Scene scene = folder.importMembers(bound(material));
-    EXPECT_EQ(scene.materials.size(), 1u);
-    EXPECT_THAT(scene.warnings, testing::IsEmpty());
-    return scene;
-}
+class SceneJsonMaterials : public OneElement {
+protected:
+    SceneJsonMaterials() : OneElement("materials") {}
 
-inline Material materialOf(const SceneFolder& folder, const std::string& material) {
-    return sceneOf(folder, material).materials.at(0);
-}
-
-inline std::string errorOfMaterial(const SceneFolder& folder, const std::string& material) {
-    return folder.errorOfMembers(bound(material));
-}
+    /// The scene of a bust with one material, which its own default one gave way to.
+    Scene sceneOf(const std::string& material) const {
+        Scene scene = folder.importMembers(bound(material));
+        EXPECT_EQ(scene.materials.size(), 1u);
+        EXPECT_THAT(scene.warnings, IsEmpty());
+        return scene;
+    }
+    Material materialOf(const std::string& material) const { return sceneOf(material).materials.at(0); }
+    std::string errorOf(const std::string& material) const { return inElement(folder.errorOfMembers(bound(material))); }
+    std::string errorBeyondSchemaOf(const std::string& material) const {
+        return inElement(folder.errorBeyondSchemaOfMembers(bound(material)));
+    }
+};
 
 inline std::uint8_t redOf(const Scene& scene, TextureSlot slot) {
     const TextureUse& use = scene.materials.at(0).texture(slot);
-    return std::to_integer<std::uint8_t>(scene.images.at(static_cast<std::size_t>(use.image)).texels.at(0));
+    return std::to_integer<std::uint8_t>(scene.images.at(std::size_t(use.image)).texels.at(0));
 }
 
 } // namespace tessera::scenes::test

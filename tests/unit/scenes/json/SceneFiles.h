@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "scenes/import/Importers.h"
 #include "tests/unit/scenes/TempFolder.h"
@@ -9,6 +11,14 @@ namespace tessera::scenes::test {
 
 /// True when the shipped JSON Schema accepts the document.
 bool schemaAccepts(std::string_view document);
+
+/// A glTF model of a triangle that is paint, in the variant 'red' ruby.
+inline constexpr const char* kCar = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+    "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
+    "materials": [{"name": "paint"}, {"name": "ruby"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
+        {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
+    "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})";
 
 /// A folder with the files that the tests' scenes refer to: models/bust.obj (node "bust", material "default"),
 /// parts/lamps.json (a light, a camera, a node "lamp"), hooks/redden.glsl, which changes nothing, and pictures of one
@@ -31,6 +41,40 @@ public:
 
 private:
     std::string importError(std::string_view text) const;
+};
+
+/// But for the rounding of sine and cosine.
+inline void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
+    EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+/// Tests of scene files, with a folder for them.
+class SceneFiles : public testing::Test {
+protected:
+    const SceneFolder folder;
+};
+
+/// Tests of one element of a list of scene files, such as "lights". Errors are those after the element's place.
+class OneElement : public SceneFiles {
+protected:
+    explicit OneElement(std::string list) : list_(std::move(list)) {}
+    std::string document(const std::string& element) const {
+        return R"({"tessera": 1, ")" + list_ + R"(": [)" + element + "]}";
+    }
+    Scene import(const std::string& element) const { return folder.import(document(element)); }
+    std::string errorOf(const std::string& element) const { return inElement(folder.errorOf(document(element))); }
+    std::string errorBeyondSchemaOf(const std::string& element) const {
+        return inElement(folder.errorBeyondSchemaOf(document(element)));
+    }
+    /// Also for errors of documents with more than the element.
+    std::string inElement(const std::string& error) const {
+        const std::string place = "/" + list_ + "/0";
+        EXPECT_THAT(error, testing::StartsWith(place));
+        return error.substr(std::min(error.size(), place.size()));
+    }
+
+private:
+    std::string list_;
 };
 
 /// The results of `element` for 0, 1, 2 ... below `count`, with commas between.

@@ -6,63 +6,49 @@
 #include "scenes/Load.h"
 #include "scenes/import/SceneJsonParts.h"
 #include "scenes/write/ElementJson.h"
+#include "tests/support/AreaLights.h"
 #include "tests/support/Random.h"
+#include "tests/unit/scenes/Members.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
-using test::SceneFolder;
+using namespace test;
 
-std::string areaDocument(const std::string& light) {
-    return R"({"tessera": 1, "lights": [{"position": [1, 2, 3], )" + light + "}]}";
-}
-Light areaLight(const SceneFolder& folder, const std::string& light) {
-    return folder.import(areaDocument(light)).lights.at(0);
-}
+class SceneJsonAreaLights : public OneElement {
+protected:
+    SceneJsonAreaLights() : OneElement("lights") {}
+    static std::string placed(const std::string& members) { return R"({"position": [1, 2, 3], )" + members + "}"; }
+    Light areaLight(const std::string& members) const { return import(placed(members)).lights.at(0); }
+};
 
-TEST(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
-    const SceneFolder folder;
-    const Light panel = areaLight(folder, R"("type": "rectangle", "direction": [0, -2, 0], "width": 3, "height": 0.5,
+TEST_F(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
+    const Light panel = areaLight(R"("type": "rectangle", "direction": [0, -2, 0], "width": 3, "height": 0.5,
         "along": [0, 7, -2], "twoSided": true, "seen": false, "intensity": 40, "falloff": {"type": "inverse_square", "range": 9})");
     EXPECT_EQ(panel.type, LightType::Rectangle);
-    EXPECT_EQ(panel.widthMetres, 3.0f);
-    EXPECT_EQ(panel.heightMetres, 0.5f);
-    EXPECT_EQ(panel.directionWS, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(panel.alongWS, glm::dvec3(0, 0, -1)) << "what is along the direction does not count";
-    EXPECT_TRUE(panel.isTwoSided);
-    EXPECT_FALSE(panel.isSeen);
-    EXPECT_EQ(panel.rangeMetres, 9.0f);
-    const Light disk = areaLight(folder, R"("type": "disk", "target": [1, 2, 4], "radius": 0.25)");
-    EXPECT_EQ(disk.radiusMetres, 0.25f);
-    EXPECT_EQ(disk.directionWS, glm::dvec3(0, 0, 1));
-    EXPECT_FALSE(disk.isTwoSided);
-    EXPECT_TRUE(disk.isSeen);
-    EXPECT_EQ(disk.rangeMetres, kInfinity);
-    EXPECT_EQ(areaLight(folder, R"("type": "sphere", "radius": 2)").radiusMetres, 2.0f);
-    const Light tube = areaLight(folder, R"("type": "tube", "direction": [1, 0, 0], "length": 1.5, "radius": 0.02)");
-    EXPECT_EQ(tube.lengthMetres, 1.5f);
-    EXPECT_EQ(tube.radiusMetres, 0.02f);
-    const Light polygon = areaLight(folder, R"("type": "polygon", "direction": [0, -1, 0], "along": [0, 0, 2],
+    expectMembers(panel, "widthMetres 3, heightMetres 0.5, directionWS 0 -1 0, isTwoSided 1, isSeen 0, rangeMetres 9");
+    expectMembers(panel, "alongWS 0 0 -1"); // what is along the direction does not count
+    expectMembers(areaLight(R"("type": "disk", "target": [1, 2, 4], "radius": 0.25)"),
+                  "radiusMetres 0.25, directionWS 0 0 1, isTwoSided 0, isSeen 1, rangeMetres inf");
+    expectMembers(areaLight(R"("type": "sphere", "radius": 2)"), "radiusMetres 2");
+    expectMembers(areaLight(R"("type": "tube", "direction": [1, 0, 0], "length": 1.5, "radius": 0.02)"),
+                  "lengthMetres 1.5, radiusMetres 0.02");
+    const Light polygon = areaLight(R"("type": "polygon", "direction": [0, -1, 0], "along": [0, 0, 2],
         "corners": [[0, 0], [1, 0], [0.5, 0.25], [0, 2]], "twoSided": true)");
     EXPECT_EQ(polygon.type, LightType::Polygon);
-    ASSERT_EQ(polygon.corners.count, 4u);
-    EXPECT_EQ(polygon.corners.metres[2], glm::vec2(0.5f, 0.25f));
-    EXPECT_EQ(polygon.corners.metres[3], glm::vec2(0.0f, 2.0f));
-    EXPECT_EQ(polygon.alongWS, glm::dvec3(0, 0, 1));
-    EXPECT_TRUE(polygon.isTwoSided);
+    EXPECT_EQ(polygon.corners, tessera::test::cornersOf({{0, 0}, {1, 0}, {0.5f, 0.25f}, {0, 2}}));
+    expectMembers(polygon, "alongWS 0 0 1, isTwoSided 1");
 }
 
-TEST(SceneJsonAreaLights, aWidthThatIsNotStatedIsHorizontal) {
-    const SceneFolder folder;
+TEST_F(SceneJsonAreaLights, aWidthThatIsNotStatedIsHorizontal) {
     const auto along = [&](const char* direction) {
-        return areaLight(folder, fmt::format(R"("type": "rectangle", "direction": {})", direction)).alongWS;
+        return areaLight(fmt::format(R"("type": "rectangle", "direction": {})", direction)).alongWS;
     };
     EXPECT_EQ(along("[0, 0, 1]"), glm::dvec3(1, 0, 0));
     EXPECT_EQ(along("[0, 0, -1]"), glm::dvec3(-1, 0, 0));
     EXPECT_EQ(along("[1, 0, 0]"), glm::dvec3(0, 0, -1));
-    EXPECT_EQ(along("[0, 1, 0]"), glm::dvec3(1, 0, 0));
-    EXPECT_EQ(along("[0, -1, 0]"), glm::dvec3(1, 0, 0));
+    for (const char* vertical : {"[0, 1, 0]", "[0, -1, 0]"}) EXPECT_EQ(along(vertical), glm::dvec3(1, 0, 0));
     tessera::test::Random random(3);
     for (int i = 0; i < 1000; ++i) {
         glm::dvec3 direction = random.direction();
@@ -75,47 +61,45 @@ TEST(SceneJsonAreaLights, aWidthThatIsNotStatedIsHorizontal) {
     }
 }
 
-TEST(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
-    const SceneFolder folder;
-    const auto error = [&](const std::string& light) { return folder.errorOf(areaDocument(light)); };
-    const std::string panel = R"("type": "rectangle", "direction": [0, 0, 1])";
-    EXPECT_EQ(folder.errorBeyondSchemaOf(areaDocument(panel + R"(, "along": [0, 0, -2.5])")),
-              "/lights/0/along: is (0, 0, -2.5), which runs along the light's direction; give a vector across it");
-    EXPECT_EQ(error(panel + R"(, "along": [0, 0, 0])"), "/lights/0/along: has no length; give a direction");
-    EXPECT_EQ(error(panel + R"(, "width": -1)"), "/lights/0/width: is -1; at least 0 is needed");
-    EXPECT_EQ(error(panel + R"(, "height": 1000001)"), "/lights/0/height: is 1000001; at most 1000000 is allowed");
-    EXPECT_EQ(
-        error(panel + R"(, "radius": 1)"),
-        "/lights/0: a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, flicker, "
-        "keyframes, position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
-        "texture, castsShadow, fields");
-    EXPECT_EQ(error(panel + R"(, "twoSided": 1)"), "/lights/0/twoSided: is a number; true or false is needed");
-    EXPECT_EQ(error(panel + R"(, "seen": 1)"), "/lights/0/seen: is a number; true or false is needed");
-    const std::string polygon = R"("type": "polygon", "direction": [0, 0, 1])";
-    EXPECT_EQ(error(polygon), "/lights/0: lacks the key 'corners'; add it");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(areaDocument(polygon + R"(, "corners": [[0, 0], [1, 1], [1, 0], [0, 1]])")),
-              "/lights/0/corners: let the edge from number 0 to 1 meet that from number 2 to 3; move one of them");
-    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 1]])"), "");
-    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1]])"), "");
-    EXPECT_NE(error(polygon + R"(, "corners": [[0, 0], [1, 0], [1, 1000001]])"), "");
-    EXPECT_EQ(error(R"("type": "sphere")"), "/lights/0: lacks the key 'radius'; add it");
-    EXPECT_EQ(error(R"("type": "sphere", "radius": 1, "twoSided": true)").substr(0, 45),
-              "/lights/0: a sphere light has no key 'twoSide");
-    EXPECT_EQ(error(R"("type": "tube", "radius": 1)"), "/lights/0: lacks the key 'direction'; add it");
+TEST_F(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
+    const auto error = [&](const std::string& light) { return errorOf(placed(light)); };
+    const std::string panel = R"("type": "rectangle", "direction": [0, 0, 1])",
+                      polygon = R"("type": "polygon", "direction": [0, 0, 1])";
+    EXPECT_EQ(errorBeyondSchemaOf(placed(panel + R"(, "along": [0, 0, -2.5])")),
+              "/along: is (0, 0, -2.5), which runs along the light's direction; give a vector across it");
+    EXPECT_EQ(errorBeyondSchemaOf(placed(polygon + R"(, "corners": [[0, 0], [1, 1], [1, 0], [0, 1]])")),
+              "/corners: let the edge from number 0 to 1 meet that from number 2 to 3; move one of them");
+    for (const auto& [light, told] :
+         {std::pair<std::string, std::string>(panel + R"(, "along": [0, 0, 0])",
+                                              "/along: has no length; give a direction"),
+          {panel + R"(, "width": -1)", "/width: is -1; at least 0 is needed"},
+          {panel + R"(, "height": 1000001)", "/height: is 1000001; at most 1000000 is allowed"},
+          {panel + R"(, "radius": 1)",
+           ": a rectangle light has no key 'radius'; valid are type, name, enabled, color, intensity, flicker, "
+           "keyframes, position, falloff, animation, direction, target, along, width, height, twoSided, seen, "
+           "texture, castsShadow, fields"},
+          {panel + R"(, "twoSided": 1)", "/twoSided: is a number; true or false is needed"},
+          {panel + R"(, "seen": 1)", "/seen: is a number; true or false is needed"},
+          {polygon, ": lacks the key 'corners'; add it"},
+          {R"("type": "sphere")", ": lacks the key 'radius'; add it"},
+          {R"("type": "tube", "radius": 1)", ": lacks the key 'direction'; add it"}})
+        EXPECT_EQ(error(light), told);
+    for (const char* corners : {"[[0, 0], [1, 1]]", "[[0, 0], [1, 0], [1]]", "[[0, 0], [1, 0], [1, 1000001]]"})
+        EXPECT_NE(error(polygon + R"(, "corners": )" + corners), "") << corners;
+    EXPECT_THAT(error(R"("type": "sphere", "radius": 1, "twoSided": true)"),
+                StartsWith(": a sphere light has no key 'twoSide"));
     for (const char* shape :
          {R"("type": "rectangle", "direction": [0, 0, 1])", R"("type": "disk", "direction": [0, 0, 1], "radius": 1)",
           R"("type": "sphere", "radius": 1)", R"("type": "tube", "direction": [0, 0, 1], "radius": 1)",
           R"("type": "polygon", "direction": [0, 0, 1], "corners": [[0, 0], [1, 0], [0, 1]])"}) {
         const std::string text = error(std::string(shape) + R"(, "falloff": {"type": "attenuation", "C": 1})");
-        EXPECT_NE(text.find("light has no falloff 'attenuation', since its shape decides how its light falls off; "
-                            "inverse_square may end it by a range"),
-                  std::string::npos)
-            << text;
-        EXPECT_EQ(text.find("/lights/0/falloff/type: a "), 0u) << text;
+        EXPECT_THAT(text, StartsWith("/falloff/type: a "));
+        EXPECT_THAT(text, HasSubstr("light has no falloff 'attenuation', since its shape decides how its light falls "
+                                    "off; inverse_square may end it by a range"));
     }
 }
 
-TEST(SceneJsonAreaLights, aRectangleTurnedAnyWayIsReadBackIdentically) {
+TEST_F(SceneJsonAreaLights, aRectangleTurnedAnyWayIsReadBackIdentically) {
     tessera::test::Random random(8);
     for (int i = 0; i < 500; ++i) {
         Light light;
@@ -130,8 +114,7 @@ TEST(SceneJsonAreaLights, aRectangleTurnedAnyWayIsReadBackIdentically) {
     }
 }
 
-TEST(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
-    const SceneFolder folder;
+TEST_F(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
     folder.write("parts/panel.json", R"({"tessera": 1, "lights": [
         {"type": "rectangle", "position": [0, 1, 0], "direction": [0, 0, -1], "along": [1, 0, 0], "width": 2}]})");
     const Scene scene = folder.import(R"({"tessera": 1, "include": [
@@ -142,10 +125,9 @@ TEST(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
     EXPECT_EQ(light.widthMetres, 2.0f) << "scales change directions alone";
 }
 
-TEST(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreToldInOneLine) {
-    const SceneFolder folder;
+TEST_F(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreToldInOneLine) {
     const auto warningsOf = [&](const std::string& lights) {
-        return loadScene(folder.write("areas.json", R"({"tessera": 1, "lights": [)" + lights + "]}").string()).warnings;
+        return loadScene(folder.file("areas.json", R"({"tessera": 1, "lights": [)" + lights + "]}")).warnings;
     };
     const auto panel = [](const char* name, const char* more) {
         return fmt::format(
@@ -161,8 +143,7 @@ TEST(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreToldInOneLine) {
     EXPECT_EQ(std::ranges::count_if(ofTwo, isOf), 1);
 }
 
-TEST(SceneJsonAreaLights, anIncludedPolygonIsMirroredWithItsPart) {
-    const SceneFolder folder;
+TEST_F(SceneJsonAreaLights, anIncludedPolygonIsMirroredWithItsPart) {
     folder.write("parts/sign.json", R"({"tessera": 1, "lights": [
         {"type": "polygon", "position": [0, 0, 0], "direction": [0, 0, 1], "along": [1, 0, 0],
          "corners": [[0, 0], [2, 0], [2, 1]]}]})");

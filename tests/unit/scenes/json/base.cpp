@@ -1,38 +1,34 @@
 #include "base/Error.h"
 #include "scenes/Load.h"
 #include "tests/support/AssetsFolder.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 #include "tests/unit/scenes/write/SameScene.h"
 
 namespace tessera::scenes {
 namespace {
 
-using test::SceneFolder;
-
-constexpr const char* kLamps = R"("tessera": 1, "base": {"file": "parts/lamps.json"})";
+using namespace test;
+using SceneJsonBase = SceneFiles;
+using SceneJsonFields = SceneFiles;
 
 std::string basedOnLamps(const std::string& members) {
-    return std::string("{") + kLamps + members + "}";
+    return R"({"tessera": 1, "base": {"file": "parts/lamps.json"})" + members + "}";
 }
 
-TEST(SceneJsonBase, aBaseAloneIsExactlyTheSceneItself) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, aBaseAloneIsExactlyTheSceneItself) {
     const Scene base = loadScene((folder.path() / "parts" / "lamps.json").string());
     expectSameScene(folder.import(basedOnLamps(R"(, "name": "lamps")")), base);
     EXPECT_EQ(folder.import(basedOnLamps("")).name, "scene") << "named after the file";
 }
 
-TEST(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsAsked) {
-    const SceneFolder folder;
-    LoadOptions seven;
-    seven.lights = 7;
+TEST_F(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsAsked) {
     expectSameScene(
         folder.import(R"({"tessera": 1, "name": "lattice", "base": {"file": "builtin:lattice", "lights": 7}})"),
-        loadScene("lattice", seven));
+        loadScene("lattice", loading(&LoadOptions::lights, 7)));
 }
 
-TEST(SceneJsonBase, aBuiltinBaseMayKeepToItsOwnModels) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, aBuiltinBaseMayKeepToItsOwnModels) {
     folder.write("LeePerrySmith/head.obj", "v 0 0\n");
     const tessera::test::AssetsFolder assets(folder.path().c_str());
     const auto based = [&](const char* more) {
@@ -40,13 +36,10 @@ TEST(SceneJsonBase, aBuiltinBaseMayKeepToItsOwnModels) {
                              "}}");
     };
     EXPECT_THROW(based(""), InputError) << "the folder's model is taken";
-    LoadOptions own;
-    own.useAssets = false;
-    expectSameScene(based(R"(, "assets": false)"), loadScene("head", own));
+    expectSameScene(based(R"(, "assets": false)"), loadScene("head", loading(&LoadOptions::useAssets, false)));
 }
 
-TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
     const Scene scene = folder.import(basedOnLamps(R"(,
         "lights": [], "cameras": [{"name": "a", "position": [0, 0, 1], "target": [0, 0, 0]}],
         "environment": {"background": [1, 2, 3]}, "options": {"layout": "packed", "defaultLight": false})"));
@@ -59,8 +52,7 @@ TEST(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
     EXPECT_FALSE(scene.options.wishes.contains("technique")) << "of the base";
 }
 
-TEST(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
     folder.write("painted.json", R"({"tessera": 1, "include": [{"file": "models/bust.obj"}],
         "materials": [{"name": "skin", "model": "lambert", "k_d": {"texture": "pictures/albedo.tga"}}],
         "overrides": [{"node": "bust", "material": "skin"}]})");
@@ -75,16 +67,7 @@ TEST(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-/// A triangle that is paint, in 'red' ruby.
-constexpr const char* kCar = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
-    "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
-    "materials": [{"name": "paint"}, {"name": "ruby"}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
-        {"mappings": [{"material": 1, "variants": [0]}]}}}]}],
-    "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})";
-
-TEST(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
     folder.write("car.gltf", kCar);
     const auto worn = [](const Scene& scene) {
         std::string names;
@@ -99,24 +82,22 @@ TEST(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
     EXPECT_EQ(worn(folder.import(cars)), "paint ruby paint ruby ");
     LoadOptions red;
     red.import.variant = "red";
-    EXPECT_EQ(worn(loadScene(folder.write("cars.json", cars).string(), red)), "ruby ruby ruby ruby ");
+    EXPECT_EQ(worn(loadScene(folder.file("cars.json", cars), red)), "ruby ruby ruby ruby ");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "car.gltf", "variant": "rde"}})"),
               "/base/variant: there is no variant 'rde'; did you mean 'red'?");
 }
 
-TEST(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
-    const SceneFolder folder;
+TEST_F(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
     const auto isLit = [&](const std::string& members) {
         const std::string text = R"({"tessera": 1, "include": [{"file": "models/bust.obj"}])" + members + "}";
-        return loadScene(folder.write("dark.json", text).string()).environment.has_value();
+        return loadScene(folder.file("dark.json", text)).environment.has_value();
     };
     EXPECT_TRUE(isLit(""));
     EXPECT_TRUE(isLit(R"(, "options": {"defaultLight": true})"));
     EXPECT_FALSE(isLit(R"(, "options": {"defaultLight": false})"));
 }
 
-TEST(SceneJsonFields, membersAreSetLastAndWhateverTheType) {
-    const SceneFolder folder;
+TEST_F(SceneJsonFields, membersAreSetLastAndWhateverTheType) {
     const Scene scene = folder.import(R"({"tessera": 1,
         "lights": [{"type": "point", "position": [0, 0, 0], "falloff": {"type": "inverse_square", "range": 3},
                     "fields": {"outerConeRadians": 0.25, "rangeMetres": null, "animation": {"kind": "wobble"}}}],
@@ -130,31 +111,31 @@ TEST(SceneJsonFields, membersAreSetLastAndWhateverTheType) {
     EXPECT_EQ(scene.materials[0].masking, Masking::Directional);
 }
 
-TEST(SceneJsonBase, mistakesAreNamedWithTheirPlace) {
-    const SceneFolder folder;
-    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "models/bust.obj", "lights": 3}})"),
-              "/base/lights: only a built-in scene makes as many lights as it is asked for; remove it");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "models/bust.obj", "assets": false}})"),
-              "/base/assets: only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "builtin:hal"}})"),
-              "/base/file: there is no built-in scene 'hal'; did you mean 'hall'?");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(
-                  basedOnLamps(R"(, "materials": [{"replaces": 1, "name": "a", "model": "lambert"}])")),
-              "/materials/0/replaces: is 1; at most 0 is allowed");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(
-                  R"({"tessera": 1, "materials": [{"replaces": 0, "name": "a", "model": "lambert"}]})"),
-              "/materials/0/replaces: there is no material of a base to replace; remove it");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(
-                  basedOnLamps(R"(, "materials": [{"name": "a", "model": "lambert", "normalMap": {"image": 0}}])")),
-              "/materials/0/normalMap/image: there is no picture of a base; name a 'file'");
-    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "materials": [{"name": "a", "model": "lambert",
-                  "normalMap": {"image": 0, "file": "pictures/normal.tga"}}]})"),
+TEST_F(SceneJsonBase, mistakesAreNamedWithTheirPlace) {
+    const auto based = [](const std::string& base) { return R"({"tessera": 1, "base": {"file": )" + base + "}}"; };
+    const auto material = [](const std::string& members) {
+        return R"("materials": [{"name": "a", "model": "lambert", )" + members + "}]";
+    };
+    for (const auto& [text, error] :
+         {std::pair<std::string, const char*>(
+              based(R"("models/bust.obj", "lights": 3)"),
+              "/base/lights: only a built-in scene makes as many lights as it is asked for; remove it"),
+          {based(R"("models/bust.obj", "assets": false)"),
+           "/base/assets: only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it"},
+          {based(R"("builtin:hal")"), "/base/file: there is no built-in scene 'hal'; did you mean 'hall'?"},
+          {based(R"("scene.json")"),
+           "/base/file: includes itself: scene.json -> scene.json; remove one of the includes"},
+          {basedOnLamps(", " + material(R"("replaces": 1)")), "/materials/0/replaces: is 1; at most 0 is allowed"},
+          {R"({"tessera": 1, )" + material(R"("replaces": 0)") + "}",
+           "/materials/0/replaces: there is no material of a base to replace; remove it"},
+          {basedOnLamps(", " + material(R"("normalMap": {"image": 0})")),
+           "/materials/0/normalMap/image: there is no picture of a base; name a 'file'"},
+          {R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "fields": {"colour": 1}}]})",
+           "/lights/0/fields: a light's fields has no key 'colour'; did you mean 'color'?"}})
+        EXPECT_EQ(folder.errorBeyondSchemaOf(text), error);
+    EXPECT_EQ(folder.errorOf(R"({"tessera": 1, )" +
+                             material(R"("normalMap": {"image": 0, "file": "pictures/normal.tga"})") + "}"),
               "/materials/0/normalMap/file: is given beside 'image'; keep one");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(
-                  R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "fields": {"colour": 1}}]})"),
-              "/lights/0/fields: a light's fields has no key 'colour'; did you mean 'color'?");
-    EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "base": {"file": "scene.json"}})"),
-              "/base/file: includes itself: scene.json -> scene.json; remove one of the includes");
 }
 
 } // namespace

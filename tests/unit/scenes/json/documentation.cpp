@@ -11,6 +11,9 @@
 namespace tessera::scenes {
 namespace {
 
+using namespace test;
+using SceneFormat = SceneFiles;
+
 std::string textOf(const std::filesystem::path& file) {
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
@@ -19,20 +22,19 @@ std::string textOf(const std::filesystem::path& file) {
 
 const std::filesystem::path kRepository = TESSERA_SOURCE_DIR;
 
-TEST(SceneFormat, theEmbeddedSchemaIsExactlyTheShippedFile) {
+TEST_F(SceneFormat, theEmbeddedSchemaIsExactlyTheShippedFile) {
     EXPECT_EQ(sceneSchema(), textOf(kRepository / "scenes" / "schema" / "scene.schema.json"));
 }
 
-TEST(SceneFormat, theSchemaTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
+TEST_F(SceneFormat, theSchemaTakesAsManyLightsOfABuiltinSceneAsCanBeDrawn) {
     const auto based = [](int lights) {
         return fmt::format(R"({{"tessera": 1, "base": {{"file": "builtin:lattice", "lights": {}}}}})", lights);
     };
-    EXPECT_TRUE(test::schemaAccepts(based(kMostLights)));
-    EXPECT_FALSE(test::schemaAccepts(based(kMostLights + 1)));
+    EXPECT_TRUE(schemaAccepts(based(kMostLights)));
+    EXPECT_FALSE(schemaAccepts(based(kMostLights + 1)));
 }
 
-TEST(SceneFormat, everyDocumentedExampleLoads) {
-    const test::SceneFolder folder;
+TEST_F(SceneFormat, everyDocumentedExampleLoads) {
     const std::string text = textOf(kRepository / "docs" / "scene-format.md");
     constexpr std::string_view kOpening = "```json\n";
     int examples = 0;
@@ -47,36 +49,29 @@ TEST(SceneFormat, everyDocumentedExampleLoads) {
     EXPECT_GE(examples, 5);
 }
 
-TEST(SceneFormat, theSchemaTakesEveryModelWithTheParametersOfItsRowAlsoInOverrides) {
+TEST_F(SceneFormat, theSchemaTakesEveryModelWithTheParametersOfItsRowAlsoInOverrides) {
     const auto valueOf = [](const MaterialParameter& parameter) {
-        switch (parameter.kind) {
-        case MaterialParameter::Kind::Color:
-            return "[0.5, 0.5, 0.5]";
-        case MaterialParameter::Kind::Masking:
-            return R"("walter")";
-        default:
-            return "1";
-        }
+        using enum MaterialParameter::Kind;
+        return parameter.kind == Color ? "[0.5, 0.5, 0.5]" : parameter.kind == Masking ? R"("walter")" : "1";
     };
-    const test::SceneFolder folder;
     for (const MaterialModelInfo& model : materialModels()) {
         SCOPED_TRACE(model.name);
         std::string keys = fmt::format(R"("model": "{}", "{}": [0.5, 0.5, 0.5])", model.name, model.colorKey);
         for (const MaterialParameter& parameter : model.parameters)
             keys += fmt::format(R"(, "{}": {})", parameter.key, valueOf(parameter));
         const std::string owned = R"({"tessera": 1, "materials": [{"name": "m", )" + keys + "}]}";
-        EXPECT_TRUE(test::schemaAccepts(owned)) << owned;
+        EXPECT_TRUE(schemaAccepts(owned)) << owned;
         EXPECT_EQ(folder.import(owned).materials[0].model, model.model);
         const std::string overridden = R"({"tessera": 1, "overrides": [{"material": "m", )" + keys + "}]}";
-        EXPECT_TRUE(test::schemaAccepts(overridden)) << overridden;
+        EXPECT_TRUE(schemaAccepts(overridden)) << overridden;
     }
 }
 
-TEST(SceneFormat, everyShippedScenePassesTheSchema) {
+TEST_F(SceneFormat, everyShippedScenePassesTheSchema) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kRepository / "scenes" / "files")) {
         if (entry.path().extension() != ".json") continue;
-        EXPECT_TRUE(test::schemaAccepts(textOf(entry.path()))) << entry.path();
+        EXPECT_TRUE(schemaAccepts(textOf(entry.path()))) << entry.path();
         ++scenes;
     }
     EXPECT_GE(scenes, 1);

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-
 #include "base/Error.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
@@ -7,10 +5,9 @@
 namespace tessera::scenes {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using namespace test;
 
-class HookFiles : public testing::Test {
+class HookFiles : public SceneFiles {
 protected:
     static constexpr std::string_view kText = "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}\n";
 
@@ -22,7 +19,8 @@ protected:
                   "hook": {"file": "hooks/tint.glsl")" +
                more + "}";
     }
-    test::SceneFolder folder;
+    /// Errors of these members of the hook.
+    std::string errorWith(const std::string& more) const { return folder.errorBeyondSchemaOfMembers(members(more)); }
 };
 
 TEST_F(HookFiles, aHookKnowsItsFileMaterialsAndParameters) {
@@ -47,14 +45,11 @@ TEST_F(HookFiles, anotherTextIsAnotherHook) {
 }
 
 TEST_F(HookFiles, faultsNameTheirPlace) {
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members(R"(, "materials": ["c"])")),
-                HasSubstr("/hook/materials/0: there is no material 'c'"));
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members(R"(, "materials": ["b", "b"])")),
-                HasSubstr("/hook/materials/1: 'b' is in the list already"));
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members(R"(, "parameters": [{"name": "a", "value": 3}])")),
+    EXPECT_THAT(errorWith(R"(, "materials": ["c"])"), HasSubstr("/hook/materials/0: there is no material 'c'"));
+    EXPECT_THAT(errorWith(R"(, "materials": ["b", "b"])"), HasSubstr("/hook/materials/1: 'b' is in the list already"));
+    EXPECT_THAT(errorWith(R"(, "parameters": [{"name": "a", "value": 3}])"),
                 HasSubstr("/hook/parameters/0/value: is 3, and must lie between its least, 0, and its most, 1"));
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(
-                    members(R"(, "parameters": [{"name": "a", "value": 0}, {"name": "a", "value": 1}])")),
+    EXPECT_THAT(errorWith(R"(, "parameters": [{"name": "a", "value": 0}, {"name": "a", "value": 1}])"),
                 HasSubstr("/hook/parameters/1: the name 'a' is taken"));
     EXPECT_THAT(folder.errorOfMembers(members(R"(, "parameters": [{"name": "timeSeconds", "value": 0}])")),
                 HasSubstr("/hook/parameters/0/name: must be a letter"));
@@ -86,11 +81,10 @@ TEST_F(HookFiles, whatMovesVerticesSaysHowFar) {
     EXPECT_TRUE(scene.hook->movesVertices);
     EXPECT_FALSE(scene.hook->changesSurfaces);
     EXPECT_EQ(scene.hook->mayMoveMetres, 0.25);
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members("")), HasSubstr("/hook: lacks 'mayMoveMetres'"));
+    EXPECT_THAT(errorWith(""), HasSubstr("/hook: lacks 'mayMoveMetres'"));
     EXPECT_THAT(folder.errorOfMembers(members(R"(, "mayMoveMetres": -1)")), HasSubstr("/hook/mayMoveMetres: is -1"));
     folder.write("hooks/tint.glsl", kText);
-    EXPECT_THAT(folder.errorBeyondSchemaOfMembers(members(R"(, "mayMoveMetres": 0.25)")),
-                HasSubstr("/hook/mayMoveMetres: the file has no hookVertex"));
+    EXPECT_THAT(errorWith(R"(, "mayMoveMetres": 0.25)"), HasSubstr("/hook/mayMoveMetres: the file has no hookVertex"));
 }
 
 TEST_F(HookFiles, aMeshOfWhichOnlySomeInstancesMoveIsRefused) {
@@ -101,14 +95,14 @@ TEST_F(HookFiles, aMeshOfWhichOnlySomeInstancesMoveIsRefused) {
     checkScene(scene);
     scene.materials.emplace_back().name = "other";
     node.instances[0].material = int(scene.materials.size()) - 1;
-    EXPECT_THAT(test::inputErrorOf([&] { checkScene(scene); }), HasSubstr("cannot be in two places"));
+    EXPECT_THAT(inputErrorOf([&] { checkScene(scene); }), HasSubstr("cannot be in two places"));
 }
 
 TEST_F(HookFiles, aFaultOfTheFileNamesItsLine) {
     const std::filesystem::path file = folder.write("hooks/tint.glsl", std::string(kText) + "\nuniform float x;\n");
     const std::filesystem::path scene =
         folder.write("scene.json", R"({"tessera": 1, "hook": {"file": "hooks/tint.glsl"}})");
-    EXPECT_THAT(test::inputErrorOf([&] { underLedger(importSceneJson, scene); }),
+    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, scene); }),
                 HasSubstr(file.string() + ":3: uniform: a hook binds nothing"));
 }
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "tests/support/AssetsFolder.h"
@@ -10,17 +9,15 @@
 namespace tessera::scenes {
 namespace {
 
+using namespace test;
+using SceneJsonInclude = SceneFiles;
 using tessera::test::AssetsFolder;
-using test::SceneFolder;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 std::string including(const std::string& include) {
     return R"({"tessera": 1, "include": [)" + include + "]}";
 }
 
-TEST(SceneJsonInclude, anIncludeIsANodeAboveTheFilesOwn) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, anIncludeIsANodeAboveTheFilesOwn) {
     const Scene scene = folder.import(including(
         R"({"file": "models/bust.obj"}, {"file": "models/bust.obj", "name": "second"}, {"file": "parts/lamps.json"})"));
     std::vector<std::string> names;
@@ -33,12 +30,11 @@ TEST(SceneJsonInclude, anIncludeIsANodeAboveTheFilesOwn) {
     EXPECT_THAT(parents, ElementsAre(-1, 0, -1, 2, -1, 4, 5));
     EXPECT_EQ(scene.meshes.size(), 3u);
     EXPECT_EQ(scene.nodes[6].instances.at(0).mesh, 2);
-    EXPECT_EQ(scene.materials.at(static_cast<std::size_t>(scene.nodes[6].instances[0].material)).name, "brass");
+    EXPECT_EQ(scene.materials.at(std::size_t(scene.nodes[6].instances[0].material)).name, "brass");
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("no material library defines 'brass'")));
 }
 
-TEST(SceneJsonInclude, picturesOfAnIncludeStayWithItsMaterials) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, picturesOfAnIncludeStayWithItsMaterials) {
     folder.write("models/paint.mtl", "newmtl paint\nmap_Kd ../pictures/specular.tga\n");
     folder.write("models/painted.obj", "mtllib paint.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
     folder.write("models/first.mtl", "newmtl paint\nmap_Kd ../pictures/albedo.tga\n");
@@ -46,20 +42,16 @@ TEST(SceneJsonInclude, picturesOfAnIncludeStayWithItsMaterials) {
     const Scene scene = folder.import(including(R"({"file": "models/first.obj"}, {"file": "models/painted.obj"})"));
     const auto redOf = [&](std::size_t material) {
         const int image = scene.materials.at(material).texture(TextureSlot::BaseColor).image;
-        return std::to_integer<int>(scene.images.at(static_cast<std::size_t>(image)).texels.at(0));
+        return std::to_integer<int>(scene.images.at(std::size_t(image)).texels.at(0));
     };
     EXPECT_EQ(redOf(0), 10);
     EXPECT_EQ(redOf(1), 40);
 }
 
-TEST(SceneJsonInclude, transformsScaleThenRotateThenTranslate) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, transformsScaleThenRotateThenTranslate) {
     const auto placed = [&](const std::string& placement) {
         const Scene scene = folder.import(including(R"({"file": "models/bust.obj", )" + placement + "}"));
         return glm::dvec3(worldFromNodes(scene).at(1) * glm::dvec4(1.0, 2.0, 3.0, 1.0));
-    };
-    const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
-        EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
     };
     expectNear(placed(R"("transform": {})"), {1, 2, 3});
     expectNear(placed(R"("transform": {"translation": [10, 20, 30]})"), {11, 22, 33});
@@ -74,15 +66,11 @@ TEST(SceneJsonInclude, transformsScaleThenRotateThenTranslate) {
     expectNear(placed(R"("matrix": [0, 1, 0, 0,  -1, 0, 0, 0,  0, 0, 1, 0,  10, 0, 0, 1])"), {8, 1, 3});
 }
 
-TEST(SceneJsonInclude, lightsAndCamerasMoveAlong) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, lightsAndCamerasMoveAlong) {
     const Scene scene = folder.import(including(
         R"({"file": "parts/lamps.json", 
             "transform": {"scale": 2, "eulerDegrees": [0, 0, 90], "translation": [0, 0, 1]}})"));
     const Light& light = scene.lights.at(0);
-    const auto expectNear = [](const glm::dvec3& a, const glm::dvec3& b) {
-        EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z; // rounding of sine and cosine
-    };
     expectNear(light.positionWS, {-4, 2, 7});
     expectNear(light.directionWS, {0, 1, 0});
     EXPECT_EQ(light.rangeMetres, 7.0f);
@@ -92,8 +80,7 @@ TEST(SceneJsonInclude, lightsAndCamerasMoveAlong) {
     expectNear(glm::dvec3(camera[1]), {-1, 0, 0});
 }
 
-TEST(SceneJsonInclude, animationsMoveAlong) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, animationsMoveAlong) {
     folder.write("parts/moving.json", R"({"tessera": 1, "lights": [
         {"type": "point", "position": [1, 0, 0], "animation": {"type": "orbit", "periodSeconds": 4}},
         {"type": "point", "position": [1, 0, 0],
@@ -107,33 +94,22 @@ TEST(SceneJsonInclude, animationsMoveAlong) {
     const Scene moved = folder.import(
         including(R"({"file": "parts/moving.json", "matrix": [0, 1, 0, 0,  1, 0, 0, 0,  0, 0, 1, 0,  5, 6, 7, 1]})"));
     const glm::dvec3 turnedWS = lightAtTime(alone.lights.at(3), 0.3).directionWS;
-    EXPECT_LT(
-        glm::distance(lightAtTime(moved.lights.at(3), 0.3).directionWS, glm::dvec3(turnedWS.y, turnedWS.x, turnedWS.z)),
-        1e-12);
+    expectNear(lightAtTime(moved.lights.at(3), 0.3).directionWS, {turnedWS.y, turnedWS.x, turnedWS.z});
     for (std::size_t i = 0; i < 3; ++i) {
         for (const double seconds : {0.0, 0.3, 1.0, 2.5}) {
             const glm::dvec3 at = lightAtTime(alone.lights.at(i), seconds).positionWS;
-            const glm::dvec3 expected(at.y + 5.0, at.x + 6.0, at.z + 7.0);
-            // Rounding of sine and cosine.
-            EXPECT_LT(glm::distance(lightAtTime(moved.lights.at(i), seconds).positionWS, expected), 1e-12);
+            expectNear(lightAtTime(moved.lights.at(i), seconds).positionWS, {at.y + 5.0, at.x + 6.0, at.z + 7.0});
         }
     }
 }
 
-TEST(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
     const Scene scene = folder.import(including(R"({"file": "parts/lamps.json"})"));
     EXPECT_EQ(scene.background, glm::vec3(0));
     EXPECT_TRUE(scene.options.wishes.empty());
 }
 
-TEST(SceneJsonInclude, fileNamesAreRelativeToTheirOwnDocument) {
-    const SceneFolder folder;
-    EXPECT_EQ(folder.import(including(R"({"file": "parts/lamps.json"})")).meshes.size(), 1u);
-}
-
-TEST(SceneJsonInclude, theAssetsFolderIsTakenFromTheEnvironment) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, theAssetsFolderIsTakenFromTheEnvironment) {
     const std::string text = including(R"({"file": "${TESSERA_ASSETS}/bust.obj"})");
     {
         const AssetsFolder assets((folder.path() / "models").c_str());
@@ -147,8 +123,7 @@ TEST(SceneJsonInclude, theAssetsFolderIsTakenFromTheEnvironment) {
               "of the third-party models");
 }
 
-TEST(SceneJsonInclude, builtinScenesAreIncludedByName) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, builtinScenesAreIncludedByName) {
     const Scene scene = folder.import(including(R"({"file": "builtin:room", "name": "cell"})"));
     EXPECT_EQ(scene.nodes.at(0).name, "cell");
     EXPECT_GT(triangleCount(scene), 0u);
@@ -156,8 +131,7 @@ TEST(SceneJsonInclude, builtinScenesAreIncludedByName) {
               "/include/0/file: there is no built-in scene 'rom'; did you mean 'room'?");
 }
 
-TEST(SceneJsonInclude, wrongFilesAreRefused) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, wrongFilesAreRefused) {
     EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "none.obj"})")),
               "/include/0/file: there is no file '" + folder.path().string() +
                   "/none.obj'; names are relative to the document's folder");
@@ -166,32 +140,29 @@ TEST(SceneJsonInclude, wrongFilesAreRefused) {
     EXPECT_EQ(folder.errorOf(including(R"({"name": "x"})")), "/include/0: lacks the key 'file'; add it");
 }
 
-TEST(SceneJsonInclude, aCycleIsRefusedNamingItsChain) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, aCycleIsRefusedNamingItsChain) {
     folder.write("b.json", R"({"tessera": 1, "include": [{"file": "parts/c.json"}]})");
     const std::filesystem::path last =
         folder.write("parts/c.json", R"({"tessera": 1, "include": [{"file": "lamps.json"}, {"file": "../b.json"}]})");
     const std::filesystem::path file = folder.write("scene.json", including(R"({"file": "b.json"})"));
-    EXPECT_EQ(test::inputErrorOf([&] { underLedger(importSceneJson, file); }),
+    EXPECT_EQ(inputErrorOf([&] { underLedger(importSceneJson, file); }),
               (folder.path() / "parts/../parts/c.json").lexically_normal().string() +
                   ":/include/1/file: includes itself: b.json -> c.json -> b.json; remove one of the includes");
     EXPECT_EQ(folder.errorBeyondSchemaOf(including(R"({"file": "scene.json"})")),
               "/include/0/file: includes itself: scene.json -> scene.json; remove one of the includes");
 }
 
-TEST(SceneJsonInclude, includesWithoutEndAreRefused) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, includesWithoutEndAreRefused) {
     folder.write("d12.json", R"({"tessera": 1})");
     for (int level = 11; level >= 0; --level) {
         const std::string next = R"({"file": "d)" + std::to_string(level + 1) + R"(.json"})";
         folder.write(std::string("d") + std::to_string(level) + ".json", including(next + ", " + next));
     }
-    const std::string error = test::inputErrorOf([&] { underLedger(importSceneJson, folder.path() / "d0.json"); });
+    const std::string error = inputErrorOf([&] { underLedger(importSceneJson, folder.path() / "d0.json"); });
     EXPECT_THAT(error, HasSubstr("is include number 4097 of the scene; at most 4096 are read"));
 }
 
-TEST(SceneJsonInclude, impossibleTransformsAreRefused) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, impossibleTransformsAreRefused) {
     const auto errorOf = [&](const std::string& placement) {
         return folder.errorOf(including(R"({"file": "models/bust.obj", )" + placement + "}"));
     };
@@ -209,9 +180,8 @@ TEST(SceneJsonInclude, impossibleTransformsAreRefused) {
         "/include/0/transform: a transform has no key 'move'; valid are translation, rotation, eulerDegrees, scale");
 }
 
-TEST(SceneJsonInclude, theLeePerrySmithSceneBindsItsMaps) {
-    const test::TempFolder folder;
-    test::writeScan(folder);
+TEST_F(SceneJsonInclude, theLeePerrySmithSceneBindsItsMaps) {
+    writeScan(folder);
     const AssetsFolder assets(folder.path().c_str());
     const Scene scene = underLedger(importSceneJson, std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" /
                                                          "lee_perry_smith.json");
@@ -226,30 +196,28 @@ TEST(SceneJsonInclude, theLeePerrySmithSceneBindsItsMaps) {
     EXPECT_EQ(images, (std::set<int>{0, 1, 2}));
 }
 
-TEST(SceneJsonInclude, aChainOfIncludesOrBasesIsNotFollowedForever) {
+TEST_F(SceneJsonInclude, aChainOfIncludesOrBasesIsNotFollowedForever) {
     for (const char* link : {R"("include": [{"file": "FILE"}])", R"("base": {"file": "FILE"})"}) {
-        const SceneFolder folder;
+        const TempFolder chain;
         const auto documentOf = [&](int next) {
             std::string text = std::string(R"({"tessera": 1, )") + link + "}";
             return text.replace(text.find("FILE"), 4, std::to_string(next) + ".json");
         };
-        for (int i = 0; i < 5000; ++i) folder.write(std::to_string(i) + ".json", documentOf(i + 1));
-        folder.write("5000.json", R"({"tessera": 1})");
-        EXPECT_THAT(test::inputErrorOf([&] { underLedger(importSceneJson, folder.path() / "0.json"); }),
+        for (int i = 0; i < 5000; ++i) chain.write(std::to_string(i) + ".json", documentOf(i + 1));
+        chain.write("5000.json", R"({"tessera": 1})");
+        EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, chain.path() / "0.json"); }),
                     HasSubstr("is document 65 of a chain"));
-        EXPECT_NO_THROW(underLedger(importSceneJson, folder.path() / "4950.json"));
+        EXPECT_NO_THROW(underLedger(importSceneJson, chain.path() / "4950.json"));
     }
 }
 
-TEST(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsTheIncludesFault) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, aScaleThatLeavesACameraNoDirectionIsTheIncludesFault) {
     EXPECT_THAT(
         folder.errorBeyondSchemaOf(including(R"({"file": "parts/lamps.json", "transform": {"scale": [1, 0, 1]}})")),
         testing::AllOf(testing::StartsWith("/include/0: its transform leaves"), HasSubstr("no direction")));
 }
 
-TEST(SceneJsonInclude, aScaleWhoseSquareLeavesDoubleNeverTakesADirection) {
-    const SceneFolder folder;
+TEST_F(SceneJsonInclude, aScaleWhoseSquareLeavesDoubleNeverTakesADirection) {
     folder.write("parts/orbit.json", R"({"tessera": 1, "lights": [{"type": "spot", "position": [0, 0, 0],
         "direction": [0, -1, 0], "intensity": 1, "outerDegrees": 30,
         "animation": {"type": "orbit", "axis": [0, 0, 1], "periodSeconds": 1}}]})");

@@ -12,7 +12,7 @@ class Edits {
 public:
     explicit Edits(std::uint64_t seed) : random_(seed) {}
 
-    float share() { return static_cast<float>(random_.unit()); }
+    float share() { return float(random_.unit()); }
     double coordinate() { return random_.between(-100.0, 100.0); }
     glm::dvec3 point() { return {coordinate(), coordinate(), coordinate()}; }
     glm::dvec3 direction() { return glm::normalize(point()); }

@@ -2,10 +2,6 @@
 #include "scenes/MaterialLayers.h"
 
 #include <algorithm>
-#include <string>
-#include <type_traits>
-#include <variant>
-#include <vector>
 
 #include <gtest/gtest.h>
 
