@@ -14,29 +14,37 @@ namespace tessera::scenes::test {
 constexpr std::string_view kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 constexpr std::string_view kOneTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-inline Scene importText(const TempFolder& folder, std::string_view text, const ImportWishes& wishes = {}) {
-    Scene scene = underLedger(importObj, folder.write("model.obj", text), {}, wishes);
-    checkScene(scene);
-    return scene;
-}
+/// Tests of OBJ files, with a folder for them.
+class ObjFiles : public testing::Test {
+protected:
+    Scene importText(std::string_view text, const ImportWishes& wishes = {}) const {
+        Scene scene = underLedger(importObj, folder.write("model.obj", text), {}, wishes);
+        checkScene(scene);
+        return scene;
+    }
+    /// The scene of one triangle whose material "paint" is the given MTL text.
+    Scene painted(const std::string& mtl, const ImportWishes& wishes = {}) const {
+        folder.write("paint.mtl", "newmtl paint\n" + mtl);
+        return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
+    }
+    Material paint(const std::string& mtl) const { return painted(mtl).materials.at(0); }
 
-/// The scene of one triangle whose material "paint" is the given MTL text.
-inline Scene painted(const TempFolder& folder, const std::string& mtl, const ImportWishes& wishes = {}) {
-    folder.write("paint.mtl", "newmtl paint\n" + mtl);
-    return importText(folder, "mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
-}
+    /// The error of a strict load of the last text.
+    std::string strictError() const {
+        return inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strictly()); });
+    }
+    /// The scene's only warning, without the folder; a strict load refuses it with the part before the last ';'.
+    std::string onlyWarning(const Scene& scene) const {
+        EXPECT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);
+        if (scene.warnings.empty()) return {};
+        const std::string place = folder.path().string() + "/";
+        const std::string& warning = scene.warnings.front();
+        EXPECT_EQ(strictError(), warning.substr(0, warning.rfind("; ")));
+        return warning.substr(warning.starts_with(place) ? place.size() : 0);
+    }
 
-/// The scene's only warning, without the folder; a strict load refuses it with the part before the last ';'.
-inline std::string onlyWarning(const TempFolder& folder, const Scene& scene) {
-    EXPECT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);
-    if (scene.warnings.empty()) return {};
-    const std::string place = folder.path().string() + "/",
-                      strict =
-                          inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strictly()); });
-    const std::string& warning = scene.warnings.front();
-    EXPECT_EQ(strict, warning.substr(0, warning.rfind("; ")));
-    return warning.substr(warning.starts_with(place) ? place.size() : 0);
-}
+    const TempFolder folder;
+};
 
 inline double areaOf(const Scene& scene) {
     double area = 0.0;

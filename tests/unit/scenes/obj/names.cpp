@@ -6,8 +6,6 @@ namespace tessera::scenes {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// In the forms NFC, NFD and Latin-1.
 const std::string kComposed = "Gr\xc3\xbcn.tga", kDecomposed = "Gru\xcc\x88n.tga", kLatin = "Gr\xfcn.tga";
@@ -32,40 +30,36 @@ TEST(NamedFile, namesThatDifferInCaseOrUnicodeFormAreTheSame) {
         EXPECT_FALSE(isSameName(a, b)) << a << ' ' << b;
 }
 
-class ObjNames : public testing::Test {
+class ObjNames : public ObjFiles {
 protected:
     /// The picture's name as a statement has it is found, and reported where the spelling differs.
     void expectPicture(const std::string& name, bool isAsNamed) {
-        const Scene scene = painted(folder_, "map_Kd " + name + "\n");
+        const Scene scene = painted("map_Kd " + name + "\n");
         ASSERT_EQ(scene.images.size(), 1u) << name;
         EXPECT_EQ(scene.images[0].width, 1) << name << " is no checkerboard";
         if (isAsNamed) {
             EXPECT_THAT(scene.warnings, IsEmpty()) << name;
         } else {
-            EXPECT_THAT(onlyWarning(folder_, scene), AllOf(HasSubstr("paint.mtl:2: 'map_Kd' names '" + name +
-                                                                     "', which is "
-                                                                     "there as '"),
-                                                           HasSubstr("; that one is read")));
+            EXPECT_THAT(onlyWarning(scene),
+                        AllOf(HasSubstr("paint.mtl:2: 'map_Kd' names '" + name + "', which is there as '"),
+                              HasSubstr("; that one is read")));
         }
     }
     void expectLibrary(const std::string& name, bool isAsNamed) {
-        const Scene scene =
-            importText(folder_, "mtllib " + name + "\n" + std::string(kThreeVertices) + "usemtl red\nf 1 2 3\n");
+        const Scene scene = importText("mtllib " + name + "\n" + std::string(kThreeVertices) + "usemtl red\nf 1 2 3\n");
         EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(1, 0, 0, 1)) << name;
         if (isAsNamed)
             EXPECT_THAT(scene.warnings, IsEmpty()) << name;
         else
-            EXPECT_THAT(onlyWarning(folder_, scene), HasSubstr("' is there as '")) << name;
+            EXPECT_THAT(onlyWarning(scene), HasSubstr("' is there as '")) << name;
     }
-
-    const TempFolder folder_;
 };
 
 TEST_F(ObjNames, picturesAreFound) {
-    folder_.writePicture("tex/red.tga", 1, 1, {{255, 0, 0, 255}});
-    folder_.writePicture(kDecomposed, 1, 1, {{255, 0, 0, 255}});
-    folder_.writePicture("base.tga", 1, 1, {{255, 0, 0, 255}});
-    folder_.writePicture("a #1 -s b.tga", 1, 1, {{255, 0, 0, 255}});
+    folder.writePicture("tex/red.tga", 1, 1, {{255, 0, 0, 255}});
+    folder.writePicture(kDecomposed, 1, 1, {{255, 0, 0, 255}});
+    folder.writePicture("base.tga", 1, 1, {{255, 0, 0, 255}});
+    folder.writePicture("a #1 -s b.tga", 1, 1, {{255, 0, 0, 255}});
     for (const char* name :
          {"tex/red.tga", "tex\\red.tga", ".\\tex\\red.tga", "\"tex/red.tga\"", "'tex\\red.tga'", "a #1 -s b.tga"})
         expectPicture(name, true);
@@ -77,8 +71,8 @@ TEST_F(ObjNames, picturesAreFound) {
 }
 
 TEST_F(ObjNames, librariesAreFound) {
-    folder_.write("lib/red.mtl", "newmtl red\nKd 1 0 0\n");
-    folder_.write("my red.mtl", "newmtl red\nKd 1 0 0\n");
+    folder.write("lib/red.mtl", "newmtl red\nKd 1 0 0\n");
+    folder.write("my red.mtl", "newmtl red\nKd 1 0 0\n");
     for (const char* name : {"lib/red.mtl", "lib\\red.mtl", ".\\lib\\red.mtl", "\"lib\\red.mtl\"", "my red.mtl",
                              "\"my red.mtl\"", "lib/red.mtl # library"})
         expectLibrary(name, true);
@@ -86,8 +80,8 @@ TEST_F(ObjNames, librariesAreFound) {
 }
 
 TEST_F(ObjNames, aPictureOfTwoSpellingsIsReadOnce) {
-    folder_.writePicture("red.tga", 1, 1, {{255, 0, 0, 255}});
-    EXPECT_EQ(painted(folder_, "map_Kd Red.tga\nmap_Ks RED.tga\nmap_Ke ./red.tga\n").images.size(), 1u);
+    folder.writePicture("red.tga", 1, 1, {{255, 0, 0, 255}});
+    EXPECT_EQ(painted("map_Kd Red.tga\nmap_Ks RED.tga\nmap_Ke ./red.tga\n").images.size(), 1u);
 }
 
 } // namespace

@@ -10,18 +10,15 @@ namespace tessera::scenes {
 namespace {
 
 using namespace test;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ObjRepairs = ObjFiles;
 
-TEST(ObjRepairs, commentsBehindDataAreNoData) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, commentsBehindDataAreNoData) {
     folder.write("m.mtl",
                  "newmtl red # the colour\nKd 1 0 0 # red\nnewmtl blue #2\nKd 0 0 1\nnewmtl blue #3\nKd 0 1 0\n");
     const std::string text =
         "mtllib m.mtl # library\nv 0 0 0 # first\nv 1 0 0#second\nv 0 1 0 #\ng part # one\ns off # flat\n"
         "usemtl red # first\nf 1 2 3 # the face\nusemtl red\nf 1 2 3#\nusemtl blue #3\nf 1 2 3\n";
-    const Scene scene = importText(folder, text, strictly());
+    const Scene scene = importText(text, strictly());
     EXPECT_THAT(scene.warnings, IsEmpty());
     EXPECT_EQ(scene.nodes.at(0).name, "part");
     ASSERT_EQ(scene.materials.size(), 2u);
@@ -30,14 +27,13 @@ TEST(ObjRepairs, commentsBehindDataAreNoData) {
     EXPECT_EQ(scene.materials[1].name, "blue #3");
     EXPECT_EQ(scene.materials[1].baseColor, glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(areaOf(scene), 1.5);
-    EXPECT_EQ(importText(folder, "v 0 0 0\nv 1 0 0 # C:\\models\\\nv 0 1 0\nf 1 2 3\n").meshes.size(), 1u);
+    EXPECT_EQ(importText("v 0 0 0\nv 1 0 0 # C:\\models\\\nv 0 1 0\nf 1 2 3\n").meshes.size(), 1u);
 }
 
-TEST(ObjRepairs, emptyPartsOfACornerAreAbsent) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, emptyPartsOfACornerAreAbsent) {
     const std::string begin = std::string(kThreeVertices) + "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
     for (const char* face : {"f 1// 2// 3//", "f 1/ 2/ 3/", "f 1/1/ 2/2/ 3/3/", "f 1/1 2/2 3/3", "f 1//1 2//1 3//1"}) {
-        const Scene scene = importText(folder, begin + face + "\n", strictly());
+        const Scene scene = importText(begin + face + "\n", strictly());
         EXPECT_THAT(scene.warnings, IsEmpty()) << face;
         EXPECT_EQ(areaOf(scene), 0.5) << face;
         const bool hasTexCoords = std::string_view(face).starts_with("f 1/1");
@@ -45,46 +41,41 @@ TEST(ObjRepairs, emptyPartsOfACornerAreAbsent) {
     }
 }
 
-TEST(ObjRepairs, normalsWithoutDirectionAreDerived) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, normalsWithoutDirectionAreDerived) {
     for (const char* normal : {"nan nan nan", "-nan(ind) -nan(ind) -nan(ind)", "-1.#IND -1.#IND -1.#IND", "inf 0 0",
                                "0 0 0", "0 1", "0 1e39 0", "x y z"}) {
-        const Scene scene = importText(folder, std::string(kThreeVertices) + "vn " + normal + "\nf 1//1 2//1 3//1\n");
-        EXPECT_THAT(onlyWarning(folder, scene), AllOf(testing::StartsWith("model.obj:4: "),
-                                                      testing::EndsWith("; faces that use it get their own normals")))
+        const Scene scene = importText(std::string(kThreeVertices) + "vn " + normal + "\nf 1//1 2//1 3//1\n");
+        EXPECT_THAT(onlyWarning(scene),
+                    AllOf(StartsWith("model.obj:4: "), testing::EndsWith("; faces that use it get their own normals")))
             << normal;
         for (const glm::vec3& normalOS : scene.meshes.at(0).normalsOS)
             EXPECT_EQ(normalOS, glm::vec3(0, 0, 1)) << normal;
     }
 }
 
-TEST(ObjRepairs, textureCoordinatesThatAreNoNumbersAreZero) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, textureCoordinatesThatAreNoNumbersAreZero) {
     const std::string end = "\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
-    const Scene both = importText(folder, std::string(kThreeVertices) + "vt nan nan" + end);
+    const Scene both = importText(std::string(kThreeVertices) + "vt nan nan" + end);
     EXPECT_EQ(
-        onlyWarning(folder, both),
+        onlyWarning(both),
         "model.obj:4: 'vt' is given nan, which is not a finite number in single precision; the number is taken as 0");
     EXPECT_EQ(both.meshes.at(0).texCoords[0].at(0), glm::vec2(0, 1));
-    EXPECT_EQ(importText(folder, std::string(kThreeVertices) + "vt 0.5 inf" + end).meshes.at(0).texCoords[0].at(0),
+    EXPECT_EQ(importText(std::string(kThreeVertices) + "vt 0.5 inf" + end).meshes.at(0).texCoords[0].at(0),
               glm::vec2(0.5f, 1));
     // What no coordinate needs is not read.
-    EXPECT_THAT(importText(folder, std::string(kThreeVertices) + "vt 0.5 0.5 nan" + end).warnings, IsEmpty());
+    EXPECT_THAT(importText(std::string(kThreeVertices) + "vt 0.5 0.5 nan" + end).warnings, IsEmpty());
 }
 
-TEST(ObjRepairs, whatNoElementUsesIsNoFlaw) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, whatNoElementUsesIsNoFlaw) {
     for (const char* unused : {"v nan nan nan\n", "v 1 2\n", "vt nan inf\n", "vn 0 0 0\n", "vt\n", "v 1e30 0 0\n",
                                "v 9 9 9 255 0 nan\n", "s blue\ns off\n", "mtllib\n", "mtllib none.mtl\n"})
-        EXPECT_THAT(importText(folder, unused + std::string(kThreeVertices) + "f -3 -2 -1\n", strictly()).warnings,
-                    IsEmpty())
+        EXPECT_THAT(importText(unused + std::string(kThreeVertices) + "f -3 -2 -1\n", strictly()).warnings, IsEmpty())
             << unused;
-    EXPECT_THAT(importText(folder, "usemtl none\nusemtl\n" + std::string(kOneTriangle) + "usemtl none\n").warnings,
+    EXPECT_THAT(importText("usemtl none\nusemtl\n" + std::string(kOneTriangle) + "usemtl none\n").warnings,
                 ElementsAre(HasSubstr("'usemtl' gives no name")));
 }
 
-TEST(ObjRepairs, oneBadFaceIsLeftOut) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, oneBadFaceIsLeftOut) {
     const std::string model = [] {
         std::string text;
         for (int i = 0; i < 32 * 32; ++i) text += fmt::format("v {} {} 0\n", i % 32, i / 32);
@@ -113,42 +104,39 @@ TEST(ObjRepairs, oneBadFaceIsLeftOut) {
              {"v 1 nan 0\nf 1 2 -1\n", "1986: 'v' is given nan, which is not a finite number in single precision"},
              {"v 1 1,5 0\nf 1 2 -1\n", "1986: 'v' needs a number, not '1,5'"},
          }) {
-        const Scene scene = importText(folder, model + lines);
-        const std::string warning = onlyWarning(folder, scene);
-        EXPECT_THAT(warning, testing::StartsWith(std::string("model.obj:") + flaw + "; ")) << lines;
+        const Scene scene = importText(model + lines);
+        const std::string warning = onlyWarning(scene);
+        EXPECT_THAT(warning, StartsWith(std::string("model.obj:") + flaw + "; ")) << lines;
         EXPECT_THAT(warning, testing::EndsWith("left out"));
         EXPECT_EQ(areaOf(scene), 31.0 * 31.0) << lines;
     }
-    const Scene several = importText(folder, model + "f 1 2 x\nf 1 2 0\nf 1 2\n");
-    EXPECT_THAT(onlyWarning(folder, several), testing::EndsWith("; the element is left out (and 2 more)"));
+    const Scene several = importText(model + "f 1 2 x\nf 1 2 0\nf 1 2\n");
+    EXPECT_THAT(onlyWarning(several), testing::EndsWith("; the element is left out (and 2 more)"));
 }
 
-TEST(ObjRepairs, badTextureCoordinatesAndNormalsAreTakenOffTheirCorners) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, badTextureCoordinatesAndNormalsAreTakenOffTheirCorners) {
     for (const char* face : {"f 1/2 2/1 3/1\n", "f 1/x 2/1 3/1\n", "f 1/-2 2/1 3/1\n", "f 1/0 2/1 3/1\n"}) {
-        const Scene scene = importText(folder, std::string(kThreeVertices) + "vt 0.5 0.5\n" + face);
+        const Scene scene = importText(std::string(kThreeVertices) + "vt 0.5 0.5\n" + face);
         EXPECT_EQ(areaOf(scene), 0.5);
         ASSERT_EQ(scene.warnings.size(), 2u) << "and that others have one";
         EXPECT_THAT(scene.warnings[0], testing::EndsWith("; the corner is drawn without it"));
     }
-    EXPECT_EQ(onlyWarning(folder, importText(folder, std::string(kThreeVertices) + "f 1//1 2//1 3//1\n")),
+    EXPECT_EQ(onlyWarning(importText(std::string(kThreeVertices) + "f 1//1 2//1 3//1\n")),
               "model.obj:4: the normal 1 is used, but 0 are defined in the file; the corner is drawn without it (and 2 "
               "more)");
-    EXPECT_EQ(onlyWarning(folder, importText(folder, "s blue\n" + std::string(kOneTriangle))),
+    EXPECT_EQ(onlyWarning(importText("s blue\n" + std::string(kOneTriangle))),
               "model.obj:1: the smoothing group 'blue' is neither a number from 0 nor on or off; its faces are flat");
 }
 
-TEST(ObjRepairs, aFileOfWhichNothingIsLeftIsRefusedWithItsFirstFlaw) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, aFileOfWhichNothingIsLeftIsRefusedWithItsFirstFlaw) {
     const auto errorOf = [&](std::string_view text) {
         const std::filesystem::path file = folder.write("model.obj", text);
-        return test::inputErrorOf([&] { underLedger(importObj, file); }).substr(folder.path().string().size() + 1);
+        return inputErrorOf([&] { underLedger(importObj, file); }).substr(folder.path().string().size() + 1);
     };
     EXPECT_EQ(errorOf("v -0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "model.obj:1: 'v' needs a number, not '-0,5'");
     EXPECT_EQ(errorOf("v 0 0 0\nf 1 2 9\n"), "model.obj:2: the position 2 is used, but 1 is defined in the file");
     EXPECT_EQ(errorOf("v nan 0 0\n"),
-              "model.obj: has nothing to draw ('f', 'l', 'p' or 'v' statements); export the model "
-              "with its polygons");
+              "model.obj: has nothing to draw ('f', 'l', 'p' or 'v' statements); export the model with its polygons");
 }
 
 /// A disc, and a star whose every other corner is at a quarter of its radius.
@@ -162,11 +150,10 @@ std::string polygon(int corners, double inner) {
     return text + face + "\n";
 }
 
-TEST(ObjRepairs, polygonsOfAnyNumberOfCornersKeepTheirArea) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, polygonsOfAnyNumberOfCornersKeepTheirArea) {
     for (const int corners : {4, 1000, 2000, 20'000})
         for (const double inner : {1.0, 0.25}) {
-            const Scene scene = importText(folder, polygon(corners, inner), strictly());
+            const Scene scene = importText(polygon(corners, inner), strictly());
             const double area = 0.5 * corners * inner * std::sin(2.0 * std::numbers::pi / corners);
             EXPECT_EQ(scene.meshes.at(0).indices.size(), 3 * std::size_t(corners - 2));
             EXPECT_NEAR(areaOf(scene), area, 1e-5 * area) << corners << ' ' << inner; // rounding of positions
@@ -174,8 +161,7 @@ TEST(ObjRepairs, polygonsOfAnyNumberOfCornersKeepTheirArea) {
         }
 }
 
-TEST(ObjRepairs, farModelsAreAsNearOnesAtANode) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, farModelsAreAsNearOnesAtANode) {
     // A frame of bars 0.25 m wide; single precision has steps of 0.5 m there.
     const auto framedAt = [&](const glm::dvec3& place) {
         std::string text;
@@ -184,7 +170,7 @@ TEST(ObjRepairs, farModelsAreAsNearOnesAtANode) {
             for (const glm::dvec2& corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0, 1)})
                 text += fmt::format("v {:.3f} {:.3f} {:.3f}\n", place.x + bar.x + corner.x * bar.z,
                                     place.y + bar.y + corner.y * bar.w, place.z);
-        return importText(folder, text + "v 1 2 3\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\nf 13 14 15 16\n", strictly());
+        return importText(text + "v 1 2 3\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\nf 13 14 15 16\n", strictly());
     };
     const Scene near = framedAt(glm::dvec3(0.0));
     EXPECT_EQ(near.nodes.at(0).parentFromNode, glm::dmat4(1.0));
@@ -200,15 +186,14 @@ TEST(ObjRepairs, farModelsAreAsNearOnesAtANode) {
     }
 }
 
-TEST(ObjRepairs, linesAndPointsAreThinSolids) {
-    const TempFolder folder;
-    const Scene lines = importText(folder, std::string(kThreeVertices) + "usemtl a\nl 1 2 3 1\nl 1 1\n");
+TEST_F(ObjRepairs, linesAndPointsAreThinSolids) {
+    const Scene lines = importText(std::string(kThreeVertices) + "usemtl a\nl 1 2 3 1\nl 1 1\n");
     ASSERT_EQ(lines.meshes.size(), 1u);
     EXPECT_EQ(lines.meshes[0].indices.size(), 3u * 24u);
     EXPECT_EQ(lines.materials.at(0).model, MaterialModel::SingleColor);
     EXPECT_EQ(lines.materials[0].name, "a, unlit");
     EXPECT_THAT(lines.notes, ElementsAre(HasSubstr("its lines are drawn as thin solids")));
-    const Scene all = importText(folder, std::string(kThreeVertices) + "l 1 2\nf 1 2 3\np 1 2 3\n", strictly());
+    const Scene all = importText(std::string(kThreeVertices) + "l 1 2\nf 1 2 3\np 1 2 3\n", strictly());
     EXPECT_THAT(all.warnings, IsEmpty());
     ASSERT_EQ(all.nodes.size(), 1u);
     ASSERT_EQ(all.nodes[0].instances.size(), 3u);
@@ -216,20 +201,18 @@ TEST(ObjRepairs, linesAndPointsAreThinSolids) {
     EXPECT_EQ(all.materials.size(), 2u) << "faces are lit";
 }
 
-TEST(ObjRepairs, verticesAloneAreACloudOfPoints) {
-    const TempFolder folder;
-    const Scene scene = importText(folder, std::string(kThreeVertices) + "v nan 0 0\n");
-    EXPECT_EQ(onlyWarning(folder, scene), "model.obj: has no faces, lines or points ('f', 'l' or 'p' statements); its "
-                                          "vertices are drawn as points");
+TEST_F(ObjRepairs, verticesAloneAreACloudOfPoints) {
+    const Scene scene = importText(std::string(kThreeVertices) + "v nan 0 0\n");
+    EXPECT_EQ(onlyWarning(scene), "model.obj: has no faces, lines or points ('f', 'l' or 'p' statements); its "
+                                  "vertices are drawn as points");
     EXPECT_EQ(scene.meshes.at(0).indices.size(), 3u * 24u);
 }
 
-TEST(ObjRepairs, utf16IsRead) {
-    const TempFolder folder;
+TEST_F(ObjRepairs, utf16IsRead) {
     const auto utf16 = [](std::u16string_view text, bool isBigEndian, bool hasMark) {
         std::string bytes = !hasMark ? "" : isBigEndian ? "\xfe\xff" : "\xff\xfe";
         for (const char16_t c : text) {
-            const char high = static_cast<char>(c >> 8), low = static_cast<char>(c & 0xff);
+            const char high = char(c >> 8), low = char(c & 0xff);
             bytes += isBigEndian ? std::string{high, low} : std::string{low, high};
         }
         return bytes;
@@ -240,7 +223,7 @@ TEST(ObjRepairs, utf16IsRead) {
         for (const bool hasMark : {false, true}) {
             folder.write("m.mtl", utf16(u"newmtl " + name + u"\nKd 1 0 0\n", isBigEndian, hasMark));
             const std::u16string model = u"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + name + u"\nf 1 2 3\n";
-            const Scene scene = importText(folder, utf16(model, isBigEndian, hasMark), strictly());
+            const Scene scene = importText(utf16(model, isBigEndian, hasMark), strictly());
             EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(1, 0, 0, 1));
             EXPECT_EQ(scene.materials[0].name, "\xc3\xbc\xf0\x9f\x98\x80");
         }
