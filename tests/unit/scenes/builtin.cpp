@@ -1,14 +1,11 @@
 // What holds for every built-in scene.
 #include <algorithm>
-#include <cstdint>
 #include <ostream>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
+#include "scenes/Fingerprint.h"
 #include "scenes/Limits.h"
 #include "scenes/builtin/Builtin.h"
 #include "tests/support/UnderLedger.h"
@@ -27,59 +24,6 @@ namespace {
 
 using test::withoutAssets;
 
-/// FNV-1a (Fowler, Noll, Vo) over everything a renderer reads.
-class Digest {
-public:
-    template <typename T>
-    void add(const std::vector<T>& values) {
-        for (std::size_t i = 0; i < values.size() * sizeof(T); ++i) {
-            hash_ = (hash_ ^ reinterpret_cast<const unsigned char*>(values.data())[i]) * 1099511628211u;
-        }
-    }
-    template <typename T>
-    void add(const T& value) {
-        add(std::vector<T>{value});
-    }
-    std::uint64_t value() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 14695981039346656037u;
-};
-
-std::uint64_t digest(const Scene& scene) {
-    Digest digest;
-    for (const Image& image : scene.images) digest.add(image.texels);
-    for (const Mesh& mesh : scene.meshes) {
-        digest.add(mesh.positionsOS);
-        digest.add(mesh.normalsOS);
-        digest.add(mesh.texCoords[0]);
-        digest.add(mesh.indices);
-    }
-    for (const Node& node : scene.nodes) {
-        digest.add(node.parentFromNode);
-        for (const MeshInstance& instance : node.instances) digest.add(glm::ivec2(instance.mesh, instance.material));
-    }
-    for (const Material& material : scene.materials) {
-        digest.add(material.baseColor);
-        digest.add(material.emissive);
-        digest.add(glm::vec4(material.metallic, material.perceptualRoughness, material.alpha, material.ior));
-        digest.add(glm::vec4(material.alphaY, material.exponent, material.anisotropyStrength, material.clearcoat));
-        digest.add(material.sheenColor);
-        digest.add(glm::vec4(material.attenuationColor, material.transmission));
-        digest.add(glm::vec2(material.thicknessMetres, material.attenuationDistanceMetres));
-    }
-    for (const Light& light : scene.lights) {
-        digest.add(light.positionWS);
-        digest.add(light.directionWS);
-        digest.add(glm::vec4(light.color, light.intensity));
-        digest.add(light.rangeMetres);
-        digest.add(light.alongWS);
-        digest.add(glm::vec4(light.widthMetres, light.heightMetres, light.lengthMetres, light.radiusMetres));
-    }
-    for (const Camera& camera : scene.cameras) digest.add(camera.worldFromCamera);
-    return digest.value();
-}
-
 void expectCamerasWithinReach(const Scene& scene) {
     const Box3 boundsWS = worldBounds(scene);
     const double radiusMetres = 0.5 * glm::length(boundsWS.max - boundsWS.min);
@@ -97,14 +41,13 @@ void expectAllUsed(const Scene& scene) {
     std::vector<bool> imageUsed(scene.images.size());
     for (const Node& node : scene.nodes) {
         for (const MeshInstance& instance : node.instances) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-            meshUsed[static_cast<std::size_t>(instance.mesh)] = true;
-            materialUsed[static_cast<std::size_t>(instance.material)] = true;
-            for (const TextureUse& use : scene.materials[static_cast<std::size_t>(instance.material)].textures) {
+            const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+            meshUsed[std::size_t(instance.mesh)] = true;
+            materialUsed[std::size_t(instance.material)] = true;
+            for (const TextureUse& use : scene.materials[std::size_t(instance.material)].textures) {
                 if (use.image == kNone) continue;
-                imageUsed[static_cast<std::size_t>(use.image)] = true;
-                EXPECT_EQ(mesh.texCoords[static_cast<std::size_t>(use.texCoordSet)].size(), mesh.positionsOS.size())
-                    << mesh.name;
+                imageUsed[std::size_t(use.image)] = true;
+                EXPECT_EQ(mesh.texCoords[std::size_t(use.texCoordSet)].size(), mesh.positionsOS.size()) << mesh.name;
             }
         }
     }
@@ -141,8 +84,8 @@ TEST_P(BuiltinScenesSlow, areAlwaysSoundAndFaceTheirNormals) {
 }
 
 void BuiltinScenes::expectTheSameTwice() {
-    EXPECT_EQ(digest(underLedger(GetParam().make, withoutAssets())),
-              digest(underLedger(GetParam().make, withoutAssets())));
+    EXPECT_EQ(fingerprint(underLedger(GetParam().make, withoutAssets())),
+              fingerprint(underLedger(GetParam().make, withoutAssets())));
 }
 TEST_P(BuiltinScenes, areAlwaysTheSameTwice) {
     expectTheSameTwice();
@@ -172,8 +115,7 @@ TEST_P(BuiltinScenesSlow, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyT
 }
 
 TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreChargedBeforeTheyAreMade) {
-    LoadOptions options;
-    options.lights = kMostLights;
+    LoadOptions options = loading(&LoadOptions::lights, kMostLights);
     options.memoryLimitBytes = builtinScene("lattice")->bytes + 1000;
     EXPECT_THAT(test::inputErrorOf([&] { loadScene("lattice", options); }), testing::StartsWith("lattice: asks for "));
 }

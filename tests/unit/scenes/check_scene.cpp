@@ -1,9 +1,7 @@
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "base/Error.h"
 #include "scenes/builtin/Pictures.h"
@@ -28,8 +26,30 @@ LightKeys& giveKeyframes(Light& light, std::vector<double> timesSeconds) {
     return animation.keys;
 }
 
+using Spoil = std::function<void(Scene&)>;
+
+/// Sets a member of the only material, light or camera.
+template <typename Member, typename Value>
+Spoil with(Member Material::*member, Value value) {
+    return [=](Scene& scene) { scene.materials[0].*member = value; };
+}
+template <typename Member, typename Value>
+Spoil with(Member Light::*member, Value value) {
+    return [=](Scene& scene) { scene.lights[0].*member = value; };
+}
+template <typename Member, typename Value>
+Spoil with(Member Camera::*member, Value value) {
+    return [=](Scene& scene) { scene.cameras[0].*member = value; };
+}
+Spoil both(Spoil first, Spoil second) {
+    return [=](Scene& scene) {
+        first(scene);
+        second(scene);
+    };
+}
+
 /// The message checkScene() gives for the tiny scene after `spoil`, or "" when it passes.
-std::string verdict(const std::function<void(Scene&)>& spoil) {
+std::string verdict(const Spoil& spoil) {
     Scene scene = tinyScene();
     scene.lights.emplace_back().name = "lamp";
     scene.cameras.emplace_back().name = "eye";
@@ -45,15 +65,8 @@ std::string verdict(const std::function<void(Scene&)>& spoil) {
 TEST(CheckScene, soundScenePasses) {
     EXPECT_EQ(verdict([](Scene&) {}), "");
     EXPECT_EQ(verdict([](Scene& s) { s = Scene(); }), "");
-    EXPECT_EQ(verdict([](Scene& s) {
-                  s.lights[0].alongWS = s.lights[0].directionWS; // of a point light, which has no width
-              }),
-              "");
-    EXPECT_EQ(verdict([](Scene& s) {
-                  s.lights[0].type = LightType::Rectangle;
-                  s.lights[0].widthMetres = 0.0f; // dark, and no mistake
-              }),
-              "");
+    EXPECT_EQ(verdict(with(&Light::alongWS, Light().directionWS)), "") << "of a point light, which has no width";
+    EXPECT_EQ(verdict(both(with(&Light::type, LightType::Rectangle), with(&Light::widthMetres, 0.0f))), "") << "dark";
 }
 
 TEST(CheckScene, messageNamesSceneAndElement) {
@@ -67,15 +80,10 @@ TEST(CheckScene, messageNamesSceneAndElement) {
               "scene 'tiny': mesh 0 'triangle': entry 2 of its positions is not finite");
     EXPECT_EQ(verdict([](Scene& s) { s.meshes[0].normalsOS.pop_back(); }),
               "scene 'tiny': mesh 0 'triangle': has 3 positions but 2 normals");
-    EXPECT_EQ(verdict([](Scene& s) {
-                  s.lights[0].falloff = Falloff::Attenuation;
-                  s.lights[0].attenuation = glm::vec3(0.0f);
-              }),
+    EXPECT_EQ(verdict(both(with(&Light::falloff, Falloff::Attenuation), with(&Light::attenuation, glm::vec3(0.0f)))),
               "scene 'tiny': light 0 'lamp': the attenuation coefficients A, B, C are all 0; give at least one");
-    EXPECT_EQ(verdict([](Scene& s) {
-                  s.materials[0].model = MaterialModel::Microfacet;
-                  s.materials[0].masking = Masking::Directional;
-              }),
+    EXPECT_EQ(verdict(both(with(&Material::model, MaterialModel::Microfacet),
+                           with(&Material::masking, Masking::Directional))),
               "scene 'tiny': material 0 'white': masking by direction needs the model microfacet_anisotropic");
     EXPECT_EQ(verdict([](Scene& s) { s.options.camera = "door"; }),
               "scene 'tiny': the option camera names 'door', but no camera is called that");
@@ -93,7 +101,7 @@ TEST(CheckScene, aNameThatNoMessageCanShowIsRefused) {
 
 TEST(CheckScene, eachBrokenRuleIsReported) {
     using testing::HasSubstr;
-    const std::vector<std::pair<const char*, std::function<void(Scene&)>>> cases = {
+    const std::vector<std::pair<const char*, Spoil>> cases = {
         {"both must be positive", [](Scene& s) { s.images.emplace_back(); }},
         {"need 16",
          [](Scene& s) {
@@ -109,32 +117,32 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
          }},
         {"base colour", [](Scene& s) { s.materials[0].baseColor.y = kNaN; }},
         {"emission", [](Scene& s) { s.materials[0].emissive.x = -1.0f; }},
-        {"alphaY", [](Scene& s) { s.materials[0].alphaY = -0.1f; }},
-        {"exponent", [](Scene& s) { s.materials[0].exponent = kNaN; }},
-        {"anisotropy must", [](Scene& s) { s.materials[0].anisotropyStrength = 1.1f; }},
-        {"anisotropy's rotation", [](Scene& s) { s.materials[0].anisotropyRotationRadians = kInfinity; }},
-        {"clearcoat must", [](Scene& s) { s.materials[0].clearcoat = kNaN; }},
-        {"clearcoat's roughness", [](Scene& s) { s.materials[0].clearcoatPerceptualRoughness = -1.0f; }},
-        {"clearcoat normal map's scale", [](Scene& s) { s.materials[0].clearcoatNormalScale = kNaN; }},
+        {"alphaY", with(&Material::alphaY, -0.1f)},
+        {"exponent", with(&Material::exponent, kNaN)},
+        {"anisotropy must", with(&Material::anisotropyStrength, 1.1f)},
+        {"anisotropy's rotation", with(&Material::anisotropyRotationRadians, kInfinity)},
+        {"clearcoat must", with(&Material::clearcoat, kNaN)},
+        {"clearcoat's roughness", with(&Material::clearcoatPerceptualRoughness, -1.0f)},
+        {"clearcoat normal map's scale", with(&Material::clearcoatNormalScale, kNaN)},
         {"sheen's colour", [](Scene& s) { s.materials[0].sheenColor.y = 1.5f; }},
-        {"sheen's roughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 2.0f; }},
-        {"iridescence must", [](Scene& s) { s.materials[0].iridescence = 1.1f; }},
-        {"film's index of refraction", [](Scene& s) { s.materials[0].iridescenceIor = 0.9f; }},
-        {"film's thickness", [](Scene& s) { s.materials[0].iridescenceThicknessNm = kNaN; }},
-        {"film's least thickness", [](Scene& s) { s.materials[0].iridescenceLeastThicknessNm = -1.0f; }},
-        {"transmission must", [](Scene& s) { s.materials[0].transmission = 1.1f; }},
-        {"thickness must", [](Scene& s) { s.materials[0].thicknessMetres = -0.1f; }},
+        {"sheen's roughness", with(&Material::sheenPerceptualRoughness, 2.0f)},
+        {"iridescence must", with(&Material::iridescence, 1.1f)},
+        {"film's index of refraction", with(&Material::iridescenceIor, 0.9f)},
+        {"film's thickness", with(&Material::iridescenceThicknessNm, kNaN)},
+        {"film's least thickness", with(&Material::iridescenceLeastThicknessNm, -1.0f)},
+        {"transmission must", with(&Material::transmission, 1.1f)},
+        {"thickness must", with(&Material::thicknessMetres, -0.1f)},
         {"attenuation's colour", [](Scene& s) { s.materials[0].attenuationColor.y = 1.5f; }},
-        {"attenuation's distance", [](Scene& s) { s.materials[0].attenuationDistanceMetres = kNaN; }},
-        {"dispersion must", [](Scene& s) { s.materials[0].dispersion = -0.1f; }},
+        {"attenuation's distance", with(&Material::attenuationDistanceMetres, kNaN)},
+        {"dispersion must", with(&Material::dispersion, -0.1f)},
         {"specular colour", [](Scene& s) { s.materials[0].specularColor.x = kInfinity; }},
-        {"metalness", [](Scene& s) { s.materials[0].metallic = 1.5f; }},
-        {"roughness", [](Scene& s) { s.materials[0].perceptualRoughness = kNaN; }},
-        {"alpha must", [](Scene& s) { s.materials[0].alpha = -0.1f; }},
-        {"index of refraction", [](Scene& s) { s.materials[0].ior = kInfinity; }},
-        {"specular factor", [](Scene& s) { s.materials[0].specularFactor = 2.0f; }},
-        {"normal map's scale", [](Scene& s) { s.materials[0].normalScale = kNaN; }},
-        {"cutoff", [](Scene& s) { s.materials[0].alphaCutoff = kNaN; }},
+        {"metalness", with(&Material::metallic, 1.5f)},
+        {"roughness", with(&Material::perceptualRoughness, kNaN)},
+        {"alpha must", with(&Material::alpha, -0.1f)},
+        {"index of refraction", with(&Material::ior, kInfinity)},
+        {"specular factor", with(&Material::specularFactor, 2.0f)},
+        {"normal map's scale", with(&Material::normalScale, kNaN)},
+        {"cutoff", with(&Material::alphaCutoff, kNaN)},
         {"scale of its subsurface must", [](Scene& s) { s.materials[0].subsurface.scaleMetres = 0.0f; }},
         {"wrap of its subsurface must", [](Scene& s) { s.materials[0].subsurface.wrap = 1.5f; }},
         {"tint of its subsurface's wrap", [](Scene& s) { s.materials[0].subsurface.wrapTint.y = kNaN; }},
@@ -145,13 +153,9 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"share of albedo before", [](Scene& s) { s.materials[0].subsurface.preScatterShare = -0.5f; }},
         {"has 9 Gaussians; give 1 to 8", [](Scene& s) { s.materials[0].subsurface.profile.resize(9); }},
         {"a variance of its profile",
-         [](Scene& s) {
-             s.materials[0].subsurface.profile = {{-1.0f, glm::vec3(1.0f)}};
-         }},
+         [](Scene& s) { s.materials[0].subsurface.profile.emplace_back(-1.0f, glm::vec3(1.0f)); }},
         {"a weight of its profile",
-         [](Scene& s) {
-             s.materials[0].subsurface.profile = {{1.0f, glm::vec3(kNaN)}};
-         }},
+         [](Scene& s) { s.materials[0].subsurface.profile.emplace_back(1.0f, glm::vec3(kNaN)); }},
         {"sum to 1.267, 1 and 1 in red, green and blue; divide",
          [](Scene& s) {
              s.materials[0].subsurface.profile = namedProfiles()[0].profile;
@@ -171,53 +175,38 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"does not stand before it", [](Scene& s) { s.nodes[0].parent = -2; }},
         {"transform is not finite", [](Scene& s) { s.nodes[0].parentFromNode[3].x = kNaN; }},
         {"colour must", [](Scene& s) { s.lights[0].color.x = -0.5f; }},
-        {"intensity", [](Scene& s) { s.lights[0].intensity = kInfinity; }},
+        {"intensity", with(&Light::intensity, kInfinity)},
         {"position", [](Scene& s) { s.lights[0].positionWS.z = kNaN; }},
         {"more than 1e+15 m from the origin; move", [](Scene& s) { s.lights[0].positionWS.z = -1.1e15; }},
         {"leads more than 1e+15 m", [](Scene& s) { s.lights[0].animation.emplace().amplitudeMetres.y = 1e16; }},
         {"more than 1e+15 m from the origin; make", [](Scene& s) { s.nodes[0].parentFromNode *= glm::dmat4(1e30); }},
         {"stands more than 1e+15 m", [](Scene& s) { s.cameras[0].worldFromCamera[3].x = 1e16; }},
-        {"near plane at 1e-30 m must lie 1e-09 to 1e+15 m ahead", [](Scene& s) { s.cameras[0].nearMetres = 1e-30; }},
+        {"near plane at 1e-30 m must lie 1e-09 to 1e+15 m ahead", with(&Camera::nearMetres, 1e-30)},
         {"near plane at 1e+16 m must lie 0 to 1e+15 m ahead",
-         [](Scene& s) {
-             s.cameras[0].projection = Projection::Orthographic;
-             s.cameras[0].nearMetres = 1e16;
-         }},
+         both(with(&Camera::projection, Projection::Orthographic), with(&Camera::nearMetres, 1e16))},
         {"half height of 1e+30 m must be at most 1e+15 m",
-         [](Scene& s) {
-             s.cameras[0].projection = Projection::Orthographic;
-             s.cameras[0].halfHeightMetres = 1e30;
-         }},
-        {"unit length", [](Scene& s) { s.lights[0].directionWS = glm::dvec3(0.0); }},
+         both(with(&Camera::projection, Projection::Orthographic), with(&Camera::halfHeightMetres, 1e30))},
+        {"unit length", with(&Light::directionWS, glm::dvec3(0.0))},
         {"the direction of its width must be of unit length", [](Scene& s) { s.lights[0].alongWS *= 2.0; }},
         {"the direction of its width must be at right angles to its direction",
-         [](Scene& s) {
-             s.lights[0].type = LightType::Rectangle;
-             s.lights[0].alongWS = glm::normalize(glm::dvec3(1.0, 0.0, 0.01));
-         }},
+         both(with(&Light::type, LightType::Rectangle), with(&Light::alongWS, glm::normalize(glm::dvec3(1.0, 0.0, 0.01))))},
         {"its corners 1 and 3 lie in one place; keep one",
          [](Scene& s) { s.lights[0].corners.metres[3] = s.lights[0].corners.metres[1]; }},
         {"its corners number 9; 3 to 8 are needed", [](Scene& s) { s.lights[0].corners.count = 9; }},
-        {"the width must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].widthMetres = 1.1e6f; }},
-        {"the height must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].heightMetres = -1.0f; }},
-        {"the length must be between 0 and 1e+06 m", [](Scene& s) { s.lights[0].lengthMetres = kNaN; }},
+        {"the width must be between 0 and 1e+06 m", with(&Light::widthMetres, 1.1e6f)},
+        {"the height must be between 0 and 1e+06 m", with(&Light::heightMetres, -1.0f)},
+        {"the length must be between 0 and 1e+06 m", with(&Light::lengthMetres, kNaN)},
         {"a tube light falls off by its shape",
-         [](Scene& s) {
-             s.lights[0].type = LightType::Tube;
-             s.lights[0].falloff = Falloff::Attenuation;
-         }},
-        {"range", [](Scene& s) { s.lights[0].rangeMetres = -1.0f; }},
-        {"range", [](Scene& s) { s.lights[0].rangeMetres = kNaN; }},
-        {"A, B, C must",
-         [](Scene& s) {
-             s.lights[0].attenuation = {1.0f, -1.0f, 0.0f};
-         }},
+         both(with(&Light::type, LightType::Tube), with(&Light::falloff, Falloff::Attenuation))},
+        {"range", with(&Light::rangeMetres, -1.0f)},
+        {"range", with(&Light::rangeMetres, kNaN)},
+        {"A, B, C must", with(&Light::attenuation, glm::vec3(1.0f, -1.0f, 0.0f))},
         {"inner cone of 1 radians is wider than its outer cone of 0.785398 radians; make it narrower",
-         [](Scene& s) { s.lights[0].innerConeRadians = 1.0f; }},
+         with(&Light::innerConeRadians, 1.0f)},
         {"the half angle of the outer cone must be between 0 and 3.14159 radians",
-         [](Scene& s) { s.lights[0].outerConeRadians = 3.2f; }},
+         with(&Light::outerConeRadians, 3.2f)},
         {"the half angle of the inner cone must be between 0 and 3.14159 radians",
-         [](Scene& s) { s.lights[0].innerConeRadians = -0.1f; }},
+         with(&Light::innerConeRadians, -0.1f)},
         {"period", [](Scene& s) { s.lights[0].animation.emplace().periodSeconds = 0.0; }},
         {"axis of its orbit", [](Scene& s) { s.lights[0].animation.emplace().axisWS = glm::dvec3(0.0); }},
         {"two points", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Path; }},
@@ -228,10 +217,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
              animation.pointsWS.assign(3, glm::dvec3(1.0));
          }},
         {"key times", [](Scene& s) { s.lights[0].animation.emplace().kind = LightAnimationKind::Keyframes; }},
-        {"ascend",
-         [](Scene& s) {
-             giveKeyframes(s.lights[0], {1.0, 1.0});
-         }},
+        {"ascend", [](Scene& s) { giveKeyframes(s.lights[0], std::vector{1.0, 1.0}); }},
         {"amplitude of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().amplitude = kNaN; }},
         {"frequency of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().frequencyHz = 0.0; }},
         {"seed of its flicker", [](Scene& s) { s.lights[0].flicker.emplace().seed = -1; }},
@@ -264,21 +250,18 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
          }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = 2.0; }},
         {"only rotate and move", [](Scene& s) { s.cameras[0].worldFromCamera[0].x = -1.0; }},
-        {"far plane", [](Scene& s) { s.cameras[0].farMetres = 0.05; }},
-        {"far plane", [](Scene& s) { s.cameras[0].farMetres = kNaN; }},
-        {"near plane", [](Scene& s) { s.cameras[0].nearMetres = 0.0; }},
-        {"field of view", [](Scene& s) { s.cameras[0].fovYRadians = 4.0; }},
+        {"far plane", with(&Camera::farMetres, 0.05)},
+        {"far plane", with(&Camera::farMetres, kNaN)},
+        {"near plane", with(&Camera::nearMetres, 0.0)},
+        {"field of view", with(&Camera::fovYRadians, 4.0)},
         {"half height",
-         [](Scene& s) {
-             s.cameras[0].projection = Projection::Orthographic;
-             s.cameras[0].halfHeightMetres = 0.0;
-         }},
+         both(with(&Camera::projection, Projection::Orthographic), with(&Camera::halfHeightMetres, 0.0))},
         {"the base colour", [](Scene& s) { s.materials[0].baseColor.x = 1.1e6f; }},
         {"the specular colour", [](Scene& s) { s.materials[0].specularColor.x = 1.1e6f; }},
         {"the emission", [](Scene& s) { s.materials[0].emissive.x = 1.1e30f; }},
-        {"alpha", [](Scene& s) { s.materials[0].alpha = 1.1e6f; }},
-        {"alphaY", [](Scene& s) { s.materials[0].alphaY = 1.1e6f; }},
-        {"the index of refraction", [](Scene& s) { s.materials[0].ior = 1.1e6f; }},
+        {"alpha", with(&Material::alpha, 1.1e6f)},
+        {"alphaY", with(&Material::alphaY, 1.1e6f)},
+        {"the index of refraction", with(&Material::ior, 1.1e6f)},
         {"background", [](Scene& s) { s.background.x = kNaN; }},
         {"the option exposureEV is not finite", [](Scene& s) { s.options.wishes["exposureEV"] = double(kNaN); }},
         {"environment 0 'sky': its intensity must be finite and not negative",

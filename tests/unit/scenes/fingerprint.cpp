@@ -1,9 +1,8 @@
 #include "scenes/Fingerprint.h"
 
+#include <cmath>
 #include <functional>
 #include <set>
-#include <span>
-#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -32,16 +31,58 @@ Scene sceneOfEverything() {
 }
 
 struct Change {
-    const char* what;
+    std::string what;
     std::function<void(Scene&)> make;
 };
+
+void giveGaussian(Scene& scene, float variance, const glm::vec3& weight) {
+    scene.materials[0].subsurface.profile = {{variance, weight}};
+}
 
 TextureUse& use(Scene& scene) {
     return scene.materials[0].texture(TextureSlot::BaseColor);
 }
 
-const std::vector<Change>& changes() {
-    static const std::vector<Change> table{
+/// Another value of a member's type.
+template <typename Value>
+void change(Value& value) {
+    if constexpr (std::is_same_v<Value, bool>)
+        value = !value;
+    else if constexpr (std::is_enum_v<Value>)
+        value = Value(int(value) + 1);
+    else if constexpr (std::is_floating_point_v<Value>)
+        value = std::isfinite(value) ? value + Value(0.25) : Value(0.25);
+    else if constexpr (requires { value.length(), value.x; })
+        value[value.length() - 1] += 0.25f;
+    else if constexpr (requires { value.has_value(); })
+        value.has_value() ? value.reset() : void(value.emplace());
+    else
+        value.empty() ? void(value.emplace_back()) : value.clear();
+}
+void change(std::string& text) {
+    text += 'x';
+}
+void change(LightCorners& corners) {
+    corners.metres[3].y = 0.75f;
+}
+void change(LightTexture& texture) {
+    texture = tessera::test::evenLightTexture(glm::vec3(1.0f), 1);
+}
+void change(Subsurface& subsurface) {
+    subsurface.preScatterShare = 0.0f;
+}
+
+/// A change of each member of a table, of the element that `elementOf` finds.
+template <typename Fields, typename ElementOf>
+void addFields(std::vector<Change>& changes, const char* of, const Fields& fields, ElementOf elementOf) {
+    visitFields(fields, [&](const auto& field) {
+        changes.push_back(
+            {std::string(of) + field.name, [=](Scene& scene) { change(elementOf(scene).*field.member); }});
+    });
+}
+
+std::vector<Change> changes() {
+    std::vector<Change> table{
         {"name", [](Scene& s) { s.name += 'x'; }},
         {"background", [](Scene& s) { s.background.z = 1e-30f; }},
         {"image.name", [](Scene& s) { s.images[0].name += 'x'; }},
@@ -59,59 +100,11 @@ const std::vector<Change>& changes() {
         {"use.offset", [](Scene& s) { use(s).transform.offset.y = 1.0f; }},
         {"use.scale", [](Scene& s) { use(s).transform.scale.x = 2.0f; }},
         {"use.rotation", [](Scene& s) { use(s).transform.rotationRadians = 1.0f; }},
-        {"material.name", [](Scene& s) { s.materials[0].name += 'x'; }},
-        {"material.model", [](Scene& s) { s.materials[0].model = MaterialModel::Lambert; }},
-        {"material.baseColor", [](Scene& s) { s.materials[0].baseColor.y = 0.5f; }},
-        {"material.emissive", [](Scene& s) { s.materials[0].emissive.x = 1.0f; }},
-        {"material.metallic", [](Scene& s) { s.materials[0].metallic = 0.0f; }},
-        {"material.perceptualRoughness", [](Scene& s) { s.materials[0].perceptualRoughness = 0.5f; }},
-        {"material.alpha", [](Scene& s) { s.materials[0].alpha = 0.25f; }},
-        {"material.alphaY", [](Scene& s) { s.materials[0].alphaY = 0.25f; }},
-        {"material.masking", [](Scene& s) { s.materials[0].masking = Masking::HalfVector; }},
-        {"material.exponent", [](Scene& s) { s.materials[0].exponent = 1.0f; }},
-        {"material.ior", [](Scene& s) { s.materials[0].ior = 2.0f; }},
-        {"material.specularFactor", [](Scene& s) { s.materials[0].specularFactor = 0.5f; }},
-        {"material.specularColor", [](Scene& s) { s.materials[0].specularColor.z = 0.5f; }},
-        {"material.anisotropyStrength", [](Scene& s) { s.materials[0].anisotropyStrength = 0.5f; }},
-        {"material.anisotropyRotation", [](Scene& s) { s.materials[0].anisotropyRotationRadians = 0.5f; }},
-        {"material.clearcoat", [](Scene& s) { s.materials[0].clearcoat = 0.5f; }},
-        {"material.clearcoatRoughness", [](Scene& s) { s.materials[0].clearcoatPerceptualRoughness = 0.5f; }},
-        {"material.clearcoatNormalScale", [](Scene& s) { s.materials[0].clearcoatNormalScale = 0.5f; }},
-        {"material.sheenColor", [](Scene& s) { s.materials[0].sheenColor.x = 0.5f; }},
-        {"material.sheenRoughness", [](Scene& s) { s.materials[0].sheenPerceptualRoughness = 0.5f; }},
-        {"material.iridescence", [](Scene& s) { s.materials[0].iridescence = 0.5f; }},
-        {"material.iridescenceIor", [](Scene& s) { s.materials[0].iridescenceIor = 1.5f; }},
-        {"material.iridescenceThickness", [](Scene& s) { s.materials[0].iridescenceThicknessNm = 100.0f; }},
-        {"material.iridescenceLeastThickness", [](Scene& s) { s.materials[0].iridescenceLeastThicknessNm = 50.0f; }},
-        {"material.transmission", [](Scene& s) { s.materials[0].transmission = 0.5f; }},
-        {"material.thickness", [](Scene& s) { s.materials[0].thicknessMetres = 0.5f; }},
-        {"material.attenuationColor", [](Scene& s) { s.materials[0].attenuationColor.z = 0.5f; }},
-        {"material.attenuationDistance", [](Scene& s) { s.materials[0].attenuationDistanceMetres = 0.5f; }},
-        {"material.dispersion", [](Scene& s) { s.materials[0].dispersion = 0.5f; }},
-        {"material.normalScale", [](Scene& s) { s.materials[0].normalScale = 0.5f; }},
-        {"material.occlusionStrength", [](Scene& s) { s.materials[0].occlusionStrength = 0.5f; }},
-        {"material.normalMapSpace", [](Scene& s) { s.materials[0].normalMapSpace = NormalMapSpace::Object; }},
-        {"material.tangents", [](Scene& s) { s.materials[0].tangents = TangentMethod::Lengyel; }},
-        {"material.alphaMode", [](Scene& s) { s.materials[0].alphaMode = AlphaMode::Mask; }},
-        {"material.alphaCutoff", [](Scene& s) { s.materials[0].alphaCutoff = 0.25f; }},
-        {"material.doubleSided", [](Scene& s) { s.materials[0].doubleSided = true; }},
-        {"material.castsShadow", [](Scene& s) { s.materials[0].castsShadow = false; }},
-        {"subsurface.method", [](Scene& s) { s.materials[0].subsurface.method = SubsurfaceMethod::Wrap; }},
-        {"subsurface.scale", [](Scene& s) { s.materials[0].subsurface.scaleMetres = 2.0f; }},
-        {"subsurface.wrap", [](Scene& s) { s.materials[0].subsurface.wrap = 0.25f; }},
-        {"subsurface.wrapTint", [](Scene& s) { s.materials[0].subsurface.wrapTint.y = 0.0f; }},
-        {"subsurface.bodyRadius", [](Scene& s) { s.materials[0].subsurface.bodyRadiusMetres = 1.0f; }},
-        {"subsurface.absorption", [](Scene& s) { s.materials[0].subsurface.absorptionPerMillimetre.z = 0.0f; }},
-        {"subsurface.preScatterShare", [](Scene& s) { s.materials[0].subsurface.preScatterShare = 0.0f; }},
-        {"subsurface.profile", [](Scene& s) { s.materials[0].subsurface.profile.resize(1); }},
         {"subsurface.weight",
          [](Scene& s) {
-             s.materials[0].subsurface.profile.resize(1, {1.0f, {1.0f, 1.0f, 0.0f}});
+             giveGaussian(s, 1.0f, {1.0f, 1.0f, 0.0f});
          }},
-        {"subsurface.variance",
-         [](Scene& s) {
-             s.materials[0].subsurface.profile.resize(1, {9.0f, glm::vec3(1.0f)});
-         }},
+        {"subsurface.variance", [](Scene& s) { giveGaussian(s, 9.0f, glm::vec3(1.0f)); }},
         {"another material", [](Scene& s) { s.materials.emplace_back(); }},
         {"mesh.name", [](Scene& s) { s.meshes[0].name += 'x'; }},
         {"mesh.positions", [](Scene& s) { s.meshes[0].positionsOS[2].y = 5.0f; }},
@@ -120,10 +113,7 @@ const std::vector<Change>& changes() {
         {"mesh.texCoords0", [](Scene& s) { s.meshes[0].texCoords[0].assign(3, glm::vec2(1.0f)); }},
         {"mesh.texCoords1", [](Scene& s) { s.meshes[0].texCoords[1].assign(3, glm::vec2(1.0f)); }},
         {"mesh.colors", [](Scene& s) { s.meshes[0].colors.assign(3, glm::vec4(1.0f)); }},
-        {"mesh.indices",
-         [](Scene& s) {
-             s.meshes[0].indices = {1, 2, 0};
-         }},
+        {"mesh.indices", [](Scene& s) { std::swap(s.meshes[0].indices[0], s.meshes[0].indices[1]); }},
         {"node.name", [](Scene& s) { s.nodes[0].name += 'x'; }},
         {"node.parent", [](Scene& s) { s.nodes[0].parent = 0; }},
         {"node.transform", [](Scene& s) { s.nodes[0].parentFromNode[3][0] = 1.0; }},
@@ -131,33 +121,8 @@ const std::vector<Change>& changes() {
         {"instance.mesh", [](Scene& s) { s.nodes[0].instances[0].mesh = 1; }},
         {"instance.material", [](Scene& s) { s.nodes[0].instances[0].material = kNone; }},
         {"instance.castsShadow", [](Scene& s) { s.nodes[0].instances[0].castsShadow = false; }},
-        {"light.name", [](Scene& s) { s.lights[0].name += 'x'; }},
-        {"light.type", [](Scene& s) { s.lights[0].type = LightType::Spot; }},
-        {"light.enabled", [](Scene& s) { s.lights[0].enabled = false; }},
-        {"light.radius", [](Scene& s) { s.lights[0].radiusMetres = 0.5f; }},
-        {"light.angle", [](Scene& s) { s.lights[0].angularRadiusRadians = 0.5f; }},
-        {"light.castsShadow", [](Scene& s) { s.lights[0].castsShadow = true; }},
-        {"light.color", [](Scene& s) { s.lights[0].color.y = 0.5f; }},
-        {"light.intensity", [](Scene& s) { s.lights[0].intensity = 2.0f; }},
-        {"light.position", [](Scene& s) { s.lights[0].positionWS.x = 1e-12; }},
-        {"light.direction", [](Scene& s) { s.lights[0].directionWS.z = 1.0; }},
-        {"light.falloff", [](Scene& s) { s.lights[0].falloff = Falloff::Attenuation; }},
-        {"light.range", [](Scene& s) { s.lights[0].rangeMetres = 2.0f; }},
-        {"light.attenuation", [](Scene& s) { s.lights[0].attenuation.z = 1.0f; }},
-        {"light.innerCone", [](Scene& s) { s.lights[0].innerConeRadians = 0.1f; }},
-        {"light.outerCone", [](Scene& s) { s.lights[0].outerConeRadians = 0.9f; }},
-        {"light.width", [](Scene& s) { s.lights[0].widthMetres = 2.0f; }},
-        {"light.height", [](Scene& s) { s.lights[0].heightMetres = 2.0f; }},
-        {"light.length", [](Scene& s) { s.lights[0].lengthMetres = 2.0f; }},
-        {"light.along", [](Scene& s) { s.lights[0].alongWS.z = 1.0; }},
-        {"light.corners", [](Scene& s) { s.lights[0].corners.metres[3].y = 0.75f; }},
         {"light.cornerCount", [](Scene& s) { s.lights[0].corners.count = 3; }},
-        {"light.twoSided", [](Scene& s) { s.lights[0].isTwoSided = true; }},
-        {"light.seen", [](Scene& s) { s.lights[0].isSeen = false; }},
-        {"light.texture", [](Scene& s) { s.lights[0].texture = tessera::test::evenLightTexture(glm::vec3(1.0f), 1); }},
         {"light.texels", [](Scene& s) { s.lights[0].texture = tessera::test::evenLightTexture(glm::vec3(0.5f), 1); }},
-        {"light.flicker", [](Scene& s) { s.lights[0].flicker.emplace(); }},
-        {"light.animation", [](Scene& s) { s.lights[0].animation.reset(); }},
         {"animation.kind", [](Scene& s) { s.lights[0].animation->kind = LightAnimationKind::Path; }},
         {"animation.period", [](Scene& s) { s.lights[0].animation->periodSeconds = 2.0; }},
         {"animation.phase", [](Scene& s) { s.lights[0].animation->phase = 0.5; }},
@@ -173,7 +138,6 @@ const std::vector<Change>& changes() {
         {"animation.inTangents", [](Scene& s) { s.lights[0].animation->keys.inTangents.emplace_back(1.0); }},
         {"animation.outTangents", [](Scene& s) { s.lights[0].animation->keys.outTangents.emplace_back(1.0); }},
         {"animation.values", [](Scene& s) { s.lights[0].animation->keys.values[1].z = 2.0; }},
-        {"light.keyframes", [](Scene& s) { s.lights[0].keyframes.clear(); }},
         {"keyframes.of", [](Scene& s) { s.lights[0].keyframes[0].of = LightKeyed::Intensity; }},
         {"animation.points", [](Scene& s) { s.lights[0].animation->pointsWS[1].z = 2.0; }},
         {"camera.name", [](Scene& s) { s.cameras[0].name += 'x'; }},
@@ -234,6 +198,10 @@ const std::vector<Change>& changes() {
         {"options.camera", [](Scene& s) { s.options.camera = ""; }},
         {"options.defaultLight", [](Scene& s) { s.options.defaultLight = false; }},
     };
+    addFields(table, "material.", kMaterialFields, [](Scene& s) -> Material& { return s.materials[0]; });
+    addFields(table, "subsurface.", kSubsurfaceFields,
+              [](Scene& s) -> Subsurface& { return s.materials[0].subsurface; });
+    addFields(table, "light.", kLightFields, [](Scene& s) -> Light& { return s.lights[0]; });
     return table;
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/builtin/Builtin.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 
 namespace tessera::scenes::builtin {
 namespace {
@@ -23,7 +24,7 @@ Hit trace(const Scene& scene, const glm::dvec3& originWS, const glm::dvec3& dire
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         for (const MeshInstance& instance : scene.nodes[n].instances) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
                 const auto corner = [&](std::size_t k) {
                     return glm::dvec3(worldFromNode[n] *
@@ -59,7 +60,7 @@ TEST(Room, closedFormMatchesTheSceneAlongEveryRay) {
                 const auto point = roomPointAlong(eyeWS, directionWS);
                 const Hit hit = trace(scene, eyeWS, directionWS);
                 ASSERT_TRUE(point.has_value()) << "the room is closed";
-                ASSERT_EQ(static_cast<int>(point->material), hit.material) << i << ' ' << j;
+                ASSERT_EQ(int(point->material), hit.material) << i << ' ' << j;
                 // Vertices are in single precision: 2^-24 of up to 3 m, a few times enlarged at grazing rays.
                 EXPECT_LT(glm::distance(point->positionWS, eyeWS + hit.along * directionWS), 2e-6);
                 EXPECT_GT(glm::dot(point->normalWS, hit.normalWS), 1.0 - 1e-6);
@@ -83,26 +84,8 @@ TEST(Room, radianceIsTheInverseSquareTimesTheCosine) {
     EXPECT_EQ(roomRadiance({-0.5, 1.75, -2.99}, {0.0, 0.0, 1.0}, RoomMaterial::Sign), glm::dvec3(0.25, 0.5, 0.75));
 }
 
-TEST(Room, materialsCarryTheFinishesNumbers) {
-    const Scene scene = underLedger(makeRoom, LoadOptions{});
-    ASSERT_EQ(scene.materials.size(), kRoomMaterialCount);
-    for (std::size_t i = 0; i < kRoomMaterialCount; ++i) {
-        const Material& material = scene.materials[i];
-        EXPECT_EQ(glm::vec3(material.baseColor), kRoomFinishes[i].color);
-        EXPECT_EQ(material.emissive, kRoomFinishes[i].emissive);
-        EXPECT_EQ(material.model == MaterialModel::MetallicRoughness, kRoomFinishes[i].perSteradian);
-        if (kRoomFinishes[i].perSteradian) {
-            EXPECT_EQ(material.specularFactor, 0.0f);
-            EXPECT_EQ(material.metallic, 0.0f);
-        }
-    }
-    EXPECT_EQ(scene.materials[static_cast<std::size_t>(RoomMaterial::Sign)].model, MaterialModel::SingleColor);
-}
-
 TEST(Room, anyNumberOfLightsSharesTheOneLamp) {
-    LoadOptions options;
-    options.lights = 8;
-    const Scene scene = underLedger(makeRoom, options);
+    const Scene scene = underLedger(makeRoom, loading(&LoadOptions::lights, 8));
     ASSERT_EQ(scene.lights.size(), 8u);
     float sum = 0.0f;
     for (const Light& light : scene.lights) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -36,12 +34,6 @@ LightKeys keysOf(LightKeyed of, std::vector<glm::dvec3> values) {
     for (std::size_t i = 0; i < values.size(); ++i) keys.timesSeconds.push_back(2.0 * double(i));
     keys.values = std::move(values);
     return keys;
-}
-
-TEST(Scene, texelBytesAreFourChannelsOfTheFormat) {
-    EXPECT_EQ(texelBytes(TexelFormat::Rgba8Unorm), 4u);
-    EXPECT_EQ(texelBytes(TexelFormat::Rgba16Unorm), 8u);
-    EXPECT_EQ(texelBytes(TexelFormat::Rgba32Float), 16u);
 }
 
 TEST(Scene, childTransformsAreAppliedBeforeTheirParents) {
