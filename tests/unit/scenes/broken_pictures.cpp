@@ -1,9 +1,7 @@
 // Files that are damaged or cut short are drawn as far as they can be read.
-#include <array>
 #include <cstdio> // jpeglib.h needs it first
 #include <random>
 
-#include <gmock/gmock.h>
 #include <jpeglib.h>
 
 #include "base/PictureLibrary.h"
@@ -13,9 +11,6 @@ namespace tessera::scenes {
 namespace {
 
 using namespace test;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr int kNoisySide = 48;
 
@@ -57,16 +52,6 @@ std::string noisyPng() {
     const std::vector<std::uint8_t> rgb = noise();
     const std::vector<std::uint8_t> file = PictureLibrary::get().encodePng(kNoisySide, kNoisySide, rgb.data());
     return {file.begin(), file.end()};
-}
-
-/// Source: PNG specification, annex D.
-std::uint32_t crcOf(const std::string& bytes) {
-    std::uint32_t crc = ~0u;
-    for (const char byte : bytes) {
-        crc ^= std::uint8_t(byte);
-        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
-    }
-    return ~crc;
 }
 
 /// Where the check sum of the only IDAT chunk begins.

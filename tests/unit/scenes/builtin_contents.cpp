@@ -1,13 +1,9 @@
 // What each built-in scene shows and is lit by, as the documents say of it.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <map>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,7 +107,7 @@ TEST(Hall, askedForNumberOfLightsIsExactlyMade) {
     for (const int count : {0, 1, 255, 257, 4097, 65536}) {
         Scene scene;
         builtin::hall::addPointLights(scene, count);
-        EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
+        EXPECT_EQ(scene.lights.size(), std::size_t(count));
         EXPECT_NO_THROW(checkScene(scene));
     }
     EXPECT_EQ(underLedger(builtin::makeHall, withLights(3)).lights.size(), 5u) << "and the sky and the sun";
@@ -140,20 +136,18 @@ TEST(Lamps, askedForNumberOfLightsIsExactlyMadeAndTheFirstAreSpreadOut) {
     for (const int count : {0, 1, 999, 1001, 4097}) {
         Scene scene;
         builtin::lamps::addLamps(scene, builtin::lamps::lampPlaces(), count);
-        EXPECT_EQ(scene.lights.size(), static_cast<std::size_t>(count));
+        EXPECT_EQ(scene.lights.size(), std::size_t(count));
         EXPECT_NO_THROW(checkScene(scene));
     }
     const Scene few = underLedger(builtin::makeLamps, withLights(40));
     ASSERT_EQ(few.lights.size(), 40u);
     for (const double side : {-1.0, 1.0})
-        for (const double end : {-1.0, 1.0})
-            EXPECT_GE(std::ranges::count_if(few.lights,
-                                            [&](const Light& light) {
-                                                return side * light.positionWS.x > 0.0 &&
-                                                       end * light.positionWS.z > 0.0;
-                                            }),
-                      4)
-                << side << ' ' << end;
+        for (const double end : {-1.0, 1.0}) {
+            const auto isThere = [&](const Light& light) {
+                return side * light.positionWS.x > 0.0 && end * light.positionWS.z > 0.0;
+            };
+            EXPECT_GE(std::ranges::count_if(few.lights, isThere), 4) << side << ' ' << end;
+        }
 }
 
 TEST(Lamps, whatIsSeenToShineNeverGetsItsOwnLight) {
@@ -198,11 +192,8 @@ TEST(Studio, showsEveryLayerUnderLightsOfEveryShapeButPolygons) {
 
 TEST(Spheres, spanRoughnessAndMetalness) {
     const Scene scene = underLedger(builtin::makeSpheres, withoutAssets());
-    int spheres = 0;
-    for (const Material& material : scene.materials) {
-        if (material.name.find("metalness") == 0) ++spheres;
-    }
-    EXPECT_EQ(spheres, 55);
+    EXPECT_EQ(std::ranges::count_if(scene.materials, [](const Material& m) { return m.name.starts_with("metalness"); }),
+              55);
     EXPECT_EQ(scene.lights.size(), 4u);
     EXPECT_EQ(underLedger(builtin::makeSpheres, withLights(2)).lights.size(), 2u);
 }
@@ -235,11 +226,9 @@ TEST(Models, showEveryModelMaskingAndLayerSomeOfThemTextured) {
 
 TEST(Head, generatedBustHasObjectSpaceNormals) {
     const Scene scene = underLedger(builtin::makeHead, withoutAssets());
-    const Material* bust = nullptr;
-    for (const Material& material : scene.materials) {
-        if (material.texture(TextureSlot::Normal).image != kNone) bust = &material;
-    }
-    ASSERT_NE(bust, nullptr);
+    const auto bust = std::ranges::find_if(
+        scene.materials, [](const Material& m) { return m.texture(TextureSlot::Normal).image != kNone; });
+    ASSERT_NE(bust, scene.materials.end());
     EXPECT_EQ(bust->model, MaterialModel::Microfacet);
     EXPECT_EQ(bust->normalMapSpace, NormalMapSpace::Object);
     EXPECT_FLOAT_EQ(bust->ior, 1.4f);
@@ -252,24 +241,22 @@ TEST(Head, generatedBustHasObjectSpaceNormals) {
 
 TEST(Head, objectSpaceNormalsAgreeWithTheMeshTheyRefine) {
     const Scene scene = underLedger(builtin::makeHead, withoutAssets());
-    const auto bust =
-        std::find_if(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& m) { return m.name == "bust"; });
-    const auto map =
-        std::find_if(scene.images.begin(), scene.images.end(), [](const Image& i) { return i.name == "bust normals"; });
+    const auto bust = std::ranges::find(scene.meshes, "bust", &Mesh::name);
+    const auto map = std::ranges::find(scene.images, "bust normals", &Image::name);
     ASSERT_NE(bust, scene.meshes.end());
     ASSERT_NE(map, scene.images.end());
     double agreement = 0.0;
     for (std::size_t i = 0; i < bust->positionsOS.size(); ++i) {
         const glm::vec2 uv = bust->texCoords[0][i];
-        const int x = std::min(static_cast<int>(uv.x * static_cast<float>(map->width)), map->width - 1);
-        const int y = std::min(static_cast<int>(uv.y * static_cast<float>(map->height)), map->height - 1);
+        const int x = std::min(int(uv.x * float(map->width)), map->width - 1);
+        const int y = std::min(int(uv.y * float(map->height)), map->height - 1);
         std::uint16_t texel[4];
         std::memcpy(texel, map->texels.data() + 8 * (y * map->width + x), sizeof(texel));
         const glm::dvec3 n = glm::dvec3(texel[0], texel[1], texel[2]) / 65535.0 * 2.0 - 1.0;
         EXPECT_NEAR(glm::length(n), 1.0, 1e-4); // 16 bits per component
         agreement += glm::dot(n, glm::dvec3(bust->normalsOS[i]));
     }
-    agreement /= static_cast<double>(bust->positionsOS.size());
+    agreement /= double(bust->positionsOS.size());
     EXPECT_GT(agreement, 0.9) << "relief turns normals by some degrees";
     EXPECT_LT(agreement, 0.9999) << "but relief there is";
 }

@@ -1,7 +1,5 @@
 #include "scenes/CameraNames.h"
 
-#include <initializer_list>
-
 #include <gtest/gtest.h>
 
 namespace tessera::scenes {

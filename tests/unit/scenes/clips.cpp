@@ -1,11 +1,10 @@
 #include "scenes/Clips.h"
 
-#include <gmock/gmock.h>
-
 #include "base/Error.h"
 #include "scenes/Fingerprint.h"
 #include "scenes/Pose.h"
 #include "tests/unit/scenes/RiggedScene.h"
+#include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
 namespace {
@@ -24,12 +23,7 @@ TEST(Clips, areChosenByNameThenByNumber) {
     playClip(scene, "none");
     EXPECT_FALSE(isPlaying(scene));
     EXPECT_EQ(clipText(scene), "no clip of 2");
-    try {
-        playClip(scene, "bent");
-        FAIL() << "nothing was refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("did you mean 'bend'"));
-    }
+    EXPECT_THAT(test::inputErrorOf([&] { playClip(scene, "bent"); }), testing::HasSubstr("did you mean 'bend'"));
 }
 
 TEST(Clips, thoseWithoutDurationAreCalledPoses) {

@@ -90,8 +90,7 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
     constexpr const char* kOthers =
-        " (--environment chooses another, --backdrop what is seen of it, --no-default-light "
-        "leaves it dark)";
+        " (--environment chooses another, --backdrop what is seen of it, --no-default-light leaves it dark)";
     const std::string lit = "no light in it: lit by the built-in environment 'studio', turned to the camera";
     EXPECT_EQ(suppliedText(scene), lit + ", before a blurred backdrop" + kOthers);
     EXPECT_EQ(

@@ -10,34 +10,18 @@
 #include <sys/stat.h>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "base/Error.h"
 #include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
-#include "tests/unit/scenes/TempFolder.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
+#include "tests/unit/scenes/PictureBytes.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
-using testing::HasSubstr;
-
-std::vector<float> numbersOf(const Image& map) {
-    std::vector<float> texels(map.texels.size() / sizeof(float));
-    std::memcpy(texels.data(), map.texels.data(), map.texels.size());
-    return texels;
-}
-
-/// A PFM picture, rows given from the top.
-std::string pfm(int width, int height, const std::vector<float>& rgb) {
-    std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
-    for (int y = height - 1; y >= 0; --y)
-        text.append(reinterpret_cast<const char*>(rgb.data() + std::size_t(3 * y * width)),
-                    std::size_t(3 * width) * sizeof(float));
-    return text;
-}
+using namespace test;
 
 TEST(Environment, directionsAndPlacesOfAMapAgreeAndItsMiddleLooksAlongMinusZ) {
     const auto expectPlace = [](const glm::dvec3& direction, double x, double y) {
@@ -56,48 +40,41 @@ TEST(Environment, directionsAndPlacesOfAMapAgreeAndItsMiddleLooksAlongMinusZ) {
 }
 
 TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
-    test::TempFolder folder;
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
-    const auto file = folder.write("bad.pfm", pfm(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, -0.0f}));
-    const auto extreme = folder.write("extreme.pfm", pfm(2, 1, {1e30f, 2e30f, 3e38f, infinite, 0.0f, 0.0f}));
-    LoadLedger ledger;
-    std::vector<std::string> warnings;
-    const Environment environment = loadEnvironment(file.string(), ledger, warnings);
-    EXPECT_EQ(numbersOf(environment.map), (std::vector<float>{0.0f, 0.0f, 3.0f, 1.0f, 3.0f, 0.5f, 0.0f, 1.0f}));
-    EXPECT_EQ(warnings, (std::vector<std::string>{
-                            "the environment 'bad.pfm' holds NaN in 1 number, taken as 0",
-                            "the environment 'bad.pfm' is below 0 in 1 number, taken as 0",
-                            "the environment 'bad.pfm' holds infinity in 1 number, taken as its brightest"}));
-    warnings.clear();
-    EXPECT_EQ(numbersOf(loadEnvironment(extreme.string(), ledger, warnings).map),
-              (std::vector<float>{1e30f, 1e30f, 1e30f, 1.0f, 1e30f, 0.0f, 0.0f, 1.0f}));
-    EXPECT_EQ(warnings, (std::vector<std::string>{
-                            "the environment 'extreme.pfm' holds infinity in 1 number, taken as its brightest",
-                            "the environment 'extreme.pfm' is above 1e+30 in 2 numbers, taken as that"}));
-}
-
-TEST(Environment, mapsOfOneTexelAreEvenLightWhateverTheirNumberWas) {
-    test::TempFolder folder;
-    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
-    const auto file = folder.write("one.pfm", pfm(1, 1, {nan, -infinite, infinite}));
-    LoadLedger ledger;
-    std::vector<std::string> warnings;
-    const Environment bad = loadEnvironment(file.string(), ledger, warnings);
-    EXPECT_EQ(numbersOf(bad.map), (std::vector<float>{0.0f, 0.0f, 1.0f, 1.0f})) << "nothing is brightest, so 1 is";
-    EXPECT_EQ(warnings, (std::vector<std::string>{
-                            "the environment 'one.pfm' holds NaN in 1 number, taken as 0",
-                            "the environment 'one.pfm' is below 0 in 1 number, taken as 0",
-                            "the environment 'one.pfm' holds infinity in 1 number, taken as its brightest"}));
-    warnings.clear();
-    const auto good = folder.write("two.pfm", pfm(1, 1, {0.25f, 0.5f, 1e5f}));
-    EXPECT_EQ(numbersOf(loadEnvironment(good.string(), ledger, warnings).map),
-              (std::vector<float>{0.25f, 0.5f, 1e5f, 1.0f}));
-    EXPECT_TRUE(warnings.empty()) << "one texel has any shape";
+    const struct {
+        int width;
+        std::vector<float> rgb, kept;
+        std::vector<std::string> warnings; ///< after the environment's name
+    } cases[] = {{2,
+                  {nan, -1.0f, 3.0f, infinite, 0.5f, -0.0f},
+                  {0.0f, 0.0f, 3.0f, 1.0f, 3.0f, 0.5f, 0.0f, 1.0f},
+                  {"holds NaN in 1 number, taken as 0", "is below 0 in 1 number, taken as 0",
+                   "holds infinity in 1 number, taken as its brightest"}},
+                 {2,
+                  {1e30f, 2e30f, 3e38f, infinite, 0.0f, 0.0f},
+                  {1e30f, 1e30f, 1e30f, 1.0f, 1e30f, 0.0f, 0.0f, 1.0f},
+                  {"holds infinity in 1 number, taken as its brightest", "is above 1e+30 in 2 numbers, taken as that"}},
+                 // Of one texel, where nothing is brightest, so 1 is, and which has any shape.
+                 {1,
+                  {nan, -infinite, infinite},
+                  {0.0f, 0.0f, 1.0f, 1.0f},
+                  {"holds NaN in 1 number, taken as 0", "is below 0 in 1 number, taken as 0",
+                   "holds infinity in 1 number, taken as its brightest"}},
+                 {1, {0.25f, 0.5f, 1e5f}, {0.25f, 0.5f, 1e5f, 1.0f}, {}}};
+    const TempFolder folder;
+    for (const auto& one : cases) {
+        LoadLedger ledger;
+        std::vector<std::string> warnings, expected;
+        for (const std::string& warning : one.warnings) expected.push_back("the environment 'a.pfm' " + warning);
+        const std::string file = folder.file("a.pfm", pfmOf(one.width, 1, one.rgb));
+        EXPECT_EQ(storedTexels<float>(loadEnvironment(file, ledger, warnings).map), one.kept);
+        EXPECT_EQ(warnings, expected);
+    }
 }
 
 /// What a map's rows and columns send, by solid angle.
 double lightOf(const Image& map) {
-    const std::vector<float> numbers = numbersOf(map);
+    const std::vector<float> numbers = storedTexels<float>(map);
     double sum = 0.0;
     for (int y = 0; y < map.height; ++y) {
         const double top = std::numbers::pi * y / map.height, bottom = std::numbers::pi * (y + 1) / map.height;
@@ -108,13 +85,13 @@ double lightOf(const Image& map) {
 }
 
 TEST(Environment, mapsOfMoreTexelsThanAreKeptAreAveragedWithoutLossOfLight) {
-    test::TempFolder folder;
+    TempFolder folder;
     // A sun of one texel, and a number that would spread.
     const auto write = [&](const std::string& name, int width, int height) {
         std::vector<float> rgb(std::size_t(3 * width * height), 0.125f);
         rgb[std::size_t(3 * (height / 3 * width + width / 5))] = 1e6f;
         rgb[4] = std::numeric_limits<float>::quiet_NaN();
-        return folder.write(name, pfm(width, height, rgb));
+        return folder.write(name, pfmOf(width, height, rgb));
     };
     struct Case {
         const char* name;
@@ -143,28 +120,27 @@ TEST(Environment, mapsOfMoreTexelsThanAreKeptAreAveragedWithoutLossOfLight) {
         EXPECT_EQ(warnings[2],
                   fmt::format("the environment '{}' has {}x{} texels; their averages in {}x{} are shown, {} of the GPU",
                               one.name, one.width, one.height, one.keptWidth, one.keptHeight, one.size));
-        for (const float number : numbersOf(map)) ASSERT_TRUE(std::isfinite(number));
+        for (const float number : storedTexels<float>(map)) ASSERT_TRUE(std::isfinite(number));
     }
     EXPECT_EQ(kMostMapWidth, 2 * kMostMapHeight);
 }
 
 TEST(Environment, mapsThatAreNotTooLargeKeepTheirBits) {
-    test::TempFolder folder;
+    TempFolder folder;
     std::vector<float> rgb(std::size_t(3 * kMostMapWidth));
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = 0.1f * float(i);
     LoadLedger ledger;
     std::vector<std::string> warnings;
-    const Image map =
-        loadEnvironment(folder.write("most.pfm", pfm(kMostMapWidth, 1, rgb)).string(), ledger, warnings).map;
+    const Image map = loadEnvironment(folder.file("most.pfm", pfmOf(kMostMapWidth, 1, rgb)), ledger, warnings).map;
     ASSERT_EQ(map.width, kMostMapWidth);
-    const std::vector<float> numbers = numbersOf(map);
+    const std::vector<float> numbers = storedTexels<float>(map);
     for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_EQ(numbers[i / 3 * 4 + i % 3], rgb[i]);
     EXPECT_EQ(warnings.size(), 1u) << "of its shape";
 }
 
 TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
-    const test::SceneFolder folder;
-    const auto file = folder.write("sky.pfm", pfm(4, 2, std::vector<float>(24, 2.0f)));
+    const SceneFolder folder;
+    const auto file = folder.write("sky.pfm", pfmOf(4, 2, std::vector<float>(24, 2.0f)));
     const Scene scene =
         folder.import(R"({"tessera": 1, "environment": {"map": "sky.pfm", "intensity": 0.5, "rotationDegrees": 30}})");
     ASSERT_TRUE(scene.environment);
@@ -173,8 +149,7 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     EXPECT_EQ(scene.environment->rotationDegrees, 30.0f);
     EXPECT_TRUE(scene.warnings.empty());
     const std::string saved = (folder.path() / "scene.json").string();
-    LoadOptions options;
-    options.environment = "studio";
+    LoadOptions options = loading(&LoadOptions::environment, "studio");
     const Environment studio = loadScene(saved, options).environment.value();
     EXPECT_EQ(studio.source, "builtin:studio");
     EXPECT_EQ(studio.rotationDegrees, 30.0f) << "it lies as the scene's own";
@@ -184,24 +159,20 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     options.environment = "none";
     EXPECT_FALSE(loadScene(saved, options).environment);
     options.environment = "stdio";
-    try {
-        loadScene(saved, options);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "no built-in environment or picture file is called 'stdio'; did you mean 'studio'?");
-    }
+    EXPECT_EQ(inputErrorOf([&] { loadScene(saved, options); }),
+              "no built-in environment or picture file is called 'stdio'; did you mean 'studio'?");
     // Light from everywhere is light: no default one is supplied.
     options.environment = "sky";
     EXPECT_EQ(loadScene(saved, options).environment.value().source, "builtin:sky");
 }
 
 TEST(Environment, aNameIsThatOfABuiltInOneAsSceneFilesWriteItTooAndOfAFileAlone) {
-    const test::SceneFolder folder;
+    const SceneFolder folder;
     LoadLedger ledger;
     std::vector<std::string> warnings;
     EXPECT_EQ(environmentCalled("builtin:studio", ledger, warnings).value().source, "builtin:studio");
     const auto problem = [&](const std::string& name) {
-        return test::inputErrorOf([&] { environmentCalled(name, ledger, warnings); });
+        return inputErrorOf([&] { environmentCalled(name, ledger, warnings); });
     };
     EXPECT_EQ(problem("builtin:sea"), "there is no built-in environment 'sea'; valid are studio, sky");
     const std::string path = folder.path().string();
@@ -213,16 +184,16 @@ TEST(Environment, aNameIsThatOfABuiltInOneAsSceneFilesWriteItTooAndOfAFileAlone)
 }
 
 TEST(Environment, aBlackMapIsToldOnceAndNoOtherIs) {
-    test::TempFolder folder;
-    LoadLedger ledger;
-    std::vector<std::string> warnings;
-    loadEnvironment(folder.write("night.pfm", pfm(4, 2, std::vector<float>(24, 0.0f))).string(), ledger, warnings);
-    EXPECT_EQ(warnings, std::vector<std::string>{"the environment 'night.pfm' is black everywhere and gives no light"});
-    warnings.clear();
-    std::vector<float> dim(24, 0.0f);
-    dim.back() = 1e-30f; // the last texel's blue
-    loadEnvironment(folder.write("dim.pfm", pfm(4, 2, dim)).string(), ledger, warnings);
-    EXPECT_TRUE(warnings.empty());
+    TempFolder folder;
+    for (const float blue : {0.0f, 1e-30f}) { // of the last texel
+        LoadLedger ledger;
+        std::vector<std::string> warnings, expected;
+        std::vector<float> rgb(24, 0.0f);
+        rgb.back() = blue;
+        loadEnvironment(folder.file("night.pfm", pfmOf(4, 2, rgb)), ledger, warnings);
+        if (blue == 0.0f) expected = {"the environment 'night.pfm' is black everywhere and gives no light"};
+        EXPECT_EQ(warnings, expected);
+    }
 }
 
 TEST(Environment, whoAsksIsToldHowMuchOfABuiltInMapIsComputed) {
@@ -242,36 +213,29 @@ TEST(Environment, whoAsksIsToldHowMuchOfABuiltInMapIsComputed) {
 }
 
 TEST(Environment, wrongOnesAreRefusedByName) {
-    const test::SceneFolder folder;
+    const SceneFolder folder;
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "environment": {"map": "builtin:sea"}})"),
               "/environment/map: there is no built-in environment 'sea'; valid are studio, sky");
     EXPECT_EQ(folder.errorBeyondSchemaOf(R"({"tessera": 1, "environment": {"intensity": 2}})"),
               "/environment: says how a map lies or shines, and there is none; name a 'map'");
     EXPECT_EQ(folder.errorOf(R"({"tessera": 1, "environment": {"intensity": -1}})"),
               "/environment/intensity: is -1; at least 0 is needed");
-    folder.write("sky.pfm", pfm(2, 1, {1e20f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}));
+    folder.write("sky.pfm", pfmOf(2, 1, {1e20f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}));
     const auto errorOf = [&](const std::string& how) {
         return folder.errorOf(R"({"tessera": 1, "environment": {"map": "sky.pfm", )" + how + "}}");
     };
     EXPECT_THAT(errorOf(R"("intensity": 1e39)"), HasSubstr("/environment/intensity: is 1e+39; at most 3.4"));
     EXPECT_THAT(errorOf(R"("rotationDegrees": -1e39)"), HasSubstr("/environment/rotationDegrees: is -1e+39; at least"));
-    const std::string bright = folder
-                                   .write("bright.json", R"({"tessera": 1, "environment": {"map": "sky.pfm", )"
-                                                         R"("intensity": 1e11}})")
-                                   .string();
-    try {
-        loadScene(bright);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), (bright + ": scene 'bright': environment 0 'sky.pfm': its brightest texel times its "
-                                             "intensity is 1e+31, and at most 1e+30 can be shown; lower its intensity")
-                                       .c_str());
-    }
+    const std::string bright = folder.file("bright.json", R"({"tessera": 1, "environment": {"map": "sky.pfm", )"
+                                                          R"("intensity": 1e11}})");
+    EXPECT_EQ(inputErrorOf([&] { loadScene(bright); }),
+              bright + ": scene 'bright': environment 0 'sky.pfm': its brightest texel times its intensity is 1e+31, "
+                       "and at most 1e+30 can be shown; lower its intensity");
 }
 
 /// Of level ground, divided by pi: the radiance of a white floor.
 glm::dvec3 onGround(const Image& map) {
-    const std::vector<float> texels = numbersOf(map);
+    const std::vector<float> texels = storedTexels<float>(map);
     glm::dvec3 sum(0.0);
     for (int y = 0; y < map.height / 2; ++y)
         for (int x = 0; x < map.width; ++x) {
@@ -291,7 +255,8 @@ TEST(Environment, builtInOnesLightAWhiteFloorAboutAsBrightAsWhite) {
         const glm::dvec3 white = onGround(map);
         EXPECT_GT(white.g, 0.5) << builtin.name;
         EXPECT_LT(white.g, 1.2) << builtin.name;
-        for (const float value : numbersOf(map)) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f) << builtin.name;
+        for (const float value : storedTexels<float>(map))
+            ASSERT_TRUE(std::isfinite(value) && value >= 0.0f) << builtin.name;
     }
 }
 

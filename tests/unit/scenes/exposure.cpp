@@ -3,19 +3,20 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "scenes/Defaults.h"
 #include "scenes/Illuminance.h"
 #include "scenes/Load.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 #include "tests/unit/scenes/TempFolder.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::scenes {
 namespace {
+
+using namespace test;
 
 constexpr double kExposureRounding = 1e-6;
 
@@ -143,10 +144,10 @@ TEST(Exposure, stopsBringToADisplaysBrightHalfWhatIsMoreThanTwoOfThemAway) {
 }
 
 /// A triangle that faces a sun.
-std::string litModel(const test::TempFolder& folder, double lux, double roughness = 1.0) {
+std::string litModel(const TempFolder& folder, double lux, double roughness = 1.0) {
     constexpr const char* kTriangle = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"; // (0 0 0), (1 0 0), (0 1 0)
-    return folder
-        .write("lit.gltf", fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"],
+    return folder.file("lit.gltf",
+                       fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_lights_punctual"],
                 "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "directional", "intensity": {}}}]}}}},
                 "buffers": [{{"byteLength": 36, "uri": "data:application/octet-stream;base64,{}"}}],
                 "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
@@ -156,28 +157,24 @@ std::string litModel(const test::TempFolder& folder, double lux, double roughnes
                 "materials": [{{"pbrMetallicRoughness": {{"roughnessFactor": {}}}}}],
                 "nodes": [{{"mesh": 0}}, {{"extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
                 "scene": 0, "scenes": [{{"nodes": [0, 1]}}]}})",
-                                       lux, kTriangle, roughness))
-        .string();
+                                   lux, kTriangle, roughness));
 }
 
 TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     const auto write = [&](double lux) { return litModel(folder, lux); };
-    const auto isTold = [](const Scene& scene, const char* part, Advice advice = Advice::Options) {
-        return suppliedText(scene, advice).find(part) != std::string::npos;
-    };
     const Scene bright = loadScene(write(1e5)); // the sun's, 1e5 / pi of a white card
     EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-16.0));
-    EXPECT_TRUE(isTold(bright, "too bright for a display: exposed by -16 EV (--exposure chooses another)"));
+    EXPECT_THAT(suppliedText(bright),
+                HasSubstr("too bright for a display: exposed by -16 EV (--exposure chooses another)"));
     EXPECT_FALSE(loadScene(write(1.0)).options.wishes.contains("exposureEV"));
     const Scene dim = loadScene(write(0.01));
     EXPECT_EQ(dim.options.wishes.at("exposureEV"), Wish(7.0));
-    EXPECT_TRUE(isTold(dim, "too dim for a display: exposed by +7 EV (--exposure chooses another)"));
-    EXPECT_TRUE(isTold(dim, "(the panel View chooses another)", Advice::Panels));
-    const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
+    EXPECT_THAT(suppliedText(dim), HasSubstr("too dim for a display: exposed by +7 EV (--exposure chooses another)"));
+    EXPECT_THAT(suppliedText(dim, Advice::Panels), HasSubstr("(the panel View chooses another)"));
+    const std::string own = folder.file("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})");
     EXPECT_FALSE(loadScene(own).options.wishes.contains("exposureEV")) << "who writes a scene says how it is shown";
-    LoadOptions options;
-    options.lights = 0;
+    LoadOptions options = loading(&LoadOptions::lights, 0);
     EXPECT_FALSE(loadScene(write(0.01), options).options.wishes.contains("exposureEV"));
 }
 
@@ -189,7 +186,7 @@ double fillOf(const Scene& scene) {
 }
 
 TEST(FillLight, isAQuarterOfAModelsOwnLightOrWhatThatLacks) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     constexpr double kBrightLux = kBrightLuminance * std::numbers::pi;
     EXPECT_NEAR(fillOf(loadScene(litModel(folder, kBrightLux))), 0.25, 0.02);
     EXPECT_NEAR(fillOf(loadScene(litModel(folder, 1e5))), 0.25, 0.1) << "exposed";
@@ -197,20 +194,16 @@ TEST(FillLight, isAQuarterOfAModelsOwnLightOrWhatThatLacks) {
     EXPECT_EQ(fillOf(loadScene(litModel(folder, 0.0))), 1.0);
     const Scene mirror = loadScene(litModel(folder, kBrightLux, 0.05));
     EXPECT_GT(fillOf(mirror), 0.9) << "smooth metal shows what is around it";
-    EXPECT_NE(suppliedText(mirror).find("lit by the built-in environment 'studio' at "), std::string::npos);
-    EXPECT_NE(suppliedText(mirror).find(" % beside its own lights, turned to the camera"), std::string::npos);
+    EXPECT_THAT(suppliedText(mirror), HasSubstr("lit by the built-in environment 'studio' at "));
+    EXPECT_THAT(suppliedText(mirror), HasSubstr(" % beside its own lights, turned to the camera"));
 }
 
 TEST(FillLight, isLeftOutWhereItWasNotAskedFor) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     const std::string model = litModel(folder, 1.0);
-    LoadOptions dark;
-    dark.defaultLight = false;
-    EXPECT_FALSE(loadScene(model, dark).environment);
-    LoadOptions few;
-    few.lights = 1;
-    EXPECT_FALSE(loadScene(model, few).environment) << "its lights are what is measured";
-    const std::string own = folder.write("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})").string();
+    EXPECT_FALSE(loadScene(model, loading(&LoadOptions::defaultLight, false)).environment);
+    EXPECT_FALSE(loadScene(model, loading(&LoadOptions::lights, 1)).environment) << "its lights are what is measured";
+    const std::string own = folder.file("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})");
     EXPECT_FALSE(loadScene(own).environment);
 }
 

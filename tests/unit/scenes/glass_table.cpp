@@ -1,12 +1,9 @@
 // The built-in scene glass: what stands on its table, and what its front camera sees of it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <set>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -59,7 +56,7 @@ struct FlatTriangle {
 std::vector<FlatTriangle> trianglesOf(const Scene& scene, const Node& node) {
     std::vector<FlatTriangle> triangles;
     for (const MeshInstance& instance : node.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             FlatTriangle& triangle = triangles.emplace_back();
             for (std::size_t corner = 0; corner < 3; ++corner)

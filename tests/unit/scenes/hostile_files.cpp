@@ -9,24 +9,28 @@
 #include "scenes/write/SceneOrigin.h"
 #include "tests/support/AssetsFolder.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
+#include "tests/unit/scenes/PictureBytes.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 #include "tests/unit/scenes/json/SceneFiles.h"
 
 namespace tessera::scenes {
 namespace {
 
+using namespace test;
 using gltf::test::Builder;
-using test::inputErrorOf;
-using test::listOf;
-using test::SceneFolder;
-using test::TempFolder;
-using testing::AllOf;
-using testing::HasSubstr;
+
+/// What a load of the file is refused with under a limit of memory.
+template <typename Read>
+std::string errorUnder(const Read& read, const std::filesystem::path& file,
+                       std::optional<std::uint64_t> limitBytes = {}) {
+    return inputErrorOf([&] { underLedger(read, file, limitBytes); });
+}
 
 TEST(Memory, aLimitThatIsNotGivenIsHalfOfTheMachinesOrLess) {
     EXPECT_GE(defaultMemoryLimitBytes(), 64 * kMiB);
     const long machineBytes = sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
-    EXPECT_LE(defaultMemoryLimitBytes(), static_cast<std::uint64_t>(machineBytes) / 2);
+    EXPECT_LE(defaultMemoryLimitBytes(), std::uint64_t(machineBytes) / 2);
     EXPECT_EQ(sizeText(694), "694 B");
     EXPECT_EQ(sizeText(3 * kMiB / 2), "1.5 MiB");
 }
@@ -66,7 +70,7 @@ TEST(Memory, accessorsThatAreReadAgainAndAgainAreCharged) {
         builder.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", zeros}}}});
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
-    const std::string error = inputErrorOf([&] { underLedger(importGltf, file, 256 * kMiB); });
+    const std::string error = errorUnder(importGltf, file, 256 * kMiB);
     EXPECT_THAT(error, AllOf(HasSubstr("m.gltf: /"), HasSubstr("of memory"), HasSubstr("may take 256.0 MiB"),
                              HasSubstr("memory limit")));
 }
@@ -81,26 +85,19 @@ TEST(Memory, instancesAreCharged) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
     EXPECT_EQ(underLedger(importGltf, file, 128 * kMiB).nodes.size(), 2000u);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 24 * kMiB); }), HasSubstr("m.gltf: /nodes/"));
+    EXPECT_THAT(errorUnder(importGltf, file, 24 * kMiB), HasSubstr("m.gltf: /nodes/"));
 }
 
 /// A PNG of 8192 x 8192 texels of one bit, all 0, of which nothing but the header is ever read.
 std::string pictureBomb() {
-    std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x20\0\0\0\x20\0\x01\0\0\0\0", 29);
-    // The chunk's check sum. Source: PNG specification, annex D.
-    std::uint32_t crc = 0xffffffffu;
-    for (std::size_t i = 12; i < 29; ++i) {
-        crc ^= static_cast<std::uint8_t>(png[i]);
-        for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
-    }
-    for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(~crc >> shift & 0xff);
-    return png + std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
+    return kPngBegin + pngChunk("IHDR", std::string("\0\0\x20\0\0\0\x20\0\x01\0\0\0\0", 13)) +
+           std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
 }
 
 TEST(Memory, picturesAreChargedFromTheirHeader) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write("bomb.png", pictureBomb());
-    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, file, 64 * kMiB); }),
+    EXPECT_THAT(errorUnder(readImage, file, 64 * kMiB),
                 AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
 }
 
@@ -108,8 +105,7 @@ TEST(Memory, aModelOfAnyNumberOfPicturesThatCannotBeReadIsRefusedAfterSomeOfThem
     constexpr int kImages = 20; // each claims 256 MiB, and what it is read from comes on top
     Builder builder;
     builder.folder.write("bomb.png", pictureBomb());
-    builder.primitive()["attributes"]["TEXCOORD_0"] =
-        builder.add(std::vector<float>{0, 0, 1, 0, 0, 1}, 5126, "VEC2", 3);
+    builder.attribute("TEXCOORD_0", "VEC2", {0, 0, 1, 0, 0, 1});
     gltf::test::Json &images = builder.json["images"], &textures = builder.json["textures"];
     gltf::test::Json &materials = builder.json["materials"], &primitives = builder.json["meshes"][0]["primitives"];
     const gltf::test::Json primitive = primitives[0];
@@ -122,7 +118,7 @@ TEST(Memory, aModelOfAnyNumberOfPicturesThatCannotBeReadIsRefusedAfterSomeOfThem
         primitives.back()["material"] = i;
     }
     const std::filesystem::path file = builder.folder.write("m.gltf", builder.json.dump());
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 512 * kMiB); }),
+    EXPECT_THAT(errorUnder(importGltf, file, 512 * kMiB),
                 HasSubstr("m.gltf: /images/15: the pictures up to here that cannot be read took 4.0 GiB of memory, and "
                           "4.0 GiB at most are spent on them"));
 }
@@ -154,7 +150,7 @@ TEST(Memory, aBuiltinSceneThatIsIncludedIsChargedBeforeItIsMade) {
     const TempFolder folder;
     const std::filesystem::path file =
         folder.write("s.json", R"({"tessera": 1, "include": [{"file": "builtin:hall"}]})");
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, kMiB); }),
+    EXPECT_THAT(errorUnder(importSceneJson, file, kMiB),
                 AllOf(HasSubstr("s.json: 'hall': asks for " + sizeText(builtinScene("hall")->bytes)),
                       HasSubstr("may take 1.0 MiB")));
 }
@@ -163,11 +159,11 @@ TEST(Memory, claimedSizesAreCheckedBeforeReadersAllocate) {
     const TempFolder folder;
     const std::string gif("GIF89a\x20\x4e\x20\x4e\x80\0\0\0\0\0\0\0\0,\0\0\0\0\x20\x4e\x20\x4e\0\x02\x02\x4c\x01\0;",
                           35);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, folder.write("a.gif", gif)); }),
+    EXPECT_THAT(errorUnder(readImage, folder.write("a.gif", gif)),
                 HasSubstr("a.gif: the picture has 20000x20000 texels"));
     std::string exr("\x76\x2f\x31\x01\x02\0\0\0dataWindow\0box2i\0\x10\0\0\0", 29);
     exr += std::string("\0\0\0\x80\0\0\0\x80\xff\xff\xff\x7f\xff\xff\xff\x7f\0", 17);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(readImage, folder.write("a.exr", exr)); }),
+    EXPECT_THAT(errorUnder(readImage, folder.write("a.exr", exr)),
                 HasSubstr("a.exr: the picture has 4294967296x4294967296 texels"));
 }
 
@@ -176,32 +172,30 @@ std::string refusalOfExr(const std::string& type, const std::string& sizeAndValu
     const TempFolder folder;
     const std::string exr = std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + "owner" + '\0' + type + '\0' + sizeAndValue;
     const std::filesystem::path file = folder.write("a.exr", exr);
-    const std::string error = inputErrorOf([&] { underLedger(readImage, file); });
-    EXPECT_THAT(error, testing::StartsWith(file.string() + ": the openexr picture cannot be decoded ("));
+    const std::string error = errorUnder(readImage, file);
+    EXPECT_THAT(error, StartsWith(file.string() + ": the openexr picture cannot be decoded ("));
     const std::size_t first = error.find('(');
     return error.substr(first, error.find(')') + 1 - first);
 }
 
 TEST(Memory, aValueOfAnExrHeaderIsNotReservedUnlessTheFileHoldsIt) {
     const std::string twoGiB("\xff\xff\xff\x7f", 4), eight("\x08\0\0\0", 4);
-    EXPECT_EQ(refusalOfExr("string", twoGiB + "abcd"),
-              "(its attribute 'owner' of type string claims 2147483647 bytes where 4 are left)");
-    EXPECT_EQ(refusalOfExr("none of its own", twoGiB + "abcd"),
-              "(its attribute 'owner' of type none of its own claims 2147483647 bytes where 4 are left)");
-    EXPECT_EQ(refusalOfExr("stringvector", eight + twoGiB + "abcd"),
-              "(its attribute 'owner' of type stringvector claims 2147483647 bytes where 4 are left)");
-    // Allocations that the reader makes without checking the size would hide the later ones.
-    EXPECT_EQ(refusalOfExr("box2i", eight + "abcdefgh"),
-              "(its attribute 'owner' of type box2i claims 8 bytes and has 16)");
-    EXPECT_EQ(refusalOfExr("chlist", std::string("\x02\0\0\0\0abcdefgh", 13)),
-              "(its attribute 'owner' of type chlist has 2 bytes: its list of channels ends earlier)");
-    // OpenEXR reads on behind a list without an end, where an attribute may claim anything.
-    EXPECT_EQ(refusalOfExr("chlist", std::string("\x12\0\0\0R\0", 6) + std::string(16, '\1')),
-              "(its attribute 'owner' of type chlist has 18 bytes: its list of channels has no end)");
-    EXPECT_EQ(refusalOfExr("chlist", std::string("\x06\0\0\0R\0\1\1\1\1", 10)),
-              "(its attribute 'owner' of type chlist has 6 bytes: its list of channels has no end)");
-    EXPECT_EQ(refusalOfExr("floatvector", std::string("\x06\0\0\0abcdef", 10)),
-              "(its attribute 'owner' of type floatvector has 6 bytes: a number takes 4)");
+    const struct {
+        std::string type, sizeAndValue, flaw;
+    } cases[] = {{"string", twoGiB + "abcd", "claims 2147483647 bytes where 4 are left"},
+                 {"none of its own", twoGiB + "abcd", "claims 2147483647 bytes where 4 are left"},
+                 {"stringvector", eight + twoGiB + "abcd", "claims 2147483647 bytes where 4 are left"},
+                 // Allocations that the reader makes without checking the size would hide the later ones.
+                 {"box2i", eight + "abcdefgh", "claims 8 bytes and has 16"},
+                 {"chlist", std::string("\x02\0\0\0\0abcdefgh", 13), "has 2 bytes: its list of channels ends earlier"},
+                 // OpenEXR reads on behind a list without an end, where an attribute may claim anything.
+                 {"chlist", std::string("\x12\0\0\0R\0", 6) + std::string(16, '\1'),
+                  "has 18 bytes: its list of channels has no end"},
+                 {"chlist", std::string("\x06\0\0\0R\0\1\1\1\1", 10), "has 6 bytes: its list of channels has no end"},
+                 {"floatvector", std::string("\x06\0\0\0abcdef", 10), "has 6 bytes: a number takes 4"}};
+    for (const auto& one : cases)
+        EXPECT_EQ(refusalOfExr(one.type, one.sizeAndValue),
+                  "(its attribute 'owner' of type " + one.type + " " + one.flaw + ")");
 }
 
 TEST(Memory, aFileStaysChargedForItsRemainingMemory) {
@@ -225,7 +219,7 @@ TEST(Memory, copiesOfAnIncludeAreChargedAndItsFileReadTwiceAtMost) {
     LoadLedger ledger;
     EXPECT_EQ(importSceneJson(file, ledger).meshes.size(), 1000u);
     EXPECT_LE(ledger.files().size(), 3u);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, 16 * kMiB); }),
+    EXPECT_THAT(errorUnder(importSceneJson, file, 16 * kMiB),
                 AllOf(HasSubstr("scene.json: include"), HasSubstr("models/big.obj")));
 }
 
@@ -247,20 +241,17 @@ TEST(Memory, keptIncludesAreChargedWhenTheirDocumentIsRead) {
     const std::uint64_t sceneBytes = bytesOf(importSceneJson(file, ledger));
     EXPECT_EQ(ledger.usedBytes(), sceneBytes);
     // The scene holds each file twice, and the importer a third copy.
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, file, sceneBytes * 5 / 4); }), HasSubstr("of memory"));
+    EXPECT_THAT(errorUnder(importSceneJson, file, sceneBytes * 5 / 4), HasSubstr("of memory"));
 }
 
 TEST(Memory, theOriginOfASceneNeverTakesMoreThanADocumentAtATime) {
     const TempFolder folder;
     folder.write("shared.json",
                  R"({"tessera": 1, "name": ")" + std::string(4000, 'n') + "\"" + std::string(100'000, ' ') + "}");
-    const std::string file =
-        folder
-            .write("s.json", R"({"tessera": 1, "include": [)" +
-                                 listOf(1000, [](int) { return std::string(R"({"file": "shared.json"})"); }) + "]}")
-            .string();
-    LoadOptions options;
-    options.memoryLimitBytes = 16 * kMiB;
+    const std::string file = folder.file("s.json", R"({"tessera": 1, "include": [)" + listOf(1000, [](int) {
+                                                       return std::string(R"({"file": "shared.json"})");
+                                                   }) + "]}");
+    LoadOptions options = loading(&LoadOptions::memoryLimitBytes, 16 * kMiB);
     const Scene scene = loadScene(file, options);
     EXPECT_EQ(originOf(file, options, scene).documents.size(), 2u);
     options.memoryLimitBytes = bytesOf(scene) + 1000;
@@ -361,8 +352,7 @@ TEST(Memory, aBufferThatIsTooLargeIsNamedOnce) {
     builder.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(4 * kMiB, 'A');
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 16 * kMiB); }),
-                testing::StartsWith(file.string() + ": /buffers/0: asks for"));
+    EXPECT_THAT(errorUnder(importGltf, file, 16 * kMiB), StartsWith(file.string() + ": /buffers/0: asks for"));
 }
 
 TEST(Memory, everyWarningOfAGltfFileIsCharged) {
@@ -373,7 +363,7 @@ TEST(Memory, everyWarningOfAGltfFileIsCharged) {
         folder.write("m.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],)"
                                R"("meshes": [{"name": ")" +
                                    std::string(100'000, 'a') + R"(", "primitives": [)" + primitives + "]}]}");
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importGltf, file, 32 * kMiB); }), HasSubstr("its warnings"));
+    EXPECT_THAT(errorUnder(importGltf, file, 32 * kMiB), HasSubstr("its warnings"));
 }
 
 TEST(Memory, everyMeshOfAnObjFileIsCharged) {
@@ -381,7 +371,7 @@ TEST(Memory, everyMeshOfAnObjFileIsCharged) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 20'000; ++i) text += "g\nf 1 2 3\n";
     const std::filesystem::path file = folder.write("m.obj", text);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, file, 32 * kMiB); }), HasSubstr("m.obj:"));
+    EXPECT_THAT(errorUnder(importObj, file, 32 * kMiB), HasSubstr("m.obj:"));
 }
 
 TEST(Memory, statementsThatAreLeftOutAreChargedForTheirWarning) {
@@ -390,21 +380,21 @@ TEST(Memory, statementsThatAreLeftOutAreChargedForTheirWarning) {
     for (int i = 0; i < 100'000; ++i) unknown += fmt::format("u{}\n", i);
     const std::string model = "mtllib m.mtl\nv 0 0 0\nf 1 1 1\n";
     const std::filesystem::path obj = folder.write("m.obj", model + unknown);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
+    EXPECT_THAT(errorUnder(importObj, obj, 8 * kMiB), HasSubstr("m.obj:"));
     folder.write("m.obj", model);
     folder.write("m.mtl", "newmtl m\n" + unknown);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.mtl:"));
+    EXPECT_THAT(errorUnder(importObj, obj, 8 * kMiB), HasSubstr("m.mtl:"));
 }
 
 TEST(Memory, jsonAndObjTextsAreCharged) {
     const TempFolder folder;
     const std::filesystem::path json = folder.write(
         "s.json", R"({"tessera": 1, "lights": [)" + listOf(300'000, [](int) { return std::string("[]"); }) + "]}");
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importSceneJson, json, 8 * kMiB); }), HasSubstr("s.json: its JSON"));
+    EXPECT_THAT(errorUnder(importSceneJson, json, 8 * kMiB), HasSubstr("s.json: its JSON"));
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 100'000; ++i) text += "f 1 2 3\n";
     const std::filesystem::path obj = folder.write("m.obj", text);
-    EXPECT_THAT(inputErrorOf([&] { underLedger(importObj, obj, 8 * kMiB); }), HasSubstr("m.obj:"));
+    EXPECT_THAT(errorUnder(importObj, obj, 8 * kMiB), HasSubstr("m.obj:"));
 }
 
 } // namespace

@@ -1,19 +1,16 @@
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "scenes/builtin/Builtin.h"
 #include "tests/support/UnderLedger.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 
 namespace tessera::scenes::builtin {
 namespace {
 
 Scene lattice(std::optional<int> lights = {}) {
-    LoadOptions options;
-    options.lights = lights;
-    return underLedger(makeLattice, options);
+    return underLedger(makeLattice, loading(&LoadOptions::lights, lights));
 }
 
 TEST(Lattice, hasExactlyTheSpecifiedCountsAndBounds) {
@@ -42,19 +39,19 @@ TEST(Lattice, shapesPlacesAndMaterialsFollowTheGrid) {
     std::array<std::array<bool, 16>, 16> seen{};
     for (const Node& node : scene.nodes) {
         ASSERT_EQ(node.instances.size(), 1u);
-        const std::string& shape = scene.meshes[static_cast<std::size_t>(node.instances[0].mesh)].name;
+        const std::string& shape = scene.meshes[std::size_t(node.instances[0].mesh)].name;
         if (shape == "floor") {
             EXPECT_EQ(node.instances[0].material, 8);
             continue;
         }
         const glm::dvec3 centerWS(node.parentFromNode[3]);
-        const int i = static_cast<int>(std::lround((centerWS.x + 10.0) / 1.25 - 0.5));
-        const int j = static_cast<int>(std::lround((centerWS.z + 10.0) / 1.25 - 0.5));
+        const int i = int(std::lround((centerWS.x + 10.0) / 1.25 - 0.5));
+        const int j = int(std::lround((centerWS.z + 10.0) / 1.25 - 0.5));
         const bool sphere = (i + j) % 2 == 0;
         EXPECT_EQ(shape, sphere ? "sphere" : "box");
         EXPECT_EQ(centerWS, glm::dvec3((i + 0.5) * 1.25 - 10.0, sphere ? 0.45 : 0.35, (j + 0.5) * 1.25 - 10.0));
         EXPECT_EQ(node.instances[0].material, (i + 2 * j) % 8);
-        EXPECT_FALSE(std::exchange(seen.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j)), true));
+        EXPECT_FALSE(std::exchange(seen.at(std::size_t(i)).at(std::size_t(j)), true));
     }
     const glm::vec3 gold(scene.materials[5].baseColor);
     EXPECT_EQ(gold, glm::vec3(1.0f, 0.8f, 0.3f));
@@ -82,12 +79,12 @@ TEST(Lattice, lightsAreThoseOfTheIntegerGenerator) {
     std::uint64_t state = 12345;
     const auto draw = [&] {
         state = (state * 1664525u + 1013904223u) & 0xffffffffu;
-        return std::ldexp(static_cast<double>(state), -32);
+        return std::ldexp(double(state), -32);
     };
     for (const Light& light : scene.lights) {
-        const float x = static_cast<float>(-10 + 20 * draw());
-        const float y = static_cast<float>(1 + 1.2 * draw());
-        const float z = static_cast<float>(-10 + 20 * draw());
+        const float x = float(-10 + 20 * draw());
+        const float y = float(1 + 1.2 * draw());
+        const float z = float(-10 + 20 * draw());
         const double hue = draw();
         EXPECT_EQ(light.positionWS, glm::dvec3(x, y, z));
         for (int k = 0; k < 3; ++k) {
@@ -100,8 +97,7 @@ TEST(Lattice, lightsAreThoseOfTheIntegerGenerator) {
         EXPECT_EQ(light.rangeMetres, 2.5f);
     }
     // The first state of the sequence, worked out by hand: 12345 * 1664525 + 1013904223 mod 2^32 = 87628868.
-    EXPECT_EQ(scene.lights[0].positionWS.x,
-              static_cast<double>(static_cast<float>(-10.0 + 20.0 * 87628868.0 / 4294967296.0)));
+    EXPECT_EQ(scene.lights[0].positionWS.x, double(float(-10.0 + 20.0 * 87628868.0 / 4294967296.0)));
 }
 
 TEST(Lattice, moreLightsBeginWithTheSameOnes) {

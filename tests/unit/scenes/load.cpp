@@ -2,57 +2,54 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "base/Error.h"
 #include "scenes/Defaults.h"
 #include "scenes/Limits.h"
 #include "scenes/builtin/bust/Bust.h"
 #include "tests/support/AssetsFolder.h"
+#include "tests/unit/scenes/GeneratedScenes.h"
 #include "tests/unit/scenes/PictureBytes.h"
-#include "tests/unit/scenes/TempFolder.h"
 
 namespace tessera::scenes {
 namespace {
 
+using namespace test;
+
+class LoadScene : public testing::Test {
+protected:
+    std::string in(const char* name) const { return (folder.path() / name).string(); }
+    const TempFolder folder;
+};
+
 std::string complaint(const std::string& nameOrPath, const LoadOptions& options = {}) {
-    try {
-        loadScene(nameOrPath, options);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return inputErrorOf([&] { loadScene(nameOrPath, options); });
 }
 
-TEST(LoadScene, unknownNamesBringTheNearest) {
+TEST_F(LoadScene, unknownNamesBringTheNearest) {
     EXPECT_EQ(complaint("latice"), "no built-in scene or file is called 'latice'; did you mean 'lattice'?");
     EXPECT_EQ(complaint("quetzalcoatl"),
               "no built-in scene or file is called 'quetzalcoatl'; valid are hall, spheres, models, lattice, room, "
               "shadow_truth, head, head_skin, head_marble, diffusion_truth, lamps, studio, glass");
 }
 
-TEST(LoadScene, missingAndForeignFilesAreNamed) {
+TEST_F(LoadScene, missingAndForeignFilesAreNamed) {
     EXPECT_EQ(complaint("nowhere/scene.gltf"), "nowhere/scene.gltf: no such file; check the path");
     EXPECT_EQ(complaint("nowhere.obj"), "nowhere.obj: no such file; check the path");
-    const test::TempFolder folder;
-    folder.write("scene.fbx", "x");
-    const std::string fbx = (folder.path() / "scene.fbx").string();
+    const std::string fbx = folder.file("scene.fbx", "x");
     EXPECT_EQ(complaint(fbx), fbx + ": not a scene file; give a .gltf, .glb, .obj or .json file");
     const std::string directory = folder.path().string();
     EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
     folder.write("box.GLTF", "{}");
-    EXPECT_EQ(complaint(directory),
-              directory + ": is a folder; give the scene in it, '" + (folder.path() / "box.GLTF").string() + "'");
+    EXPECT_EQ(complaint(directory), directory + ": is a folder; give the scene in it, '" + in("box.GLTF") + "'");
     folder.write("other.obj", "");
     EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
 }
 
-TEST(LoadScene, numberOfLightsIsFrom0ToTheMost) {
-    LoadOptions options;
-    options.lights = -1;
+TEST_F(LoadScene, numberOfLightsIsFrom0ToTheMost) {
+    LoadOptions options = loading(&LoadOptions::lights, -1);
     EXPECT_EQ(complaint("lattice", options), "cannot use -1 lights; give a number from 0 to 262144");
     options.lights = 262145;
     EXPECT_EQ(complaint("lattice", options), "cannot use 262145 lights; give a number from 0 to 262144");
@@ -62,46 +59,38 @@ TEST(LoadScene, numberOfLightsIsFrom0ToTheMost) {
     EXPECT_FALSE(dark.environment) << "who asks for no lights gets no default either";
 }
 
-TEST(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
-    LoadOptions options;
-    options.lights = kMostLights;
-    const Scene hall = loadScene("hall", options);
+TEST_F(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
+    const Scene hall = loadScene("hall", loading(&LoadOptions::lights, kMostLights));
     EXPECT_EQ(hall.lights.size(), std::size_t(kMostLights));
     EXPECT_EQ(hall.lights.back().type, LightType::Directional) << "the sky stays";
 }
 
-TEST(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsRefusedUnlessItsFirstAreAskedFor) {
-    const test::TempFolder folder;
+TEST_F(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsRefusedUnlessItsFirstAreAskedFor) {
     std::string text = R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 1})";
     for (int i = 1; i <= kMostLights; ++i) text += R"(,{"type": "point", "position": [0, 0, 0], "intensity": 1})";
-    folder.write("many.json", text + "]}");
-    const std::string file = (folder.path() / "many.json").string();
+    const std::string file = folder.file("many.json", text + "]}");
     EXPECT_EQ(complaint(file), file +
                                    ": has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or load "
                                    "only the first");
-    LoadOptions options;
-    options.lights = kMostLights;
-    EXPECT_EQ(loadScene(file, options).lights.size(), std::size_t(kMostLights));
+    EXPECT_EQ(loadScene(file, loading(&LoadOptions::lights, kMostLights)).lights.size(), std::size_t(kMostLights));
 }
 
-TEST(LoadScene, aRequestedStopTakesEffectBeforeAFileIsRead) {
+TEST_F(LoadScene, aRequestedStopTakesEffectBeforeAFileIsRead) {
     std::stop_source source;
     source.request_stop();
-    LoadOptions options;
-    options.stop = source.get_token();
+    LoadOptions options = loading(&LoadOptions::stop, source.get_token());
     EXPECT_THROW(loadScene("nowhere.obj", options), LoadStopped);
     EXPECT_THROW(loadScene("room", options), LoadStopped);
 }
 
-TEST(LoadScene, aBuiltinSceneIsFoundByItsExactName) {
+TEST_F(LoadScene, aBuiltinSceneIsFoundByItsExactName) {
     ASSERT_NE(builtinScene("room"), nullptr);
     EXPECT_EQ(builtinScene("room")->name, "room");
     EXPECT_EQ(builtinScene("Room"), nullptr);
     EXPECT_EQ(builtinScene("./room"), nullptr);
 }
 
-TEST(LoadScene, warningsNameFilesAsSeenFromTheScenesFolderAndStandOnce) {
-    const test::TempFolder folder;
+TEST_F(LoadScene, warningsNameFilesAsSeenFromTheScenesFolderAndStandOnce) {
     folder.write("models/a.mtl", "newmtl a\nmap_Kd pictures/gone.png\n");
     folder.write("models/m.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     const auto contains = [](const Scene& scene, const std::string& warning) {
@@ -110,29 +99,25 @@ TEST(LoadScene, warningsNameFilesAsSeenFromTheScenesFolderAndStandOnce) {
     const std::string lost = "a.mtl: material 'a', map_Kd: {0}pictures/gone.png: there is no such file; check the name "
                              "and the folder; its colours are a checkerboard, and what else it holds is left out";
     const std::string undefined = "no material library defines 'b'; a default material of that name is used";
-    const auto in = [&](const std::string& place) { return std::string(lost).replace(lost.find("{0}"), 3, place); };
-    const Scene model = loadScene((folder.path() / "models/m.obj").string());
-    EXPECT_EQ(contains(model, in("")), 1);
+    const auto lostIn = [&](const std::string& place) { return std::string(lost).replace(lost.find("{0}"), 3, place); };
+    const Scene model = loadScene(in("models/m.obj"));
+    EXPECT_EQ(contains(model, lostIn("")), 1);
     EXPECT_EQ(contains(model, undefined), 1);
     const Scene scene = loadScene(
-        folder.write("s.json", R"({"tessera": 1, "include": [{"file": "models/m.obj"}, {"file": "models/m.obj"}]})")
-            .string());
-    EXPECT_EQ(contains(scene, "models/" + in("models/")), 1);
+        folder.file("s.json", R"({"tessera": 1, "include": [{"file": "models/m.obj"}, {"file": "models/m.obj"}]})"));
+    EXPECT_EQ(contains(scene, "models/" + lostIn("models/")), 1);
     EXPECT_EQ(contains(scene, "models/m.obj: " + undefined), 1);
 
-    LoadOptions strict;
-    strict.import.isStrict = true;
-    EXPECT_THROW(loadScene((folder.path() / "s.json").string(), strict), InputError);
+    EXPECT_THROW(loadScene(in("s.json"), loading(&LoadOptions::import, strictly())), InputError);
 }
 
-TEST(LoadScene, aVariantThatNoModelHasIsRefusedWithThoseThatThereAre) {
-    const test::TempFolder folder;
+TEST_F(LoadScene, aVariantThatNoModelHasIsRefusedWithThoseThatThereAre) {
     folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
         [{"name": "beach"}, {"name": "street"}]}}})");
     folder.write("b.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
         [{"name": "night"}]}}})");
     const std::string file =
-        folder.write("s.json", R"({"tessera": 1, "include": [{"file": "a.gltf"}, {"file": "b.gltf"}]})").string();
+        folder.file("s.json", R"({"tessera": 1, "include": [{"file": "a.gltf"}, {"file": "b.gltf"}]})");
     LoadOptions options;
     for (const char* name : {"beach", "street", "night"}) {
         options.import.variant = name;
@@ -144,10 +129,8 @@ TEST(LoadScene, aVariantThatNoModelHasIsRefusedWithThoseThatThereAre) {
     EXPECT_EQ(complaint("room", options), "room: no model of the scene has variants, so none is called 'xyz'");
 }
 
-TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
-    const test::TempFolder folder;
-    folder.write("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const std::string file = (folder.path() / "triangle.OBJ").string();
+TEST_F(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
+    const std::string file = folder.file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const Scene scene = loadScene(file);
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.cameras[0].name, "default");
@@ -158,26 +141,19 @@ TEST(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     EXPECT_EQ(suppliedText(scene),
               "no light and no camera in it: lit by the built-in environment 'studio', turned to the "
               "camera, before a blurred backdrop (--environment chooses another, --backdrop what "
-              "is seen of it, --no-default-light leaves it dark), seen whole by the supplied "
-              "camera 'default'");
+              "is seen of it, --no-default-light leaves it dark), seen whole by the supplied camera 'default'");
 
-    LoadOptions options;
-    options.defaultLight = false;
-    EXPECT_FALSE(loadScene(file, options).environment);
+    EXPECT_FALSE(loadScene(file, loading(&LoadOptions::defaultLight, false)).environment);
 }
 
-TEST(LoadScene, withTheDefaultCameraAFileIsSeenAndLitAsOneWithoutCamerasIs) {
-    const test::TempFolder folder;
+TEST_F(LoadScene, withTheDefaultCameraAFileIsSeenAndLitAsOneWithoutCamerasIs) {
     folder.write("triangle.obj", "v 0 0 0\nv 9 0 1\nv 0 1 3\nf 1 2 3\n");
     constexpr const char* kBegin = R"({"tessera": 1, "include": [{"file": "triangle.obj"}])";
-    const std::string bare = folder.write("bare.json", std::string(kBegin) + "}").string();
-    const std::string seen = folder
-                                 .write("seen.json", std::string(kBegin) + R"(, "options": {"camera": "side"},
+    const std::string bare = folder.file("bare.json", std::string(kBegin) + "}");
+    const std::string seen = folder.file("seen.json", std::string(kBegin) + R"(, "options": {"camera": "side"},
         "cameras": [{"name": "away", "position": [0, 0, 99], "target": [0, 0, 100]},
-                    {"name": "side", "position": [99, 0, 0], "target": [0, 0, 0]}]})")
-                                 .string();
-    LoadOptions options;
-    options.aspect = 0.5;
+                    {"name": "side", "position": [99, 0, 0], "target": [0, 0, 0]}]})");
+    LoadOptions options = loading(&LoadOptions::aspect, 0.5);
     const Scene expected = loadScene(bare, options), own = loadScene(seen, options);
     EXPECT_EQ(own.cameras.size(), 2u);
     options.defaultCamera = true;
@@ -193,15 +169,11 @@ TEST(LoadScene, withTheDefaultCameraAFileIsSeenAndLitAsOneWithoutCamerasIs) {
     EXPECT_EQ(loadScene(bare, options).cameras, expected.cameras);
 }
 
-TEST(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
-    const test::TempFolder folder;
-    const std::string file = folder
-                                 .write("blue.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
-            "environment": {"background": [0, 0, 1]}})")
-                                 .string();
+TEST_F(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
+    const std::string file = folder.file("blue.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
+            "environment": {"background": [0, 0, 1]}})");
     EXPECT_EQ(loadScene(file).background, glm::vec3(0.0f, 0.0f, 1.0f));
-    LoadOptions options;
-    options.background = glm::dvec3(0.1, 0.25, 3.0);
+    LoadOptions options = loading(&LoadOptions::background, glm::dvec3(0.1, 0.25, 3.0));
     EXPECT_EQ(loadScene(file, options).background, glm::vec3(0.1f, 0.25f, 3.0f));
     EXPECT_EQ(loadScene("room", options).background, glm::vec3(0.1f, 0.25f, 3.0f));
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), 1e39}) {
@@ -211,44 +183,34 @@ TEST(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
     }
 }
 
-TEST(LoadScene, filesKeepTheirFirstLights) {
-    const test::TempFolder folder;
+TEST_F(LoadScene, filesKeepTheirFirstLights) {
     folder.write("lamps.json",
                  R"({"tessera": 1, "lights": [{"type": "point", "name": "a", "position": [0, 0, 0]},
                                   {"type": "point", "name": "b", "position": [0, 0, 0]}]})");
-    LoadOptions options;
-    options.lights = 1;
-    const Scene scene = loadScene((folder.path() / "lamps.json").string(), options);
+    const Scene scene = loadScene(in("lamps.json"), loading(&LoadOptions::lights, 1));
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].name, "a");
 }
 
 /// The scan is third-party and found only where TESSERA_ASSETS says; a triangle stands in for it.
-TEST(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
-    const test::TempFolder folder;
-    test::writeScan(folder);
+TEST_F(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
+    writeScan(folder);
     const tessera::test::AssetsFolder assets(folder.path().c_str());
     const auto meshCalledBust = [](const Scene& scene) {
-        for (const Mesh& mesh : scene.meshes) {
-            if (mesh.name == "bust") return true;
-        }
-        return false;
+        return std::ranges::find(scene.meshes, "bust", &Mesh::name) != scene.meshes.end();
     };
     const Scene scan = loadScene("head");
     EXPECT_FALSE(meshCalledBust(scan));
     EXPECT_EQ(scan.images.size(), 3u);
-    LoadOptions options;
-    options.useAssets = false;
-    const Scene bust = loadScene("head", options);
+    const Scene bust = loadScene("head", loading(&LoadOptions::useAssets, false));
     EXPECT_TRUE(meshCalledBust(bust));
     // Both stand on the plinth and reach equally high; single precision of half a metre.
     EXPECT_EQ(scan.cameras.size(), bust.cameras.size());
     EXPECT_NEAR(worldBounds(scan).max.y, worldBounds(bust).max.y, 1e-6);
 }
 
-TEST(LoadScene, aScannedHeadOfMarbleHasTheColourOfStoneAndNotOfSkin) {
-    const test::TempFolder folder;
-    test::writeScan(folder);
+TEST_F(LoadScene, aScannedHeadOfMarbleHasTheColourOfStoneAndNotOfSkin) {
+    writeScan(folder);
     const tessera::test::AssetsFolder assets(folder.path().c_str());
     const auto headOf = [](const char* name) {
         const Scene scene = loadScene(name);

@@ -1,7 +1,6 @@
 // Published profiles, held to print.
 #include "scenes/Subsurface.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 

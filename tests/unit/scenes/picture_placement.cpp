@@ -2,8 +2,6 @@
 #include <cmath>
 #include <cstring>
 
-#include <gmock/gmock.h>
-
 #include "base/PictureLibrary.h"
 #include "scenes/Environment.h"
 #include "tests/unit/scenes/PictureBytes.h"
@@ -12,14 +10,6 @@ namespace tessera::scenes {
 namespace {
 
 using namespace test;
-using testing::ElementsAre;
-using testing::HasSubstr;
-
-std::vector<float> numbersIn(const Image& image) {
-    std::vector<float> texels(image.texels.size() / sizeof(float));
-    std::memcpy(texels.data(), image.texels.data(), image.texels.size());
-    return texels;
-}
 
 /// A Radiance picture of grey texels, the powers of 2 with these exponents.
 std::string hdrOf(const std::string& resolution, const std::vector<int>& exponents, const std::string& lines = "") {
@@ -31,7 +21,7 @@ std::string hdrOf(const std::string& resolution, const std::vector<int>& exponen
 /// OpenImageIO adds half a step, 2^-8.
 std::vector<int> exponentsOf(const Image& image) {
     std::vector<int> exponents;
-    const std::vector<float> texels = numbersIn(image);
+    const std::vector<float> texels = storedTexels<float>(image);
     for (std::size_t at = 0; at < texels.size(); at += 4) exponents.push_back(int(std::lround(std::log2(texels[at]))));
     return exponents;
 }
@@ -56,7 +46,7 @@ TEST(PicturePlacement, theEightOrientationsOfRadiancePicturesAreTurnedUpright) {
 
 TEST(PicturePlacement, radianceIsDividedByEveryExposureAndColourCorrection) {
     const std::string lines = "EXPOSURE=2\nEXPOSURE= 4.0\n\tEXPOSURE=1000\nCOLORCORR=1 2 0.5\n";
-    const std::vector<float> texels = numbersIn(decoded(hdrOf("-Y 1 +X 1", {3}, lines), "sky.hdr"));
+    const std::vector<float> texels = storedTexels<float>(decoded(hdrOf("-Y 1 +X 1", {3}, lines), "sky.hdr"));
     EXPECT_NEAR(texels[0], 1.0f, 0.01f);
     EXPECT_NEAR(texels[1], 0.5f, 0.01f);
     EXPECT_NEAR(texels[2], 2.0f, 0.02f);
@@ -69,7 +59,7 @@ TEST(PicturePlacement, anExposureThatIsNoFactorIsTakenAsOne) {
         const std::string file = hdrOf("-Y 1 +X 1", {3}, std::string(line) + "\n");
         LoadLedger ledger, strict({}, strictly());
         const std::span bytes = std::as_bytes(std::span(file));
-        EXPECT_NEAR(numbersIn(decodeImage(bytes, "sky.hdr", ledger))[1], 8.0f, 0.1f) << line;
+        EXPECT_NEAR(storedTexels<float>(decodeImage(bytes, "sky.hdr", ledger))[1], 8.0f, 0.1f) << line;
         EXPECT_THAT(ledger.takeWarnings(),
                     ElementsAre("sky.hdr: '" + std::string(line) + "' of its header is no factor above 0; taken as 1"));
         EXPECT_THAT(inputErrorOf([&] { decodeImage(bytes, "sky.hdr", strict); }), HasSubstr("no factor above 0"));
@@ -80,7 +70,7 @@ TEST(PicturePlacement, radianceAsXyzBecomesRedGreenAndBlue) {
     // X = Y = Z = 1 but for half a step; IEC 61966-2-1's rows sum up to these.
     std::string file = hdrOf("-Y 1 +X 1", {0});
     file.replace(file.find("rgbe"), 4, "xyze");
-    const std::vector<float> texels = numbersIn(decoded(file, "sky.hdr"));
+    const std::vector<float> texels = storedTexels<float>(decoded(file, "sky.hdr"));
     EXPECT_NEAR(texels[0], 1.2048f, 0.01f);
     EXPECT_NEAR(texels[1], 0.9484f, 0.01f);
     EXPECT_NEAR(texels[2], 0.9087f, 0.01f);
@@ -109,7 +99,7 @@ std::string exrIn(std::array<int, 4> displayed, float alpha) {
 
 std::vector<float> redsOf(const Image& image) {
     std::vector<float> reds;
-    const std::vector<float> texels = numbersIn(image);
+    const std::vector<float> texels = storedTexels<float>(image);
     for (std::size_t at = 0; at < texels.size(); at += 4) reds.push_back(texels[at]);
     return reds;
 }
@@ -122,7 +112,8 @@ TEST(PicturePlacement, texelsOfAnExrLieWhereItsDisplayWindowShowsThem) {
     EXPECT_THAT(reds({2, 1, 4, 2}), ElementsAre(6, 0, 0, 0, 0, 0));
     EXPECT_THAT(reds({7, 0, 8, 0}), ElementsAre(0, 0));
     EXPECT_THAT(reds({-900000000, 0, -899999999, 0}), ElementsAre(0, 0));
-    EXPECT_EQ(numbersIn(decoded(exrIn({2, 1, 3, 1}, 1.0f), "a.exr"))[7], 0.0f) << "transparent beside the texels";
+    EXPECT_EQ(storedTexels<float>(decoded(exrIn({2, 1, 3, 1}, 1.0f), "a.exr"))[7], 0.0f)
+        << "transparent beside the texels";
     LoadLedger ledger;
     const std::string wide = exrIn({0, 0, 2000000, 0}, 1.0f);
     EXPECT_THAT(redsOf(decodeImage(std::as_bytes(std::span(wide)), "a.exr", ledger)), ElementsAre(1, 2, 3, 4, 5, 6));

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <gtest/gtest.h>
 

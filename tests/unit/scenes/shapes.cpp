@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
 
 #include "scenes/builtin/Noise.h"
 #include "scenes/builtin/Pictures.h"

@@ -1,7 +1,5 @@
 #include <chrono>
-#include <cstddef>
 #include <cstring>
-#include <vector>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,10 +1,8 @@
 // The built-in sky against its air's optical depths, paths traced through that air, and a published sky.
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <numbers>
-#include <vector>
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>

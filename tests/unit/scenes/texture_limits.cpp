@@ -2,9 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <span>
-
-#include <gmock/gmock.h>
 
 #include "scenes/LoadLedger.h"
 #include "tests/support/UnderLedger.h"
