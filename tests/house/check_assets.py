@@ -11,9 +11,9 @@ import sys
 DOCUMENT = "docs/build.md"
 HEADER = "| feature | skipped | what stands in |\n"
 NAME = re.compile(r"`(\w+\.\w+)`")
-TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)", re.MULTILINE)
+TEST = re.compile(r"^TEST(?:_F|_P|_SWEEP|_SWEEP_AS)?\((\w+),\s+(\w+)[,)]", re.MULTILINE)
 SKIP = re.compile(r"GTEST_SKIP\(\)[^;]*(?:TESSERA_ASSETS|third-party models|folder of assets|folder_)[^;]*;")
-PLACE = re.compile(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)|^class (\w+)", re.MULTILINE)
+PLACE = re.compile(r"^TEST(?:_F|_P|_SWEEP|_SWEEP_AS)?\((\w+),\s+(\w+)[,)]|^class (\w+)", re.MULTILINE)
 
 
 def skippedIn(text):

@@ -1,9 +1,6 @@
 #pragma once
-#include <glm/glm.hpp>
-
 #include "scenes/AreaLight.h"
-#include "scenes/Material.h"
-#include "scenes/Scene.h"
+#include "tests/image/EnvironmentTest.h"
 #include "tests/support/AreaLights.h"
 
 /// Lights and surfaces of tests of area lights.
@@ -38,10 +35,8 @@ inline scenes::Scene withAreaLights(scenes::Scene scene) {
 
 /// Of both sides of a quad.
 inline scenes::Material twoSidedMetal(double metallic, double perceptualRoughness) {
-    scenes::Material metal;
+    scenes::Material metal = twoSided(metalOf(perceptualRoughness));
     metal.metallic = float(metallic);
-    metal.perceptualRoughness = float(perceptualRoughness);
-    metal.doubleSided = true;
     return metal;
 }
 
@@ -62,5 +57,50 @@ inline scenes::Material velvet() {
     material.sheenPerceptualRoughness = 0.5f;
     return material;
 }
+
+/// A floor in z = 0, and half way to a light 1 m above it a plate that hides all beyond x = edgeX. The camera looks
+/// down from below the plate.
+inline scenes::Scene floorUnderAPlate(const scenes::Light& light, double edgeX, double halfHeightMetres) {
+    scenes::Scene scene = quadScene(twoSided(lambert()));
+    scenes::Node& plate = scene.nodes.emplace_back();
+    plate.parentFromNode[3] = glm::dvec4(edgeX + 1.0, 0.0, 0.5, 1.0);
+    plate.instances = {{0, 0}};
+    scene.lights = {light};
+    makeOrthographic(scene.cameras[0], halfHeightMetres);
+    scene.cameras[0].nearMetres = 0.0;
+    scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
+    return scene;
+}
+
+/// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
+class MiddleOfQuadTest : public EnvironmentTest {
+protected:
+    double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
+                const glm::dvec3& toViewer = {0.0, 0.0, 1.0},
+                const std::optional<scenes::Environment>& environment = {}) {
+        // A renderer takes longer to make than such a picture.
+        if (!renderer_ || scene_.materials[0] != material || toViewer_ != toViewer || environment ||
+            scene_.environment) {
+            renderer_.reset();
+            scene_ = quadScene(material);
+            scene_.environment = environment;
+            toViewer_ = toViewer;
+            makeOrthographic(scene_.cameras[0], 1e-4);
+            scene_.cameras[0].worldFromCamera =
+                scenes::worldFromLookAt(3.0 * glm::normalize(toViewer), glm::dvec3(0.0));
+            renderer_.emplace(context(), scene_);
+        }
+        scene_.lights = lights;
+        for (scenes::Light& light : scene_.lights) light.isSeen = false;
+        return double(renderer_->render(engine::Technique::Deferred, ofSize(3, 3)).radiance[4 * 4]);
+    }
+    /// k_d 1, without 1/pi: shows the irradiance.
+    static scenes::Material matte() { return twoSided(lambert()); }
+
+private:
+    glm::dvec3 toViewer_{0.0};
+    scenes::Scene scene_;
+    std::optional<engine::Renderer> renderer_;
+};
 
 } // namespace tessera::test

@@ -5,12 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
 #include "scenes/builtin/DiffusionTruth.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/TestScenes.h"
 
 /// Light that spreads over surfaces: what its tests have in common.
 namespace tessera::test {
@@ -38,7 +34,7 @@ template <typename Truth>
 TruthError errorOf(const Picture& picture, const scenes::Camera& camera, Truth truth) {
     double wrong = 0.0, whole = 0.0, found = 0.0, wanted = 0.0;
     const double metres = 2.0 * camera.halfHeightMetres / picture.height;
-    for (int y = 0; y < picture.height; ++y) {
+    for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
             const glm::dvec2 place = metres * (glm::dvec2(x, picture.height - 1 - y) + 0.5 -
                                                0.5 * glm::dvec2(picture.width, picture.height));
@@ -51,7 +47,6 @@ TruthError errorOf(const Picture& picture, const scenes::Camera& camera, Truth t
                 wanted += right[c];
             }
         }
-    }
     return {std::sqrt(wrong / whole), found / wanted};
 }
 
@@ -62,7 +57,7 @@ inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
         const int axis = side / 2;
         const double sign = side % 2 == 0 ? 1.0 : -1.0;
         const auto first = std::uint32_t(mesh.positionsOS.size());
-        for (int j = 0; j <= steps; ++j) {
+        for (int j = 0; j <= steps; ++j)
             for (int i = 0; i <= steps; ++i) {
                 const double a = std::tan((2.0 * i / steps - 1.0) * std::numbers::pi / 4.0);
                 const double b = std::tan((2.0 * j / steps - 1.0) * std::numbers::pi / 4.0);
@@ -77,14 +72,12 @@ inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
                 const glm::dvec2 corner(double(side % 3) / 3.0, double(side / 3) / 2.0);
                 mesh.texCoords[0].emplace_back(corner + glm::dvec2(0.03 + 0.27 * i / steps, 0.04 + 0.4 * j / steps));
             }
-        }
-        for (int j = 0; j < steps; ++j) {
+        for (int j = 0; j < steps; ++j)
             for (int i = 0; i < steps; ++i) {
                 const std::uint32_t a = first + std::uint32_t(j * (steps + 1) + i), b = a + 1;
                 const std::uint32_t c = a + std::uint32_t(steps + 1), d = c + 1;
                 mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
             }
-        }
     }
     // Vertices of edges are computed on two sides: one place each.
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i)
@@ -101,15 +94,13 @@ inline scenes::Scene sphereScene(double radiusMetres, int steps) {
     scene.nodes.resize(1);
     scene.nodes[0].parentFromNode = glm::dmat4(1.0);
     scene.nodes[0].instances = {{0, 0}};
-    scenes::Material skin;
-    skin.model = scenes::MaterialModel::Lambert;
+    scenes::Material skin = lambert();
     skin.baseColor = glm::vec4(1.0f);
     skin.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
     scene.materials = {skin};
     scenes::Camera& camera = scene.cameras[0];
     camera.worldFromCamera = scenes::worldFromLookAt(glm::dvec3(0.9, 0.7, 1.0) * (4.0 * radiusMetres), glm::dvec3(0.0));
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 1.05 * radiusMetres;
+    makeOrthographic(camera, 1.05 * radiusMetres);
     camera.nearMetres = 0.01 * radiusMetres;
     camera.farMetres = 20.0 * radiusMetres;
     return scene;
@@ -123,6 +114,20 @@ inline void mapTexture(scenes::Scene& scene, const glm::dmat2& fromXZ) {
                                double(mesh.positionsOS[i].z));
         mesh.texCoords[0][i] = glm::vec2(fromXZ * place + 0.5);
     }
+}
+
+/// The step of the scene diffusion_truth, seen from above by 2/1024 m to either side.
+inline scenes::Scene stepScene() {
+    scenes::Scene scene = scenes::loadScene("diffusion_truth");
+    scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+    return scene;
+}
+inline frame::FrameSettings stepSettings(int sideTexels) {
+    return withDiffusion(ofSize(896, 8), sideTexels);
+}
+/// What leaves at a place of it.
+inline glm::dvec3 stepAt(const glm::dvec3& placeWS) {
+    return scenes::builtin::spreadStep(placeWS.x - scenes::builtin::kTruthEdgeX);
 }
 
 class DiffusionTest : public ShadowTest {
@@ -139,23 +144,16 @@ protected:
     /// Of the step, with another mapping of the square's texture.
     TruthError stepError(int side, const std::function<void(scenes::Scene&)>& change = {},
                          shader::SourceTree shaders = shader::SourceTree()) {
-        scenes::Scene scene = scenes::loadScene("diffusion_truth");
+        scenes::Scene scene = stepScene();
         if (change) change(scene);
-        scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
-        frame::FrameSettings settings;
-        settings.sizePixels = {896, 8};
-        settings.diffusion.sideTexels = side;
-        return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], [](const glm::dvec3& placeWS) {
-            return scenes::builtin::spreadStep(placeWS.x - scenes::builtin::kTruthEdgeX);
-        });
+        return errorOf(pictureOf(scene, stepSettings(side), std::move(shaders)), scene.cameras[0], stepAt);
     }
     /// The same in an atlas of 256 texels for a profile of two Gaussians, so many texels wide, the first with a
     /// twentieth of the light.
     double stepErrorOf(double narrowTexels, double wideTexels, shader::SourceTree shaders = shader::SourceTree(),
                        const glm::dmat2& textureFromXZ = glm::dmat2(1.0)) {
-        scenes::Scene scene = scenes::loadScene("diffusion_truth");
+        scenes::Scene scene = stepScene();
         mapTexture(scene, textureFromXZ);
-        scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
         constexpr int kTexels = 256;
         constexpr double kNarrowShare = 0.05;
         for (scenes::Material& material : scene.materials) {
@@ -165,9 +163,7 @@ protected:
             material.subsurface.profile = {{variance(narrowTexels), glm::vec3(float(kNarrowShare))},
                                            {variance(wideTexels), glm::vec3(float(1.0 - kNarrowShare))}};
         }
-        frame::FrameSettings settings;
-        settings.sizePixels = {896, 8};
-        settings.diffusion.sideTexels = kTexels;
+
         const auto truth = [&](const glm::dvec3& placeWS) {
             const auto step = [&](double texels) {
                 return 0.5 *
@@ -175,7 +171,7 @@ protected:
             };
             return glm::dvec3(kNarrowShare * step(narrowTexels) + (1.0 - kNarrowShare) * step(wideTexels));
         };
-        return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], truth).l2;
+        return errorOf(pictureOf(scene, stepSettings(kTexels), std::move(shaders)), scene.cameras[0], truth).l2;
     }
     /// Of the step's mean along its edge, over 96 mm of the scene: the places of the edge within texels even out.
     double meanStepError(engine::Renderer& renderer, scenes::Scene& scene, frame::FrameSettings settings) {
@@ -198,9 +194,7 @@ protected:
     TruthError dotError(int side, shader::SourceTree shaders = shader::SourceTree()) {
         scenes::Scene scene = scenes::loadScene("diffusion_truth");
         scene.cameras = {above(scenes::builtin::kTruthDotWS, 0.25)};
-        frame::FrameSettings settings;
-        settings.sizePixels = {128, 128};
-        settings.diffusion.sideTexels = side;
+        const frame::FrameSettings settings = withDiffusion(ofSize(128, 128), side);
         return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], [](const glm::dvec3& placeWS) {
             return scenes::builtin::spreadDot(glm::distance(placeWS, scenes::builtin::kTruthDotWS));
         });

@@ -3,15 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/builtin/Pictures.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
-#include "validation/compare/ReferencePicture.h"
 
 /// Light from everywhere: what its tests have in common.
 namespace tessera::test {
@@ -36,8 +30,7 @@ inline scenes::Scene ballUnderSky(const scenes::Material& material) {
     scenes::Scene scene = quadScene(material);
     scene.meshes[0] = {};
     scenes::builtin::appendSphere(scene.meshes[0], {}, 1.0, 96, 48);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.02;
+    makeOrthographic(scene.cameras[0], 1.02);
     return scene;
 }
 
@@ -45,25 +38,18 @@ class EnvironmentTest : public ShadowTest {
 protected:
     engine::RenderedFrame rendered(const scenes::Scene& scene, frame::EnvironmentLight light, int side = 64,
                                    int samples = 256) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {side, side};
+        frame::FrameSettings settings = ofSize(side, side);
         settings.environment.light = light;
         settings.environment.samples = samples;
-        engine::Renderer renderer(context(), scene);
-        return renderer.render(engine::Technique::Deferred, settings);
+        return frameOf(scene, settings);
     }
 
     struct BallError {
         double bias, relMse;
     };
-    /// Of one channel of a picture of ballUnderSky() against the reference.
-    BallError errorOfBall(const scenes::Scene& scene, int side, std::size_t channel) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {side, side};
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> radiance = renderer.render(engine::Technique::Deferred, settings).radiance;
+    /// Of one channel, where the reference covers a pixel.
+    static BallError errorOf(const std::vector<float>& radiance, const validation::ReferencePicture& truth,
+                             std::size_t channel = 0) {
         double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
         for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
             if (truth.picture.covered[i] == 0) continue;
@@ -74,6 +60,11 @@ protected:
             count += 1.0;
         }
         return {shown / light - 1.0, squares / count};
+    }
+    /// Of a picture of ballUnderSky() against the reference.
+    BallError errorOfBall(const scenes::Scene& scene, int side, std::size_t channel) {
+        const frame::FrameSettings settings = ofSize(side, side);
+        return errorOf(drawn(scene, settings), strictReference(scene, settings), channel);
     }
 };
 

@@ -1,43 +1,36 @@
 #pragma once
 #include <array>
 
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera::test {
 
 inline constexpr int kSide = 8; ///< pixels of a picture, and texels of its texture
 
 /// The quad seen by an orthographic camera that it fills exactly: pixel (x, y) is texel (x, y).
-class FlatTest : public GlTest {
+class FlatTest : public ImageTest {
 protected:
     static scenes::Scene flatScene(const scenes::Material& material) {
         scenes::Scene scene = quadScene(material);
-        scene.cameras[0].projection = scenes::Projection::Orthographic;
-        scene.cameras[0].halfHeightMetres = 1.0;
+        makeOrthographic(scene.cameras[0], 1.0);
         return scene;
     }
     /// The quad under one directional light of one lux.
     static scenes::Scene underTheSun(const scenes::Material& material, const glm::dvec3& directionWS) {
         scenes::Scene scene = flatScene(material);
-        scenes::Light sun = pointLight({}, 1.0f);
-        sun.type = scenes::LightType::Directional;
-        sun.directionWS = directionWS;
-        scene.lights = {sun};
+        scene.lights = {sunLight(directionWS)};
         return scene;
     }
     engine::RenderedFrame frame(const scenes::Scene& scene, frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
-        engine::Renderer renderer(context(), scene);
-        const engine::RenderedFrame forward = renderer.render(engine::Technique::Forward, settings);
-        const engine::RenderedFrame deferred = renderer.render(engine::Technique::Deferred, settings);
+        const engine::RenderedFrame forward = frameOf(scene, settings, engine::Technique::Forward);
+        const engine::RenderedFrame deferred = frameOf(scene, settings);
         EXPECT_EQ(forward.radiance, deferred.radiance);
         EXPECT_EQ(forward.display, deferred.display);
         return deferred;
     }
     static glm::vec4 pixel(const engine::RenderedFrame& frame, int x, int y) {
-        const float* p = &frame.radiance[std::size_t(4 * (y * kSide + x))];
+        const float* const p = pixelAt(frame.radiance, kSide, x, y);
         return {p[0], p[1], p[2], p[3]};
     }
     glm::vec4 center(const scenes::Scene& scene) { return pixel(frame(scene), kSide / 2, kSide / 2); }
@@ -49,25 +42,27 @@ scenes::Image image8(Value value) {
     scenes::Image image;
     image.name = "texels";
     image.width = image.height = kSide;
-    for (int y = 0; y < kSide; ++y) {
-        for (int x = 0; x < kSide; ++x) {
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
             for (const int c : std::array<int, 4>(value(x, y))) image.texels.push_back(std::byte(c));
-        }
-    }
     return image;
 }
 inline scenes::Image uniformImage(std::array<int, 4> texel) {
     return image8([=](int, int) { return texel; });
 }
-/// One texel of four floats.
-inline scenes::Image floatImage(const glm::vec4& texel) {
+/// Texels of four floats, row by row.
+inline scenes::Image floatImage(int width, const std::vector<glm::vec4>& texels) {
     scenes::Image image;
-    image.name = "texel";
-    image.width = image.height = 1;
+    image.name = "floats";
+    image.width = width;
+    image.height = int(texels.size()) / width;
     image.format = scenes::TexelFormat::Rgba32Float;
-    const auto* bytes = reinterpret_cast<const std::byte*>(&texel);
-    image.texels.assign(bytes, bytes + sizeof(texel));
+    const auto* const bytes = reinterpret_cast<const std::byte*>(texels.data());
+    image.texels.assign(bytes, bytes + texels.size() * sizeof(glm::vec4));
     return image;
+}
+inline scenes::Image floatImage(const glm::vec4& texel) {
+    return floatImage(1, {texel});
 }
 /// Every texel has its own colour: red encodes its column, green its row.
 inline scenes::Image mapImage() {
@@ -79,12 +74,6 @@ inline scenes::TextureUse nearest() {
     use.image = 0;
     use.sampler.magnification = use.sampler.minification = scenes::Filter::Nearest;
     return use;
-}
-
-inline scenes::Material unlit() {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::SingleColor;
-    return material;
 }
 
 inline scenes::Scene texturedScene(scenes::Scene scene, scenes::TextureSlot slot, scenes::Image image) {

@@ -17,15 +17,7 @@ inline constexpr double kBehindTiltRadians = 0.5;                 ///< of the gl
 
 /// Of the metres to either side of x = 0 that two texels are apart, so that what lies between is a ramp of 0 to 1.
 inline scenes::Image rampImage() {
-    const glm::vec4 texels[] = {{0.0f, 0.25f, 1.0f, 1.0f}, {1.0f, 0.75f, 0.0f, 1.0f}};
-    scenes::Image image;
-    image.name = "ramp";
-    image.width = 2;
-    image.height = 1;
-    image.format = scenes::TexelFormat::Rgba32Float;
-    const auto* const bytes = reinterpret_cast<const std::byte*>(texels);
-    image.texels.assign(bytes, bytes + sizeof(texels));
-    return image;
+    return floatImage(2, {{0.0f, 0.25f, 1.0f, 1.0f}, {1.0f, 0.75f, 0.0f, 1.0f}});
 }
 
 inline scenes::Image checkerImage() {
@@ -44,11 +36,8 @@ inline void placeQuad(scenes::Node& node, double z, double halfMetres, double ti
 
 /// A wall that shines by itself, and fills the picture.
 inline scenes::Scene wallScene(scenes::Image image, double halfMetres) {
-    scenes::Scene scene = quadScene(unlit());
-    scene.images = {std::move(image)};
-    scene.materials[0].texture(scenes::TextureSlot::BaseColor) = nearest();
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    scenes::Scene scene = texturedScene(quadScene(unlit()), scenes::TextureSlot::BaseColor, std::move(image));
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.background = {0.125f, 0.375f, 0.625f};
     placeQuad(scene.nodes[0], -kBehindWallMetres, halfMetres);
     return scene;
@@ -69,10 +58,7 @@ inline scenes::Scene rampWall() {
 /// The scene with a quad of glass before it, wider than the picture.
 inline scenes::Scene coveredByGlass(scenes::Scene scene, const scenes::Material& glass, double tiltRadians = 0.0,
                                     double halfMetres = 4.0) {
-    scene.materials.push_back(glass);
-    scenes::Node& node = scene.nodes.emplace_back(scene.nodes[0]);
-    node.instances[0].material = int(scene.materials.size()) - 1;
-    placeQuad(node, 0.0, halfMetres, tiltRadians);
+    placeQuad(addNode(scene, glass), 0.0, halfMetres, tiltRadians);
     return scene;
 }
 
@@ -93,10 +79,29 @@ protected:
         return settings;
     }
     static glm::dvec3 at(const std::vector<float>& picture, int x, int y) {
-        const float* const pixel = &picture[std::size_t(4 * (y * kBehindPixels + x))];
+        const float* const pixel = pixelAt(picture, kBehindPixels, x, y);
         return {pixel[0], pixel[1], pixel[2]};
     }
     static double metresOf(int pixel) { return (pixel + 0.5) * kBehindPixelMetres - 1.0; }
+    /// Expects pixels to show those places of a ramp's wall, in metres along x, for which `placeOf` has one, up to a
+    /// part of a pixel of the ramp and a difference; returns how many.
+    template <typename PlaceOf>
+    static int expectPlaces(const std::vector<float>& shown, const std::vector<float>& plain, double pixels,
+                            double difference, const PlaceOf& placeOf) {
+        int judged = 0;
+        for (int y = 0; y < kBehindPixels; ++y)
+            for (int x = 0; x < kBehindPixels; ++x) {
+                const std::optional<double> place = placeOf(x, y);
+                if (!place) continue;
+                ++judged;
+                const glm::dvec3 step = glm::abs(at(plain, 1, y) - at(plain, 0, y));
+                const glm::dvec3 off = glm::abs(at(shown, x, y) - evenlyAt(plain, *place, y));
+                if (glm::all(glm::lessThanEqual(off, pixels * step + difference))) continue;
+                ADD_FAILURE() << "off by " << off.x << ", " << off.y << ", " << off.z << " at " << x << ", " << y;
+                return judged;
+            }
+        return judged;
+    }
     /// Of a picture whose colours change evenly along x.
     static glm::dvec3 evenlyAt(const std::vector<float>& picture, double metres, int y) {
         const glm::dvec3 left = at(picture, 0, y), right = at(picture, kBehindPixels - 1, y);

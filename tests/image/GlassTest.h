@@ -83,15 +83,10 @@ inline scenes::Scene fewWithGlass() {
 class GlassTest : public EnvironmentTest {
 protected:
     static frame::FrameSettings ofSide(int side, frame::EnvironmentLight light = frame::EnvironmentLight::SplitSum) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {side, side};
+        frame::FrameSettings settings = ofSize(side, side);
         settings.environment.light = light;
         settings.environment.samples = 16;
         return settings;
-    }
-    std::vector<float> drawn(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                             engine::Technique technique = engine::Technique::Deferred) {
-        return engine::Renderer(context(), scene).render(technique, settings).radiance;
     }
 };
 

@@ -1,17 +1,10 @@
 #pragma once
 #include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
 #include "scenes/Fingerprint.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/TempFolder.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera::test {
 
@@ -32,14 +25,12 @@ protected:
         return scene;
     }
     static frame::FrameSettings smallSettings() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 91};
-        settings.diffusion = coarseDiffusion();
+        frame::FrameSettings settings = withDiffusion(ofSize(160, 91));
         return settings;
     }
     std::vector<float> drawn(const scenes::Scene& scene, const frame::FrameSettings& settings,
                              engine::Technique technique = engine::Technique::Forward) {
-        return engine::Renderer(context(), scene).render(technique, settings).radiance;
+        return ShadowTest::drawn(scene, settings, technique);
     }
 
     /// Writes the text to a file of its own, and makes that the hook's.

@@ -1,25 +1,20 @@
 #pragma once
 #include <set>
 
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera::test {
 
 /// Pictures of several samples a pixel.
-class MultisamplingTest : public GlTest {
+class MultisamplingTest : public ImageTest {
 protected:
     static frame::FrameSettings sampled(glm::ivec2 sizePixels, int samples = 4) {
-        frame::FrameSettings settings;
-        settings.sizePixels = sizePixels;
-        settings.samples = samples;
+        frame::FrameSettings settings = withSamples(ofSize(sizePixels), samples);
         return settings;
     }
     Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                     engine::Technique technique = engine::Technique::Forward) {
-        engine::Renderer renderer(context(), scene);
-        return engine::toPicture(renderer.render(technique, settings));
+        return ImageTest::picture(scene, settings, technique);
     }
     static std::set<float> alphasOf(const Picture& picture) {
         std::set<float> alphas;

@@ -52,18 +52,16 @@ struct SeenSky {
 
 inline SeenSky seenOfSky(const SkyRadiance& sky, const glm::dvec3& direction) {
     const glm::dvec2 place = scenes::placeInMap(direction) * glm::dvec2(kSkyWidth, kSkyHeight) - 0.5;
-    const glm::dvec2 corner = glm::floor(place), share = place - corner;
-    const auto at = [&](int i, int j) {
-        return sky((int(corner.x) + i + kSkyWidth) % kSkyWidth, std::clamp(int(corner.y) + j, 0, kSkyHeight - 1));
-    };
+    const auto at = [&](int x, int y) { return sky((x + kSkyWidth) % kSkyWidth, std::clamp(y, 0, kSkyHeight - 1)); };
     SeenSky seen{};
-    seen.radiance = std::lerp(std::lerp(at(0, 0), at(1, 0), share.x), std::lerp(at(0, 1), at(1, 1), share.x), share.y);
+    seen.radiance = interpolated(place, at);
     // A texel more on each side, as rounding may move the place across an edge.
     seen.least = seen.most = seen.radiance;
     for (int j = -1; j <= 2; ++j)
         for (int i = -1; i <= 2; ++i) {
-            seen.least = std::min(seen.least, at(i, j));
-            seen.most = std::max(seen.most, at(i, j));
+            const double texel = at(int(std::floor(place.x)) + i, int(std::floor(place.y)) + j);
+            seen.least = std::min(seen.least, texel);
+            seen.most = std::max(seen.most, texel);
         }
     return seen;
 }

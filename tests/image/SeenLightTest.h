@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/Rendering.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/AreaLights.h"
 
@@ -41,20 +40,9 @@ inline scenes::Light turnedLamp(scenes::LightType type, const glm::dvec3& positi
     return light;
 }
 
-inline frame::FrameSettings settingsOfSize(glm::ivec2 sizePixels) {
-    frame::FrameSettings settings;
-    settings.sizePixels = sizePixels;
-    return settings;
-}
-
 /// Pictures in which lights are seen.
 class SeenLightTest : public ShadowTest {
 protected:
-    engine::RenderedFrame frame(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                engine::Technique technique = engine::Technique::Deferred) {
-        engine::Renderer renderer(context(), scene);
-        return renderer.render(technique, settings);
-    }
     static std::size_t shownPixels(const engine::RenderedFrame& frame) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < frame.radiance.size(); i += 4)

@@ -13,9 +13,7 @@
 namespace tessera::test {
 
 frame::FrameSettings settingsOf(const ShadowCase& tried) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {240, 135};
-    settings.filter = frame::TextureFilter::Exact;
+    frame::FrameSettings settings = exactOfSize(240, 135);
     settings.shadows = tried.shadows;
     return settings;
 }
@@ -43,8 +41,7 @@ scenes::Scene ballUnderSun() {
     scene.nodes[0] = {};
     scene.nodes[0].instances = {{0, 0}, {1, 0}};
     scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, 2.2, 3.6}, {0.0, 0.4, 0.0});
-    scene.lights = {pointLight({}, 3.0f)};
-    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights = {sunLight({0.0, 0.0, -1.0}, 3.0f)};
     return scene;
 }
 
@@ -68,18 +65,18 @@ void ShadowTest::expectParity(engine::Renderer& renderer, const frame::FrameSett
     EXPECT_TRUE(record.ok()) << validation::compareTable(record);
 }
 
-void ShadowTest::expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings) {
+void ShadowTest::expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings,
+                                       engine::Technique technique) {
     settings.prune = true;
-    const std::vector<float> pruned = renderer.render(engine::Technique::Deferred, settings).radiance;
+    const std::vector<float> pruned = renderer.render(technique, settings).radiance;
     settings.prune = false;
-    EXPECT_EQ(renderer.render(engine::Technique::Deferred, settings).radiance, pruned);
+    EXPECT_EQ(renderer.render(technique, settings).radiance, pruned);
 }
 
 ShadowReference shadowReference(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     frame::FrameSettings unshadowed = settings;
     unshadowed.shadows = {scenes::ShadowRequest::Kind::None};
-    return {validation::referencePicture(scene, settings), validation::referencePicture(
-                                                               scene, unshadowed, [] {}, validation::Leeway::None)};
+    return {validation::referencePicture(scene, settings), strictReference(scene, unshadowed)};
 }
 
 WrongPixels& WrongPixels::operator+=(const WrongPixels& other) {

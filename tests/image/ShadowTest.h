@@ -2,15 +2,10 @@
 #include <optional>
 #include <vector>
 
-#include "engine/Renderer.h"
-#include "scenes/Shadows.h"
-#include "tests/support/GlContext.h"
-#include "validation/compare/ReferencePicture.h"
+#include "tests/image/ImageTest.h"
 
 /// What tests of shadows have in common, traced or in maps.
 namespace tessera::test {
-
-inline constexpr scenes::ShadowRequest kAllLightsCast{scenes::ShadowRequest::Kind::All};
 
 struct ShadowCase {
     const char* scene;
@@ -39,13 +34,14 @@ scenes::Scene ballUnderSun();
 /// apart.
 glm::dvec3 sunDirection(int i, int count);
 
-class ShadowTest : public GlTest {
+class ShadowTest : public ImageTest {
 protected:
     /// Expects that all techniques draw what forward does.
     void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings,
                       std::vector<engine::Technique> techniques = {});
-    /// Expects that `deferred` draws the same bits pruned and not.
-    void expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings);
+    /// Expects that a technique draws the same bits pruned and not.
+    void expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings,
+                               engine::Technique technique = engine::Technique::Deferred);
 };
 
 /// Of a picture against the reference: those that are lit where they should be hidden or the reverse.
@@ -61,6 +57,10 @@ struct WrongPixels {
     std::size_t reached = 0;      ///< some light would give them something if nothing hid it
     std::size_t covered = 0;
     WrongPixels& operator+=(const WrongPixels& other);
+    std::string text() const {
+        return fmt::format("{} pixels wrong, {} undecided, {} dark beside no shadow, {} changed by shadows of {}",
+                           wrong, undecided, dark, hidden, covered);
+    }
 };
 
 /// What pictures with shadows are compared with.

@@ -1,15 +1,7 @@
 // Area lights on a ball against the integral over a light: docs/area-lights.md.
 #include <array>
-#include <cmath>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "scenes/LookAt.h"
 #include "tests/image/AreaLightTest.h"
-#include "tests/image/EnvironmentTest.h"
-#include "tests/support/AreaLights.h"
 
 namespace tessera {
 namespace {
@@ -26,13 +18,10 @@ protected:
         scene.lights[0].isSeen = false; // the corner of a rectangle reaches into the picture
         return errorOfBall(scene, 48, 0);
     }
-    /// For every type, roughness by roughness, or each with some: types differ in their outlines alone.
-    void expectNearTheIntegralOnABall();
 };
-using AreaLightBallsSlow = AreaLightBalls;
 
-/// Against the integral over the light, by roughness and shape: docs/area-lights.md.
-void AreaLightBalls::expectNearTheIntegralOnABall() {
+/// For every type, roughness by roughness, or each with some: types differ in their outlines alone.
+TEST_SWEEP(AreaLightBalls, onABallIsNearTheIntegralOverTheLight) {
     using enum LightType;
     std::vector<std::pair<LightType, double>> balls{
         {Rectangle, 1.0}, {Disk, 0.25}, {Sphere, 0.0}, {Tube, 0.75}, {Polygon, 0.5}};
@@ -42,22 +31,13 @@ void AreaLightBalls::expectNearTheIntegralOnABall() {
             for (const double roughness : {0.0, 0.25, 0.5, 0.75, 1.0}) balls.emplace_back(type, roughness);
     }
     for (const auto& [type, roughness] : balls) {
-        scenes::Material metal;
-        metal.metallic = 1.0f;
-        metal.perceptualRoughness = float(roughness);
-        const BallError error = onBall(metal, type);
+        const BallError error = onBall(metalOf(roughness), type);
         fmt::print("{:9} roughness {:.2f} bias {:+.1e} relMSE {:.1e}\n", scenes::infoOf(type).name, roughness,
                    error.bias, error.relMse);
         // The shapes of lobes: the worst is half as large. A mirror has the outline alone, of which pixels may differ.
         EXPECT_LE(std::abs(error.bias), roughness > 0.0 ? 0.03 : 2e-3);
         EXPECT_LE(error.relMse, roughness > 0.0 ? 0.025 : 1e-4);
     }
-}
-TEST_F(AreaLightBalls, onABallIsNearTheIntegralOverTheLight) {
-    expectNearTheIntegralOnABall();
-}
-TEST_F(AreaLightBallsSlow, onABallIsNearTheIntegralOverTheLight) {
-    expectNearTheIntegralOnABall();
 }
 
 /// A metal floor that is seen flat, by parallel rays of this cosine to its normal, under a light that stands behind
@@ -69,40 +49,21 @@ protected:
         scene.nodes[0].parentFromNode = glm::dmat4(10.0);
         scene.nodes[0].parentFromNode[3][3] = 1.0;
         scenes::Camera& camera = scene.cameras[0];
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 2.0 * cosView; // 4 m of the floor
-        const glm::dvec3 toViewer(std::sqrt(1.0 - cosView * cosView), 0.0, cosView);
-        camera.worldFromCamera = scenes::worldFromLookAt(9.0 * toViewer, glm::dvec3(0.0));
+        makeOrthographic(camera, 2.0 * cosView); // 4 m of the floor
+        camera.worldFromCamera = scenes::worldFromLookAt(9.0 * atCosine(cosView), glm::dvec3(0.0));
         scene.lights = {areaLight(type, {-2.5, 0.0, 1.0}, {1.0, 0.0, -0.5}, 1.0f)};
         scene.lights[0].isSeen = false;
         return scene;
     }
     std::vector<float> shown(const scenes::Scene& scene, const frame::AreaSettings& area) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {40, 20};
+        frame::FrameSettings settings = ofSize(40, 20);
         settings.area = area;
-        return engine::Renderer(context(), scene).render(engine::Technique::Deferred, settings).radiance;
+        return drawn(scene, settings);
     }
-    static std::vector<float> integral(const scenes::Scene& scene) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {40, 20};
-        return validation::referencePicture(
-                   scene, settings, [] {}, validation::Leeway::None)
-            .picture.rgba;
+    static validation::ReferencePicture integral(const scenes::Scene& scene) {
+        return strictReference(scene, ofSize(40, 20));
     }
-    static BallError errorOf(const std::vector<float>& picture, const std::vector<float>& truth) {
-        double shown = 0.0, light = 0.0, squares = 0.0;
-        for (std::size_t i = 0; i < picture.size(); i += 4) {
-            const double own = double(picture[i]), other = double(truth[i]);
-            shown += own;
-            light += other;
-            squares += (own - other) * (own - other) / ((other + 0.01) * (other + 0.01));
-        }
-        return {shown / light - 1.0, squares / (double(picture.size()) / 4.0)};
-    }
-    void expectNearTheIntegralOnAFloor();
 };
-using AreaLightFloorsSlow = AreaLightFloors;
 
 struct FloorFigures {
     double bias, relMse; ///< of transformed cosines
@@ -126,13 +87,13 @@ constexpr struct {
     {0.3, 1.0, {{0.013, 7e-4, 8e-4}, {0.014, 5e-4, 3e-4}, {0.013, 6e-4, 1e-3}}},
 };
 
-void AreaLightFloors::expectNearTheIntegralOnAFloor() {
+TEST_SWEEP(AreaLightFloors, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays) {
     for (const auto& [cosView, roughness, byLight] : everyNth(std::vector(std::begin(kFloors), std::end(kFloors)), 10))
         for (std::size_t i = 0; i < kFloorLights.size(); ++i) {
             const LightType type = kFloorLights[i];
             const FloorFigures& told = byLight[i];
             const scenes::Scene scene = floorUnder(type, roughness, cosView);
-            const std::vector<float> truth = integral(scene);
+            const validation::ReferencePicture truth = integral(scene);
             const BallError closed = errorOf(shown(scene, {}), truth);
             const BallError sampled = errorOf(shown(scene, {frame::AreaLights::Sampled, 16}), truth);
             fmt::print("{:9} cosine {:.1f} roughness {:.2f} bias {:+.1e} relMSE {:.1e}; sampled {:+.1e} {:.1e}\n",
@@ -144,19 +105,15 @@ void AreaLightFloors::expectNearTheIntegralOnAFloor() {
             EXPECT_LE(sampled.relMse, 1.5 * told.sampledRelMse);
         }
 }
-TEST_F(AreaLightFloors, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays) {
-    expectNearTheIntegralOnAFloor();
-}
-TEST_F(AreaLightFloorsSlow, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays) {
-    expectNearTheIntegralOnAFloor();
-}
 
 /// What transformed cosines lack is measured without the reference too, by samples on the same machine.
 TEST_F(AreaLightFloors, samplesMeasureTheErrorOfTransformedCosines) {
     const scenes::Scene scene = floorUnder(LightType::Sphere, 0.5, 0.1);
     const std::vector<float> closed = shown(scene, {});
-    const BallError byIntegral = errorOf(closed, integral(scene));
-    const BallError bySamples = errorOf(closed, shown(scene, {frame::AreaLights::Sampled, 256}));
+    validation::ReferencePicture truth = integral(scene);
+    const BallError byIntegral = errorOf(closed, truth);
+    truth.picture.rgba = shown(scene, {frame::AreaLights::Sampled, 256});
+    const BallError bySamples = errorOf(closed, truth);
     EXPECT_NEAR(bySamples.bias, byIntegral.bias, 2e-3);
     EXPECT_NEAR(bySamples.relMse / byIntegral.relMse, 1.0, 0.05);
 }
@@ -167,11 +124,8 @@ TEST_F(AreaLightBalls, onABallOfLayersIsNearTheIntegralOverTheLight) {
     scenes::Material coat = coatedSheet();
     coat.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     coat.specularFactor = 0.0f;
-    scenes::Material lobe;
+    scenes::Material lobe = blackDielectric(0.3);
     lobe.name = "lobe of a dielectric";
-    lobe.metallic = 0.0f;
-    lobe.perceptualRoughness = 0.3f;
-    lobe.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
     scenes::Material metal = lobe, dielectric = lobe;
     metal.name = "metal";
     metal.metallic = 1.0f;
@@ -199,9 +153,7 @@ TEST_F(AreaLightBalls, onABallOfLayersIsNearTheIntegralOverTheLight) {
 
 TEST_F(AreaLightBalls, onABrushedBallIsNearTheIntegralOverTheLight) {
     for (const double turnRadians : {0.0, 0.7, 1.5707963}) {
-        scenes::Material brushed;
-        brushed.metallic = 1.0f;
-        brushed.perceptualRoughness = 0.4f;
+        scenes::Material brushed = metalOf(0.4);
         brushed.anisotropyStrength = 0.8f; // alphas of 0.70 and 0.16
         brushed.anisotropyRotationRadians = float(turnRadians);
         const BallError error = onBall(brushed, LightType::Rectangle);

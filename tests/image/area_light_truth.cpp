@@ -1,20 +1,9 @@
 // Area lights: known answers, and the integral over a light.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 
-#include "scenes/LookAt.h"
 #include "tests/image/AreaLightTest.h"
-#include "tests/image/EnvironmentTest.h"
-#include "tests/image/FlatTest.h"
-#include "tests/support/AreaLights.h"
 #include "tests/support/RoughestLobe.h"
 
 namespace tessera {
@@ -25,51 +14,7 @@ using scenes::LightType;
 using std::numbers::pi;
 using namespace test;
 
-/// What AreaLightTruth::seen() showed last: a renderer takes longer to make than such a picture.
-struct Shown {
-    scenes::Material material;
-    glm::dvec3 toViewer{0.0};
-    scenes::Scene scene;
-    std::optional<engine::Renderer> renderer;
-};
-
-/// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
-class AreaLightTruth : public EnvironmentTest {
-protected:
-    double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
-                const glm::dvec3& toViewer = {0.0, 0.0, 1.0},
-                const std::optional<scenes::Environment>& environment = {}) {
-        if (!shown_ || !(shown_->material == material) || shown_->toViewer != toViewer || environment ||
-            shown_->scene.environment) {
-            shown_.emplace();
-            shown_->material = material;
-            shown_->toViewer = toViewer;
-            scenes::Scene& scene = shown_->scene = quadScene(material);
-            scene.environment = environment;
-            scenes::Camera& camera = scene.cameras[0];
-            camera.projection = scenes::Projection::Orthographic;
-            camera.halfHeightMetres = 1e-4;
-            camera.worldFromCamera = scenes::worldFromLookAt(3.0 * glm::normalize(toViewer), glm::dvec3(0.0));
-            shown_->renderer.emplace(context(), scene);
-        }
-        shown_->scene.lights = lights;
-        for (scenes::Light& light : shown_->scene.lights) light.isSeen = false;
-        frame::FrameSettings settings;
-        settings.sizePixels = {3, 3};
-        const std::vector<float> radiance = shown_->renderer->render(Technique::Deferred, settings).radiance;
-        return double(radiance[4 * 4]);
-    }
-    /// k_d 1, without 1/pi: shows the irradiance.
-    static scenes::Material matte() {
-        scenes::Material material;
-        material.model = scenes::MaterialModel::Lambert;
-        material.doubleSided = true;
-        return material;
-    }
-
-private:
-    std::optional<Shown> shown_;
-};
+class AreaLightTruth : public MiddleOfQuadTest {};
 
 /// Irradiance does not hang on the viewer. Nearly along a normal that is no axis his projection has hardly any digits,
 /// and what rounding leaves of the normal in it would shear the frame in which the light is summed up.
@@ -81,16 +26,13 @@ TEST_F(AreaLightTruth, aMatteSurfaceIsLitAlikeFromStraightAboveAndAside) {
     scene.lights = {areaLight(LightType::Rectangle, turned({0.4, 0.3, 0.5}), turned({0.0, 0.0, -1.0}), 1.0f)};
     scene.lights[0].isSeen = false;
     scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 1e-4;
+    makeOrthographic(camera, 1e-4);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {3, 3};
     const auto shown = [&](double angle, double azimuth) {
         const glm::dvec3 toViewer(std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth),
                                   std::cos(angle));
         camera.worldFromCamera = scenes::worldFromLookAt(turned(3.0 * toViewer), glm::dvec3(0.0));
-        return double(renderer.render(Technique::Forward, settings).radiance[4 * 4]);
+        return double(renderer.render(Technique::Forward, ofSize(3, 3)).radiance[4 * 4]);
     };
     const double aside = shown(0.5, 0.0);
     EXPECT_GT(aside, 0.1);
@@ -133,7 +75,7 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
         EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative) << "disk at " << height;
     }
     // A sphere that is all above the horizon: (r/d)^2 cos (B-37).
-    for (const double angle : {0.0, 0.5, 1.0}) {
+    for (const double angle : {0.0, 0.5, 1.0})
         for (const double distance : {0.7, 5.0, 400.0}) {
             const scenes::Light light =
                 areaLight(LightType::Sphere, distance * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)),
@@ -142,7 +84,6 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
             EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative)
                 << "sphere at " << distance << ", " << angle;
         }
-    }
     // An endless tube above the surface: r/h, as a strip of its width.
     scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
@@ -213,7 +154,7 @@ TEST_F(AreaLightTruth, flatLightsShineFromTheirFrontAndWhereTheyAreTwoSidedFromT
 }
 
 TEST_F(AreaLightTruth, aLightThatSetsWithNothingInItsWayLosesNothingToShadows) {
-    for (const LightType type : {LightType::Sphere, LightType::Tube, LightType::Disk}) {
+    for (const LightType type : {LightType::Sphere, LightType::Tube, LightType::Disk})
         for (const double height : {0.2, 0.0, -0.2}) {
             scenes::Light light = areaLight(type, {0.9, 0.0, height}, {-1.0, 0.0, 0.0}, 3.0f);
             const double open = seen(matte(), {light});
@@ -221,7 +162,6 @@ TEST_F(AreaLightTruth, aLightThatSetsWithNothingInItsWayLosesNothingToShadows) {
             light.castsShadow = true;
             EXPECT_NEAR(seen(matte(), {light}), open, 1e-6 * open) << scenes::infoOf(type).name << " at " << height;
         }
-    }
 }
 
 /// Of 4 m, around the origin.
@@ -246,8 +186,7 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
     for (int a = 0; a < 3; ++a)
         for (int m = 0; m < 3; ++m) {
             const scenes::Material white = twoSidedMetal(1.0, std::sqrt(kAlphas[a]));
-            const glm::dvec3 toViewer(std::sqrt(1.0 - kCosines[m] * kCosines[m]), 0.0, kCosines[m]);
-            EXPECT_NEAR(seen(white, walls, toViewer), kReflected[a][m], 1e-3)
+            EXPECT_NEAR(seen(white, walls, atCosine(kCosines[m])), kReflected[a][m], 1e-3)
                 << "alpha " << kAlphas[a] << ", cosine " << kCosines[m];
         }
 }
@@ -258,11 +197,11 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesLightsCoatsAndSheensAsAnEvenEnvironmentDo
     const std::vector<scenes::Light> walls = wallsOfBox();
     for (const scenes::Material& material : {coatedSheet(), velvet()})
         for (const double cosView : {0.1, 0.5, 1.0}) {
-            const glm::dvec3 toViewer(std::sqrt(1.0 - cosView * cosView), 0.0, cosView);
-            const double even = seen(material, {}, toViewer, evenEnvironment(1.0));
+            const double even = seen(material, {}, atCosine(cosView), evenEnvironment(1.0));
             EXPECT_GT(even, 0.1) << material.name;
             // Six shares of a lobe in single precision, and edges that cancel where walls meet.
-            EXPECT_NEAR(seen(material, walls, toViewer), even, 1e-3) << material.name << ", cosine " << cosView;
+            EXPECT_NEAR(seen(material, walls, atCosine(cosView)), even, 1e-3)
+                << material.name << ", cosine " << cosView;
         }
 }
 
@@ -272,9 +211,8 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesLightsBrushedMetalAsAnEvenEnvironmentDoes
     brushed.anisotropyStrength = 0.8f;
     brushed.anisotropyRotationRadians = 0.6f;
     for (const double cosView : {0.15, 0.5, 1.0}) {
-        const glm::dvec3 toViewer(std::sqrt(1.0 - cosView * cosView), 0.0, cosView);
-        const double even = seen(brushed, {}, toViewer, evenEnvironment(1.0));
-        EXPECT_NEAR(seen(brushed, wallsOfBox(), toViewer), even, 1e-3) << cosView;
+        const double even = seen(brushed, {}, atCosine(cosView), evenEnvironment(1.0));
+        EXPECT_NEAR(seen(brushed, wallsOfBox(), atCosine(cosView)), even, 1e-3) << cosView;
     }
 }
 
@@ -310,8 +248,7 @@ TEST_F(AreaLightTruth, aSphereFillsOfTheRoughestLobeWhatItsClosedFormSays) {
 /// A point in the plane of a flat light, within its outline, sees it in half of all directions; one beside it nowhere.
 /// That is the limit of points before it, whichever side they are on. The reference has it by hemispheres.
 TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatItsFootSees) {
-    for (const LightType type : kAreaTypes) {
-        if (!scenes::infoOf(type).isFlat) continue;
+    for (const LightType type : kFlatTypes)
         for (const double aside : {0.0, 3.0}) {
             SCOPED_TRACE(testing::Message() << scenes::infoOf(type).name << ", " << aside << " m aside");
             scenes::Light light = areaLight(type, {0.0, aside, 0.0}, {1.0, 0.0, 0.0}, 1.0f);
@@ -328,13 +265,9 @@ TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatIts
             light.isTwoSided = true;
             light.isSeen = false;
             scene.lights = {light};
-            scene.cameras[0].projection = scenes::Projection::Orthographic;
-            scene.cameras[0].halfHeightMetres = 1e-4;
-            frame::FrameSettings settings;
-            settings.sizePixels = {3, 3};
-            EXPECT_NEAR(double(validation::referencePicture(scene, settings).picture.rgba[4 * 4]), wanted, 1e-4);
+            makeOrthographic(scene.cameras[0], 1e-4);
+            EXPECT_NEAR(double(validation::referencePicture(scene, ofSize(3, 3)).picture.rgba[4 * 4]), wanted, 1e-4);
         }
-    }
 }
 
 /// By the window of the distance to the middle, (1 - (d / range)^4)^2, as places are.
@@ -367,8 +300,7 @@ TEST_F(AreaLightTruth, lightsAreNotCompensated) {
     scenes::Scene scene = quadScene(twoSidedMetal(1.0, 1.0));
     scene.lights = {areaLight(LightType::Disk, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
     scene.environment = evenEnvironment(0.0);
-    frame::FrameSettings settings;
-    settings.sizePixels = {16, 9};
+    frame::FrameSettings settings = ofSize(16, 9);
     engine::Renderer renderer(context(), scene);
     const std::vector<float> plain = renderer.render(Technique::Deferred, settings).radiance;
     settings.environment.compensates = true;

@@ -1,17 +1,10 @@
 // Area lights: every technique, and what is left out without them.
-#include <algorithm>
-#include <vector>
 
-#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "engine/PrepareView.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/Load.h"
 #include "tests/image/AreaLightTest.h"
-#include "tests/image/ShadowTest.h"
-#include "tests/support/AreaLights.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
@@ -20,15 +13,10 @@ using engine::Technique;
 using scenes::LightType;
 using namespace test;
 
-class AreaLights : public ShadowTest {
-protected:
-    void expectAllTechniquesAlike();
-    /// Of each type with a technique that has light lists, or with the one whose programs other tests share.
-    void expectPruningChangesNoBit();
-};
+class AreaLights : public ShadowTest {};
 using AreaLightsSlow = AreaLights;
 
-void AreaLights::expectAllTechniquesAlike() {
+TEST_SWEEP(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
     struct Case {
         scenes::Scene scene;
         int samples;
@@ -37,10 +25,7 @@ void AreaLights::expectAllTechniquesAlike() {
         frame::AreaLights how = frame::AreaLights::Ltc;
     };
     // Compiling takes nearly all of the time, and programs of one matte material least of it.
-    scenes::Material matte;
-    matte.model = scenes::MaterialModel::Lambert;
-    matte.doubleSided = true;
-    scenes::Scene few = withAreaLights(quadScene(matte));
+    scenes::Scene few = withAreaLights(quadScene(twoSided(lambert())));
     few.nodes.push_back(few.nodes[0]); // before the first: half a metre, a third as large, and turned
     few.nodes.back().parentFromNode = {glm::dvec4(0.3, 0.0, 0.1, 0.0), glm::dvec4(0.0, 0.3, 0.0, 0.0),
                                        glm::dvec4(-0.1, 0.0, 0.3, 0.0), glm::dvec4(0.2, 0.1, 0.5, 1.0)};
@@ -63,56 +48,33 @@ void AreaLights::expectAllTechniquesAlike() {
     for (const Case& one : cases) {
         SCOPED_TRACE(fmt::format("{}, {} samples", one.scene.name, one.samples));
         engine::Renderer renderer(context(), one.scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        settings.diffusion = coarseDiffusion();
-        settings.samples = one.samples;
+        frame::FrameSettings settings = withDiffusion(withSamples(ofSize(96, 54), one.samples));
         settings.shadows = one.shadows;
         settings.area = {one.how, 4};
         expectParity(renderer, settings, one.techniques);
     }
 }
-TEST_F(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(AreaLightsSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
 
-void AreaLights::expectPruningChangesNoBit() {
+/// Of each type with a technique that has light lists, or with the one whose programs other tests share.
+TEST_SWEEP(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     const Technique technique = isWholeSweep() ? Technique::TiledDeferred : Technique::Deferred;
     scenes::Scene scene = quadScene({});
     for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scene.lights = {areaLight(type, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
+        frame::FrameSettings settings = ofSize(96, 54);
         // Programs with everything and samples take long to compile.
         settings.area = {
             isWholeSweep() && type != LightType::Disk ? frame::AreaLights::Sampled : frame::AreaLights::Ltc, 4};
-        const auto radiance = [&](bool prune) {
-            settings.prune = prune;
-            return engine::Renderer(context(), scene).render(technique, settings).radiance;
-        };
-        EXPECT_EQ(radiance(true), radiance(false));
+        engine::Renderer renderer(context(), scene);
+        expectPruningIsUnseen(renderer, settings, technique);
     }
-}
-TEST_F(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
-}
-TEST_F(AreaLightsSlow, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
 }
 
 TEST_F(AreaLights, aSceneWithoutThemHasNoTraceOfThem) {
-    frame::FrameSettings settings;
     const scenes::Scene scene = scenes::loadScene("spheres");
-    for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, settings))
-        for (const auto& [name, value] : program.defines)
-            if (name == "HAS_AREA_LIGHTS") {
-                EXPECT_EQ(value, "0");
-            }
-    const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, settings);
+    EXPECT_THAT(definedValues(scene, "HAS_AREA_LIGHTS"), testing::Each("0"));
+    const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, {});
     EXPECT_EQ(planText(plan).find("lobe_"), std::string::npos) << planText(plan);
 }
 

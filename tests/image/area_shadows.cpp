@@ -1,44 +1,24 @@
 // Shadows of area lights past the straight edge of a plate, against the share of the light's own surface that is left.
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "scenes/LookAt.h"
+#include "tests/image/AreaLightTest.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/AreaLights.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
 
 using scenes::LightType;
+using namespace test;
 
 constexpr double kEdgeX = 0.1; ///< of the plate, half way to the light, which lies at x above it
 constexpr glm::ivec2 kFloorPixels{160, 90};
 constexpr double kFloorHalfHeight = 0.5; ///< metres of the picture
 
-/// A floor, a light 1 m above it that is 0.8 m long and 0.2 m wide, and half way between a plate that ends at kEdgeX.
-/// The camera looks down from below the plate.
-scenes::Scene floorUnderAPlate(const scenes::Light& light) {
-    scenes::Material matte;
-    matte.model = scenes::MaterialModel::Lambert;
-    matte.doubleSided = true;
-    scenes::Scene scene = test::quadScene(matte);
-    scenes::Node& plate = scene.nodes.emplace_back();
-    plate.parentFromNode[3] = glm::dvec4(kEdgeX + 1.0, 0.0, 0.5, 1.0);
-    plate.instances = {{0, 0}};
-    scene.lights = {light};
-    scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = kFloorHalfHeight;
-    camera.nearMetres = 0.0;
-    camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 0.3}, {0.0, 0.0, 0.0});
-    return scene;
+/// A floor, and a light 1 m above it that is 0.8 m long and 0.2 m wide.
+scenes::Scene floorUnder(const scenes::Light& light) {
+    return floorUnderAPlate(light, kEdgeX, kFloorHalfHeight);
 }
 
 scenes::Light lampOverTheFloor(LightType type) {
@@ -69,20 +49,14 @@ double shareOfCircle(double radii) {
     return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
 }
 
-class AreaShadows : public test::ShadowTest {
+class AreaShadows : public ShadowTest {
 protected:
-    /// Of every type of light with two techniques and without pruning, or with one of these two in turn and every other
-    /// one without pruning.
-    void expectSameToTheLastBit();
     std::vector<FloorShare> sharesOf(const scenes::Light& light, int samples) {
-        const scenes::Scene scene = floorUnderAPlate(light);
-        engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = kFloorPixels;
-        settings.view = frame::DebugView::Shadow;
+        const scenes::Scene scene = floorUnder(light);
+        frame::FrameSettings settings = withView(ofSize(kFloorPixels), frame::DebugView::Shadow);
         settings.shadowFilter = frame::ShadowFilter::Traced;
         settings.shadowSamples = samples;
-        const engine::RenderedFrame shown = renderer.render(engine::Technique::Deferred, settings);
+        const engine::RenderedFrame shown = frameOf(scene, settings);
         std::vector<FloorShare> shares;
         for (int y = 0; y < kFloorPixels.y; ++y)
             for (int x = 0; x < kFloorPixels.x; ++x) {
@@ -149,20 +123,20 @@ TEST_F(AreaShadows, ofADiskAreThoseOfItsCircle) {
 TEST_F(AreaShadows, ofAPolygonAreThoseOfItsOutline) {
     scenes::Light light = lampOverTheFloor(LightType::Polygon);
     // Its second axis points along -y, whichever way round that is.
-    light.corners = test::cornersOf({{-0.4f, -0.1f}, {0.4f, -0.1f}, {-0.4f, 0.1f}});
+    light.corners = cornersOf({{-0.4f, -0.1f}, {0.4f, -0.1f}, {-0.4f, 0.1f}});
     expectShares("triangle", light, [](double x) {
         const double beyond = heldToUnit(0.5 - x / 0.8);
         return 1.0 - beyond * beyond;
     });
     // A bridge: four fifths of it are its legs, which are half of its length.
-    light.corners = test::cornersOf({{-0.4f, -0.1f},
-                                     {-0.2f, -0.1f},
-                                     {-0.2f, 0.05f},
-                                     {0.2f, 0.05f},
-                                     {0.2f, -0.1f},
-                                     {0.4f, -0.1f},
-                                     {0.4f, 0.1f},
-                                     {-0.4f, 0.1f}});
+    light.corners = cornersOf({{-0.4f, -0.1f},
+                               {-0.2f, -0.1f},
+                               {-0.2f, 0.05f},
+                               {0.2f, 0.05f},
+                               {0.2f, -0.1f},
+                               {0.4f, -0.1f},
+                               {0.4f, 0.1f},
+                               {-0.4f, 0.1f}});
     expectShares("bridge", light, [](double x) {
         const double left = heldToUnit((x + 0.4) / 0.2), bar = heldToUnit((x + 0.2) / 0.4),
                      right = heldToUnit((x - 0.2) / 0.2);
@@ -204,31 +178,79 @@ TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
     });
 }
 
-using AreaShadowsSlow = AreaShadows;
-
-void AreaShadows::expectSameToTheLastBit() {
+/// Of every type of light with two techniques and without pruning, or with one of these two in turn and every other
+/// one without pruning.
+TEST_SWEEP(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
     const std::vector<engine::Technique> both{engine::Technique::TiledDeferred, engine::Technique::ClusteredForward};
     std::size_t turn = 0;
-    for (const LightType type : test::kAreaTypes) {
+    for (const LightType type : kAreaTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scenes::Light light = lampOverTheFloor(type);
         light.radiusMetres = 0.2f;
-        const scenes::Scene scene = floorUnderAPlate(light);
+        const scenes::Scene scene = floorUnder(light);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = kFloorPixels;
-        expectParity(renderer, settings, test::isWholeSweep() ? both : std::vector{both[turn % 2]});
-        if (!test::isWholeSweep() && turn++ % 2 != 0) continue;
+        frame::FrameSettings settings = ofSize(kFloorPixels);
+        expectParity(renderer, settings, isWholeSweep() ? both : std::vector{both[turn % 2]});
+        if (!isWholeSweep() && turn++ % 2 != 0) continue;
         const std::vector<float> pruned = renderer.render(engine::Technique::Deferred, settings).radiance;
         settings.prune = false;
-        EXPECT_EQ(engine::Renderer(context(), scene).render(engine::Technique::Deferred, settings).radiance, pruned);
+        EXPECT_EQ(drawn(scene, settings), pruned);
     }
 }
-TEST_F(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
-    expectSameToTheLastBit();
+
+// Sampled light and sampled shadows of an area light are multiplied: the mean of the product is the product of the
+// means only where both take random numbers of their own.
+
+constexpr int kShadowPixels = 64;
+constexpr int kFewSamples = 4; ///< of each kind, so that both have much noise
+
+class AreaSampleShadows : public ShadowTest {
+protected:
+    /// Every pixel sees the same place of a floor, from below a plate that hides half of a light.
+    static scenes::Scene placeUnderAPlate() {
+        scenes::Light light = areaLight(scenes::LightType::Rectangle, {0.0, 0.0, 1.0}, {0.5, 0.3, -1.0}, 1.0f);
+        light.widthMetres = light.heightMetres = 1.6f;
+        light.castsShadow = true;
+        light.isSeen = false;
+        return floorUnderAPlate(light, 0.0, 1e-5);
+    }
+    static std::vector<double> redOf(engine::Renderer& renderer, scenes::ShadowRequest shadows) {
+        frame::FrameSettings settings = ofSize(kShadowPixels, kShadowPixels);
+        settings.area = {frame::AreaLights::Sampled, kFewSamples};
+        settings.shadows = shadows;
+        settings.shadowFilter = frame::ShadowFilter::Traced;
+        settings.shadowSamples = kFewSamples;
+        const std::vector<float> radiance = renderer.render(engine::Technique::Deferred, settings).radiance;
+        std::vector<double> red;
+        for (std::size_t i = 0; i < radiance.size(); i += 4) red.push_back(double(radiance[i]));
+        return red;
+    }
+};
+
+double meanOfProduct(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum / double(a.size());
 }
-TEST_F(AreaShadowsSlow, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
-    expectSameToTheLastBit();
+double deviation(const std::vector<double>& values, double mean) {
+    return std::sqrt(std::max(meanOfProduct(values, values) - mean * mean, 0.0));
+}
+
+TEST_F(AreaSampleShadows, takeRandomNumbersThatTheLightDoesNot) {
+    const scenes::Scene scene = placeUnderAPlate();
+    engine::Renderer renderer(context(), scene);
+    const std::vector<double> light = redOf(renderer, {scenes::ShadowRequest::Kind::None});
+    std::vector<double> visible = redOf(renderer, kAllLightsCast);
+    const std::vector<double> ones(light.size(), 1.0);
+    for (std::size_t i = 0; i < light.size(); ++i) visible[i] /= light[i];
+    const double meanLight = meanOfProduct(light, ones), meanVisible = meanOfProduct(visible, ones);
+    const double lightNoise = deviation(light, meanLight), shadowNoise = deviation(visible, meanVisible);
+    const double correlation = (meanOfProduct(light, visible) - meanLight * meanVisible) / (lightNoise * shadowNoise);
+    fmt::print("light {:.3f} +- {:.3f}, visible {:.3f} +- {:.3f}, correlation {:+.3f}\n", meanLight, lightNoise,
+               meanVisible, shadowNoise, correlation);
+    EXPECT_GT(lightNoise, 0.01 * meanLight);
+    EXPECT_GT(shadowNoise, 0.05);
+    EXPECT_LE(std::abs(correlation), 4.0 / kShadowPixels) << "four standard errors of independent pixels";
 }
 
 } // namespace

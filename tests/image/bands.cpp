@@ -1,36 +1,23 @@
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
 #include "renderer/gpu/Bands.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/Texture.h"
 #include "renderer/graph/Execute.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
-class Bands : public test::GlTest {
+using namespace test;
+
+class Bands : public ImageTest {
 protected:
-    /// Of a scene of everything with every technique, or of its metal.
-    void expectSameInBands();
-    void expectToldHowFar();
     static frame::FrameSettings small() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {200, 211}; // four bands, the last of them cut
-        return settings;
+        return ofSize(200, 211); // four bands, the last of them cut
     }
 };
 
-using BandsSlow = Bands;
-
-void Bands::expectSameInBands() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     engine::Renderer renderer(context(), scene);
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         SCOPED_TRACE(info.name);
@@ -46,18 +33,11 @@ void Bands::expectSameInBands() {
         EXPECT_GT(asked, 4); // after every pass, and between bands
     }
 }
-TEST_F(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
-    expectSameInBands();
-}
-TEST_F(BandsSlow, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
-    expectSameInBands();
-}
 
 TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {75, 51}; // pieces of 16 pixels, the last of them cut
+    frame::FrameSettings settings = ofSize(75, 51); // pieces of 16 pixels, the last of them cut
     for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::TiledDeferred}) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::RenderedFrame whole = renderer.render(technique, settings);
@@ -94,8 +74,8 @@ TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
-void Bands::expectToldHowFar() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     engine::Renderer renderer(context(), scene);
     const gpu::Texture texture("other", graph::TextureDesc{graph::Format::Rgba8Unorm, 16, 16, 1});
     const gpu::Framebuffer other(gpu::Attachments{{&texture}});
@@ -124,12 +104,6 @@ void Bands::expectToldHowFar() {
         EXPECT_GE(passes, renderer.backend().passTimings().size());
         EXPECT_GT(shares, 0u) << "no draw told how far it was";
     }
-}
-TEST_F(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
-    expectToldHowFar();
-}
-TEST_F(BandsSlow, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
-    expectToldHowFar();
 }
 
 TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {

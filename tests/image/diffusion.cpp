@@ -1,17 +1,11 @@
 // Spread light in frames: techniques, what is left out, shadows, what it costs.
-#include <cmath>
-#include <cstddef>
 #include <numeric>
 #include <tuple>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
 #include "tests/image/DiffusionTest.h"
-#include "tests/support/Sweep.h"
 
 namespace tessera {
 namespace {
@@ -22,14 +16,10 @@ using namespace test;
 using testing::HasSubstr;
 namespace builtin = scenes::builtin;
 
-class Diffusion : public DiffusionTest {
-protected:
-    void expectAllTechniquesAlike();
-};
+class Diffusion : public DiffusionTest {};
 using DiffusionSlow = Diffusion;
 
-/// In each case every technique, or those in turn.
-void Diffusion::expectAllTechniquesAlike() {
+TEST_SWEEP(Diffusion, everyTechniqueGivesTheSamePictureToTheLastBit) {
     scenes::Scene head = scenes::loadScene("head");
     head.materials[0].subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
     scenes::Scene gold = head;
@@ -48,28 +38,17 @@ void Diffusion::expectAllTechniquesAlike() {
     std::size_t turn = 0;
     for (const auto& [scene, shadows, texture, samples] : cases) {
         engine::Renderer renderer(context(), *scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        settings.diffusion.sideTexels = 64;
+        frame::FrameSettings settings = withDiffusion(withSamples(ofSize(96, 54), samples), 64);
         settings.shadowFilter = shadows;
         settings.filter = texture;
-        settings.samples = samples;
         expectParity(renderer, settings, techniquesInTurn(turn++, samples));
     }
-}
-TEST_F(Diffusion, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(DiffusionSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
 }
 
 TEST_F(Diffusion, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     scenes::Scene ball = sphereScene(0.03, 12);
     for (scenes::Light& light : ball.lights) light.castsShadow = true;
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 90};
-    settings.diffusion.sideTexels = 128;
+    frame::FrameSettings settings = withDiffusion(ofSize(160, 90), 128);
     engine::Renderer renderer(context(), ball);
     expectPruningIsUnseen(renderer, settings);
 }
@@ -106,17 +85,14 @@ TEST_F(DiffusionSlow, whatSpreadingCosts) {
 }
 
 TEST_F(Diffusion, mapsHideLightFromTexelsAsRaysDo) {
-    scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+    const scenes::Scene scene = stepScene();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {896, 8};
-    settings.diffusion.sideTexels = 256;
+    frame::FrameSettings settings = stepSettings(256);
     settings.shadowMaps.resolutionTexels = 2048;
-    const auto truth = [](const glm::dvec3& placeWS) { return builtin::spreadStep(placeWS.x - builtin::kTruthEdgeX); };
-    for (const frame::ShadowFilter filter : test::mapFilters()) {
+
+    for (const frame::ShadowFilter filter : mapFilters()) {
         settings.shadowFilter = filter;
-        const double error = errorOf(pictureOf(renderer, settings), scene.cameras[0], truth).l2;
+        const double error = errorOf(pictureOf(renderer, settings), scene.cameras[0], stepAt).l2;
         fmt::print("{}: {:.2e}\n", infoOf(filter).name, error);
         EXPECT_LE(error, 0.03) << infoOf(filter).name;
     }
@@ -134,9 +110,7 @@ TEST_F(Diffusion, texelsOfACoarseBallAreShadowedAsTheRoundBallThatItApproximates
         if (glm::dot(normal, corner(0)) < 0.0f)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]); // half of the charts
     }
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.diffusion.sideTexels = 256;
+    frame::FrameSettings settings = withDiffusion(ofSize(96, 54), 256);
     engine::Renderer renderer(context(), ball);
     const auto lightOf = [&](engine::Renderer& from) { return pictureOf(from, settings).rgba; };
     const std::vector<float> open = lightOf(renderer);
@@ -162,7 +136,7 @@ TEST_F(Diffusion, holesOfCastersLetLightThrough) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
         for (scenes::Light& light : ball.lights) light.castsShadow = true;
-        scenes::Mesh plate = test::quad();
+        scenes::Mesh plate = quad();
         for (glm::vec3& position : plate.positionsOS) position = 0.05f * position;
         ball.meshes.push_back(plate);
         scenes::Material opaque;
@@ -172,9 +146,7 @@ TEST_F(Diffusion, holesOfCastersLetLightThrough) {
         scenes::Node& node = ball.nodes.emplace_back();
         node.parentFromNode[3] = glm::dvec4(0.08 * glm::normalize(-ball.lights[0].directionWS), 1.0);
         node.instances = {{1, 1}};
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
-        settings.diffusion.sideTexels = 128;
+        frame::FrameSettings settings = withDiffusion(ofSize(160, 90), 128);
         settings.shadowFilter = filter;
         engine::Renderer renderer(context(), ball);
         const std::vector<float> hidden = renderer.render(Technique::Deferred, settings).radiance;
@@ -184,10 +156,9 @@ TEST_F(Diffusion, holesOfCastersLetLightThrough) {
         renderer.materialsChanged();
         const std::vector<float> lit = renderer.render(Technique::Deferred, settings).radiance;
         EXPECT_NE(lit, hidden) << infoOf(filter).name;
-        EXPECT_EQ(lit, engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance);
+        EXPECT_EQ(lit, drawn(ball, settings));
         ball.nodes.pop_back();
-        const std::vector<float> without =
-            engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance;
+        const std::vector<float> without = drawn(ball, settings);
         const auto sumOf = [](const std::vector<float>& radiance) {
             return std::accumulate(radiance.begin(), radiance.end(), 0.0);
         };
@@ -197,20 +168,16 @@ TEST_F(Diffusion, holesOfCastersLetLightThrough) {
 }
 
 TEST_F(Diffusion, objectsThatCannotBeUnwrappedAreRefusedByName) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.materials[std::size_t(scene.nodes[0].instances[0].material)].subsurface.method =
         SubsurfaceMethod::TextureSpaceDiffusion;
     scenes::Mesh& mesh = scene.meshes[std::size_t(scene.nodes[0].instances[0].mesh)];
     mesh.name = "ball";
     for (glm::vec2& texCoord : mesh.texCoords[0]) texCoord.x = std::abs(texCoord.x - 0.5f);
     engine::Renderer renderer(context(), scene);
-    try {
-        renderer.draw(Technique::Deferred, {});
-        FAIL() << "no error";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("mesh 'ball'"));
-        EXPECT_THAT(error.what(), HasSubstr("unwrap it so that none overlap"));
-    }
+    EXPECT_THAT([&] { renderer.draw(Technique::Deferred, {}); },
+                testing::ThrowsMessage<InputError>(
+                    testing::AllOf(HasSubstr("mesh 'ball'"), HasSubstr("unwrap it so that none overlap"))));
 }
 
 } // namespace

@@ -1,15 +1,7 @@
 // Faults of the passes that spread light, which closed forms see.
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "tests/image/DiffusionTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
 
 namespace tessera {
 namespace {
@@ -32,8 +24,6 @@ public:
         const char* to;
         Measure seenBy;
     };
-
-    void expectSeen();
 
     Measured step(const shader::SourceTree& shaders) { return {stepError(256, {}, shaders).l2, 6.5e-3}; }
     Measured coarseStep(const shader::SourceTree& shaders) { return {stepError(128, {}, shaders).l2, 0.017}; }
@@ -81,18 +71,12 @@ public:
 private:
     engine::RenderedFrame drawn(scenes::Scene& scene, const shader::SourceTree& shaders) {
         scene.background = glm::vec3(0.0f);
-        frame::FrameSettings settings;
-        settings.sizePixels = {200, 200};
-        settings.shadows = {scenes::ShadowRequest::Kind::None};
-        settings.diffusion.sideTexels = 128;
+        frame::FrameSettings settings = withDiffusion(withoutShadows(ofSize(200, 200)), 128);
         return engine::Renderer(context(), scene, shaders).render(Technique::Deferred, settings);
     }
 };
 
-using DiffusionFaultsSlow = DiffusionFaults;
-
-/// Each of them, or each third one.
-void DiffusionFaults::expectSeen() {
+TEST_SWEEP(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
     const std::vector<Fault> faults{
         {"one Gaussian's weight", "passes/diffusion_spread.frag", "sum = vec4(constants.weight.rgb * result, 1.0);",
          "sum = vec4(constants.weight.rgb * result * (abs(constants.weight.r - 0.078) < 0.01 ? 0.8 : 1.0), 1.0);",
@@ -134,20 +118,13 @@ void DiffusionFaults::expectSeen() {
         const auto measure = [&](const ShaderMutant& shaders) { return (this->*fault.seenBy)(shaders.tree()); };
         auto known = std::ranges::find(sound, fault.seenBy, &std::pair<Measure, Measured>::first);
         if (known == sound.end()) known = sound.emplace(known, fault.seenBy, measure(ShaderMutant()));
-        const ShaderMutant broken;
-        broken.replace(fault.file, fault.from, fault.to);
+        const ShaderMutant broken(fault.file, fault.from, fault.to);
         const Measured before = known->second, after = measure(broken);
         fmt::print("{:<55} {:.1e}, without it {:.1e}, at most {:.0e}\n", fault.what, after.found, before.found,
                    before.most);
         EXPECT_LE(before.found, before.most);
         EXPECT_GT(after.found, after.most);
     }
-}
-TEST_F(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
-    expectSeen();
-}
-TEST_F(DiffusionFaultsSlow, everyFaultIsSeenByAClosedForm) {
-    expectSeen();
 }
 
 } // namespace

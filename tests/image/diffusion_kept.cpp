@@ -1,9 +1,4 @@
 // Spread light from frame to frame: what is kept, what is spread anew, and what is added in slices.
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "tests/image/DiffusionTest.h"
 #include "tests/image/EnvironmentTest.h"
@@ -15,12 +10,7 @@ using engine::Technique;
 using scenes::SubsurfaceMethod;
 using namespace test;
 
-class KeptDiffusion : public DiffusionTest {
-protected:
-    void expectKept();
-    void expectAllLitAlike();
-};
-using KeptDiffusionSlow = KeptDiffusion;
+class KeptDiffusion : public DiffusionTest {};
 
 /// Names of the passes of the latest frame that spread light.
 std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
@@ -32,13 +22,11 @@ std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
 
 /// The camera and settings of pixels change, then what lights. With maps, outside of a whole sweep, settings of pixels
 /// do not: they are the same passes' as with rays.
-void KeptDiffusion::expectKept() {
+TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
         for (scenes::Light& light : ball.lights) light.castsShadow = true;
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
-        settings.diffusion.sideTexels = 128;
+        frame::FrameSettings settings = withDiffusion(ofSize(160, 90), 128);
         settings.shadowFilter = filter;
         Technique technique = Technique::Deferred;
         engine::Renderer renderer(context(), ball);
@@ -50,7 +38,7 @@ void KeptDiffusion::expectKept() {
             ++step;
             const std::vector<float> seen = renderer.render(technique, settings).radiance;
             EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << infoOf(filter).name << ", " << step;
-            const std::vector<float> fresh = engine::Renderer(context(), ball).render(technique, settings).radiance;
+            const std::vector<float> fresh = drawn(ball, settings, technique);
             double most = 0.0;
             for (std::size_t i = 0; i < seen.size(); ++i)
                 most = std::max(most, std::abs(double(seen[i]) - double(fresh[i])));
@@ -93,12 +81,6 @@ void KeptDiffusion::expectKept() {
         moved([] {}, true);
     }
 }
-TEST_F(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
-    expectKept();
-}
-TEST_F(KeptDiffusionSlow, spreadLightIsKeptWhileWhatEntersIsTheSame) {
-    expectKept();
-}
 
 /// enteredMaterial() says so of the key under which it is kept, takeEnteredValues() in the shader of the light itself.
 TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmissionASurfaceHas) {
@@ -115,9 +97,7 @@ TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmission
         skin.model = scenes::MaterialModel::MetallicRoughness;
         skin.metallic = 0.0f;
         layOver(0.6f);
-        frame::FrameSettings settings;
-        settings.sizePixels = {80, 45};
-        settings.diffusion.sideTexels = 64;
+        frame::FrameSettings settings = withDiffusion(ofSize(80, 45), 64);
         settings.prune = prune;
         engine::Renderer renderer(context(), ball);
         renderer.render(Technique::Deferred, settings);
@@ -126,8 +106,7 @@ TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmission
         renderer.materialsChanged();
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
         EXPECT_TRUE(passesThatSpread(renderer).empty()) << "pruned: " << prune;
-        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen)
-            << "pruned: " << prune;
+        EXPECT_EQ(drawn(ball, settings), seen) << "pruned: " << prune;
     }
 }
 
@@ -138,9 +117,7 @@ TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnoth
         ball.environment = environmentOf(8, 4, [&](int x, int y) { return brightness * glm::dvec3(x, y, 8 - x); });
     };
     surround(0.1);
-    frame::FrameSettings settings;
-    settings.sizePixels = {80, 45};
-    settings.diffusion.sideTexels = 64;
+    frame::FrameSettings settings = withDiffusion(ofSize(80, 45), 64);
     settings.environment.samples = 4;
     engine::Renderer renderer(context(), ball);
     renderer.render(Technique::Deferred, settings);
@@ -149,7 +126,7 @@ TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnoth
         change();
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
         EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << what;
-        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen) << what;
+        EXPECT_EQ(drawn(ball, settings), seen) << what;
     };
     moved(
         "nothing", [] {}, true);
@@ -187,15 +164,13 @@ TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
     panel.type = scenes::LightType::Rectangle;
     panel.positionWS = {0.0, 0.5, 1.0};
     panel.directionWS = glm::normalize(glm::dvec3(0.0, -0.5, -1.0));
-    frame::FrameSettings settings;
-    settings.sizePixels = {80, 45};
-    settings.diffusion.sideTexels = 64;
+    frame::FrameSettings settings = withDiffusion(ofSize(80, 45), 64);
     settings.area = {frame::AreaLights::Sampled, 4};
     engine::Renderer renderer(context(), ball);
     const auto spreadsWith = [&](const frame::AreaSettings& area) {
         settings.area = area;
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-        EXPECT_EQ(engine::Renderer(context(), ball).render(Technique::Deferred, settings).radiance, seen);
+        EXPECT_EQ(drawn(ball, settings), seen);
         return !passesThatSpread(renderer).empty();
     };
     EXPECT_TRUE(spreadsWith({frame::AreaLights::Sampled, 4}));
@@ -207,17 +182,15 @@ TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
 
 /// Of light spread at half the resolution and in one Gaussian: both, either and neither, or both and neither in every
 /// other step.
-void KeptDiffusion::expectAllLitAlike() {
+TEST_SWEEP(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
     scenes::Scene ball = sphereScene(0.03, 24);
     ball.cameras[0].projection = scenes::Projection::Perspective;
     ball.cameras[0].fovYRadians = 0.7;
     ball.cameras[0].nearMetres = 1e-3;
-    for (const bool half : {false, true}) {
+    for (const bool half : {false, true})
         for (const std::optional<int> gaussians : {std::optional<int>(), std::optional<int>(1)}) {
             if (!isWholeSweep() && half != gaussians.has_value()) continue;
-            frame::FrameSettings settings;
-            settings.sizePixels = {200, 150};
-            settings.diffusion.sideTexels = isWholeSweep() ? 512 : 256;
+            frame::FrameSettings settings = withDiffusion(ofSize(200, 150), isWholeSweep() ? 512 : 256);
             settings.diffusion.half = half;
             if (gaussians) settings.diffusion.gaussians = *gaussians;
             scenes::Scene seen = ball;
@@ -236,13 +209,6 @@ void KeptDiffusion::expectAllLitAlike() {
                     << "half " << half << ", step " << step;
             }
         }
-    }
-}
-TEST_F(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
-    expectAllLitAlike();
-}
-TEST_F(KeptDiffusionSlow, lightingOnlyWhatIsSeenChangesNoBit) {
-    expectAllLitAlike();
 }
 
 TEST_F(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
@@ -257,9 +223,7 @@ TEST_F(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
     };
     lookFrom(0.0);
     for (const bool half : {false, true}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {120, 90};
-        settings.diffusion.sideTexels = 256;
+        frame::FrameSettings settings = withDiffusion(ofSize(120, 90), 256);
         settings.diffusion.half = half;
         const auto fresh = [&] { return engine::Renderer(context(), ball).render(Technique::Deferred, settings); };
         engine::Renderer renderer(context(), ball);
@@ -310,9 +274,7 @@ TEST_F(KeptDiffusion, aFrameTellsOfHowManyObjectsTheLightHasSpread) {
     scenes::Node other = balls.nodes[0];
     other.parentFromNode[3] += glm::dvec4(0.01, 0.0, 0.0, 0.0);
     balls.nodes.push_back(other);
-    frame::FrameSettings settings;
-    settings.sizePixels = {80, 60};
-    settings.diffusion.sideTexels = 64;
+    frame::FrameSettings settings = withDiffusion(ofSize(80, 60), 64);
     engine::Renderer renderer(context(), balls);
     using Told = std::vector<std::pair<std::size_t, std::size_t>>;
     Told told;
@@ -322,14 +284,12 @@ TEST_F(KeptDiffusion, aFrameTellsOfHowManyObjectsTheLightHasSpread) {
     told.clear();
     EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, first);
     EXPECT_TRUE(told.empty()) << "nothing was spread anew";
-    EXPECT_EQ(engine::Renderer(context(), balls).render(Technique::Deferred, settings).radiance, first);
+    EXPECT_EQ(drawn(balls, settings), first);
 }
 
 TEST_F(KeptDiffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows) {
     scenes::Scene ball = sphereScene(0.03, 24);
-    frame::FrameSettings settings;
-    settings.sizePixels = {120, 90};
-    settings.diffusion.sideTexels = 128;
+    frame::FrameSettings settings = withDiffusion(ofSize(120, 90), 128);
     engine::Renderer renderer(context(), ball);
     const std::vector<float> spread = renderer.render(Technique::Deferred, settings).radiance;
     const float intensity = ball.lights[0].intensity;

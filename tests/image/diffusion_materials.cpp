@@ -1,13 +1,6 @@
 // What enters and leaves by albedo, model and side of the light, against closed forms.
-#include <cmath>
-#include <functional>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "scenes/builtin/Pictures.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/DiffusionTest.h"
 
 namespace tessera {
@@ -17,19 +10,9 @@ using scenes::SubsurfaceMethod;
 using namespace test;
 namespace builtin = scenes::builtin;
 
-/// The first square of the scene diffusion_truth under its sun, without plates' shadows.
-scenes::Scene litSquare() {
-    scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
-    return scene;
-}
-
+/// The step without the shadows of plates: a square under its sun.
 frame::FrameSettings squareSettings(int side) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {896, 8};
-    settings.shadows = {scenes::ShadowRequest::Kind::None};
-    settings.diffusion.sideTexels = side;
-    return settings;
+    return withoutShadows(stepSettings(side));
 }
 
 /// Under even light, a surface of two colours: what enters has the first power of the albedo, and spreads; what leaves
@@ -37,7 +20,7 @@ frame::FrameSettings squareSettings(int side) {
 /// again.
 TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
     const glm::dvec3 dark(0.2, 0.3, 0.5), bright(0.9, 0.8, 0.7);
-    scenes::Scene scene = litSquare();
+    scenes::Scene scene = stepScene();
     scenes::Mesh& mesh = scene.meshes[0];
     const scenes::Mesh square = mesh;
     mesh = {};
@@ -84,7 +67,7 @@ TEST_F(DiffusionTruth, metallicRoughnessSpreadsAStepAsTheClosedFormSays) {
 TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
     const glm::dvec3 color(0.6, 0.4, 0.8);
     constexpr double kMetallic = 0.4;
-    scenes::Scene scene = litSquare();
+    scenes::Scene scene = stepScene();
     for (scenes::Material& material : scene.materials) {
         material.model = scenes::MaterialModel::MetallicRoughness;
         material.baseColor = glm::vec4(color, 1.0);
@@ -99,12 +82,11 @@ TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
         for (scenes::Material& material : scene.materials)
             material.subsurface.profile = {{float(std::pow(1e3 * scale * texels / 224.0, 2.0)), glm::vec3(1.0f)}};
         const Picture picture = pictureOf(scene, settings);
-        for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double wanted = (1.0 - kMetallic * color[c]) * (1.0 - kMetallic) * color[c] / std::numbers::pi;
                 ASSERT_NEAR(double(picture.pixel(i)[c]), wanted, 1e-4 * wanted) << texels << " texels, pixel " << i;
             }
-        }
     }
 }
 
@@ -113,7 +95,7 @@ TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
 /// share, as above, and a sun straight above whose light enters by F0.
 TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAngle) {
     constexpr double kColor = 0.5, kMetallic = 0.4, kCosine = 0.15;
-    scenes::Scene scene = litSquare();
+    scenes::Scene scene = stepScene();
     const double scale = double(scene.materials[0].subsurface.scaleMetres);
     for (scenes::Material& material : scene.materials) {
         material.model = scenes::MaterialModel::MetallicRoughness;
@@ -172,7 +154,7 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
          1e-3},
     };
     for (const Case& one : cases) {
-        scenes::Scene scene = litSquare();
+        scenes::Scene scene = stepScene();
         one.change(scene);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = squareSettings(128);
@@ -181,13 +163,12 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
         const Picture spread = pictureOf(renderer, settings);
         settings.subsurface = SubsurfaceMethod::None;
         const Picture still = pictureOf(renderer, settings);
-        for (std::size_t i = 0; i < still.pixelCount(); ++i) {
+        for (std::size_t i = 0; i < still.pixelCount(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double wanted = double(still.pixel(i)[c]);
                 ASSERT_GT(wanted, 0.0) << one.name;
                 ASSERT_NEAR(double(spread.pixel(i)[c]), wanted, one.most * wanted) << one.name << ", pixel " << i;
             }
-        }
     }
 }
 
@@ -195,7 +176,7 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
 /// texels, what passes stays in these, since pixels reflect light from the front alone.
 TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
     constexpr double kThickness = 0.01, kHalf = 0.05;
-    scenes::Scene scene = litSquare();
+    scenes::Scene scene = stepScene();
     scenes::Mesh slab;
     scenes::builtin::appendQuad(slab, {-kHalf, -kHalf, 0.0}, {kHalf, -kHalf, 0.0}, {kHalf, kHalf, 0.0},
                                 {-kHalf, kHalf, 0.0});
@@ -220,20 +201,17 @@ TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
     scenes::Camera& camera = scene.cameras[0];
     camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
     camera.halfHeightMetres = 0.6 * kHalf;
-    frame::FrameSettings settings;
-    settings.sizePixels = {32, 32};
-    settings.diffusion.sideTexels = 256;
+    frame::FrameSettings settings = withDiffusion(ofSize(32, 32), 256);
     for (const float squareMillimetres : {1e-6f, 0.1f, 25.0f}) {
         scene.materials[0].subsurface.profile = {{squareMillimetres, glm::vec3(1.0f)}};
         const Picture picture = pictureOf(scene, settings);
-        for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
+        for (std::size_t i = 0; i < picture.pixelCount(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double absorption = double(skin.subsurface.absorptionPerMillimetre[c]);
                 const double wanted = std::exp(-absorption * 1e3 * kThickness);
                 ASSERT_NEAR(double(picture.pixel(i)[c]), wanted, 1e-3 * wanted)
                     << squareMillimetres << " mm^2, pixel " << i;
             }
-        }
     }
 }
 

@@ -1,11 +1,4 @@
 // Light that spreads over a plane against closed forms.
-#include <cmath>
-#include <functional>
-#include <span>
-#include <utility>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "tests/image/DiffusionTest.h"
 
@@ -66,12 +59,8 @@ TEST_F(DiffusionTruthSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
 TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMean) {
     constexpr int kTexels = 256, kPlaces = 4;
     constexpr double kShare = 0.9; // of the coordinates, so that they can be moved
-    scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+    scenes::Scene scene = stepScene();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {896, 8};
-    settings.diffusion.sideTexels = kTexels;
     for (const bool alongV : {false, true}) {
         Picture mean;
         for (int i = 0; i < kPlaces; ++i) {
@@ -82,14 +71,12 @@ TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMea
             const auto moved = float(texels / (kTexels * (1.0 - 2.0 / 16.0)));
             for (glm::vec2& texCoord : scene.meshes[0].texCoords[0]) texCoord[alongV ? 1 : 0] += moved;
             renderer.geometryChanged();
-            const Picture own = pictureOf(renderer, settings);
+            const Picture own = pictureOf(renderer, stepSettings(kTexels));
             if (i == 0) mean = own;
             for (std::size_t k = 0; k < own.rgba.size(); ++k)
                 mean.rgba[k] = (i == 0 ? 0.0f : mean.rgba[k]) + own.rgba[k] / float(kPlaces);
         }
-        const double error = errorOf(mean, scene.cameras[0], [](const glm::dvec3& placeWS) {
-                                 return builtin::spreadStep(placeWS.x - builtin::kTruthEdgeX);
-                             }).l2;
+        const double error = errorOf(mean, scene.cameras[0], stepAt).l2;
         fmt::print("edges anywhere, along {}: {:.2e}\n", alongV ? "v" : "u", error);
         // In double precision 9.2e-4; with texels measured without the border 1.8e-3, with widths wrong by 5 % 2.7e-3.
         EXPECT_LE(error, 1.3e-3) << (alongV ? "v" : "u");
@@ -107,16 +94,12 @@ TEST_F(DiffusionTruth, anyTwoWidthsSpreadAStepAsTheClosedFormSays) {
 }
 
 TEST_F(DiffusionTruth, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) {
-    scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    scene.cameras = {above({builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
+    const scenes::Scene scene = stepScene();
     engine::Renderer renderer(context(), scene);
     const auto error = [&](int gaussians, bool half, int side = 256) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {896, 8};
+        frame::FrameSettings settings = ofSize(896, 8);
         settings.diffusion = {side, gaussians, half};
-        return errorOf(pictureOf(renderer, settings), scene.cameras[0],
-                       [](const glm::dvec3& placeWS) { return builtin::spreadStep(placeWS.x - builtin::kTruthEdgeX); })
-            .l2;
+        return errorOf(pictureOf(renderer, settings), scene.cameras[0], stepAt).l2;
     };
     const double all = error(8, false), halved = error(8, true), smaller = error(8, false, 128);
     double before = all;

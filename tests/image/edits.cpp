@@ -1,27 +1,22 @@
-#include <algorithm>
 #include <functional>
+#include <set>
 
 #include "base/Error.h"
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
 /// Edits of a scene that a renderer already draws.
-class Edits : public test::GlTest {
+class Edits : public ImageTest {
 protected:
-    static frame::FrameSettings small() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 91};
-        return settings;
-    }
+    static frame::FrameSettings small() { return ofSize(160, 91); }
     /// Compares a renderer's picture after an edit with a new renderer's.
     void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials,
-                         scenes::Scene scene = test::everythingScene()) {
+                         scenes::Scene scene = everythingScene()) {
         engine::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
             const std::vector<float> before = renderer.render(technique, small()).radiance;
@@ -37,7 +32,7 @@ protected:
 
 TEST_F(Edits, factorsOfMaterialsAreDrawnAsByANewRenderer) {
     // The first keeps materials in its pixels, the second their numbers.
-    for (const scenes::Scene& scene : {test::everythingScene(), test::evenScene()}) {
+    for (const scenes::Scene& scene : {everythingScene(), evenScene()}) {
         float step = 0.0f;
         expectSameAsNew(
             [&step](scenes::Scene& edited) {
@@ -72,7 +67,7 @@ TEST_F(Edits, tangentsAreDerivedAnewWhereAMaterialFollowsOthersThanBefore) {
 }
 
 TEST_F(Edits, anEditThatCannotBeDrawnIsNotForgottenAndLeavesNoTrace) {
-    scenes::Scene scene = test::everythingScene();
+    scenes::Scene scene = everythingScene();
     const auto normalMap = [](scenes::Material& material) -> scenes::TextureUse& {
         return material.texture(scenes::TextureSlot::Normal);
     };
@@ -142,10 +137,85 @@ TEST_F(Edits, lightsAndCamerasAreDrawnAsTheyAre) {
     expectSameAsNew(
         [](scenes::Scene& scene) {
             scene.lights.front().intensity *= 2.0f;
-            scene.lights.push_back(test::pointLight({0.0, 1.0, 2.0}, 3.0f));
+            scene.lights.push_back(pointLight({0.0, 1.0, 2.0}, 3.0f));
             scene.cameras.front().worldFromCamera[3] += glm::dvec4(0.1, 0.05, 0.0, 0.0);
         },
         false);
+}
+
+/// Which programs a frame needs, told before it is drawn: the window says so while it compiles them.
+class ProgramsOf : public ImageTest {
+protected:
+    /// Draws, and holds what was told to what was compiled.
+    void expectTold(engine::Renderer& renderer, const frame::FrameSettings& settings, const char* what, bool isOther) {
+        std::set<std::string> keys;
+        for (const shader::ProgramDesc& program : renderer.programsOf(Technique::ClusteredDeferred, settings))
+            keys.insert(program.key());
+        const bool isLacking = !std::ranges::includes(known_, keys);
+        EXPECT_EQ(isLacking, isOther) << what << ": the test lacks its point";
+        const std::size_t before = renderer.programs().size();
+        renderer.draw(Technique::ClusteredDeferred, settings);
+        EXPECT_EQ(renderer.programs().size() > before, isLacking) << what;
+        known_.insert(keys.begin(), keys.end());
+    }
+
+private:
+    std::set<std::string> known_;
+};
+
+TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
+    scenes::Scene scene = scenes::loadScene("room");
+    scenes::Light light = scene.lights.at(0); // in view
+    scene.lights.clear();
+    light.type = scenes::LightType::Point;
+    light.castsShadow = false;
+    light.radiusMetres = 0.0f;
+    light.falloff = scenes::Light().falloff;
+    scene.lights.reserve(2); // its place stays
+    scene.lights.push_back(light);
+    frame::FrameSettings settings = ofSize(32, 18);
+    engine::Renderer renderer(context(), scene);
+    expectTold(renderer, settings, "the first frame", true);
+    expectTold(renderer, settings, "the same again", false);
+
+    struct Edit {
+        const char* what;
+        bool isOther; ///< needs other programs than all before
+        std::function<void()> edit;
+    };
+    scenes::Light& own = scene.lights[0];
+    const Edit edits[] = {
+        {"a place", false, [&] { own.positionWS.y += 0.1; }},
+        {"a colour", false, [&] { own.color = glm::vec3(1.0f, 0.5f, 0.25f); }},
+        {"shadows", true, [&] { own.castsShadow = true; }},
+        {"soft ones", true, [&] { own.radiusMetres = 0.1f; }},
+        {"another type", true, [&] { own.type = scenes::LightType::Sphere; }},
+        {"the type before", false, [&] { own.type = scenes::LightType::Point; }},
+        {"a light that is out of view", false,
+         [&] {
+             scene.lights.push_back(own);
+             scene.lights[1].type = scenes::LightType::Spot;
+             scene.lights[1].castsShadow = false;
+             scene.lights[1].positionWS = {1e4, 0.0, 0.0};
+             scene.lights[1].rangeMetres = 1.0f;
+         }},
+        {"the same, come into view", true, [&] { scene.lights[1].positionWS = own.positionWS; }},
+        {"another falloff", true, [&] { own.falloff = scenes::Falloff::Attenuation; }},
+        {"no light", true, [&] { scene.lights.clear(); }},
+        {"a paint", false, [&] { scene.materials[0].baseColor = glm::vec4(0.1f, 0.2f, 0.3f, 1.0f); }},
+        {"glass", true,
+         [&] {
+             scene.materials[0].model = scenes::MaterialModel::MetallicRoughness;
+             scene.materials[0].transmission = 1.0f;
+             scene.materials[0].perceptualRoughness = 0.0f;
+         }},
+        {"rough glass", true, [&] { scene.materials[0].perceptualRoughness = 0.4f; }},
+    };
+    for (const Edit& edit : edits) {
+        edit.edit();
+        renderer.materialsChanged();
+        expectTold(renderer, settings, edit.what, edit.isOther);
+    }
 }
 
 } // namespace

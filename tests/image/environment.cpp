@@ -1,10 +1,6 @@
 // Light from everywhere in frames: techniques, what is left out, options, and what can be told without a reference.
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
-
-#include <fmt/format.h>
 
 #include "base/Median.h"
 #include "tests/image/EnvironmentTest.h"
@@ -20,15 +16,12 @@ using frame::EnvironmentLight;
 using std::numbers::pi;
 using namespace test;
 
-class Environment : public EnvironmentTest {
-protected:
-    void expectAllTechniquesAlike();
-    void expectPruningChangesNoBit();
-};
+class Environment : public EnvironmentTest {};
 using EnvironmentPicturesSlow = Environment;
 using EnvironmentCostSlow = Environment;
 
-void Environment::expectAllTechniquesAlike() {
+TEST_SWEEP_AS(Environment, everyTechniqueGivesTheSamePictureToTheLastBit, EnvironmentPicturesSlow,
+              everyTechniqueGivesTheSamePictureToTheLastBit) {
     struct Case {
         scenes::Scene scene;
         EnvironmentLight light;
@@ -57,26 +50,18 @@ void Environment::expectAllTechniquesAlike() {
         one.scene.environment = builtinEnvironment("studio");
         one.scene.environment->rotationDegrees = 25.0f;
         engine::Renderer renderer(context(), one.scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        settings.diffusion = coarseDiffusion();
+        frame::FrameSettings settings = withDiffusion(withSamples(ofSize(96, 54), one.samples));
         settings.environment.light = one.light;
         settings.environment.samples = 4;
-        settings.samples = one.samples;
         settings.environment.compensates = one.samples == 1;
         if (one.samples > 1) settings.environment.backdrop = frame::Backdrop::Blurred;
         expectParity(renderer, settings, one.techniques);
     }
 }
-TEST_F(Environment, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(EnvironmentPicturesSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
 
 /// In filtered light and that of samples, or in filtered light: what else is left out does not depend on it.
-void Environment::expectPruningChangesNoBit() {
+TEST_SWEEP_AS(Environment, leavingOutWhatTheSceneDoesNotNeedChangesNoBit, EnvironmentPicturesSlow,
+              leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     struct Case {
         scenes::Scene scene;
         EnvironmentLight light;
@@ -85,9 +70,7 @@ void Environment::expectPruningChangesNoBit() {
     if (isWholeSweep()) cases.push_back({evenScene(), EnvironmentLight::Sampled});
     for (Case& one : cases) {
         one.scene.environment = builtinEnvironment(isWholeSweep() ? "sky" : "studio"); // which is made faster
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        settings.diffusion = coarseDiffusion();
+        frame::FrameSettings settings = withDiffusion(ofSize(96, 54));
         settings.environment.light = one.light;
         settings.environment.samples = 4;
         const auto radiance = [&](bool prune) {
@@ -96,12 +79,6 @@ void Environment::expectPruningChangesNoBit() {
         };
         EXPECT_EQ(radiance(true), radiance(false)) << one.scene.name << ", " << infoOf(one.light).name;
     }
-}
-TEST_F(Environment, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
-}
-TEST_F(EnvironmentPicturesSlow, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
 }
 
 TEST_F(Environment, aSceneWithoutOneHasNoTraceOfIt) {
@@ -124,11 +101,9 @@ TEST_F(Environment, theBackdropIsTheMapAndTurnsWithIt) {
     scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, 100.0, 1.0); // behind the camera
     scene.environment = environmentOf(64, 32, [](int x, int y) { return glm::dvec3(x, y, 1.0); });
     for (const double turn : {0.0, 90.0}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {9, 9};
+        frame::FrameSettings settings = ofSize(9, 9);
         settings.environment.rotationDegrees = float(turn);
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        const std::vector<float> seen = drawn(scene, settings);
         const float* const middle = &seen[4 * (4 * 9 + 4)];
         EXPECT_NEAR(middle[0], turn == 0.0 ? 31.5 : 47.5, 1e-3) << turn;
         EXPECT_NEAR(middle[1], 15.5, 1e-3);
@@ -153,8 +128,7 @@ TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
     engine::Renderer renderer(context(), scene);
     constexpr int kSidePixels = 65;
     for (const double turn : {0.0, 45.0, 90.0, 200.0}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {kSidePixels, kSidePixels};
+        frame::FrameSettings settings = ofSize(kSidePixels, kSidePixels);
         settings.environment.backdrop = frame::Backdrop::Blurred;
         settings.environment.rotationDegrees = float(turn);
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
@@ -187,8 +161,7 @@ TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
 TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
     // One texel of 64 x 32, a lamp of known solid angle, gives k_d L cos dw; no other light.
     constexpr int kX = 8, kY = 10; // before the ball
-    scenes::Material matte;
-    matte.model = scenes::MaterialModel::Lambert;
+    scenes::Material matte = lambert();
     scenes::Scene scene = ballUnderSky(matte);
     scene.environment = environmentOf(64, 32, [&](int x, int y) { return glm::dvec3(x == kX && y == kY ? 1e5 : 0.0); });
     // Interpolation spreads the texel over its neighbours: its light is that of a tent.
@@ -255,11 +228,10 @@ TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
     scene.lights = {pointLight({0.0, 0.0, 2.0}, 3.0f), pointLight({1.0, 2.0, 2.0}, 3.0f)};
     scenes::Scene dark = scene;
     dark.environment.reset();
-    frame::FrameSettings settings;
-    settings.sizePixels = {16, 16};
+    frame::FrameSettings settings = ofSize(16, 16);
     settings.soloLight = 1;
     engine::Renderer renderer(context(), scene);
-    const std::vector<float> wanted = engine::Renderer(context(), dark).render(Technique::Deferred, settings).radiance;
+    const std::vector<float> wanted = drawn(dark, settings);
     for (const EnvironmentLight how : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
         settings.environment.light = how;
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
@@ -276,9 +248,7 @@ TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
     const auto truth = [&](const scenes::Scene& of) {
         frame::FrameSettings plain = settings;
         plain.environment.backdrop = frame::Backdrop::Off;
-        return validation::referencePicture(
-                   of, plain, [] {}, validation::Leeway::None)
-            .picture.rgba;
+        return strictRadiance(of, plain);
     };
     EXPECT_EQ(truth(scene), truth(dark));
     // Nothing is held to be filtered light's error.
@@ -292,9 +262,7 @@ TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
 
 TEST_F(Environment, aMirrorBallShowsEachDirectionWhereItLies) {
     // Squares of 8 x 8 texels: away from their edges a mirror shows black or white.
-    scenes::Material mirror;
-    mirror.metallic = 1.0f;
-    mirror.perceptualRoughness = 0.0f;
+    scenes::Material mirror = metalOf(0.0);
     scenes::Scene scene = ballUnderSky(mirror);
     constexpr int kWidth = 512, kHeight = 256, kSquare = 32;
     const auto isWhite = [&](int x, int y) { return (x / kSquare + y / kSquare) % 2 == 0; };
@@ -340,9 +308,7 @@ TEST_F(Environment, extremeMapsGiveFiniteLight) {
         {"one column", environmentOf(1, 5, [](int, int y) { return glm::dvec3(y); })}};
     scenes::Scene scene = evenScene();
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {32, 32};
-        settings.diffusion = coarseDiffusion();
+        frame::FrameSettings settings = withDiffusion(ofSize(32, 32));
         settings.environment.light = light;
         settings.environment.samples = 16;
         scene.environment = maps[0].second;
@@ -370,9 +336,7 @@ TEST_F(EnvironmentPicturesSlow, extremeIndicesAndRoughnessesGiveFiniteLight) {
                     material.perceptualRoughness = material.alpha = material.alphaY = roughness;
                 }
                 renderer.materialsChanged();
-                frame::FrameSettings settings;
-                settings.sizePixels = {32, 32};
-                settings.diffusion = coarseDiffusion();
+                frame::FrameSettings settings = withDiffusion(ofSize(32, 32));
                 settings.environment.light = light;
                 settings.environment.samples = 16;
                 for (const float value : renderer.render(Technique::Deferred, settings).radiance) {
@@ -393,10 +357,9 @@ TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {
     scenes::Scene unlit = lit;
     for (scenes::Material& material : unlit.materials) material.model = scenes::MaterialModel::SingleColor;
     unlit.environment = {};
-    const ShaderMutant withoutLookUps;
-    withoutLookUps.replace("lib/environment/filtered_map.glsl",
-                           "precise vec3 light = a + share.x * (b - a) + share.y * (c - a);",
-                           "vec3 light = vec3(0.5, 0.4, 0.3);");
+    const ShaderMutant withoutLookUps("lib/environment/filtered_map.glsl",
+                                      "precise vec3 light = a + share.x * (b - a) + share.y * (c - a);",
+                                      "vec3 light = vec3(0.5, 0.4, 0.3);");
     struct Variant {
         const char* name;
         const scenes::Scene& scene;
@@ -410,10 +373,9 @@ TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {
                            std::make_unique<engine::Renderer>(context(), lit, withoutLookUps.tree()),
                            {},
                            {}}};
-    frame::FrameSettings settings;
-    settings.sizePixels = {1280, 720};
+    frame::FrameSettings settings = ofSize(1280, 720);
     settings.environment.backdrop = frame::Backdrop::Off;
-    for (int round = -1; round < 9; ++round) {
+    for (int round = -1; round < 9; ++round)
         for (Variant& variant : variants) {
             variant.renderer->backend().setProfiling(true);
             const engine::RenderedFrame frame = variant.renderer->render(Technique::Deferred, settings);
@@ -428,7 +390,6 @@ TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {
             variant.frames.push_back(all);
             variant.lighting.push_back(lighting);
         }
-    }
     for (const Variant& variant : variants)
         fmt::print("{}: frame {:.2f} ms, lighting {:.2f} ms\n", variant.name, medianOf(variant.frames),
                    medianOf(variant.lighting));

@@ -1,12 +1,7 @@
 // The errors of the split sum that docs/environment.md tells.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <sstream>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "shaders/shared/environment.h"
 #include "tests/image/EnvironmentTest.h"
@@ -120,11 +115,9 @@ TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
             SCOPED_TRACE(fmt::format("{}, {}", name, row.name));
             scenes::Scene scene = ballUnderSky(row.material);
             scene.environment = environment;
-            frame::FrameSettings settings;
-            settings.sizePixels = {40, 40};
+            frame::FrameSettings settings = ofSize(40, 40);
             settings.environment.backdrop = frame::Backdrop::Off;
-            const validation::ReferencePicture truth = validation::referencePicture(
-                scene, settings, [] {}, validation::Leeway::None);
+            const validation::ReferencePicture truth = strictReference(scene, settings);
             engine::Renderer renderer(context(), scene);
             const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
             const BallFigures ball = ballFigures(seen, truth);

@@ -1,15 +1,10 @@
 // What the split sum does between its exact cases: known answers that the reference's wide bars do not hold, and faults
 // in shaders that each of them alone must see.
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numbers>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "shaders/shared/environment.h"
 #include "shaders/shared/models.h"
+#include "tests/image/EnvironmentTest.h"
 #include "tests/image/GlassTest.h"
 #include "tests/support/ShaderMutant.h"
 
@@ -17,6 +12,7 @@ namespace tessera {
 namespace {
 
 using engine::Technique;
+using frame::EnvironmentLight;
 using namespace test;
 
 /// Each error is in parts of what is allowed.
@@ -29,11 +25,6 @@ public:
     double errorOfLean(const shader::SourceTree& shaders);
 
 protected:
-    static scenes::Material whiteMetal() {
-        scenes::Material metal;
-        metal.metallic = 1.0f;
-        return metal;
-    }
     /// Of these alphas along and across the tangent: alpha is the square of roughness, and the larger one lies
     /// strength^2 of the way from it to 1 (KHR_materials_anisotropy).
     static void brush(scenes::Material& material, double along, double across) {
@@ -43,22 +34,14 @@ protected:
     /// A quad so far away that one direction sees all of the picture.
     static scenes::Scene flatQuad(const scenes::Material& material, double cosView = 1.0) {
         scenes::Scene scene = quadScene(material);
-        scenes::Camera& camera = scene.cameras[0];
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 0.05;
-        const double sine = std::sqrt(1.0 - cosView * cosView);
-        camera.worldFromCamera = glm::dmat4(1.0);
-        camera.worldFromCamera[0] = {cosView, 0.0, -sine, 0.0};
-        camera.worldFromCamera[2] = {sine, 0.0, cosView, 0.0};
-        camera.worldFromCamera[3] = {2.0 * sine, 0.0, 2.0 * cosView, 1.0};
+        lookAtCosine(scene.cameras[0], cosView, 0.05);
         return scene;
     }
     /// Red of its middle; forward stores no surface, and so rounds no alpha.
     double shown(const scenes::Scene& scene, const shader::SourceTree& shaders, bool compensates = false) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {2, 2};
+        frame::FrameSettings settings = ofSize(2, 2);
         settings.environment.compensates = compensates;
-        return double(engine::Renderer(context(), scene, shaders).render(Technique::Forward, settings).radiance[0]);
+        return double(drawn(scene, settings, Technique::Forward, shaders)[0]);
     }
 };
 
@@ -66,7 +49,7 @@ protected:
 /// whose texel a mirror shows, and the first level half as bright at most.
 double EnvironmentLobes::errorOfMirrorBlend(const shader::SourceTree& shaders) {
     constexpr double kSun = 100.0;
-    scenes::Scene scene = flatQuad(whiteMetal());
+    scenes::Scene scene = flatQuad({});
     // Odd sides: the middle of a texel looks along +z where the map is turned by half a turn.
     scene.environment =
         environmentOf(255, 127, [](int x, int y) { return glm::dvec3(x == 127 && y == 63 ? kSun : 0.0); });
@@ -95,7 +78,7 @@ double EnvironmentLobes::errorOfBounces(const shader::SourceTree& shaders) {
     double worst = 0.0;
     for (int r = 0; r < 3; ++r)
         for (int m = 0; m < 3; ++m) {
-            scenes::Scene scene = flatQuad(whiteMetal(), kCosines[m]);
+            scenes::Scene scene = flatQuad({}, kCosines[m]);
             scene.materials[0].baseColor = glm::vec4(glm::vec3(float(kStraight)), 1.0f);
             scene.materials[0].perceptualRoughness = float(kRoughness[r]);
             scene.environment = evenEnvironment(1.0);
@@ -133,7 +116,7 @@ double stretchOfLobe(double along, double across) {
 /// split sum weighs its taps by the cosine in place of masking, and so finds 0.8 of that; taps as wide as can be 0.27.
 double EnvironmentLobes::errorOfBrushing(const shader::SourceTree& shaders) {
     constexpr double kAlong = 0.7, kAcross = 0.16, kFound = 0.8, kAllowed = 0.2;
-    scenes::Scene scene = flatQuad(whiteMetal());
+    scenes::Scene scene = flatQuad({});
     brush(scene.materials[0], kAlong, kAcross);
     scene.environment = evenEnvironment(1.0);
     const double even = shown(scene, shaders);
@@ -152,7 +135,7 @@ double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
     constexpr double kAllowed = 0.4;
     constexpr int kStreakPixels = 64;
     constexpr TiltedPlane kPlane{0.35, 50.0, 1.4, kStreakPixels};
-    scenes::Material metal = whiteMetal();
+    scenes::Material metal;
     brush(metal, 0.4, 0.01);
     scenes::Scene scene = kPlane.sceneOf(metal);
     // Where the normal looks, which the viewer sees mirrored where the plane faces him.
@@ -166,10 +149,8 @@ double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
         if (glm::dot(kPlane.toViewer(kStreakPixels / 2, y), kPlane.normal()) >
             glm::dot(kPlane.toViewer(kStreakPixels / 2, row), kPlane.normal()))
             row = y;
-    frame::FrameSettings settings;
-    settings.sizePixels = {kStreakPixels, kStreakPixels};
-    const std::vector<float> radiance =
-        engine::Renderer(context(), scene, shaders).render(Technique::Forward, settings).radiance;
+    frame::FrameSettings settings = ofSize(kStreakPixels, kStreakPixels);
+    const std::vector<float> radiance = drawn(scene, settings, Technique::Forward, shaders);
     std::vector<double> streak;
     for (int x = 0; x < kStreakPixels; ++x)
         streak.push_back(double(radiance[std::size_t(4 * (row * kStreakPixels + x))]));
@@ -200,7 +181,7 @@ double meanCosineOfLobe(double alpha) {
 /// alpha) of the way from the normal to the mirror image of the viewer, s = 1 - alpha (Lagarde and de Rousiers 2014).
 double EnvironmentLobes::errorOfLean(const shader::SourceTree& shaders) {
     constexpr double kCosine = 0.6, kSine = 0.8, kAllowed = 0.01;
-    scenes::Scene scene = flatQuad(whiteMetal(), kCosine);
+    scenes::Scene scene = flatQuad({}, kCosine);
     double worst = 0.0;
     for (const double alpha : {0.2, 0.45, 0.6, 0.8}) {
         scene.materials[0].perceptualRoughness = float(std::sqrt(alpha));
@@ -258,11 +239,75 @@ constexpr LobeFault kLobeFaults[] = {
 
 TEST_F(EnvironmentLobes, everyFaultIsSeenByItsKnownAnswer) {
     for (const LobeFault& fault : kLobeFaults) {
-        const ShaderMutant shaders;
-        shaders.replace(fault.file, fault.from, fault.to);
+        const ShaderMutant shaders(fault.file, fault.from, fault.to);
         const double error = (this->*fault.errorOf)(shaders.tree());
         fmt::print("{:38} {:.1f} times what is allowed\n", fault.fault, error);
         EXPECT_FALSE(error <= 1.5) << fault.fault; // NaN counts as seen
+    }
+}
+
+// Shaders of environments with one fault each: techniques share them and agree, the reference shares nothing and does
+// not.
+
+struct EnvironmentFault {
+    const char* fault;
+    EnvironmentLight light;
+    float roughness;  ///< of a metal; below 0: matte
+    const char* file; ///< below shaders/
+    const char* from;
+    const char* to;
+};
+
+constexpr float kMatteBall = -1.0f;
+constexpr EnvironmentFault kEnvironmentFaults[] = {
+    {"rotated the wrong way", EnvironmentLight::SplitSum, kMatteBall, "lib/environment/environment_constants.glsl",
+     "mat3(environment.mapFromLS) * directionLS", "directionLS * mat3(environment.mapFromLS)"},
+    {"samples rotated the wrong way", EnvironmentLight::Sampled, kMatteBall,
+     "lib/environment/environment_constants.glsl", "direction * mat3(environment.mapFromLS)",
+     "mat3(environment.mapFromLS) * direction"},
+    {"the wrong level", EnvironmentLight::SplitSum, 1.0f, "shared/environment.h", "* levelsADoubling;",
+     "* 0.5 * levelsADoubling;"},
+    {"a lobe without its table", EnvironmentLight::SplitSum, 1.0f, "lib/reflectance/even_light.glsl",
+     "seen.f0 * lobe.x + seen.fresnelRise * lobe.y", "seen.f0 + seen.fresnelRise * lobe.y"},
+    {"a density without its cosine", EnvironmentLight::Sampled, kMatteBall, "lib/reflectance/lobe_samples.glsl",
+     "density = max(dot(seen.surface.normalLS, toLight), 0.0) * kInversePi", "density = kInversePi"},
+    {"the density of the map left out", EnvironmentLight::Sampled, kMatteBall,
+     "lib/environment/environment_samples.glsl", "mapDensity + surfaceDensity(seen, toLight)",
+     "surfaceDensity(seen, toLight)"},
+    {"the density of the lobe left out", EnvironmentLight::Sampled, 0.5f, "lib/reflectance/lobe_samples.glsl",
+     "density += visibleDensity(lobeDistribution(seen, h), seen.nv, seen.viewerLength)", "density += 0.0"},
+};
+
+class EnvironmentFaults : public EnvironmentTest {
+protected:
+    /// relMSE of a ball under a lamp of 25 texels, turned aside, against the reference.
+    double errorOf(const EnvironmentFault& fault, const shader::SourceTree& shaders) {
+        scenes::Scene scene = ballUnderSky(fault.roughness < 0.0f ? lambert() : metalOf(fault.roughness));
+        scene.environment = environmentOf(64, 32, [](int x, int y) {
+            return glm::dvec3(std::abs(x - 30) <= 2 && std::abs(y - 12) <= 2 ? 40.0 : 0.2);
+        });
+        scene.environment->rotationDegrees = 50.0f;
+        frame::FrameSettings settings = ofSize(24, 24);
+        settings.environment.light = fault.light;
+        settings.environment.samples = 256;
+        return EnvironmentTest::errorOf(drawn(scene, settings, Technique::Deferred, shaders),
+                                        strictReference(scene, settings))
+            .relMse;
+    }
+};
+
+TEST_SWEEP(EnvironmentFaults, areSeenByTheReference) {
+    for (const EnvironmentFault& fault :
+         everyNth(std::vector(std::begin(kEnvironmentFaults), std::end(kEnvironmentFaults)), 2)) {
+        SCOPED_TRACE(fault.fault);
+        const ShaderMutant shaders;
+        const double plain = errorOf(fault, shaders.tree());
+        shaders.replace(fault.file, fault.from, fault.to);
+        const double faulty = errorOf(fault, shaders.tree());
+        fmt::print("{:34} relMSE {:.1e}, without it {:.1e}\n", fault.fault, faulty, plain);
+        EXPECT_LE(plain, 0.15); // the shapes of the split sum's lobes
+        // NaN counts as seen.
+        EXPECT_FALSE(faulty <= 2.0 * plain + 1e-2);
     }
 }
 

@@ -1,12 +1,5 @@
 // Mirrors of an environment against its map, looked up in double precision.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "shaders/shared/environment.h"
 #include "shaders/shared/models.h"
@@ -20,15 +13,7 @@ using engine::Technique;
 using frame::EnvironmentLight;
 using namespace test;
 
-class EnvironmentMirrors : public EnvironmentTest {
-protected:
-    /// Every technique, or those in turn; without pruning in each case, or in those of samples and between the two.
-    void expectAllTechniquesAlike();
-    /// Of each material in light from the map and from samples, or in one of both in turn.
-    void expectMapTimesFresnelsFactor();
-    void expectTheReferencesBall();
-};
-using EnvironmentMirrorsSlow = EnvironmentMirrors;
+class EnvironmentMirrors : public EnvironmentTest {};
 
 constexpr int kMirrorPixels = 64;
 constexpr TiltedPlane kMirror{0.35, 50.0, 1.4, kMirrorPixels};
@@ -63,13 +48,9 @@ struct MirrorCase {
 /// Lobes of each kind above black.
 std::vector<MirrorCase> mirrorCases() {
     using scenes::MaterialModel;
-    scenes::Material black;
-    black.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-    black.metallic = 0.0f;
-    scenes::Material metal = black;
+    const scenes::Material black = blackDielectric();
+    scenes::Material metal = metalOf(0.0);
     metal.baseColor = glm::vec4(glm::vec3(0.7f), 1.0f);
-    metal.metallic = 1.0f;
-    metal.perceptualRoughness = 0.0f;
     scenes::Material coated = black;
     coated.specularFactor = 0.0f; // the coat alone reflects
     coated.perceptualRoughness = 0.5f;
@@ -105,7 +86,7 @@ std::vector<MirrorCase> mirrorCases() {
 
 constexpr EnvironmentLight kBothLights[] = {EnvironmentLight::SplitSum, EnvironmentLight::Sampled};
 
-void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
+TEST_SWEEP(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
     std::size_t turn = 0;
     const std::pair<const char*, SkyRadiance> maps[] = {{"squares", squaresAt}, {"a sun", sunShownBy(40, 20)}};
     for (const MirrorCase& one : mirrorCases()) {
@@ -115,8 +96,7 @@ void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
             scene.environment = skyOf(map);
             engine::Renderer renderer(context(), scene);
             for (const EnvironmentLight how : inTurn(kBothLights, turn)) {
-                frame::FrameSettings settings;
-                settings.sizePixels = {kMirrorPixels, kMirrorPixels};
+                frame::FrameSettings settings = ofSize(kMirrorPixels, kMirrorPixels);
                 settings.environment.light = how;
                 settings.environment.samples = 1;
                 const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
@@ -143,27 +123,18 @@ void EnvironmentMirrors::expectMapTimesFresnelsFactor() {
         }
     }
 }
-TEST_F(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
-    expectMapTimesFresnelsFactor();
-}
-TEST_F(EnvironmentMirrorsSlow, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsFactorToRounding) {
-    expectMapTimesFresnelsFactor();
-}
 
 /// By samples it keeps its lobe; no filtered level is as sharp.
 TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflectsOfEvenLight) {
     constexpr double kExponent = 1e8;
-    scenes::Material gloss;
-    gloss.model = scenes::MaterialModel::BlinnPhong;
+    scenes::Material gloss = materialOf(scenes::MaterialModel::BlinnPhong);
     gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     gloss.exponent = float(kExponent);
     gloss.specularColor = glm::vec3(1e6f);
     scenes::Scene scene = kMirror.sceneOf(gloss);
     scene.environment = skyOf(squaresAt);
-    frame::FrameSettings settings;
-    settings.sizePixels = {kMirrorPixels, kMirrorPixels};
-    engine::Renderer renderer(context(), scene);
-    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    frame::FrameSettings settings = ofSize(kMirrorPixels, kMirrorPixels);
+    const std::vector<float> seen = drawn(scene, settings);
     int judged = 0;
     for (int y = 0; y < kMirrorPixels; ++y)
         for (int x = 0; x < kMirrorPixels; ++x) {
@@ -181,20 +152,17 @@ TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflec
 }
 
 /// Normals of a ball are interpolated between vertices that rasterisers round to 1/256 of a pixel.
-void EnvironmentMirrors::expectTheReferencesBall() {
+TEST_SWEEP(EnvironmentMirrors, aBallShowsWhatTheReferenceShowsOfIt) {
     std::size_t turn = 0;
     constexpr int kBallPixels = 40;
     for (const MirrorCase& one : mirrorCases()) {
         scenes::Scene scene = ballUnderSky(one.material);
         scene.environment = skyOf(squaresAt);
         scene.environment->rotationDegrees = 30.0f;
-        frame::FrameSettings settings;
-        settings.sizePixels = {kBallPixels, kBallPixels};
-        settings.filter = frame::TextureFilter::Exact;
+        frame::FrameSettings settings = exactOfSize(kBallPixels, kBallPixels);
         settings.environment.samples = 1;
         settings.environment.backdrop = frame::Backdrop::Off;
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
+        const validation::ReferencePicture truth = strictReference(scene, settings);
         engine::Renderer renderer(context(), scene);
         for (const EnvironmentLight how : inTurn(kBothLights, turn++)) {
             settings.environment.light = how;
@@ -221,22 +189,14 @@ void EnvironmentMirrors::expectTheReferencesBall() {
     }
 }
 
-TEST_F(EnvironmentMirrors, aBallShowsWhatTheReferenceShowsOfIt) {
-    expectTheReferencesBall();
-}
-TEST_F(EnvironmentMirrorsSlow, aBallShowsWhatTheReferenceShowsOfIt) {
-    expectTheReferencesBall();
-}
-
-void EnvironmentMirrors::expectAllTechniquesAlike() {
+TEST_SWEEP(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
     std::size_t turn = 0;
     scenes::Scene scene = ballUnderSky({});
     scenes::Material& material = scene.materials[0];
     material.metallic = 0.5f;
     material.clearcoat = 0.5f;
     scene.environment = skyOf(sunShownBy(40, 20));
-    frame::FrameSettings settings;
-    settings.sizePixels = {48, 48};
+    frame::FrameSettings settings = ofSize(48, 48);
     settings.environment.samples = 4;
     struct Case {
         float roughness, coatRoughness;
@@ -257,25 +217,17 @@ void EnvironmentMirrors::expectAllTechniquesAlike() {
         expectPruningIsUnseen(renderer, settings);
     }
 }
-TEST_F(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(EnvironmentMirrorsSlow, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
 
 /// From the map to its first filtered level, and where programs cease to read the map.
 TEST_F(EnvironmentMirrors, lightOfTheSplitSumIsContinuousInAlpha) {
-    scenes::Material gloss;
-    gloss.model = scenes::MaterialModel::Microfacet;
+    scenes::Material gloss = materialOf(scenes::MaterialModel::Microfacet);
     gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     scenes::Scene scene = kMirror.sceneOf(gloss);
     scene.environment = skyOf(squaresAt);
-    frame::FrameSettings settings;
-    settings.sizePixels = {kMirrorPixels, kMirrorPixels};
+    frame::FrameSettings settings = ofSize(kMirrorPixels, kMirrorPixels);
     const auto radiance = [&](double alpha) {
         scene.materials[0].alpha = float(alpha);
-        return engine::Renderer(context(), scene).render(Technique::Deferred, settings).radiance;
+        return drawn(scene, settings);
     };
     for (const double alpha : {ALPHA_MIN, 0.003, ENVIRONMENT_LEAST_ALPHA, 1.1 * ENVIRONMENT_LEAST_ALPHA}) {
         const std::vector<float> below = radiance(0.9999 * alpha), above = radiance(1.0001 * alpha);

@@ -1,10 +1,5 @@
 // Light from everywhere against the reference and published tables.
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "tests/image/AreaLightTest.h"
 #include "tests/image/EnvironmentTest.h"
@@ -32,10 +27,8 @@ struct EvenCase {
 
 class EnvironmentTruth : public EnvironmentTest {
 protected:
-    void expectSamplesAgree();
     void expectEven(const std::vector<EvenCase>& cases, bool compensates);
 };
-using EnvironmentTruthSlow = EnvironmentTruth;
 
 TEST_F(EnvironmentTruth, theBackdropIsThatOfTheReferenceInEveryPixel) {
     scenes::Scene scene = quadScene(unlit());
@@ -45,13 +38,9 @@ TEST_F(EnvironmentTruth, theBackdropIsThatOfTheReferenceInEveryPixel) {
     scene.environment =
         environmentOf(64, 32, [](int x, int y) { return glm::dvec3(1 + x % 5, 1 + y % 7, 1.0 + 0.01 * x * y); });
     scene.environment->rotationDegrees = 40.0f;
-    frame::FrameSettings settings;
-    settings.sizePixels = {48, 27};
-    settings.filter = frame::TextureFilter::Exact;
-    const validation::ReferencePicture truth = validation::referencePicture(
-        scene, settings, [] {}, validation::Leeway::None);
-    engine::Renderer renderer(context(), scene);
-    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    frame::FrameSettings settings = exactOfSize(48, 27);
+    const validation::ReferencePicture truth = strictReference(scene, settings);
+    const std::vector<float> seen = drawn(scene, settings);
     for (std::size_t i = 0; i < seen.size(); i += 4)
         for (std::size_t c = i; c < i + 3; ++c)
             ASSERT_NEAR(seen[c], truth.picture.rgba[c], 1e-3) << i / 4; // steps of a texel, and fp32 angles
@@ -64,21 +53,14 @@ TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
     constexpr double kReflected[6][5] = {{.9113, .9745, .9927, .9961, .9973}, {.8834, .9216, .9692, .9831, .9882},
                                          {.8916, .8401, .8572, .8915, .9158}, {.8601, .7652, .6982, .6821, .6879},
                                          {.8107, .6802, .5646, .5014, .4639}, {.7602, .5976, .4507, .3645, .3069}};
-    scenes::Material white;
-    white.metallic = 1.0f;
-    white.doubleSided = true;
-    scenes::Scene scene = quadScene(white);
+    scenes::Scene scene = quadScene(twoSided({}));
     scene.environment = evenEnvironment(1.0);
-    scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 0.05;
     for (const auto& [light, compensates] : {std::pair(EnvironmentLight::SplitSum, false),
                                              {EnvironmentLight::Sampled, false},
                                              {EnvironmentLight::SplitSum, true},
                                              {EnvironmentLight::Sampled, true}}) {
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {16, 16};
+        frame::FrameSettings settings = ofSize(16, 16);
         settings.environment.light = light;
         settings.environment.samples = 1024;
         settings.environment.compensates = compensates;
@@ -86,11 +68,7 @@ TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
             scene.materials[0].perceptualRoughness = float(std::sqrt(kAlphas[a]));
             renderer.materialsChanged();
             for (int m = 0; m < 5; ++m) {
-                const double angle = std::acos(kCosines[m]);
-                camera.worldFromCamera = glm::dmat4(1.0);
-                camera.worldFromCamera[0] = {std::cos(angle), 0.0, -std::sin(angle), 0.0};
-                camera.worldFromCamera[2] = {std::sin(angle), 0.0, std::cos(angle), 0.0};
-                camera.worldFromCamera[3] = {2.0 * std::sin(angle), 0.0, 2.0 * std::cos(angle), 1.0};
+                lookAtCosine(scene.cameras[0], kCosines[m], 0.05);
                 const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
                 double mean = 0.0;
                 for (std::size_t i = 0; i < seen.size(); i += 4) mean += double(seen[i]) * 4.0 / double(seen.size());
@@ -106,22 +84,19 @@ TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
 
 /// Against another integration of the same light: means agree within three of their standard errors. With the second of
 /// two maps lobes are compensated, which by default the white furnace above shows alone.
-void EnvironmentTruth::expectSamplesAgree() {
+TEST_SWEEP(EnvironmentTruth, samplesAgreeWithTheReferenceWithinThreeStandardErrors) {
     scenes::Scene scene = scenes::loadScene("models");
     scene.lights.clear();
     scene.environment = builtinEnvironment("studio");
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.filter = frame::TextureFilter::Exact;
+    frame::FrameSettings settings = exactOfSize(64, 36);
     settings.environment.light = EnvironmentLight::Sampled;
     settings.environment.samples = 256;
     engine::Renderer renderer(context(), scene);
-    for (const char* name : test::everyNth(std::vector{"studio", "sky"}, 2)) {
+    for (const char* name : everyNth(std::vector{"studio", "sky"}, 2)) {
         scene.environment = builtinEnvironment(name);
         renderer.environmentChanged();
         settings.environment.compensates = name == std::string_view("sky");
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
+        const validation::ReferencePicture truth = strictReference(scene, settings);
         const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
         double sum = 0.0, squares = 0.0;
         std::size_t count = 0;
@@ -145,33 +120,23 @@ void EnvironmentTruth::expectSamplesAgree() {
         EXPECT_LE(standardError, 2e-3) << name;
     }
 }
-TEST_F(EnvironmentTruth, samplesAgreeWithTheReferenceWithinThreeStandardErrors) {
-    expectSamplesAgree();
-}
-TEST_F(EnvironmentTruthSlow, samplesAgreeWithTheReferenceWithinThreeStandardErrors) {
-    expectSamplesAgree();
-}
 
 /// Of a map of few texels, each far from its neighbours: what a direction weighs hangs on which texel it lies in.
 TEST_F(EnvironmentTruth, samplesOfCoarseMapsAreWeighedByTheTexelThatTheyLieIn) {
     scenes::Scene scene = quadScene({});
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 0.5;
+    makeOrthographic(scene.cameras[0], 0.5);
     scene.environment = environmentOf(
         16, 8, [](int x, int y) { return glm::dvec3((y % 3 == 0 ? 40.0 : 0.1) + (x % 5 == 2 ? 20.0 : 0.0)); });
     scene.environment->rotationDegrees = 180.0f; // so that the quad sees the map's middle
-    frame::FrameSettings settings;
-    settings.sizePixels = {16, 16};
+    frame::FrameSettings settings = ofSize(16, 16);
     settings.environment.light = EnvironmentLight::Sampled;
     settings.environment.samples = 1024;
     for (const float roughness : {0.4f, 1.0f})
         for (const float metallic : {0.0f, 1.0f}) {
             scene.materials[0].metallic = metallic;
             scene.materials[0].perceptualRoughness = roughness;
-            const validation::ReferencePicture truth = validation::referencePicture(
-                scene, settings, [] {}, validation::Leeway::None);
-            engine::Renderer renderer(context(), scene);
-            const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+            const validation::ReferencePicture truth = strictReference(scene, settings);
+            const std::vector<float> seen = drawn(scene, settings);
             double own = 0.0, wanted = 0.0;
             for (std::size_t i = 0; i < seen.size(); i += 4) {
                 own += double(seen[i]);
@@ -283,12 +248,10 @@ void EnvironmentTruth::expectEven(const std::vector<EvenCase>& cases, bool compe
             node.instances = {{0, column}};
         }
     }
-    frame::FrameSettings settings;
-    settings.sizePixels = {columns * kCellPixels, kRows * kCellPixels};
+    frame::FrameSettings settings = ofSize(columns * kCellPixels, kRows * kCellPixels);
     settings.environment.samples = 4096;
     settings.environment.compensates = compensates;
-    const validation::ReferencePicture truth = validation::referencePicture(
-        scene, settings, [] {}, validation::Leeway::None);
+    const validation::ReferencePicture truth = strictReference(scene, settings);
     engine::Renderer renderer(context(), scene);
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
         settings.environment.light = light;
@@ -340,25 +303,18 @@ TEST_F(EnvironmentTruth, layersLieOverWhatCompensationAdds) {
 /// A coat has a normal of its own, here tilted by 37 degrees towards +x: it mirrors what lies at 74 degrees from the
 /// surface's normal, on one side.
 TEST_F(EnvironmentTruth, aCoatSeesWhatItsOwnNormalMirrors) {
-    scenes::Material coat;
-    coat.metallic = 0.0f;
+    scenes::Material coat = blackDielectric(); // the coat is all there is
     coat.specularFactor = 0.0f;
-    coat.baseColor = {0.0f, 0.0f, 0.0f, 1.0f}; // the coat is all there is
     coat.clearcoat = 1.0f;
     coat.texture(scenes::TextureSlot::ClearcoatNormal).image = 0;
     scenes::Scene scene = quadScene(coat);
     scene.images = {uniformImage({204, 128, 230, 255})}; // 0.6, 0, 0.8
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 0.5;
-    frame::FrameSettings settings;
-    settings.sizePixels = {8, 8};
-    settings.filter = frame::TextureFilter::Exact;
+    makeOrthographic(scene.cameras[0], 0.5);
+    frame::FrameSettings settings = exactOfSize(8, 8);
     settings.environment.samples = 1024;
     const auto expectAsReference = [&](double error, const std::string& what) {
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
-        engine::Renderer renderer(context(), scene);
-        const float seen = renderer.render(Technique::Deferred, settings).radiance[4 * (4 * 8 + 4)];
+        const validation::ReferencePicture truth = strictReference(scene, settings);
+        const float seen = drawn(scene, settings)[4 * (4 * 8 + 4)];
         const float wanted = truth.picture.rgba[4 * (4 * 8 + 4)];
         EXPECT_GT(wanted, 0.01f) << what;
         EXPECT_NEAR(seen, wanted, error * double(wanted)) << what;

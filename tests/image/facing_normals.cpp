@@ -1,12 +1,9 @@
 // Lit normals that turn away from the viewer on surfaces that face it.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "renderer/frame/GBufferLayout.h"
-#include "scenes/LookAt.h"
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
@@ -40,15 +37,12 @@ scenes::Scene coarseBalls(const std::vector<scenes::Material>& materials) {
         node.parentFromNode = placed;
         node.instances = {{0, int(i)}};
     }
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = kHalfHeightMetres;
+    makeOrthographic(scene.cameras[0], kHalfHeightMetres);
     return scene;
 }
 
 scenes::Material whiteMetal() {
-    scenes::Material material;
-    material.metallic = 1.0f;
-    material.perceptualRoughness = 0.3f;
+    scenes::Material material = metalOf(0.3);
     return material;
 }
 
@@ -80,10 +74,23 @@ std::vector<scenes::Light> lightsAround() {
 class FacingNormals : public EnvironmentTest {
 protected:
     static frame::FrameSettings settingsFor(std::size_t balls) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {kCoarseBallPixels * int(balls), kCoarseBallPixels};
+        frame::FrameSettings settings = ofSize(kCoarseBallPixels * int(balls), kCoarseBallPixels);
         settings.environment.backdrop = frame::Backdrop::Off;
         return settings;
+    }
+    /// The view of normals, filtered either way: `judge` gets its pixels that are covered.
+    template <typename Judge>
+    void judgeNormals(const scenes::Scene& scene, Technique technique, const Judge& judge) {
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = withView(settingsFor(1), frame::DebugView::Normal);
+        for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
+            settings.filter = filter;
+            const std::vector<float> normals = renderer.render(technique, settings).radiance;
+            std::vector<glm::dvec3> covered;
+            for (std::size_t i = 0; i < normals.size(); i += 4)
+                if (normals[i + 3] != 0.0f) covered.emplace_back(normals[i], normals[i + 1], normals[i + 2]);
+            judge(covered, filter);
+        }
     }
     /// Expects no pixel of a white metal in even light of radiance 1 to be dark, nor brighter than the light.
     void expectNoDarkPixel(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings,
@@ -104,25 +111,16 @@ protected:
 /// 46 pixels have an interpolated normal that turns away, and 9 more one that faces the viewer by less than the least.
 TEST_F(FacingNormals, faceTheViewerInEveryPixel) {
     const scenes::Scene scene = coarseBalls({whiteMetal()});
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings = settingsFor(1);
-    settings.view = frame::DebugView::Normal;
-    for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
-        settings.filter = filter;
-        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
-            const std::vector<float> normals = renderer.render(technique, settings).radiance;
-            int covered = 0, bent = 0;
-            for (std::size_t i = 0; i < normals.size(); i += 4) {
-                if (normals[i + 3] == 0.0f) continue;
-                const double cosine = double(normals[i + 2]); // the viewer is at +z
-                EXPECT_GE(cosine, kFacingLeast / std::hypot(1.0, kFacingLeast) - 1e-6) << i / 4;
-                ++covered;
-                bent += cosine < 1.1 * kFacingLeast ? 1 : 0; // by a turn from at most 24 degrees below the horizon
+    for (const Technique technique : {Technique::Forward, Technique::Deferred})
+        judgeNormals(scene, technique, [](const std::vector<glm::dvec3>& normals, frame::TextureFilter) {
+            int bent = 0;
+            for (const glm::dvec3& normal : normals) { // the viewer is at +z
+                EXPECT_GE(normal.z, kFacingLeast / std::hypot(1.0, kFacingLeast) - 1e-6);
+                bent += normal.z < 1.1 * kFacingLeast ? 1 : 0; // by a turn from at most 24 degrees below the horizon
             }
-            EXPECT_GT(covered, 2000);
+            EXPECT_GT(normals.size(), 2000u);
             EXPECT_GE(bent, 40);
-        }
-    }
+        });
 }
 
 /// A metal without a colour of its own reflects from 0.88 to 1 of even light at any angle, at this roughness (the table
@@ -210,31 +208,22 @@ TEST_F(FacingNormals, ofAFlatFloorStayAsTheyAreUpToItsHorizon) {
                 middle + kDistanceMetres * (kCosine * up + std::sqrt(1.0 - kCosine * kCosine) * glm::dvec3(0, 0, 1)),
                 middle);
         }
-        engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings = settingsFor(1);
-        settings.view = frame::DebugView::Normal;
-        for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
-            settings.filter = filter;
-            const std::vector<float> normals = renderer.render(Technique::Deferred, settings).radiance;
-            int covered = 0;
-            double worst = 0.0;
-            for (std::size_t i = 0; i < normals.size(); i += 4) {
-                if (normals[i + 3] == 0.0f) continue;
-                ++covered;
-                worst = std::max(worst, glm::distance(glm::dvec3(normals[i], normals[i + 1], normals[i + 2]), up));
-            }
-            EXPECT_GT(covered, 1000);
-            EXPECT_LT(worst, 1e-5) << (projection == scenes::Projection::Perspective ? "perspective" : "orthographic")
-                                   << (filter == frame::TextureFilter::Exact ? ", exact" : ", hardware");
-        }
+        judgeNormals(scene, Technique::Deferred,
+                     [&](const std::vector<glm::dvec3>& normals, frame::TextureFilter filter) {
+                         double worst = 0.0;
+                         for (const glm::dvec3& normal : normals) worst = std::max(worst, glm::distance(normal, up));
+                         EXPECT_GT(normals.size(), 1000u);
+                         EXPECT_LT(worst, 1e-5)
+                             << (projection == scenes::Projection::Perspective ? "perspective" : "orthographic")
+                             << (filter == frame::TextureFilter::Exact ? ", exact" : ", hardware");
+                     });
     }
 }
 
 /// The same pictures as with bending left out, to the last bit: a flat surface is never bent, at any angle.
 TEST_F(FacingNormals, ofFlatSurfacesKeepEveryBit) {
-    const ShaderMutant unbent;
-    unbent.replace("lib/raster/facing.glsl", "const float kLeastFacing = 1.0 / 64.0;",
-                   "const float kLeastFacing = -2.0;");
+    const ShaderMutant unbent("lib/raster/facing.glsl", "const float kLeastFacing = 1.0 / 64.0;",
+                              "const float kLeastFacing = -2.0;");
     scenes::Scene scene = quadScene(whiteMetal());
     scene.meshes[0] = {};
     scenes::builtin::appendFloor(scene.meshes[0], {0.0, 0.0, -50.0}, {200.0, 100.0}, {4, 4});
@@ -252,7 +241,7 @@ TEST_F(FacingNormals, ofFlatSurfacesKeepEveryBit) {
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         settings.filter = filter;
         const auto radiance = [&](const scenes::Scene& shown, const shader::SourceTree& shaders) {
-            return engine::Renderer(context(), shown, shaders).render(Technique::Forward, settings).radiance;
+            return drawn(shown, settings, Technique::Forward, shaders);
         };
         EXPECT_EQ(radiance(scene, shader::SourceTree()), radiance(scene, unbent.tree()));
         EXPECT_NE(radiance(ball, shader::SourceTree()), radiance(ball, unbent.tree()));
@@ -297,26 +286,17 @@ TEST_F(FacingNormals, areTurnedToHalfOfTheTrianglesOwnCosine) {
             const double along = glm::dot(leaningWS, toViewerWS);
             ASSERT_LT(along, 0.0);
             const double wanted = least / std::sqrt(1.0 - along * along + least * least);
-            engine::Renderer renderer(context(), scene);
-            frame::FrameSettings settings = settingsFor(1);
-            settings.view = frame::DebugView::Normal;
-            for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
-                settings.filter = filter;
-                const std::vector<float> normals = renderer.render(Technique::Forward, settings).radiance;
-                int covered = 0;
-                double worst = 0.0;
-                for (std::size_t i = 0; i < normals.size(); i += 4) {
-                    if (normals[i + 3] == 0.0f) continue;
-                    ++covered;
-                    const double found = glm::dot(glm::dvec3(normals[i], normals[i + 1], normals[i + 2]), toViewerWS);
-                    worst = std::max(worst, std::abs(found / wanted - 1.0));
-                }
-                EXPECT_GT(covered, 1000);
-                // The whole instead of the half is off by 1. The cosine is that of corners in fp32, or of the change of
-                // depth from pixel to pixel.
-                EXPECT_LT(worst, filter == frame::TextureFilter::Exact ? 2e-3 : 0.05)
-                    << "kind " << int(kind) << ", cosine " << cosine;
-            }
+            judgeNormals(scene, Technique::Forward,
+                         [&](const std::vector<glm::dvec3>& normals, frame::TextureFilter filter) {
+                             double worst = 0.0;
+                             for (const glm::dvec3& normal : normals)
+                                 worst = std::max(worst, std::abs(glm::dot(normal, toViewerWS) / wanted - 1.0));
+                             EXPECT_GT(normals.size(), 1000u);
+                             // The whole instead of the half is off by 1. The cosine is that of corners in fp32, or of
+                             // the change of depth from pixel to pixel.
+                             EXPECT_LT(worst, filter == frame::TextureFilter::Exact ? 2e-3 : 0.05)
+                                 << "kind " << int(kind) << ", cosine " << cosine;
+                         });
         }
     }
 }

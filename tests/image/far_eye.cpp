@@ -1,16 +1,10 @@
 // An eye far away with a narrow lens, and a light close to a surface: positions must keep their digits.
-#include <algorithm>
 #include <functional>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/Rendering.h"
 #include "scenes/Limits.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
-#include "validation/compare/ReferencePicture.h"
+#include "tests/image/ImageTest.h"
 #include "validation/compare/ShownTriangles.h"
 #include "validation/figures/ErrorFigures.h"
 #include "validation/figures/Tolerance.h"
@@ -20,11 +14,12 @@ namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
 constexpr Technique kTechniques[] = {Technique::Forward, Technique::Deferred, Technique::ClusteredDeferred,
                                      Technique::DeferredVolumes};
 
-class FarEye : public test::GlTest {
+class FarEye : public ImageTest {
 protected:
     /// 99.9 % of the pixels of every technique lie within `p999Rel` of the reference, and all techniques agree.
     void expectAgreement(const std::string& what, const scenes::Scene& scene, double p999Rel) {
@@ -49,9 +44,6 @@ protected:
         }
     }
 
-    /// Every technique in each scene, or some in turn.
-    void expectTechniquesAgreeAtLimits();
-
     static scenes::Scene floorUnderLamp(double eyeMetres, double lampMetres) {
         scenes::Scene scene = validation::stressFarFloor(eyeMetres);
         // Off the places where pixels' centres look.
@@ -60,8 +52,7 @@ protected:
     }
 
     frame::FrameSettings settings_ = [] {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
+        frame::FrameSettings settings = ofSize(160, 90);
         settings.display = false;
         return settings;
     }();
@@ -71,12 +62,11 @@ protected:
 constexpr double kBar = 3e-4;
 
 TEST_F(FarEye, aFloorUnderALampLooksAsInTheReferenceFromAnyDistance) {
-    for (const double eyeMetres : {10.0, 1e3, 1e4, 1e5}) {
+    for (const double eyeMetres : {10.0, 1e3, 1e4, 1e5})
         for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
             settings_.space = space;
             expectAgreement(fmt::format("a floor from {:g} m", eyeMetres), floorUnderLamp(eyeMetres, 0.2), kBar);
         }
-    }
 }
 
 /// Only the visible part of a plain that extends far beyond the picture counts for the depths. Its corners are
@@ -114,8 +104,7 @@ TEST_F(FarEye, aLightAMillimetreAboveAWideFloorKeepsTheDigitsThatDepthHas) {
 TEST_F(FarEye, parallelRaysSeeAFloorAsInTheReferenceFromAnyDistance) {
     for (const double eyeMetres : {10.0, 1e4}) {
         scenes::Scene scene = floorUnderLamp(eyeMetres, 0.2);
-        scene.cameras[0].projection = scenes::Projection::Orthographic;
-        scene.cameras[0].halfHeightMetres = 0.45;
+        makeOrthographic(scene.cameras[0], 0.45);
         expectAgreement(fmt::format("parallel rays, {:g} m", eyeMetres), scene, kBar);
     }
 }
@@ -123,7 +112,7 @@ TEST_F(FarEye, parallelRaysSeeAFloorAsInTheReferenceFromAnyDistance) {
 /// Deferred lighting covers only the pixels of the draws' boxes, and rounding may move what is drawn beyond them.
 TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     // Half of the picture is the quad's left half; a digit of its place in the world is an eighth of its side.
-    scenes::Scene farOff = test::quadScene({});
+    scenes::Scene farOff = quadScene({});
     const double side = 1e-3, placeMetres = -1e12;
     farOff.nodes[0].parentFromNode =
         glm::translate(glm::dmat4(1.0), {placeMetres, 0.0, 0.0}) * glm::scale(glm::dmat4(1.0), glm::dvec3(side));
@@ -131,7 +120,7 @@ TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     farOff.cameras[0].nearMetres = 1e-4;
     farOff.cameras[0].fovYRadians = glm::radians(1.0);
     // Columns of the matrix that cancel: x is 0.3 (a - b) of coordinates a and b near 1e6.
-    scenes::Scene sheared = test::quadScene({});
+    scenes::Scene sheared = quadScene({});
     for (glm::vec3& position : sheared.meshes[0].positionsOS)
         position = {1e6f + 0.0625f * (position.x > 0.0f ? 1.0f : 0.0f), 1e6f, 0.01f * position.y};
     sheared.nodes[0].parentFromNode = {
@@ -161,14 +150,12 @@ TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     }
 }
 
-using FarEyeSlow = FarEye;
-
 /// The ends of scenes/Limits.h.
-void FarEye::expectTechniquesAgreeAtLimits() {
+TEST_SWEEP(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
     std::size_t turn = 0;
-    scenes::Scene near = test::everythingScene();
+    scenes::Scene near = everythingScene();
     near.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
-    scenes::Scene vast = test::everythingScene();
+    scenes::Scene vast = everythingScene();
     const double scale = 0.05 * scenes::kFarthestMetres; // of a scene some 20 m wide
     for (scenes::Node& node : vast.nodes)
         if (node.parent == scenes::kNone)
@@ -190,15 +177,9 @@ void FarEye::expectTechniquesAgreeAtLimits() {
         int lit = 0;
         for (std::size_t i = 0; i < truth.radiance.size(); i += 4) lit += truth.radiance[i] > 0.0f;
         EXPECT_GT(lit, 160 * 90 / 4);
-        for (const Technique technique : test::techniquesInTurn(turn++))
+        for (const Technique technique : techniquesInTurn(turn++))
             EXPECT_TRUE(renderer.render(technique, settings_).radiance == truth.radiance) << infoOf(technique).name;
     }
-}
-TEST_F(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
-    expectTechniquesAgreeAtLimits();
-}
-TEST_F(FarEyeSlow, techniquesAgreeAtTheLimitsOfLengths) {
-    expectTechniquesAgreeAtLimits();
 }
 
 } // namespace

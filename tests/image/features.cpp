@@ -1,12 +1,8 @@
 #include <functional>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 #include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
@@ -18,8 +14,9 @@ using scenes::Material;
 using scenes::MaterialModel;
 using scenes::Scene;
 using scenes::TextureSlot;
+using namespace test;
 
-/// Indices into test::everythingScene().
+/// Indices into everythingScene().
 enum : std::size_t { kUnlit, kFloor, kGloss, kMetal, kDielectric, kMasked, kGlass };
 enum : std::size_t { kPhong = kGlass + 1, kBrushed, kSilk, kHandout, kCoated, kCloth };
 enum : std::size_t { kSun, kSpot, kRanged, kOff, kAttenuated, kPoint };
@@ -31,13 +28,9 @@ struct Change {
 };
 
 /// Each change alone, applied to the scene of every feature or another one, must show.
-class Features : public test::GlTest {
+class Features : public ImageTest {
 protected:
-    static frame::FrameSettings small() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
-        return settings;
-    }
+    static frame::FrameSettings small() { return ofSize(160, 90); }
     static std::size_t changedPixels(const Picture& a, const Picture& b) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < a.pixelCount(); ++i) count += !std::equal(a.pixel(i), a.pixel(i) + 3, b.pixel(i));
@@ -46,13 +39,13 @@ protected:
     /// Without pruning, so that all share programs, which take most of the time. In a whole sweep the scene with
     /// pruning and every fourth change in forward too: else Glass compares such a scene with pruning, and Parity
     /// techniques.
-    void expectEachShows(const std::vector<Change>& changes, const Scene& base = test::everythingScene()) {
+    void expectEachShows(const std::vector<Change>& changes, const Scene& base = everythingScene()) {
         std::size_t turn = 0;
         engine::Renderer baseRenderer(context(), base);
         frame::FrameSettings settings = small();
         settings.prune = false;
         const Picture before = engine::toPicture(baseRenderer.render(Technique::Deferred, settings));
-        if (test::isWholeSweep()) {
+        if (isWholeSweep()) {
             EXPECT_EQ(engine::toPicture(baseRenderer.render(Technique::Deferred, small())).rgba, before.rgba);
         }
         for (const Change& change : changes) {
@@ -63,7 +56,7 @@ protected:
             engine::Renderer renderer(context(), scene);
             const Picture deferred = engine::toPicture(renderer.render(Technique::Deferred, settings));
             EXPECT_GT(changedPixels(before, deferred), 10u) << "the picture did not change";
-            if (!test::isWholeSweep() || turn++ % 4 != 0) continue;
+            if (!isWholeSweep() || turn++ % 4 != 0) continue;
             const Picture forward = engine::toPicture(renderer.render(Technique::Forward, settings));
             EXPECT_EQ(forward.rgba, deferred.rgba) << "forward and deferred do not agree on it";
             const validation::ErrorFigures figures = validation::errorFigures(deferred, forward);
@@ -71,7 +64,6 @@ protected:
         }
     }
 };
-using FeaturesSlow = Features;
 
 /// A change of one material's field or texture.
 Change material(const char* what, std::size_t index, std::function<void(Material&)> apply) {
@@ -87,8 +79,8 @@ Change withoutTexture(const char* what, std::size_t index, TextureSlot slot) {
     return material(what, index, [=](Material& m) { m.texture(slot) = {}; });
 }
 
-std::vector<Change> slotChanges() {
-    return {
+TEST_SWEEP(Features, everyTextureSlotChangesThePicture) {
+    const std::vector<Change> changes{
         withoutTexture("base colour of lambert", kFloor, TextureSlot::BaseColor),
         withoutTexture("base colour of metallic_roughness", kDielectric, TextureSlot::BaseColor),
         withoutTexture("normal, object space", kGloss, TextureSlot::Normal),
@@ -115,16 +107,11 @@ std::vector<Change> slotChanges() {
         material("base colour of single_color", kUnlit,
                  [](Material& m) { m.texture(TextureSlot::BaseColor).image = 0; }),
     };
-}
-TEST_F(Features, everyTextureSlotChangesThePicture) {
-    expectEachShows(test::everyNth(slotChanges(), 2));
-}
-TEST_F(FeaturesSlow, everyTextureSlotChangesThePicture) {
-    expectEachShows(test::everyNth(slotChanges(), 2));
+    expectEachShows(everyNth(changes, 2));
 }
 
 Scene withTexturedGlassAndFilm() {
-    Scene base = test::everythingScene();
+    Scene base = everythingScene();
     Material& metal = base.materials[kMetal];
     metal.iridescence = 1.0f;
     metal.texture(TextureSlot::Iridescence).image = metal.texture(TextureSlot::IridescenceThickness).image = 0;
@@ -135,27 +122,22 @@ Scene withTexturedGlassAndFilm() {
     glass.texture(TextureSlot::Transmission).image = glass.texture(TextureSlot::Thickness).image = 0;
     return base;
 }
-std::vector<Change> glassAndFilmChanges() {
-    return {
+TEST_SWEEP(Features, everyTextureOfGlassAndFilmsChangesThePicture) {
+    const std::vector<Change> changes{
         withoutTexture("iridescence", kMetal, TextureSlot::Iridescence),
         withoutTexture("thickness of a film", kMetal, TextureSlot::IridescenceThickness),
         material("least thickness of a film", kMetal, [](Material& m) { m.iridescenceLeastThicknessNm = 700.0f; }),
         withoutTexture("transmission", kGlass, TextureSlot::Transmission),
         withoutTexture("thickness of a body", kGlass, TextureSlot::Thickness),
     };
-}
-TEST_F(Features, everyTextureOfGlassAndFilmsChangesThePicture) {
-    expectEachShows(glassAndFilmChanges(), withTexturedGlassAndFilm());
-}
-TEST_F(FeaturesSlow, everyTextureOfGlassAndFilmsChangesThePicture) {
-    expectEachShows(glassAndFilmChanges(), withTexturedGlassAndFilm());
+    expectEachShows(changes, withTexturedGlassAndFilm());
 }
 
-std::vector<Change> textureSettingChanges() {
+TEST_SWEEP(Features, everyTextureSettingChangesThePicture) {
     const auto floor = [](const char* what, std::function<void(scenes::TextureUse&)> apply) {
         return material(what, kFloor, [=](Material& m) { apply(m.texture(TextureSlot::BaseColor)); });
     };
-    return {
+    const std::vector<Change> changes{
         floor("offset", [](scenes::TextureUse& use) { use.transform.offset.x += 0.3f; }),
         floor("scale", [](scenes::TextureUse& use) { use.transform.scale.y *= 0.5f; }),
         floor("rotation", [](scenes::TextureUse& use) { use.transform.rotationRadians = -0.4f; }),
@@ -182,16 +164,11 @@ std::vector<Change> textureSettingChanges() {
              s.images[0].texels.assign(s.images[0].texels.size(), std::byte(90));
          }},
     };
-}
-TEST_F(Features, everyTextureSettingChangesThePicture) {
-    expectEachShows(test::everyNth(textureSettingChanges(), 2));
-}
-TEST_F(FeaturesSlow, everyTextureSettingChangesThePicture) {
-    expectEachShows(test::everyNth(textureSettingChanges(), 2));
+    expectEachShows(everyNth(changes, 2));
 }
 
-std::vector<Change> materialChanges() {
-    return {
+TEST_SWEEP(Features, everyMaterialParameterChangesThePicture) {
+    const std::vector<Change> changes{
         material("colour of single_color", kUnlit, [](Material& m) { m.baseColor.r = 0.9f; }),
         material("k_d of lambert", kFloor, [](Material& m) { m.baseColor.g = 0.1f; }),
         material("k_d of microfacet", kGloss, [](Material& m) { m.baseColor.b = 0.9f; }),
@@ -204,14 +181,8 @@ std::vector<Change> materialChanges() {
         material("ior of microfacet", kGloss, [](Material& m) { m.ior = 2.4f; }),
         material("ior of metallic_roughness", kDielectric, [](Material& m) { m.ior = 1.2f; }),
         material("specular factor", kDielectric, [](Material& m) { m.specularFactor = 0.2f; }),
-        material("k_s", kGloss,
-                 [](Material& m) {
-                     m.specularColor = {0.1f, 0.9f, 0.9f};
-                 }),
-        material("specular tint", kDielectric,
-                 [](Material& m) {
-                     m.specularColor = {0.1f, 0.2f, 0.9f};
-                 }),
+        material("k_s", kGloss, [](Material& m) { m.specularColor = glm::vec3(0.1f, 0.9f, 0.9f); }),
+        material("specular tint", kDielectric, [](Material& m) { m.specularColor = glm::vec3(0.1f, 0.2f, 0.9f); }),
         material("k_d of blinn_phong", kPhong, [](Material& m) { m.baseColor.r = 0.9f; }),
         material("k_s of blinn_phong", kPhong, [](Material& m) { m.specularColor.b = 0.9f; }),
         material("exponent", kPhong, [](Material& m) { m.exponent = 4.0f; }),
@@ -261,16 +232,11 @@ std::vector<Change> materialChanges() {
         material("microfacet_anisotropic", kDielectric,
                  [](Material& m) { m.model = MaterialModel::MicrofacetAnisotropic; }),
     };
-}
-TEST_F(Features, everyMaterialParameterChangesThePicture) {
-    expectEachShows(test::everyNth(materialChanges(), 3));
-}
-TEST_F(FeaturesSlow, everyMaterialParameterChangesThePicture) {
-    expectEachShows(test::everyNth(materialChanges(), 3));
+    expectEachShows(everyNth(changes, 3));
 }
 
-std::vector<Change> vertexChanges() {
-    return {
+TEST_SWEEP(Features, everyVertexAttributeAndTransformChangesThePicture) {
+    const std::vector<Change> changes{
         {"vertex colours", [](Scene& s) { s.meshes[kQuadMesh].colors.clear(); }},
         {"a vertex colour",
          [](Scene& s) {
@@ -312,24 +278,16 @@ std::vector<Change> vertexChanges() {
              s.nodes[4].parentFromNode = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.6, 0.2, 0.4));
          }},
     };
-}
-TEST_F(Features, everyVertexAttributeAndTransformChangesThePicture) {
-    expectEachShows(vertexChanges());
-}
-TEST_F(FeaturesSlow, everyVertexAttributeAndTransformChangesThePicture) {
-    expectEachShows(vertexChanges());
+    expectEachShows(changes);
 }
 
-std::vector<Change> lightChanges() {
-    return {
+TEST_SWEEP(Features, everyLightParameterChangesThePicture) {
+    const std::vector<Change> changes{
         light("disabled", kSun, [](Light& l) { l.enabled = false; }),
         light("enabled", kOff, [](Light& l) { l.enabled = true; }),
         light("directional to point", kSun, [](Light& l) { l.type = scenes::LightType::Point; }),
         light("point to spot", kPoint, [](Light& l) { l.type = scenes::LightType::Spot; }),
-        light("colour", kPoint,
-              [](Light& l) {
-                  l.color = {0.2f, 0.4f, 1.0f};
-              }),
+        light("colour", kPoint, [](Light& l) { l.color = glm::vec3(0.2f, 0.4f, 1.0f); }),
         light("intensity", kPoint, [](Light& l) { l.intensity *= 1.5f; }),
         light("position", kPoint, [](Light& l) { l.positionWS.x += 0.5; }),
         light("direction of the sun", kSun,
@@ -351,16 +309,11 @@ std::vector<Change> lightChanges() {
                   l.animation->amplitudeMetres = {1.0, 0.0, 0.0};
               }),
     };
-}
-TEST_F(Features, everyLightParameterChangesThePicture) {
-    expectEachShows(lightChanges());
-}
-TEST_F(FeaturesSlow, everyLightParameterChangesThePicture) {
-    expectEachShows(lightChanges());
+    expectEachShows(changes);
 }
 
-std::vector<Change> cameraChanges() {
-    return {
+TEST_SWEEP(Features, everyCameraParameterChangesThePicture) {
+    const std::vector<Change> changes{
         camera("place", [](scenes::Camera& c) { c.worldFromCamera[3].y += 0.2; }),
         camera("field of view", [](scenes::Camera& c) { c.fovYRadians = 0.6; }),
         camera("near plane", [](scenes::Camera& c) { c.nearMetres = 5.0; }),
@@ -368,16 +321,11 @@ std::vector<Change> cameraChanges() {
         camera("orthographic", [](scenes::Camera& c) { c.projection = scenes::Projection::Orthographic; }),
         {"background", [](Scene& s) { s.background.g = 0.5f; }},
     };
-}
-TEST_F(Features, everyCameraParameterChangesThePicture) {
-    expectEachShows(cameraChanges());
-}
-TEST_F(FeaturesSlow, everyCameraParameterChangesThePicture) {
-    expectEachShows(cameraChanges());
+    expectEachShows(changes);
 }
 
 TEST_F(Features, anAnimatedLightMovesWithTimeAndOthersNever) {
-    Scene scene = test::everythingScene();
+    Scene scene = everythingScene();
     engine::Renderer still(context(), scene);
     frame::FrameSettings settings = small();
     const std::vector<float> atStart = still.render(Technique::Deferred, settings).radiance;
@@ -385,12 +333,11 @@ TEST_F(Features, anAnimatedLightMovesWithTimeAndOthersNever) {
     EXPECT_EQ(still.render(Technique::Deferred, settings).radiance, atStart);
     scene.lights[kPoint].animation.emplace();
     scene.lights[kPoint].animation->centerWS = {0, 2, 0};
-    engine::Renderer moving(context(), scene);
-    EXPECT_NE(moving.render(Technique::Deferred, settings).radiance, atStart);
+    EXPECT_NE(drawn(scene, settings), atStart);
 }
 
 TEST_F(Features, everyFrameSettingChangesItsOwnFeaturesOnly) {
-    const Scene scene = test::everythingScene();
+    const Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame base = renderer.render(Technique::Deferred, small());
     struct Setting {

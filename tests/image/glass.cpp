@@ -1,9 +1,5 @@
 // Light that passes through surfaces: every technique, the reference, and what stays as it is beside or without them.
-#include <cmath>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/image/GlassTest.h"
@@ -14,15 +10,10 @@ namespace {
 using engine::Technique;
 using scenes::Material;
 using scenes::Scene;
+using testing::Each;
 using namespace test;
 
-class Glass : public GlassTest {
-protected:
-    /// Of a scene of everything, by itself and under a sky, or of a few surfaces, with every technique in either, and
-    /// of everything with one.
-    void expectAllTechniquesAlike();
-};
-using GlassSlow = Glass;
+class Glass : public GlassTest {};
 
 /// Sheets and bodies among all other materials.
 Scene sceneWithGlass() {
@@ -43,13 +34,14 @@ Scene sceneWithGlass() {
     return scene;
 }
 
-void Glass::expectAllTechniquesAlike() {
+/// Of a scene of everything, by itself and under a sky, or of a few surfaces, with every technique in either, and
+/// of everything with one.
+TEST_SWEEP(Glass, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
     const auto expectAlike = [&](Scene scene, bool isUnderSky, const std::vector<Technique>& techniques,
                                  bool comparesUnpruned) {
         SCOPED_TRACE(fmt::format("{}, under a sky: {}", scene.name, isUnderSky));
         if (isUnderSky) scene.environment = builtinEnvironment("studio");
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
+        frame::FrameSettings settings = ofSize(96, 54);
         engine::Renderer renderer(context(), scene);
         expectParity(renderer, settings, techniques);
         if (comparesUnpruned) expectPruningIsUnseen(renderer, settings);
@@ -65,24 +57,12 @@ void Glass::expectAllTechniquesAlike() {
     expectAlike(fewWithGlass(), true, techniquesInTurn(1), false);
     expectAlike(sceneWithGlass(), false, {Technique::Deferred}, true);
 }
-TEST_F(Glass, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(GlassSlow, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
 
 /// Each alone, where it changes the picture: what surrounds it would outnumber its errors.
 TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.filter = frame::TextureFilter::Exact;
+    frame::FrameSettings settings = exactOfSize(96, 54);
     settings.refraction = frame::Refraction::Environment; // what else bodies show hangs on the picture
-    const auto truthOf = [&](const Scene& scene) {
-        return validation::referencePicture(
-                   scene, settings, [] {}, validation::Leeway::None)
-            .picture;
-    };
+    const auto truthOf = [&](const Scene& scene) { return strictReference(scene, settings).picture; };
     const Scene without = everythingScene(), all = sceneWithGlass();
     const Picture before = truthOf(without);
     const auto expectAgreement = [&](std::size_t number, const Material& material, double leeway) {
@@ -135,10 +115,7 @@ TEST_F(Glass, elsewhereInASceneChangesNoBitOfBlendedSurfaces) {
     scene.lights = {pointLight({0.3, 0.4, 1.0}, 3.0f)};
     scene.background = {0.2f, 0.3f, 0.1f};
     const std::vector<float> alone = drawn(scene, ofSide(32));
-    scene.materials.push_back(clearGlass());
-    scene.nodes.push_back(scene.nodes[0]);
-    scene.nodes.back().instances[0].material = 1;
-    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 50.0, 1.0}; // behind the camera
+    addNode(scene, clearGlass()).parentFromNode[3].z = 50.0; // behind the camera
     EXPECT_EQ(drawn(scene, ofSide(32)), alone);
 }
 
@@ -146,11 +123,8 @@ TEST_F(Glass, elsewhereInASceneChangesNoBitOfBlendedSurfaces) {
 TEST_F(Glass, roughGlassElsewhereInASceneChangesNoBitOfSmoothGlass) {
     Scene scene = glassUnderSky(clearGlass());
     const std::vector<float> alone = drawn(scene, ofSide(kGlassPixels));
-    scene.materials.push_back(clearGlass());
+    addNode(scene, clearGlass(), scene.nodes[0].parentFromNode).parentFromNode[3].z = 500.0; // behind the camera
     scene.materials.back().perceptualRoughness = 0.5f;
-    scene.nodes.push_back(scene.nodes[0]);
-    scene.nodes.back().instances[0].material = 1;
-    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 500.0, 1.0}; // behind the camera
     EXPECT_EQ(drawn(scene, ofSide(kGlassPixels)), alone);
 }
 
@@ -160,10 +134,7 @@ TEST_F(Glass, dispersionElsewhereInASceneChangesNoBit) {
     const std::vector<float> alone = drawn(scene, ofSide(kGlassPixels));
     Material dispersing = bareGlass(1.5, 0.3);
     dispersing.dispersion = 1.0f;
-    scene.materials.push_back(dispersing);
-    scene.nodes.push_back(scene.nodes[0]);
-    scene.nodes.back().instances[0].material = 1;
-    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 500.0, 1.0}; // behind the camera
+    addNode(scene, dispersing, scene.nodes[0].parentFromNode).parentFromNode[3].z = 500.0; // behind the camera
     EXPECT_EQ(drawn(scene, ofSide(kGlassPixels)), alone);
 }
 
@@ -183,14 +154,7 @@ TEST_F(Glass, materialsMayBecomeItWhileASceneIsShown) {
 }
 
 TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
-    const auto valuesOf = [](const Scene& scene, const std::string& define) {
-        std::vector<std::string> values;
-        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
-            for (const auto& [name, value] : program.defines)
-                if (name == define) values.push_back(value);
-        return values;
-    };
-    using ::testing::Each;
+    const auto valuesOf = [](const Scene& scene, const std::string& define) { return definedValues(scene, define); };
     Scene scene = quadScene({});
     EXPECT_THAT(valuesOf(scene, "HAS_TRANSMISSION"), Each("0"));
     EXPECT_FALSE(valuesOf(scene, "HAS_TRANSMISSION").empty());
@@ -210,9 +174,7 @@ TEST_F(Glass, thatIsSmoothOrNotThereAsksForNoTableOfLobes) {
     const auto asks = [](const Scene& scene) {
         const std::string plan = planText(engine::planFrame(scene, Technique::Deferred, {}));
         const bool isThere = plan.find("lobe_table") != std::string::npos;
-        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
-            for (const auto& [name, value] : program.defines)
-                EXPECT_TRUE(name != "HAS_PASSING_LOBES" || (value == "1") == isThere) << program.name;
+        EXPECT_THAT(definedValues(scene, "HAS_PASSING_LOBES"), Each(isThere ? "1" : "0"));
         return isThere;
     };
     Scene scene = quadScene({});

@@ -1,12 +1,6 @@
 // Bodies of glass whose rays leave where they meet the back faces of the mesh: closed forms, and the reference.
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "tests/image/GlassBehindTest.h"
+#include "tests/image/GlassTest.h"
 
 namespace tessera {
 namespace {
@@ -70,8 +64,7 @@ TEST_F(GlassBackFaces, throughTheBackOfABallIsTurnedRound) {
     scenes::builtin::appendSphere(ball, {}, kRadiusMetres, 96, 48);
     const Scene scene = coveredByBody(rampWall(), bareGlass(kIor), ball);
     const frame::FrameSettings settings = seeing(Refraction::BackFaces);
-    const validation::ReferencePicture truth = validation::referencePicture(
-        scene, settings, [] {}, validation::Leeway::None);
+    const validation::ReferencePicture truth = strictReference(scene, settings);
     const std::vector<float> plain = drawn(rampWall(), settings), shown = drawn(scene, settings);
     double worst = 0.0;
     int turned = 0;
@@ -109,17 +102,14 @@ TEST_F(GlassBackFaces, absorbsAlongItsThicknessWhereTheBackReflects) {
     scenes::builtin::appendBox(scene.meshes[0], {-kHalfMetres, -kHalfMetres, -kDeepMetres},
                                {kHalfMetres, kHalfMetres, 0.0});
     placeQuad(scene.nodes[0], 0.0, 1.0, kTiltRadians);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.environment = evenEnvironment(1.0);
     const frame::FrameSettings settings = seeing(Refraction::BackFaces);
     const double wayMetres = kDeepMetres / std::cos(std::asin(std::sin(kTiltRadians) / kIor));
     for (const double thicknessMetres : {kDeepMetres, 0.01}) {
         scene.materials[0].thicknessMetres = float(thicknessMetres);
         const std::vector<float> shown = drawn(scene, settings);
-        const std::vector<float> truth = validation::referencePicture(
-                                             scene, settings, [] {}, validation::Leeway::None)
-                                             .picture.rgba;
+        const std::vector<float> truth = strictRadiance(scene, settings);
         int judged = 0;
         for (int y = 0; y < kBehindPixels; ++y)
             for (int x = 0; x < kBehindPixels; ++x) {
@@ -152,13 +142,10 @@ TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
         Scene scene = quadScene(tinted);
         scene.meshes[0] = std::move(mesh);
         placeQuad(scene.nodes[0], 0.0, 1.0, tiltRadians);
-        scene.cameras[0].projection = scenes::Projection::Orthographic;
-        scene.cameras[0].halfHeightMetres = 1.0;
+        makeOrthographic(scene.cameras[0], 1.0);
         scene.environment = evenEnvironment(1.0);
         const std::vector<float> shown = drawn(scene, settings);
-        const std::vector<float> truth = validation::referencePicture(
-                                             scene, settings, [] {}, validation::Leeway::None)
-                                             .picture.rgba;
+        const std::vector<float> truth = strictRadiance(scene, settings);
         for (int y = 0; y < kBehindPixels; ++y)
             for (int x = 0; x < kBehindPixels; ++x) {
                 // Farther out rays leave the picture inside the slab, and the ball lets few through.
@@ -246,9 +233,7 @@ TEST_F(GlassBackFaces, thatReachesIntoTheWallShowsTheWall) {
     const frame::FrameSettings settings = seeing(Refraction::BackFaces);
     const std::vector<float> plain = drawn(checkedWall(), settings);
     EXPECT_EQ(drawn(covered, settings), plain);
-    const std::vector<float> truth = validation::referencePicture(
-                                         covered, settings, [] {}, validation::Leeway::None)
-                                         .picture.rgba;
+    const std::vector<float> truth = strictRadiance(covered, settings);
     for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(truth[i], plain[i], 1e-5) << i;
 }
 
@@ -256,12 +241,10 @@ TEST_F(GlassBackFaces, thatReachesIntoTheWallShowsTheWall) {
 /// rise above it there: they do not meet it. The base shows the light box alone, which is even.
 TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
     const scenes::Scene scene = scenes::loadScene("glass");
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {480, 270};
+    frame::FrameSettings settings = ofSize(480, 270);
     settings.refraction = frame::Refraction::BackFaces;
     settings.shadows.kind = scenes::ShadowRequest::Kind::None;
-    const std::vector<float> shown = renderer.render(Technique::Forward, settings).radiance;
+    const std::vector<float> shown = drawn(scene, settings, Technique::Forward);
     const auto redAt = [&](int x, int y) { return shown[4 * (std::size_t(y) * 480 + std::size_t(x))]; };
     for (int y = 170; y < 175; ++y) // within the picture of that base
         for (int x = 112; x < 120; ++x)
@@ -273,8 +256,7 @@ TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
 TEST_F(GlassBackFaces, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
     const scenes::Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {640, 360};
+    frame::FrameSettings settings = ofSize(640, 360);
     settings.refraction = frame::Refraction::BackFaces;
     const std::vector<float> one = renderer.render(Technique::Forward, settings).radiance;
     settings.samples = 4;
@@ -287,6 +269,36 @@ TEST_F(GlassBackFaces, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
             ++all;
         }
     EXPECT_EQ(others, 0u) << "of " << all;
+}
+
+/// The thickness that the material of a body states, beside how thick the body is.
+class GlassThickness : public GlassTest {};
+
+/// Back faces tell how far light goes through a body. What it absorbs per metre stays the same down to a stated
+/// thickness that absorbs less than a rounding of the light.
+TEST_F(GlassThickness, countsForNothingWhereBackFacesTellTheWay) {
+    constexpr double kDeepMetres = 0.4;
+    scenes::Material tinted = bareGlass(1.5);
+    tinted.attenuationDistanceMetres = 1.0f;
+    tinted.attenuationColor = {0.25f, 0.5f, 1.0f};
+    frame::FrameSettings settings = ofSide(16);
+    settings.refraction = frame::Refraction::BackFaces;
+    for (const float thicknessMetres : {3.0f, 1e-3f, 1e-6f, 1e-9f}) {
+        tinted.thicknessMetres = thicknessMetres;
+        scenes::Scene scene = quadScene(tinted);
+        scene.meshes[0] = {};
+        scenes::builtin::appendBox(scene.meshes[0], {-4.0, -4.0, -kDeepMetres}, {4.0, 4.0, 0.0});
+        scene.nodes[0].parentFromNode = glm::dmat4(1.0);
+        makeOrthographic(scene.cameras[0], 1.0);
+        scene.environment = evenEnvironment(1.0);
+        const std::vector<float> shown = drawn(scene, settings);
+        for (std::size_t pixel = 0; pixel < shown.size(); pixel += 4)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double wanted = std::pow(double(tinted.attenuationColor[glm::length_t(c)]), kDeepMetres);
+                // As the slab of GlassBehind: the depth of the far side and the filtered map round.
+                ASSERT_NEAR(shown[pixel + c], wanted, 1e-4 * wanted) << thicknessMetres << " m, channel " << c;
+            }
+    }
 }
 
 } // namespace

@@ -1,10 +1,6 @@
 // What bodies of glass show of what stands behind them: every technique, what shows without them to the last bit, what
 // is left out, and the reference.
-#include <algorithm>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Median.h"
@@ -19,23 +15,19 @@ using frame::Refraction;
 using scenes::Scene;
 using namespace test;
 
-class GlassBehind : public GlassBehindTest {
-protected:
-    void expectAllTechniquesAlike();
-};
+class GlassBehind : public GlassBehindTest {};
 using GlassBehindSlow = GlassBehind;
 
 /// Along rays bent once and moved aside, with levels and without, of one sample and of several. Or of several and not
 /// pruned along one of them each.
-void GlassBehind::expectAllTechniquesAlike() {
+TEST_SWEEP(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
     for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides, Refraction::BackFaces}) {
         SCOPED_TRACE(infoOf(refraction).name);
         Scene scene = fewWithGlass();
         scene.materials[1].thicknessMetres = 0.4f;
         scenes::builtin::appendSphere(scene.meshes.emplace_back(), {}, 1.0, 48, 24);
         scene.nodes[1].instances[0].mesh = 1;
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
+        frame::FrameSettings settings = ofSize(96, 54);
         settings.refraction = refraction;
         {
             engine::Renderer renderer(context(), scene);
@@ -50,12 +42,6 @@ void GlassBehind::expectAllTechniquesAlike() {
         engine::Renderer renderer(context(), scene);
         expectPruningIsUnseen(renderer, settings);
     }
-}
-TEST_F(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(GlassBehindSlow, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
 }
 
 /// An index of 1 bends nothing: not a bit differs, of parallel rays and of a lens, of one sample and of several.
@@ -92,10 +78,7 @@ TEST_F(GlassBehind, raysThatMeetNothingShowTheEnvironment) {
             settings.refraction = refraction;
             const Scene alone = glassUnderSky(bareGlass(1.5, 0.3));
             Scene with = alone;
-            with.materials.push_back(unlit());
-            scenes::Node& beside = with.nodes.emplace_back(with.nodes[0]);
-            beside.instances[0].material = 1;
-            placeQuad(beside, 50.0, 1.0); // behind the camera
+            placeQuad(addNode(with, unlit()), 50.0, 1.0); // behind the camera
             const std::vector<float> shown = drawn(with, settings);
             EXPECT_EQ(shown, drawn(alone, settings)) << infoOf(light).name << ", " << infoOf(refraction).name;
             if (refraction == Refraction::TwoSides) continue;
@@ -121,10 +104,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
         return planText(engine::planFrame(scene, Technique::Deferred, settings));
     };
     const auto hasDefine = [](const Scene& scene, const std::string& wanted) {
-        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
-            for (const auto& [name, value] : program.defines)
-                if (name == wanted && value != "0") return true;
-        return false;
+        return std::ranges::any_of(definedValues(scene, wanted), [](const std::string& value) { return value != "0"; });
     };
     using ::testing::HasSubstr, ::testing::Not;
     const Scene covered = coveredByGlass(checkedWall(), bareGlass(1.5));
@@ -164,8 +144,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
 TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
     for (const double roughness : {0.0, 0.2}) {
         Scene scene = quadScene(bareGlass(1.5, roughness));
-        scene.cameras[0].projection = scenes::Projection::Orthographic;
-        scene.cameras[0].halfHeightMetres = 1.0;
+        makeOrthographic(scene.cameras[0], 1.0);
         scenes::Light& lamp = scene.lights.emplace_back();
         lamp.type = scenes::LightType::Rectangle;
         lamp.positionWS = {0.0, 0.0, -0.5};
@@ -173,12 +152,10 @@ TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
         lamp.alongWS = {1.0, 0.0, 0.0};
         lamp.widthMetres = lamp.heightMetres = 1.0f;
         lamp.intensity = 2.0f;
-        frame::FrameSettings settings;
-        settings.sizePixels = {16, 16};
+        frame::FrameSettings settings = ofSize(16, 16);
         engine::Renderer renderer(context(), scene);
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
+        const validation::ReferencePicture truth = strictReference(scene, settings);
         const std::size_t middle = 4 * (8 * 16 + 8);
         EXPECT_GT(seen[middle], 1.5f) << roughness;
         EXPECT_NEAR(seen[middle], truth.picture.rgba[middle], roughness > 0.0 ? 0.05 : 1e-4) << roughness;
@@ -191,13 +168,9 @@ TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
 TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    frame::FrameSettings settings = withoutShadows(ofSize(96, 54));
     settings.environment.light = EnvironmentLight::Sampled;
-    const Picture truth = validation::referencePicture(
-                              scene, settings, [] {}, validation::Leeway::None)
-                              .picture;
+    const Picture truth = strictReference(scene, settings).picture;
     const auto drawnWith = [&](Refraction refraction) {
         settings.refraction = refraction;
         return renderer.render(Technique::Deferred, settings).radiance;

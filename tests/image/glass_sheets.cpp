@@ -1,7 +1,4 @@
 // Thin sheets that transmit light: known answers.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "tests/image/FlatTest.h"
 #include "tests/image/GlassTest.h"
@@ -110,10 +107,7 @@ TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
         scene.background = glm::vec3(0.0f);
         return scene;
     };
-    Material black = clearGlass();
-    black.perceptualRoughness = 0.4f;
-    black.transmission = 0.0f;
-    black.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    const Material black = blackDielectric(0.4);
     const glm::vec4 highlight = center(lit(black));
     EXPECT_GT(highlight.g, 0.01f);
     Material sheet = black;

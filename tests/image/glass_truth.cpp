@@ -1,12 +1,4 @@
 // Light that bodies and sheets of glass transmit: known answers, and the reference.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "tests/image/GlassTest.h"
 #include "validation/reference/Lobes.h"
@@ -22,13 +14,10 @@ using namespace test;
 
 class GlassTruth : public GlassTest {
 protected:
-    /// For rough bodies of several indices, in pictures of half the side unless the sweep is a whole one.
-    void expectRoughAsTheReference();
     /// Under a sky of radiance 1, thin and as a body, by either light: 1 in every pixel that `isJudged`.
     template <typename SceneOf, typename IsJudged>
     void expectEvenLightShown(Material glass, int sidePixels, SceneOf sceneOf, IsJudged isJudged);
 };
-using GlassTruthSlow = GlassTruth;
 
 template <typename SceneOf, typename IsJudged>
 void GlassTruth::expectEvenLightShown(Material glass, int sidePixels, SceneOf sceneOf, IsJudged isJudged) {
@@ -270,7 +259,7 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
 /// lobe; the closed form ignores that lobes lean aside at grazing angles. Of roughness 0.6 that darkens bodies of index
 /// 2 by 4.0 % and sheets by 4.5 %, brightens bodies of index 1.25 by 2.3 %, and puts single pixels at grazing angles
 /// off by 0.17 in bodies and 0.51 in sheets, before a sky of 0.1 to 1.9 (docs/glass.md).
-void GlassTruth::expectRoughAsTheReference() {
+TEST_SWEEP(GlassTruth, thatIsRoughAgreesWithTheReference) {
     struct Case {
         double ior;
         bool isSheet;
@@ -298,8 +287,7 @@ void GlassTruth::expectRoughAsTheReference() {
         frame::FrameSettings settings = ofSide(isWholeSweep() ? kGlassPixels : kGlassPixels / 2);
         settings.environment.samples = 1024;
         settings.filter = frame::TextureFilter::Exact;
-        const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::None);
+        const validation::ReferencePicture truth = strictReference(scene, settings);
         for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
             settings.environment.light = light;
             const std::vector<float> shown = drawn(scene, settings);
@@ -321,12 +309,6 @@ void GlassTruth::expectRoughAsTheReference() {
             EXPECT_LE(worst, isSheet ? 0.52 : 0.17) << infoOf(light).name; // noise of both; levels between alphas
         }
     }
-}
-TEST_F(GlassTruth, thatIsRoughAgreesWithTheReference) {
-    expectRoughAsTheReference();
-}
-TEST_F(GlassTruthSlow, thatIsRoughAgreesWithTheReference) {
-    expectRoughAsTheReference();
 }
 
 } // namespace

@@ -1,76 +1,51 @@
-#include <algorithm>
 #include <iterator>
 #include <span>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "engine/PrepareView.h"
-#include "engine/Rendering.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
-class Invariance : public test::GlTest {
+class Invariance : public ImageTest {
 protected:
     static frame::FrameSettings small() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {320, 181};
-        settings.diffusion = test::coarseDiffusion();
+        frame::FrameSettings settings = withDiffusion(ofSize(320, 181));
         return settings;
     }
     Picture picture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                     Technique technique = Technique::Deferred) {
-        engine::Renderer renderer(context(), scene);
-        return engine::toPicture(renderer.render(technique, settings));
+        return engine::toPicture(frameOf(scene, settings, technique));
     }
-
-    /// Every built-in scene with every technique and layout, or those for sweeps with `deferred`, small and in `exact`:
-    /// what is not pruned is the same program for all, and is compiled once.
-    void expectPruningInvisible();
-    /// Every built-in scene with two techniques and every layout, or the head of skin, small and in `exact`: it has few
-    /// features, so that most of what is added to it is new to it.
-    void expectUnusedInvisible();
-    /// Of each material alone with two techniques, every layout in turn. Or of a few with `forward`, which stores
-    /// nothing, and of one with many layers with `deferred` in a coarse layout.
-    void expectPruningInvisibleOfEachLobe();
-    /// With every other technique, two filters and three views, or the picture with one technique and filter.
-    void expectMaterialNumbersInvisible();
-    /// Of the hall, or of simpler shaders.
-    void expectTheSameFromRunToRun();
-    /// A scene of everything with each technique and every built-in scene with one in turn, or with one technique each
-    /// and the head alone.
-    void expectSpacesAgree();
 };
-using InvarianceSlow = Invariance;
 
-void Invariance::expectPruningInvisible() {
-    for (const scenes::BuiltinScene& builtin : test::builtinsForSweep()) {
-        const scenes::Scene scene = test::builtinForSweep(builtin);
+/// Every built-in scene with every technique and layout, or those for sweeps with `deferred`, small and in `exact`:
+/// what is not pruned is the same program for all, and is compiled once.
+TEST_SWEEP_AS(Invariance, pruningNeverChangesABitOfAnyBuiltinScene, InvarianceSlow,
+              pruningNeverChangesABitOfAnyBuiltinSceneWithAnyLayout) {
+    for (const scenes::BuiltinScene& builtin : builtinsForSweep()) {
+        const scenes::Scene scene = builtinForSweep(builtin);
         engine::Renderer renderer(context(), scene);
         const auto drawn = [&](Technique technique, const frame::FrameSettings& settings) {
             return engine::toPicture(renderer.render(technique, settings));
         };
         // pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe draws with `forward`.
         std::vector<Technique> techniques{Technique::Deferred};
-        if (test::isWholeSweep()) {
-            techniques = test::techniquesInTurn(0);
+        if (isWholeSweep()) {
+            techniques = techniquesInTurn(0);
             techniques.push_back(Technique::Forward);
         }
         for (const Technique technique : techniques) {
             // pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe takes layouts in turn.
-            for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), 0)) {
+            for (const frame::LayoutInfo& layout : inTurn(frame::layoutTable(), 0)) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, engine::infoOf(technique).name, layout.name));
                 frame::FrameSettings settings = small();
-                if (!test::isWholeSweep()) settings.sizePixels = {96, 55};
+                if (!isWholeSweep()) settings.sizePixels = {96, 55};
                 settings.layout = layout.layout;
                 const Picture pruned = drawn(technique, settings);
                 settings.prune = false;
@@ -82,25 +57,20 @@ void Invariance::expectPruningInvisible() {
     }
 }
 
-TEST_F(Invariance, pruningNeverChangesABitOfAnyBuiltinScene) {
-    expectPruningInvisible();
-}
-TEST_F(InvarianceSlow, pruningNeverChangesABitOfAnyBuiltinSceneWithAnyLayout) {
-    expectPruningInvisible();
-}
-
-void Invariance::expectPruningInvisibleOfEachLobe() {
+/// Of each material alone with two techniques, every layout in turn. Or of a few with `forward`, which stores
+/// nothing, and of one with many layers with `deferred` in a coarse layout.
+TEST_SWEEP(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
     constexpr Technique kBoth[] = {Technique::Forward, Technique::Deferred};
     // Unless the sweep is a whole one: wrapped light, a mask, two widths of a lobe, and a coat.
     constexpr std::size_t kAlone[] = {2, 5, 8, 11};
-    const scenes::Scene everything = test::everythingScene();
+    const scenes::Scene everything = everythingScene();
     const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
     for (std::size_t material = 0; material < everything.materials.size(); ++material) {
-        if (!test::isWholeSweep() && std::ranges::find(kAlone, material) == std::end(kAlone)) continue;
+        if (!isWholeSweep() && std::ranges::find(kAlone, material) == std::end(kAlone)) continue;
         scenes::Scene scene = everything;
         for (scenes::Node& node : scene.nodes)
             for (scenes::MeshInstance& instance : node.instances) instance.material = int(material);
-        for (const Technique technique : test::inTurn(kBoth, material == std::rbegin(kAlone)[0] ? 1 : 0)) {
+        for (const Technique technique : inTurn(kBoth, material == std::rbegin(kAlone)[0] ? 1 : 0)) {
             // Layouts are taken in turn; that of the coat is a coarse one.
             const frame::LayoutInfo& layout = layouts[material % layouts.size()];
             SCOPED_TRACE(fmt::format("{} {} {}", scene.materials[material].name, int(technique), layout.name));
@@ -113,30 +83,27 @@ void Invariance::expectPruningInvisibleOfEachLobe() {
         }
     }
 }
-TEST_F(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
-    expectPruningInvisibleOfEachLobe();
-}
-TEST_F(InvarianceSlow, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
-    expectPruningInvisibleOfEachLobe();
-}
 
-void Invariance::expectUnusedInvisible() {
+/// Every built-in scene with two techniques and every layout, or the head of skin, small and in `exact`: it has few
+/// features, so that most of what is added to it is new to it.
+TEST_SWEEP_AS(Invariance, unusedElementsChangeNeitherPictureNorPlan, InvarianceSlow,
+              whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinSceneWithAnyLayout) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        if (!test::isWholeSweep() && builtin.name != "head_skin") continue;
-        const scenes::Scene scene = test::builtinForSweep(builtin);
-        scenes::Scene more = test::withUnusedOfEverything(scene);
+        if (!isWholeSweep() && builtin.name != "head_skin") continue;
+        const scenes::Scene scene = builtinForSweep(builtin);
+        scenes::Scene more = withUnusedOfEverything(scene);
         checkScene(more);
         // Plans name lights that are off or dark among the omitted parts.
         scenes::Scene moreLights = more;
-        moreLights.lights.emplace_back(test::pointLight({0.0, 1.0, 0.0}, 10.0f)).enabled = false;
-        moreLights.lights.push_back(test::pointLight({0.0, 1.0, 0.0}, 0.0f));
+        moreLights.lights.emplace_back(pointLight({0.0, 1.0, 0.0}, 10.0f)).enabled = false;
+        moreLights.lights.push_back(pointLight({0.0, 1.0, 0.0}, 0.0f));
         engine::Renderer renderer(context(), scene), rendererOfMore(context(), more),
             rendererOfLights(context(), moreLights);
-        for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), 0)) {
+        for (const frame::LayoutInfo& layout : inTurn(frame::layoutTable(), 0))
             for (const Technique technique : {Technique::Deferred, Technique::Forward}) {
                 SCOPED_TRACE(fmt::format("{} {} {}", builtin.name, int(technique), layout.name));
                 frame::FrameSettings settings = small();
-                if (!test::isWholeSweep()) settings.sizePixels = {96, 55};
+                if (!isWholeSweep()) settings.sizePixels = {96, 55};
                 settings.layout = layout.layout;
                 EXPECT_EQ(graph::planText(engine::planFrame(more, technique, settings)),
                           graph::planText(engine::planFrame(scene, technique, settings)));
@@ -144,35 +111,27 @@ void Invariance::expectUnusedInvisible() {
                 EXPECT_EQ(rendererOfMore.render(technique, settings).radiance, radiance);
                 EXPECT_EQ(rendererOfLights.render(technique, settings).radiance, radiance);
             }
-        }
     }
 }
 
-TEST_F(Invariance, unusedElementsChangeNeitherPictureNorPlan) {
-    expectUnusedInvisible();
-}
-TEST_F(InvarianceSlow, whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinSceneWithAnyLayout) {
-    expectUnusedInvisible();
-}
-
 /// Pixels that hold the number of their material instead of its values.
-void Invariance::expectMaterialNumbersInvisible() {
-    const scenes::Scene scene = test::evenScene();
+/// With every other technique, two filters and three views, or the picture with one technique and filter.
+TEST_SWEEP(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForward) {
+    const scenes::Scene scene = evenScene();
     engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view :
              {frame::DebugView::Final, frame::DebugView::Diffuse, frame::DebugView::Distribution}) {
             // Filters read textures, which debug views of one term use as the picture does.
             if (filter == frame::TextureFilter::Exact && view != frame::DebugView::Final) continue;
-            if (!test::isWholeSweep() && (filter != frame::TextureFilter::Hardware || view != frame::DebugView::Final))
+            if (!isWholeSweep() && (filter != frame::TextureFilter::Hardware || view != frame::DebugView::Final))
                 continue;
             frame::FrameSettings settings = small();
             settings.sizePixels = {160, 91};
             settings.filter = filter;
             settings.view = view;
             const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
-            for (const Technique technique :
-                 test::isWholeSweep() ? test::techniquesInTurn(0) : std::vector{Technique::Deferred}) {
+            for (const Technique technique : isWholeSweep() ? techniquesInTurn(0) : std::vector{Technique::Deferred}) {
                 // Blending rounds the sum after each light, so this technique is compared with itself.
                 const bool blends = technique == Technique::DeferredVolumes;
                 SCOPED_TRACE(fmt::format("{} {} {}", engine::infoOf(technique).name, int(filter), int(view)));
@@ -198,13 +157,6 @@ void Invariance::expectMaterialNumbersInvisible() {
     EXPECT_EQ(bytes(false), std::pair(false, 128));
 }
 
-TEST_F(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForward) {
-    expectMaterialNumbersInvisible();
-}
-TEST_F(InvarianceSlow, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForward) {
-    expectMaterialNumbersInvisible();
-}
-
 TEST_F(Invariance, plansNameWhatThreeDifferentScenesLeaveOut) {
     const auto left = [](const char* name) {
         const scenes::Scene scene = scenes::loadScene(name);
@@ -228,41 +180,37 @@ TEST_F(Invariance, plansNameWhatThreeDifferentScenesLeaveOut) {
     EXPECT_NE(room, head);
 }
 
-void Invariance::expectTheSameFromRunToRun() {
-    const char* const name = test::isWholeSweep() ? "hall" : "lattice";
+TEST_SWEEP(Invariance, picturesAreBitIdenticalFromRunToRun) {
+    const char* const name = isWholeSweep() ? "hall" : "lattice";
     const scenes::Scene scene = scenes::loadScene(name);
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         frame::FrameSettings settings = small();
-        if (!test::isWholeSweep()) settings.sizePixels = {160, 91};
+        if (!isWholeSweep()) settings.sizePixels = {160, 91};
         const Picture first = picture(scene, settings, technique.technique);
         const Picture second = picture(scenes::loadScene(name), settings, technique.technique);
         EXPECT_EQ(first.rgba, second.rgba) << technique.name;
     }
 }
 
-TEST_F(Invariance, picturesAreBitIdenticalFromRunToRun) {
-    expectTheSameFromRunToRun();
-}
-TEST_F(InvarianceSlow, picturesAreBitIdenticalFromRunToRun) {
-    expectTheSameFromRunToRun();
-}
-
-void Invariance::expectSpacesAgree() {
-    std::vector<scenes::Scene> all{test::everythingScene()};
+/// A scene of everything with each technique and every built-in scene with one in turn, or with one technique each
+/// and the head alone.
+TEST_SWEEP_AS(Invariance, worldAndViewSpaceLightingAgree, InvarianceSlow,
+              worldAndViewSpaceLightingAgreeInEveryBuiltinScene) {
+    std::vector<scenes::Scene> all{everythingScene()};
     // Not the scanned head: where hardware filtering changes from one level of its fine maps to the next is up to the
     // last bit of the positions.
     scenes::LoadOptions options;
     options.useAssets = false;
     constexpr std::size_t kHead = 6;
-    for (const scenes::BuiltinScene& builtin : test::inTurn(scenes::builtinScenes(), kHead))
-        all.push_back(test::builtinForSweep(builtin, options));
+    for (const scenes::BuiltinScene& builtin : inTurn(scenes::builtinScenes(), kHead))
+        all.push_back(builtinForSweep(builtin, options));
     // Whose pictures are bit-equal, or sum lights in another order: one of them a scene, in turn.
     constexpr Technique kJudged[] = {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
                                      Technique::TiledDeferred, Technique::ClusteredForward};
     std::size_t turn = 0;
     for (const scenes::Scene& scene : all) {
         engine::Renderer renderer(context(), scene);
-        const bool takesEach = test::isWholeSweep() && &scene == &all.front();
+        const bool takesEach = isWholeSweep() && &scene == &all.front();
         for (const Technique technique : std::span(kJudged).subspan(takesEach ? 0 : turn++ % 5, takesEach ? 5 : 1)) {
             frame::FrameSettings settings = small();
             // A pixel at an outline is lit or not by the last bit of its position;
@@ -281,15 +229,8 @@ void Invariance::expectSpacesAgree() {
     }
 }
 
-TEST_F(Invariance, worldAndViewSpaceLightingAgree) {
-    expectSpacesAgree();
-}
-TEST_F(InvarianceSlow, worldAndViewSpaceLightingAgreeInEveryBuiltinScene) {
-    expectSpacesAgree();
-}
-
 TEST_F(Invariance, aSceneFarFromTheOriginLooksAsAtTheOrigin) {
-    const scenes::Scene near = test::everythingScene();
+    const scenes::Scene near = everythingScene();
     scenes::Scene far = near;
     // 2^20 m along each axis: nodes, lights and camera move; meshes stay relative to their nodes.
     const glm::dvec3 offset(1048576.0, -1048576.0, 1048576.0);
@@ -302,18 +243,18 @@ TEST_F(Invariance, aSceneFarFromTheOriginLooksAsAtTheOrigin) {
 }
 
 TEST_F(Invariance, aLightThatIsOffDarkOrOutOfReachNeverChangesABit) {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     const Picture before = picture(scene, small());
     scenes::Scene more = scene;
-    scenes::Light off = test::pointLight({0, 1, 1}, 100.0f);
+    scenes::Light off = pointLight({0, 1, 1}, 100.0f);
     off.enabled = false;
-    scenes::Light dark = test::pointLight({0, 1, 1}, 0.0f);
-    scenes::Light behind = test::pointLight({0, 2, 60}, 100.0f);
+    scenes::Light dark = pointLight({0, 1, 1}, 0.0f);
+    scenes::Light behind = pointLight({0, 2, 60}, 100.0f);
     behind.rangeMetres = 5.0f;
-    scenes::Light closed = test::pointLight({0, 3, 1}, 100.0f);
+    scenes::Light closed = pointLight({0, 3, 1}, 100.0f);
     closed.type = scenes::LightType::Spot;
     closed.outerConeRadians = 0.0f;
-    scenes::Light rangeless = test::pointLight({0, 1, 1}, 100.0f);
+    scenes::Light rangeless = pointLight({0, 1, 1}, 100.0f);
     rangeless.rangeMetres = 0.0f;
     more.lights.insert(more.lights.end(), {off, dark, behind, closed, rangeless});
     for (const bool prune : {true, false}) {

@@ -1,10 +1,5 @@
 // Thin films on surfaces: against closed forms, between techniques, and against the reference.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/image/EnvironmentTest.h"
@@ -20,11 +15,8 @@ using namespace test;
 
 /// Black below its reflection.
 Material filmOnGlass(float thicknessNm, float ior = 1.3f, float roughness = 0.0f) {
-    Material material;
+    Material material = blackDielectric(roughness);
     material.name = "film on glass";
-    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
-    material.metallic = 0.0f;
-    material.perceptualRoughness = roughness;
     material.iridescence = 1.0f;
     material.iridescenceIor = ior;
     material.iridescenceThicknessNm = thicknessNm;
@@ -44,14 +36,7 @@ protected:
     glm::vec4 shown(const Material& material, double cosView = 1.0) {
         Scene scene = flatScene(material);
         scene.environment = evenEnvironment(1.0);
-        if (cosView < 1.0) {
-            const double sine = std::sqrt(1.0 - cosView * cosView);
-            scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
-            scene.cameras[0].worldFromCamera[0] = {cosView, 0.0, -sine, 0.0};
-            scene.cameras[0].worldFromCamera[2] = {sine, 0.0, cosView, 0.0};
-            scene.cameras[0].worldFromCamera[3] = {2.0 * sine, 0.0, 2.0 * cosView, 1.0};
-            scene.cameras[0].halfHeightMetres = 0.02;
-        }
+        if (cosView < 1.0) lookAtCosine(scene.cameras[0], cosView, 0.02);
         return center(scene);
     }
 };
@@ -179,10 +164,6 @@ TEST_F(FlatFilms, haveTheShareAndTheThicknessThatTexturesSay) {
 
 class Films : public EnvironmentTest {
 protected:
-    std::vector<float> drawn(const Scene& scene, const frame::FrameSettings& settings,
-                             Technique technique = Technique::Deferred) {
-        return engine::Renderer(context(), scene).render(technique, settings).radiance;
-    }
     /// Of a ball that fills the picture, without its rim: its pixels, and those that differ from the reference.
     struct Judged {
         int pixels = 0, wrong = 0;
@@ -190,12 +171,8 @@ protected:
     };
     Judged judged(const Scene& scene) {
         constexpr int kBallPixels = 48;
-        frame::FrameSettings settings;
-        settings.sizePixels = {kBallPixels, kBallPixels};
-        settings.filter = frame::TextureFilter::Exact;
-        const Picture truth = validation::referencePicture(
-                                  scene, settings, [] {}, validation::Leeway::None)
-                                  .picture;
+        frame::FrameSettings settings = exactOfSize(kBallPixels, kBallPixels);
+        const Picture truth = strictReference(scene, settings).picture;
         const std::vector<float> shown = drawn(scene, settings);
         Judged result;
         for (int y = 0; y < kBallPixels; ++y)
@@ -214,14 +191,10 @@ protected:
             }
         return result;
     }
-    void expectAllTechniquesAlike();
-    /// Of seven films, or of every other one.
-    void expectMirrorsAgree();
 };
-using FilmsSlow = Films;
 
 /// Mirrors in even light show what a film reflects at each angle.
-void Films::expectMirrorsAgree() {
+TEST_SWEEP(Films, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
     Material transparentBelow = filmOnGlass(550.0f, 1.5f);
     transparentBelow.specularFactor = 0.5f;
     transparentBelow.ior = 2.0f;
@@ -245,12 +218,6 @@ void Films::expectMirrorsAgree() {
         EXPECT_EQ(found.wrong, 0);
         EXPECT_GT(found.colorful, 0.01);
     }
-}
-TEST_F(Films, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
-    expectMirrorsAgree();
-}
-TEST_F(FilmsSlow, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
-    expectMirrorsAgree();
 }
 
 /// Highlights, and what the film leaves for the body below.
@@ -297,8 +264,7 @@ TEST_F(Films, withTexturesAgreeWithTheReference) {
 /// Each colour that a film does not reflect passes.
 TEST_F(Films, onClearGlassInEvenLightShowExactlyThatLight) {
     constexpr int kFurnacePixels = 32;
-    frame::FrameSettings settings;
-    settings.sizePixels = {kFurnacePixels, kFurnacePixels};
+    frame::FrameSettings settings = ofSize(kFurnacePixels, kFurnacePixels);
     Material glass = filmOnGlass(400.0f, 1.6f);
     glass.baseColor = glm::vec4(1.0f);
     glass.transmission = 1.0f;
@@ -328,9 +294,8 @@ Scene sceneWithFilms() {
 }
 
 /// Every technique, or `deferred`, which is drawn anyway.
-void Films::expectAllTechniquesAlike() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
+TEST_SWEEP(Films, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
+    frame::FrameSettings settings = ofSize(96, 54);
     const Scene scene = sceneWithFilms();
     engine::Renderer renderer(context(), scene);
     expectParity(renderer, settings, isWholeSweep() ? techniquesInTurn(0) : std::vector{Technique::Deferred});
@@ -338,12 +303,6 @@ void Films::expectAllTechniquesAlike() {
               drawn(isWholeSweep() ? everythingScene() : metalScene(), settings))
         << "shows no film";
     expectPruningIsUnseen(renderer, settings);
-}
-TEST_F(Films, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(FilmsSlow, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
-    expectAllTechniquesAlike();
 }
 
 /// Other surfaces take other code beside one, and the same bits.
@@ -353,24 +312,14 @@ TEST_F(Films, elsewhereInASceneChangeNoBit) {
     plain.perceptualRoughness = 0.4f;
     Scene scene = quadScene(plain);
     scene.lights = {pointLight({0.3, 0.4, 1.0}, 3.0f)};
-    frame::FrameSettings settings;
-    settings.sizePixels = {32, 32};
+    frame::FrameSettings settings = ofSize(32, 32);
     const std::vector<float> alone = drawn(scene, settings, Technique::Forward);
-    scene.materials.push_back(filmOnMetal(300.0f));
-    scene.nodes.push_back(scene.nodes[0]);
-    scene.nodes.back().instances[0].material = 1;
-    scene.nodes.back().parentFromNode[3] = {0.0, 0.0, 50.0, 1.0}; // behind the camera
+    addNode(scene, filmOnMetal(300.0f)).parentFromNode[3].z = 50.0; // behind the camera
     EXPECT_EQ(drawn(scene, settings, Technique::Forward), alone);
 }
 
 TEST_F(Films, aSceneWithoutThemHasNoTraceOfThem) {
-    const auto valuesOf = [](const Scene& scene) {
-        std::vector<std::string> values;
-        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, {}))
-            for (const auto& [name, value] : program.defines)
-                if (name == "HAS_IRIDESCENCE") values.push_back(value);
-        return values;
-    };
+    const auto valuesOf = [](const Scene& scene) { return definedValues(scene, "HAS_IRIDESCENCE"); };
     Scene scene = quadScene(filmOnMetal(0.0f));
     EXPECT_FALSE(valuesOf(scene).empty());
     EXPECT_THAT(valuesOf(scene), ::testing::Each("0"));

@@ -1,12 +1,5 @@
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
+#include "tests/image/ImageTest.h"
 #include "tests/image/Textbook.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
@@ -15,6 +8,7 @@ using engine::Technique;
 using scenes::Light;
 using scenes::Material;
 using scenes::MaterialModel;
+using namespace test;
 
 constexpr int kAnswerSidePixels = 96;
 /// The specification's bar for the sharpest highlight it names, alpha = 0.002: rounding multiplied by 1/alpha.
@@ -26,36 +20,33 @@ struct Errors {
 };
 
 /// Quads head on whose every pixel is computed a second time in double precision.
-class KnownAnswers : public test::GlTest {
+class KnownAnswers : public ImageTest {
 protected:
     Errors errors(const Material& material, const Light& light, Technique technique) {
-        scenes::Scene scene = test::quadScene(material);
+        scenes::Scene scene = quadScene(material);
         scene.lights = {light};
         const scenes::Camera& camera = scene.cameras[0];
-        frame::FrameSettings settings;
-        settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
-        engine::Renderer renderer(context(), scene);
-        const Picture picture = engine::toPicture(renderer.render(technique, settings));
+        frame::FrameSettings settings = ofSize(kAnswerSidePixels, kAnswerSidePixels);
+        const Picture picture = engine::toPicture(frameOf(scene, settings, technique));
 
         const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
         const double half = eyeWS.z * std::tan(0.5 * camera.fovYRadians);
         std::vector<glm::dvec3> truths;
         std::vector<double> channels;
-        for (int y = 0; y < kAnswerSidePixels; ++y) {
+        for (int y = 0; y < kAnswerSidePixels; ++y)
             for (int x = 0; x < kAnswerSidePixels; ++x) {
                 const glm::dvec3 positionWS((2.0 * (x + 0.5) / kAnswerSidePixels - 1.0) * half,
                                             (1.0 - 2.0 * (y + 0.5) / kAnswerSidePixels) * half, 0.0);
                 glm::dvec3 toLightWS;
-                const glm::dvec3 intensity = test::textbook::incident(light, positionWS, toLightWS);
+                const glm::dvec3 intensity = textbook::incident(light, positionWS, toLightWS);
                 const glm::dvec3 share =
-                    test::textbook::reflected(material, {0, 0, 1}, toLightWS, glm::normalize(eyeWS - positionWS));
-                const double dimmed = 1.0 - test::textbook::coatWeight(material, glm::normalize(eyeWS - positionWS).z);
+                    textbook::reflected(material, {0, 0, 1}, toLightWS, glm::normalize(eyeWS - positionWS));
+                const double dimmed = 1.0 - textbook::coatWeight(material, glm::normalize(eyeWS - positionWS).z);
                 truths.push_back(intensity * share + dimmed * glm::dvec3(material.emissive));
                 for (int c = 0; c < 3; ++c) {
                     if (truths.back()[c] > 0.0) channels.push_back(truths.back()[c]);
                 }
             }
-        }
         Errors result;
         if (channels.empty()) return result;
         std::ranges::sort(channels);
@@ -63,12 +54,11 @@ protected:
         // Where a window or cone lets almost nothing through, fp32 has no relative precision left; there a thousandth
         // of the picture's median is the unit (the measure of every comparison).
         const double floor = 1e-3 * channels[channels.size() / 2];
-        for (std::size_t i = 0; i < truths.size(); ++i) {
+        for (std::size_t i = 0; i < truths.size(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double error = std::abs(picture.pixel(i)[c] - truths[i][c]) / std::max(truths[i][c], floor);
                 result.worst = std::max(result.worst, error);
             }
-        }
         return result;
     }
 
@@ -79,7 +69,7 @@ protected:
         const std::size_t turn = answers_++;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             const bool isInTurn = std::size_t(technique.technique) == turn % engine::techniqueTable().size();
-            if (!test::isWholeSweep() && technique.technique != Technique::Deferred && !isInTurn) continue;
+            if (!isWholeSweep() && technique.technique != Technique::Deferred && !isInTurn) continue;
             SCOPED_TRACE(fmt::format("{} {}", what, technique.name));
             const Errors found = errors(material, light, technique.technique);
             EXPECT_GT(found.brightest, 1e-3) << "the light does not reach the quad";
@@ -91,28 +81,12 @@ protected:
         }
     }
 
-    // With every technique, or with deferred and another one in turn.
-    void expectLambert();
-    void expectChalk();
-    void expectMicrofacets();
-    void expectTotalInternalReflection();
-    void expectBlinnPhong();
-    void expectAnisotropic();
-    void expectMaskingByTheHalfVector();
-    void expectLayers();
-    void expectWrappedLight();
-    void expectMetallicRoughness();
-
 private:
     std::size_t answers_ = 0; ///< that were expected
 };
-using KnownAnswersSlow = KnownAnswers;
 
-Material lambert() {
-    Material material;
-    material.model = MaterialModel::Lambert;
-    material.baseColor = {0.75f, 0.5f, 0.25f, 1.0f};
-    return material;
+Material coloured() {
+    return lambert({0.75f, 0.5f, 0.25f, 1.0f});
 }
 
 /// metallic_roughness without a specular lobe: rho / pi.
@@ -138,7 +112,7 @@ struct NamedLight {
 
 std::vector<NamedLight> everyLight() {
     std::vector<NamedLight> lights;
-    const Light point = test::pointLight({0.3, -0.2, 0.8}, 2.5f);
+    const Light point = pointLight({0.3, -0.2, 0.8}, 2.5f);
     lights.push_back({"point light without range", point});
     Light ranged = point;
     ranged.rangeMetres = 1.1f;
@@ -166,24 +140,12 @@ std::vector<NamedLight> everyLight() {
     return lights;
 }
 
-void KnownAnswers::expectLambert() {
-    for (const NamedLight& named : everyLight()) expectAnswer(named.name, lambert(), named.light, named.tolerance);
-}
-TEST_F(KnownAnswers, lambertIsAlbedoTimesIntensityTimesCosine) {
-    expectLambert();
-}
-TEST_F(KnownAnswersSlow, lambertIsAlbedoTimesIntensityTimesCosine) {
-    expectLambert();
+TEST_SWEEP(KnownAnswers, lambertIsAlbedoTimesIntensityTimesCosine) {
+    for (const NamedLight& named : everyLight()) expectAnswer(named.name, coloured(), named.light, named.tolerance);
 }
 
-void KnownAnswers::expectChalk() {
+TEST_SWEEP(KnownAnswers, metallicRoughnessWithoutLobeIsLambertOverPi) {
     for (const NamedLight& named : everyLight()) expectAnswer(named.name, chalk(), named.light, named.tolerance);
-}
-TEST_F(KnownAnswers, metallicRoughnessWithoutLobeIsLambertOverPi) {
-    expectChalk();
-}
-TEST_F(KnownAnswersSlow, metallicRoughnessWithoutLobeIsLambertOverPi) {
-    expectChalk();
 }
 
 /// In fp32 a highlight's slope multiplies the rounding of h, 2^-24, by up to 2/alpha. Measured: half of that.
@@ -197,14 +159,12 @@ double highlightOf(float exponent) {
     return kPlain + 4.0 * 0x1p-24 * std::sqrt(double(exponent));
 }
 
-void KnownAnswers::expectMicrofacets() {
+TEST_SWEEP(KnownAnswers, microfacetHighlightsAreTheTextbooks) {
     Light sun = everyLight().back().light;
     sun.directionWS = glm::normalize(glm::dvec3(0.05, -0.08, -1.0)); // its reflection is in the picture
-    for (const float alpha : {0.01f, 0.05f, 0.3f, 1.0f}) {
+    for (const float alpha : {0.01f, 0.05f, 0.3f, 1.0f})
         for (const float ior : {1.05f, 1.5f, 2.4f}) {
-            Material material;
-            material.model = MaterialModel::Microfacet;
-            material.baseColor = {0.2f, 0.1f, 0.05f, 1.0f};
+            Material material = materialOf(MaterialModel::Microfacet, {0.2f, 0.1f, 0.05f, 1.0f});
             material.specularColor = {1.0f, 0.75f, 0.5f};
             material.alpha = alpha;
             material.ior = ior;
@@ -213,36 +173,20 @@ void KnownAnswers::expectMicrofacets() {
             expectAnswer(fmt::format("microfacet alpha {} ior {}, directional", alpha, ior).c_str(), material, sun,
                          highlight(alpha));
         }
-    }
-}
-TEST_F(KnownAnswers, microfacetHighlightsAreTheTextbooks) {
-    expectMicrofacets();
-}
-TEST_F(KnownAnswersSlow, microfacetHighlightsAreTheTextbooks) {
-    expectMicrofacets();
 }
 
-void KnownAnswers::expectTotalInternalReflection() {
-    Material material;
-    material.model = MaterialModel::Microfacet;
+TEST_SWEEP(KnownAnswers, totalInternalReflectionIsTheTextbooks) {
+    Material material = materialOf(MaterialModel::Microfacet);
     material.alpha = 0.4f;
     material.ior = 0.6f;
     // Grazing, so that part of the quad lies beyond the critical angle of 37 degrees, where F rises as a square root:
     // 1e-4 is what it makes of a rounding at the quad's nearest pixel. Measured 3.3e-5.
-    expectAnswer("microfacet ior 0.6", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), 1e-4);
-}
-TEST_F(KnownAnswers, totalInternalReflectionIsTheTextbooks) {
-    expectTotalInternalReflection();
-}
-TEST_F(KnownAnswersSlow, totalInternalReflectionIsTheTextbooks) {
-    expectTotalInternalReflection();
+    expectAnswer("microfacet ior 0.6", material, pointLight({1.5, 0.4, 0.5}, 2.0f), 1e-4);
 }
 
-void KnownAnswers::expectBlinnPhong() {
+TEST_SWEEP(KnownAnswers, blinnPhongHighlightsAreTheTextbooks) {
     for (const float exponent : {0.0f, 1.0f, 20.0f, 1000.0f}) {
-        Material material;
-        material.model = MaterialModel::BlinnPhong;
-        material.baseColor = {0.2f, 0.1f, 0.05f, 1.0f};
+        Material material = materialOf(MaterialModel::BlinnPhong, {0.2f, 0.1f, 0.05f, 1.0f});
         material.specularColor = {1.0f, 0.75f, 0.5f};
         material.exponent = exponent;
         expectAnswer(fmt::format("blinn_phong exponent {}, point", exponent).c_str(), material,
@@ -251,20 +195,12 @@ void KnownAnswers::expectBlinnPhong() {
                      everyLight().back().light, highlightOf(exponent));
     }
 }
-TEST_F(KnownAnswers, blinnPhongHighlightsAreTheTextbooks) {
-    expectBlinnPhong();
-}
-TEST_F(KnownAnswersSlow, blinnPhongHighlightsAreTheTextbooks) {
-    expectBlinnPhong();
-}
 
-void KnownAnswers::expectAnisotropic() {
+TEST_SWEEP(KnownAnswers, anisotropicHighlightsAreTheTextbooks) {
     for (const auto& [alphaX, alphaY] : {std::pair(0.05f, 0.4f), std::pair(0.8f, 0.02f), std::pair(0.3f, 0.3f)}) {
         for (const scenes::Masking masking :
              {scenes::Masking::Walter, scenes::Masking::Directional, scenes::Masking::HalfVector}) {
-            Material material;
-            material.model = MaterialModel::MicrofacetAnisotropic;
-            material.baseColor = {0.2f, 0.1f, 0.05f, 1.0f};
+            Material material = materialOf(MaterialModel::MicrofacetAnisotropic, {0.2f, 0.1f, 0.05f, 1.0f});
             material.specularColor = {1.0f, 0.75f, 0.5f};
             material.alpha = alphaX;
             material.alphaY = alphaY;
@@ -274,33 +210,20 @@ void KnownAnswers::expectAnisotropic() {
         }
     }
 }
-TEST_F(KnownAnswers, anisotropicHighlightsAreTheTextbooks) {
-    expectAnisotropic();
-}
-TEST_F(KnownAnswersSlow, anisotropicHighlightsAreTheTextbooks) {
-    expectAnisotropic();
-}
 
-void KnownAnswers::expectMaskingByTheHalfVector() {
-    Material material;
-    material.model = MaterialModel::Microfacet;
+TEST_SWEEP(KnownAnswers, maskingByTheHalfVectorIsTheHandouts) {
+    Material material = materialOf(MaterialModel::Microfacet);
     material.alpha = 0.5f;
     material.masking = scenes::Masking::HalfVector;
-    expectAnswer("microfacet, masking half_vector", material, test::pointLight({1.5, 0.4, 0.5}, 2.0f), highlight(0.5f));
-}
-TEST_F(KnownAnswers, maskingByTheHalfVectorIsTheHandouts) {
-    expectMaskingByTheHalfVector();
-}
-TEST_F(KnownAnswersSlow, maskingByTheHalfVectorIsTheHandouts) {
-    expectMaskingByTheHalfVector();
+    expectAnswer("microfacet, masking half_vector", material, pointLight({1.5, 0.4, 0.5}, 2.0f), highlight(0.5f));
 }
 
-void KnownAnswers::expectLayers() {
+TEST_SWEEP(KnownAnswers, layersOfMetallicRoughnessAreTheExtensions) {
     Material base;
     base.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
     base.perceptualRoughness = 0.5f;
     base.metallic = 0.7f;
-    const Light light = test::pointLight({0.3, -0.2, 0.8}, 2.5f);
+    const Light light = pointLight({0.3, -0.2, 0.8}, 2.5f);
     Material stretched = base;
     stretched.anisotropyStrength = 0.8f;
     stretched.anisotropyRotationRadians = 0.7f;
@@ -319,20 +242,14 @@ void KnownAnswers::expectLayers() {
     // Its D is a power of the sine of h, 1 - (n.h)^2, which cancels where h is near n. Measured 5.6e-6.
     expectAnswer("sheen over black", cloth, light, 2e-5);
 }
-TEST_F(KnownAnswers, layersOfMetallicRoughnessAreTheExtensions) {
-    expectLayers();
-}
-TEST_F(KnownAnswersSlow, layersOfMetallicRoughnessAreTheExtensions) {
-    expectLayers();
-}
 
-void KnownAnswers::expectWrappedLight() {
-    std::vector<std::pair<const char*, Material>> materials{{"lambert", lambert()}, {"chalk", chalk()}};
-    Material phong = lambert();
+TEST_SWEEP(KnownAnswers, wrappedLightIsTheTextbooks) {
+    std::vector<std::pair<const char*, Material>> materials{{"lambert", coloured()}, {"chalk", chalk()}};
+    Material phong = coloured();
     phong.model = MaterialModel::BlinnPhong;
     phong.exponent = 20.0f;
     materials.emplace_back("blinn_phong", phong);
-    Material glossy = lambert();
+    Material glossy = coloured();
     glossy.model = MaterialModel::Microfacet;
     glossy.alpha = 0.3f;
     materials.emplace_back("microfacet", glossy);
@@ -348,7 +265,7 @@ void KnownAnswers::expectWrappedLight() {
     cloth.sheenPerceptualRoughness = 0.6f;
     materials.emplace_back("cloth", cloth);
     // The last one stands behind the quad.
-    const Light lights[] = {test::pointLight({0.3, -0.2, 0.8}, 2.5f), test::pointLight({2.5, 0.6, -0.4}, 9.0f)};
+    const Light lights[] = {pointLight({0.3, -0.2, 0.8}, 2.5f), pointLight({2.5, 0.6, -0.4}, 9.0f)};
     for (auto& [name, material] : materials) {
         material.subsurface.method = scenes::SubsurfaceMethod::Wrap;
         material.subsurface.wrap = 0.7f;
@@ -361,21 +278,14 @@ void KnownAnswers::expectWrappedLight() {
         }
     }
 }
-TEST_F(KnownAnswers, wrappedLightIsTheTextbooks) {
-    expectWrappedLight();
-}
-TEST_F(KnownAnswersSlow, wrappedLightIsTheTextbooks) {
-    expectWrappedLight();
-}
 
 TEST_F(KnownAnswers, emissionIsDimmedByItsCoat) {
     Material material;
     material.emissive = {1.0f, 0.5f, 0.25f};
     material.clearcoat = 1.0f;
-    scenes::Scene scene = test::quadScene(material);
+    scenes::Scene scene = quadScene(material);
     scene.lights = {};
-    frame::FrameSettings settings;
-    settings.sizePixels = {kAnswerSidePixels, kAnswerSidePixels};
+    frame::FrameSettings settings = ofSize(kAnswerSidePixels, kAnswerSidePixels);
     engine::Renderer renderer(context(), scene);
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         const Picture picture = engine::toPicture(renderer.render(technique.technique, settings));
@@ -387,8 +297,8 @@ TEST_F(KnownAnswers, emissionIsDimmedByItsCoat) {
     }
 }
 
-void KnownAnswers::expectMetallicRoughness() {
-    for (const float roughness : {0.1f, 0.3f, 0.7f, 1.0f}) {
+TEST_SWEEP(KnownAnswers, metallicRoughnessHighlightsAreTheTextbooks) {
+    for (const float roughness : {0.1f, 0.3f, 0.7f, 1.0f})
         for (const float metallic : {0.0f, 0.5f, 1.0f}) {
             Material material;
             material.baseColor = {0.9f, 0.6f, 0.3f, 1.0f};
@@ -399,15 +309,8 @@ void KnownAnswers::expectMetallicRoughness() {
             material.specularColor = {1.0f, 0.8f, 0.5f};
             material.emissive = {0.01f, 0.02f, 0.03f};
             expectAnswer(fmt::format("metallic_roughness {} metallic {}", roughness, metallic).c_str(), material,
-                         test::pointLight({0.3, -0.2, 0.8}, 2.5f), highlight(roughness * roughness));
+                         pointLight({0.3, -0.2, 0.8}, 2.5f), highlight(roughness * roughness));
         }
-    }
-}
-TEST_F(KnownAnswers, metallicRoughnessHighlightsAreTheTextbooks) {
-    expectMetallicRoughness();
-}
-TEST_F(KnownAnswersSlow, metallicRoughnessHighlightsAreTheTextbooks) {
-    expectMetallicRoughness();
 }
 
 } // namespace

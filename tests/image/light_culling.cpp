@@ -1,18 +1,10 @@
 // Light culling: sound, tight, and without an effect on the picture.
 #include <array>
-#include <cmath>
-#include <optional>
 #include <span>
 
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/CullingScenes.h"
-#include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/culling/LightOracle.h"
 
@@ -22,6 +14,7 @@ namespace {
 using culling::Method;
 using engine::Technique;
 using validation::LightOracleFigures;
+using namespace test;
 
 constexpr Method kMethods[] = {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin};
 
@@ -35,16 +28,13 @@ Technique forwardWith(Method method) {
 }
 
 scenes::Scene lattice(int lights) {
-    scenes::LoadOptions options;
-    options.lights = lights;
-    return scenes::loadScene("lattice", options);
+    return latticeOf(lights);
 }
 
-class LightCulling : public test::GlTest {
+class LightCulling : public ImageTest {
 protected:
     static frame::FrameSettings settings(glm::ivec2 sizePixels, Method method = Method::None, int tilePixels = 16) {
-        frame::FrameSettings result;
-        result.sizePixels = sizePixels;
+        frame::FrameSettings result = ofSize(sizePixels);
         if (method == Method::None) return result;
         result.culling.method = method;
         result.culling.tilePixels = tilePixels;
@@ -82,17 +72,7 @@ protected:
     };
     /// Every method misses no light, and draws Forward's picture.
     Seen expectSoundScene(scenes::Scene scene, std::uint64_t seed);
-    // Few of their scenes, unless the sweep is whole, and these with pruning.
-    void expectSoundRandomScenes();
-    void expectSoundFarAway();
-    // A sixth of them, each method with one tile in turn.
-    void expectSoundTransparent();
 
-    /// With counts of lights that fill words and tiles evenly and not, in a picture of a sixteenth of the pixels unless
-    /// the sweep is whole.
-    void expectForwardsPictureAtEveryCount();
-    /// The same of each tile.
-    void expectForwardsPictureWithEveryTile();
     void expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels, std::span<const int> tiles);
 };
 using LightCullingSlow = LightCulling;
@@ -126,7 +106,7 @@ TEST_F(LightCullingSlow, everyMethodIsSoundInLargePictures) {
 }
 
 TEST_F(LightCulling, depthSlicesPayWhereDepthHasDeepGaps) {
-    const scenes::Scene scene = test::columnsBeforeWall(1500);
+    const scenes::Scene scene = columnsBeforeWall(1500);
     engine::Renderer renderer(context(), scene);
     const auto evaluated = [&](Method method) { return double(judge(renderer, method, 16, {640, 360}).evaluated); };
     const double minmax = evaluated(Method::TileMinmax);
@@ -161,19 +141,19 @@ TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
 /// The scene as its lists are tried: in a part of a sweep with lights of every kind, so that all are drawn by the same
 /// programs, which are few and small where frames are pruned.
 scenes::Scene asTriedInSweep(scenes::Scene scene) {
-    return test::isWholeSweep() ? scene : test::withEveryKindOfLight(std::move(scene));
+    return isWholeSweep() ? scene : withEveryKindOfLight(std::move(scene));
 }
 
 LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint64_t seed) {
     constexpr glm::ivec2 kSizes[] = {{97, 61}, {33, 17}, {1, 1}, {8, 3}, {64, 64}, {130, 5}};
     scene = asTriedInSweep(std::move(scene));
     Seen seen;
-    test::Random random(seed + 1000);
+    Random random(seed + 1000);
     engine::Renderer renderer(context(), scene);
     const glm::ivec2 size = kSizes[random.index(int(std::size(kSizes)))];
     frame::FrameSettings truthSettings = settings(size);
     // Without pruning all scenes share their programs, however large ones.
-    truthSettings.prune = !test::isWholeSweep() || seed % 4 == 0;
+    truthSettings.prune = !isWholeSweep() || seed % 4 == 0;
     const std::vector<float> truth = renderer.render(Technique::Forward, truthSettings).radiance;
     for (const Method method : kMethods) {
         const int tile = culling::kTileSides[random.index(4)];
@@ -195,30 +175,25 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
     return seen;
 }
 
-void LightCulling::expectSoundRandomScenes() {
+// Few of their scenes, unless the sweep is whole, and these with pruning.
+TEST_SWEEP_AS(LightCulling, noLightIsEverMissingFromRandomScenesAndNoPixelDiffers, LightCullingSlow,
+              noLightIsMissingFromTwoHundredRandomScenesAndNoPixelDiffers) {
     Seen all;
-    const std::uint64_t scenes = test::isWholeSweep() ? 200 : 10;
+    const std::uint64_t scenes = isWholeSweep() ? 200 : 10;
     for (std::uint64_t seed = 1; seed <= scenes && !HasFailure(); ++seed)
-        all += expectSoundScene(test::randomLitScene(seed), seed);
+        all += expectSoundScene(randomLitScene(seed), seed);
     fmt::print("{} scenes: {} covered pixels, {} pairs needed, {} visited\n", scenes, all.covered, all.needed,
                all.evaluated);
     EXPECT_GT(all.needed, 500u * scenes) << "scenes that need nothing prove nothing";
 }
 
-TEST_F(LightCulling, noLightIsEverMissingFromRandomScenesAndNoPixelDiffers) {
-    expectSoundRandomScenes();
-}
-TEST_F(LightCullingSlow, noLightIsMissingFromTwoHundredRandomScenesAndNoPixelDiffers) {
-    expectSoundRandomScenes();
-}
-
-void LightCulling::expectSoundFarAway() {
+TEST_SWEEP(LightCulling, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
     Seen all;
-    const std::uint64_t scenes = test::isWholeSweep() ? 80 : 6;
+    const std::uint64_t scenes = isWholeSweep() ? 80 : 6;
     for (std::uint64_t seed = 1; seed <= scenes && !HasFailure(); ++seed) {
-        scenes::Scene scene = test::randomLitScene(seed);
+        scenes::Scene scene = randomLitScene(seed);
         const double times = std::pow(10.0, double(1 + seed % 6));
-        scene.cameras[0] = test::seenFromAfar(scene.cameras[0], times);
+        scene.cameras[0] = seenFromAfar(scene.cameras[0], times);
         SCOPED_TRACE(fmt::format("from {:g} times as far", times));
         all += expectSoundScene(scene, seed);
     }
@@ -229,19 +204,12 @@ void LightCulling::expectSoundFarAway() {
     EXPECT_LT(double(all.evaluated), 3.0 * double(all.needed)) << "margins that grow with the eye's distance";
 }
 
-TEST_F(LightCulling, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
-    expectSoundFarAway();
-}
-TEST_F(LightCullingSlow, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffers) {
-    expectSoundFarAway();
-}
-
 /// Every method of every technique, with every tile of `tiles`.
 void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels,
                                          std::span<const int> tiles) {
     engine::Renderer renderer(context(), scene);
     const Picture truth = engine::toPicture(renderer.render(Technique::Forward, settings(sizePixels)));
-    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable())
         for (const Method method : technique.methods) {
             if (method == Method::None) continue;
             for (const int tile : tiles) {
@@ -255,36 +223,25 @@ void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 
                 EXPECT_GT(figures.litShare, 0.0);
             }
         }
-    }
 }
 
 constexpr glm::ivec2 kEven{640, 360}, kOdd{641, 359};
 
-void LightCulling::expectForwardsPictureAtEveryCount() {
-    const glm::ivec2 even = test::isWholeSweep() ? kEven : glm::ivec2(160, 90);
-    const glm::ivec2 odd = test::isWholeSweep() ? kOdd : glm::ivec2(161, 89);
+/// With counts of lights that fill words and tiles evenly and not, in a picture of a sixteenth of the pixels unless
+/// the sweep is whole.
+TEST_SWEEP(LightCulling, everyMethodGivesExactlyForwardsPictureAtEveryCountOfLights) {
+    const glm::ivec2 even = isWholeSweep() ? kEven : glm::ivec2(160, 90);
+    const glm::ivec2 odd = isWholeSweep() ? kOdd : glm::ivec2(161, 89);
     bool isOdd = false;
-    for (const int count : test::everyNth(std::vector{1, 31, 32, 33, 255, 256, 257}, 2))
+    for (const int count : everyNth(std::vector{1, 31, 32, 33, 255, 256, 257}, 2))
         expectForwardsPicture(lattice(count), (isOdd = !isOdd) ? odd : even, std::array{16});
     // Forward takes long; the odd size is the harder one.
     expectForwardsPicture(lattice(1024), odd, std::array{16});
     expectForwardsPicture(scenes::loadScene("hall"), odd, std::array{16});
 }
-TEST_F(LightCulling, everyMethodGivesExactlyForwardsPictureAtEveryCountOfLights) {
-    expectForwardsPictureAtEveryCount();
-}
-TEST_F(LightCullingSlow, everyMethodGivesExactlyForwardsPictureAtEveryCountOfLights) {
-    expectForwardsPictureAtEveryCount();
-}
 
-void LightCulling::expectForwardsPictureWithEveryTile() {
-    expectForwardsPicture(lattice(257), test::isWholeSweep() ? kOdd : glm::ivec2(161, 89), culling::kTileSides);
-}
-TEST_F(LightCulling, everyTileGivesExactlyForwardsPicture) {
-    expectForwardsPictureWithEveryTile();
-}
-TEST_F(LightCullingSlow, everyTileGivesExactlyForwardsPicture) {
-    expectForwardsPictureWithEveryTile();
+TEST_SWEEP(LightCulling, everyTileGivesExactlyForwardsPicture) {
+    expectForwardsPicture(lattice(257), isWholeSweep() ? kOdd : glm::ivec2(161, 89), culling::kTileSides);
 }
 
 /// By the number of lights of `lattice`, or 0 for `hall`, and size.
@@ -326,13 +283,13 @@ std::optional<scenes::Scene> withOneTransparentMadeOpaque(const scenes::Scene& s
     return twin;
 }
 
-void LightCulling::expectSoundTransparent() {
+TEST_SWEEP(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
     std::uint64_t needed = 0, transparent = 0;
-    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 60u : 10u); ++seed) {
-        const scenes::Scene scene = asTriedInSweep(test::randomLitScene(seed));
+    for (std::uint64_t seed = 1; seed <= (isWholeSweep() ? 60u : 10u); ++seed) {
+        const scenes::Scene scene = asTriedInSweep(randomLitScene(seed));
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings plain = settings({97, 61});
-        plain.prune = !test::isWholeSweep(); // else all scenes share their programs
+        plain.prune = !isWholeSweep(); // else all scenes share their programs
         renderer.draw(Technique::Deferred, plain);
         const std::vector<float> opaque = renderer.downloadDepth();
         std::vector<std::vector<float>> depths; // of each transparent instance, where it shows
@@ -343,10 +300,9 @@ void LightCulling::expectSoundTransparent() {
             for (std::size_t i = 0; i < opaque.size(); ++i)
                 if (!(depths.back()[i] > opaque[i])) depths.back()[i] = 0.0f;
         }
-        for (const Method method : kMethods) {
+        for (const Method method : kMethods)
             for (std::size_t i = 0; i < std::size(culling::kTileSides); ++i) {
-                if (!test::isWholeSweep() && i != (seed + std::uint64_t(method)) % std::size(culling::kTileSides))
-                    continue;
+                if (!isWholeSweep() && i != (seed + std::uint64_t(method)) % std::size(culling::kTileSides)) continue;
                 const int tile = culling::kTileSides[i];
                 frame::FrameSettings asked = settings({97, 61}, method, tile);
                 asked.prune = plain.prune;
@@ -362,28 +318,20 @@ void LightCulling::expectSoundTransparent() {
                     transparent += figures.covered;
                 }
             }
-        }
         if (HasFailure()) break;
     }
     fmt::print("transparent surfaces: {} pixels judged, {} pairs needed\n", transparent, needed);
-    EXPECT_GT(needed, test::isWholeSweep() ? 100000u : 3750u) << "scenes that need nothing prove nothing";
-}
-
-TEST_F(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
-    expectSoundTransparent();
-}
-TEST_F(LightCullingSlow, noLightIsMissingFromTheListsOfTransparentSurfaces) {
-    expectSoundTransparent();
+    EXPECT_GT(needed, isWholeSweep() ? 100000u : 3750u) << "scenes that need nothing prove nothing";
 }
 
 TEST_F(LightCulling, theCountOfLightsAddsUpOverLayersWhateverTheirOpacity) {
     scenes::Material glass;
     glass.alphaMode = scenes::AlphaMode::Blend;
     glass.baseColor.a = 0.25f;
-    scenes::Scene scene = test::quadScene(glass);
+    scenes::Scene scene = quadScene(glass);
     scene.nodes.push_back(scene.nodes[0]);
     scene.nodes[1].parentFromNode[3].z = 0.5;
-    for (int i = 0; i < 5; ++i) scene.lights.push_back(test::pointLight({0.0, 0.0, 1.0}, 1.0f));
+    for (int i = 0; i < 5; ++i) scene.lights.push_back(pointLight({0.0, 0.0, 1.0}, 1.0f));
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings counted = settings({16, 16});
     counted.view = frame::DebugView::Lights;
@@ -394,9 +342,9 @@ TEST_F(LightCulling, theCountOfLightsAddsUpOverLayersWhateverTheirOpacity) {
 }
 
 TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAllVisited) {
-    scenes::Scene scene = test::quadScene({});
+    scenes::Scene scene = quadScene({});
     for (int i = 0; i < 65536; ++i) {
-        scenes::Light light = test::pointLight({0.0, 0.0, 0.5}, 1e-4f);
+        scenes::Light light = pointLight({0.0, 0.0, 0.5}, 1e-4f);
         light.rangeMetres = 5.0f;
         scene.lights.push_back(light);
     }
@@ -414,13 +362,11 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAllVisited) {
 
 TEST_F(LightCulling, theOrderOfTheLightsNeverMattersBeyondRoundingOfTheSum) {
     scenes::Scene scene = lattice(256);
-    engine::Renderer renderer(context(), scene);
     const frame::FrameSettings asked = settings({320, 181}, Method::Cluster);
-    const Picture ordered = engine::toPicture(renderer.render(Technique::ClusteredDeferred, asked));
+    const Picture ordered = engine::toPicture(frameOf(scene, asked, Technique::ClusteredDeferred));
     scenes::Scene turned = scene;
     std::reverse(turned.lights.begin(), turned.lights.end());
-    engine::Renderer turnedRenderer(context(), turned);
-    const Picture reversed = engine::toPicture(turnedRenderer.render(Technique::ClusteredDeferred, asked));
+    const Picture reversed = engine::toPicture(frameOf(turned, asked, Technique::ClusteredDeferred));
     const validation::ErrorFigures figures = validation::errorFigures(reversed, ordered);
     // Terms are positive, so a sum of n terms in any order is off by at most (n - 1) 2^-24 of itself, twice here; no
     // pixel visits more than 64 of these lights.

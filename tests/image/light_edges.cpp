@@ -1,16 +1,11 @@
 // Light culling at the very edge: lights that reach a pixel by a hair, and those a hair above its surface.
-#include <algorithm>
-#include <cmath>
 #include <functional>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tests/image/ImageTest.h"
 #include "tests/support/CullingScenes.h"
-#include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/culling/LightOracle.h"
 #include "validation/culling/PixelPositions.h"
 
@@ -20,6 +15,7 @@ namespace {
 using culling::Builder;
 using culling::Method;
 using engine::Technique;
+using namespace test;
 
 /// A technique of each method, a deferred one and one that shades as it rasterises.
 struct Methods {
@@ -32,7 +28,7 @@ constexpr Methods kEdgeMethods[] = {{Method::TileMinmax, {Technique::TiledDeferr
                                     {Method::Zbin, {Technique::ClusteredDeferred, Technique::ClusteredForward}}};
 
 /// A light, somewhere, whose range or cone ends a hair behind the surface of a pixel.
-scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, test::Random& random) {
+scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, Random& random) {
     scenes::Light light;
     light.intensity = float(random.logarithmic(1.0, 1e3));
     const glm::dvec3 toSurfaceWS = random.direction();
@@ -45,7 +41,7 @@ scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, test::Random& ra
     if (random.unit() < 0.3) {
         light.type = scenes::LightType::Spot;
         light.rangeMetres = float(1.5 * metres);
-        light.outerConeRadians = float(random.logarithmic(0.5, 179.0) * test::pi / 180.0);
+        light.outerConeRadians = float(random.logarithmic(0.5, 179.0) * pi / 180.0);
         const double cosine = std::cos(double(light.outerConeRadians) * (1.0 - hair));
         light.directionWS = random.around(toSurfaceWS, cosine, cosine);
     }
@@ -53,7 +49,7 @@ scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, test::Random& ra
 }
 
 /// A light that stands a hair above the plane of a surface, and reaches far beyond it.
-scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& normalWS, test::Random& random) {
+scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& normalWS, Random& random) {
     scenes::Light light;
     light.intensity = float(random.logarithmic(1.0, 1e3));
     const double metres = random.logarithmic(0.05, 50.0);
@@ -63,7 +59,7 @@ scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& no
     light.rangeMetres = float(metres * random.between(1.1, 3.0));
     if (random.unit() < 0.3) {
         light.type = scenes::LightType::Spot;
-        light.outerConeRadians = float(random.logarithmic(0.5, 179.0) * test::pi / 180.0);
+        light.outerConeRadians = float(random.logarithmic(0.5, 179.0) * pi / 180.0);
         const double cosine = std::cos(double(light.outerConeRadians) * random.unit());
         light.directionWS = random.around(-toLightWS, cosine, 1.0);
     }
@@ -71,7 +67,7 @@ scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& no
 }
 
 /// Half of the time the first or last of eight, since tiles end there.
-int towardsTilesEdge(int pixel, int size, test::Random& random) {
+int towardsTilesEdge(int pixel, int size, Random& random) {
     if (random.unit() < 0.5) return pixel;
     return std::min(size - 1, pixel / 8 * 8 + (random.unit() < 0.5 ? 0 : 7));
 }
@@ -85,7 +81,7 @@ struct Seen {
 
 /// In place of the scene's lights; none where the picture shows no surface.
 std::vector<scenes::Light> lightsByAHair(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                         const Seen& seen, bool ofHorizon, test::Random& random) {
+                                         const Seen& seen, bool ofHorizon, Random& random) {
     const validation::PixelPositions positions(scene.cameras[0], settings, seen.depths);
     const glm::ivec2 size = settings.sizePixels;
     std::vector<scenes::Light> lights;
@@ -104,7 +100,7 @@ std::vector<scenes::Light> lightsByAHair(const scenes::Scene& scene, const frame
     return lights;
 }
 
-class LightEdges : public test::GlTest {
+class LightEdges : public ImageTest {
 protected:
     /// Random scenes, few of them unless the sweep is whole, and these with pruning; their eyes so many times as
     /// far away by seed. Lights end by a hair behind a surface; or, with lists that leave out those behind surfaces,
@@ -113,8 +109,7 @@ protected:
 
     /// Lit by one sun, since no light changes what is seen, and its programs serve all scenes.
     Seen see(engine::Renderer& renderer, scenes::Scene& scene, frame::FrameSettings settings) {
-        scene.lights = {test::pointLight({}, 1.0f)};
-        scene.lights[0].type = scenes::LightType::Directional;
+        scene.lights = {sunLight({0.0, 0.0, -1.0}, 1.0f)};
         renderer.draw(Technique::Forward, settings);
         Seen seen{renderer.downloadLists().depths, renderer.downloadDepth(), {}};
         settings.view = frame::DebugView::Normal;
@@ -125,19 +120,18 @@ protected:
 
 void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std::uint64_t)>& times, bool ofHorizon) {
     constexpr glm::ivec2 kSizes[] = {{97, 61}, {33, 17}, {64, 64}, {130, 9}};
-    if (!test::isWholeSweep()) seeds = std::max<std::uint64_t>(seeds / 24, 6); // six distances of the eye
+    if (!isWholeSweep()) seeds = std::max<std::uint64_t>(seeds / 24, 6); // six distances of the eye
     std::uint64_t needed = 0, evaluated = 0;
     std::size_t lights = 0, scenes = 0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        scenes::Scene scene = test::randomLitScene(seed);
-        scene.cameras[0] = test::seenFromAfar(scene.cameras[0], times(seed));
-        test::Random random(seed + 5000);
+        scenes::Scene scene = randomLitScene(seed);
+        scene.cameras[0] = seenFromAfar(scene.cameras[0], times(seed));
+        Random random(seed + 5000);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = kSizes[random.index(int(std::size(kSizes)))];
+        frame::FrameSettings settings = ofSize(kSizes[random.index(int(std::size(kSizes)))]);
         // Without pruning all scenes share their programs, however large ones, which expect coats, whose normals no
         // list knows.
-        settings.prune = ofHorizon || !test::isWholeSweep();
+        settings.prune = ofHorizon || !isWholeSweep();
         scene.lights = lightsByAHair(scene, settings, see(renderer, scene, settings), ofHorizon, random);
         if (scene.lights.empty()) continue;
         ++scenes;
@@ -170,8 +164,6 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
     EXPECT_GT(lights, 50 * seeds) << "too few lights to prove anything";
 }
 
-using LightEdgesSlow = LightEdges;
-
 double nearby(std::uint64_t) {
     return 1.0;
 }
@@ -179,24 +171,15 @@ double farAway(std::uint64_t seed) {
     return std::pow(10.0, double(1 + seed % 6));
 }
 
-TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNotMissing) {
-    expectSound(200, nearby);
-}
-TEST_F(LightEdgesSlow, aLightThatReachesAPixelByAHairIsNotMissing) {
+TEST_SWEEP(LightEdges, aLightThatReachesAPixelByAHairIsNotMissing) {
     expectSound(200, nearby);
 }
 
-TEST_F(LightEdges, aLightThatReachesAPixelByAHairIsNotMissingWhereTheEyeIsFarAway) {
-    expectSound(48, farAway);
-}
-TEST_F(LightEdgesSlow, aLightThatReachesAPixelByAHairIsNotMissingWhereTheEyeIsFarAway) {
+TEST_SWEEP(LightEdges, aLightThatReachesAPixelByAHairIsNotMissingWhereTheEyeIsFarAway) {
     expectSound(48, farAway);
 }
 
-TEST_F(LightEdges, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissing) {
-    expectSound(120, nearby, true);
-}
-TEST_F(LightEdgesSlow, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissing) {
+TEST_SWEEP(LightEdges, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissing) {
     expectSound(120, nearby, true);
 }
 
@@ -204,27 +187,25 @@ TEST_F(LightEdgesSlow, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissing) {
 TEST_F(LightEdges, lightsInThePlaneOfAWallAreNotMissingFromAnyDistance) {
     std::size_t lit = 0;
     for (std::uint64_t seed = 1; seed <= 48 && !HasFailure(); ++seed) {
-        test::Random random(seed);
-        scenes::Scene scene = test::quadScene({});
+        Random random(seed);
+        scenes::Scene scene = quadScene({});
         const double tilt = seed % 3 == 0 ? 0.0 : random.logarithmic(1e-5, 1.0);
         scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), tilt, random.direction());
         scenes::Camera& camera = scene.cameras[0];
         if (seed % 2 == 0) {
-            camera.projection = scenes::Projection::Orthographic;
-            camera.halfHeightMetres = 1.0;
+            makeOrthographic(camera, 1.0);
         }
-        camera = test::seenFromAfar(camera, std::pow(10.0, double(seed % 7)));
+        camera = seenFromAfar(camera, std::pow(10.0, double(seed % 7)));
         const glm::dmat4& worldFromQuad = scene.nodes[0].parentFromNode;
         for (int i = 0; i < 60; ++i) {
             const double height = random.logarithmic(1e-10, 1e-2) * (random.unit() < 0.5 ? -1.0 : 1.0);
             const glm::dvec4 placeOS(random.between(-1.0, 1.0), random.between(-1.0, 1.0), height, 1.0);
-            scenes::Light light = test::pointLight(glm::dvec3(worldFromQuad * placeOS), 1e3f);
+            scenes::Light light = pointLight(glm::dvec3(worldFromQuad * placeOS), 1e3f);
             light.rangeMetres = 0.3f;
             scene.lights.push_back(light);
         }
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {64, 64};
+        frame::FrameSettings settings = ofSize(64, 64);
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         lit += std::size_t(std::ranges::count_if(truth, [](float value) { return value > 0.0f && value != 1.0f; }));
         settings.culling.normals = culling::NormalTest::On;
@@ -239,10 +220,7 @@ TEST_F(LightEdges, lightsInThePlaneOfAWallAreNotMissingFromAnyDistance) {
     EXPECT_GT(lit, 50000u) << "lights that light nothing prove nothing";
 }
 
-TEST_F(LightEdges, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissingWhereTheEyeIsFarAway) {
-    expectSound(48, farAway, true);
-}
-TEST_F(LightEdgesSlow, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissingWhereTheEyeIsFarAway) {
+TEST_SWEEP(LightEdges, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissingWhereTheEyeIsFarAway) {
     expectSound(48, farAway, true);
 }
 

@@ -1,19 +1,15 @@
 // Light lists are the same with every builder, and so are the pictures.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "engine/ChooseSamples.h"
-#include "engine/Renderer.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using culling::Builder;
 using engine::Technique;
+using namespace test;
 
 /// Builders on the GPU, with the lanes that build a tile together.
 struct GpuBuilder {
@@ -25,7 +21,7 @@ constexpr GpuBuilder kGpuBuilders[] = {{"compute, 64 lanes a tile", Builder::Com
                                        {"compute, 1", Builder::Compute, 1},
                                        {"fragment", Builder::Fragment, 1}};
 
-class LightLists : public test::GlTest {
+class LightLists : public ImageTest {
 protected:
     static Technique techniqueOf(const frame::FrameSettings& settings) {
         const bool tiled = *settings.culling.method == culling::Method::TileMinmax ||
@@ -106,163 +102,92 @@ protected:
             }
         }
     }
-
-    // Every builder on the GPU, or one in turn.
-    void expectListsOfTheLattice();
-    void expectListsOfTheMostLights();
-    // A scene of everything with every builder on the GPU; or Lambert materials, and a builder in turn.
-    void expectPicturesOfLists();   ///< unpruned as well, or not
-    void expectMultisampledLists(); ///< of two and four samples, or of four
-    void expectListsOfEveryLightType();
-    void expectOrthographicLists();
-    void expectListsOfAnyCount();
 };
-using LightListsSlow = LightLists;
 
 scenes::Scene sceneOfLists() {
-    return test::isWholeSweep() ? test::everythingScene() : test::lambertScene();
+    return isWholeSweep() ? everythingScene() : lambertScene();
 }
 
-/// The lattice with `count` lights.
-scenes::Scene latticeOf(int count) {
-    scenes::LoadOptions options;
-    options.lights = count;
-    return scenes::loadScene("lattice", options);
+TEST_SWEEP(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
+    frame::FrameSettings settings = ofSize(321, 179);
+    expectSameLists(latticeOf(256), settings, culling::kTileSides, isWholeSweep());
 }
 
-void LightLists::expectListsOfTheLattice() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {321, 179};
-    expectSameLists(latticeOf(256), settings, culling::kTileSides, test::isWholeSweep());
-}
-TEST_F(LightLists, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
-    expectListsOfTheLattice();
-}
-TEST_F(LightListsSlow, listsBuiltOnTheGpuAreExactlyThoseBuiltOnTheCpu) {
-    expectListsOfTheLattice();
-}
-
-void LightLists::expectListsOfEveryLightType() {
+TEST_SWEEP(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
     const scenes::Scene scene = sceneOfLists();
-    frame::FrameSettings settings;
-    settings.sizePixels = {320, 180};
-    expectSameLists(scene, settings, culling::kTileSides, test::isWholeSweep());
+    frame::FrameSettings settings = ofSize(320, 180);
+    expectSameLists(scene, settings, culling::kTileSides, isWholeSweep());
     settings.sizePixels = {37, 1};
-    expectSameLists(scene, settings, std::array{16}, test::isWholeSweep(), 1);
-    if (!test::isWholeSweep()) return;
+    expectSameLists(scene, settings, std::array{16}, isWholeSweep(), 1);
+    if (!isWholeSweep()) return;
     settings.sizePixels = {161, 90};
     settings.prune = false;
     expectSameLists(scene, settings, std::array{8});
 }
-TEST_F(LightLists, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
-    expectListsOfEveryLightType();
-}
-TEST_F(LightListsSlow, listsOfEveryLightTypeAndTransparentSurfacesAreExactlyTheSameOnTheGpu) {
-    expectListsOfEveryLightType();
-}
 
-void LightLists::expectOrthographicLists() {
+TEST_SWEEP(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
     scenes::Scene scene = sceneOfLists();
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 2.5;
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 91};
+    makeOrthographic(scene.cameras[0], 2.5);
+    frame::FrameSettings settings = ofSize(161, 91);
     expectSameLists(scene, settings, std::array{8, 32});
-}
-TEST_F(LightLists, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
-    expectOrthographicLists();
-}
-TEST_F(LightListsSlow, listsOfAnOrthographicCameraAreExactlyTheSameOnTheGpu) {
-    expectOrthographicLists();
 }
 
 TEST_F(LightLists, listsOfSurfacesFarBeyondTheNearPlaneAreExactlyTheSameOnTheGpu) {
     scenes::Scene scene = latticeOf(64);
     scene.cameras[0].nearMetres *= 1e-3; // every depth is below a hundredth
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 91};
+    frame::FrameSettings settings = ofSize(161, 91);
     expectSameLists(scene, settings, std::array{16});
 }
 
-void LightLists::expectPicturesOfLists() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 91};
-    expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
-    if (!test::isWholeSweep()) return;
+TEST_SWEEP(LightLists, picturesLitFromListsOfTheGpuAreThoseOfForward) {
+    frame::FrameSettings settings = ofSize(161, 91);
+    expectForwardsPicture(sceneOfLists(), settings, isWholeSweep());
+    if (!isWholeSweep()) return;
     settings.prune = false;
-    expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
-}
-TEST_F(LightLists, picturesLitFromListsOfTheGpuAreThoseOfForward) {
-    expectPicturesOfLists();
-}
-TEST_F(LightListsSlow, picturesLitFromListsOfTheGpuAreThoseOfForward) {
-    expectPicturesOfLists();
+    expectForwardsPicture(sceneOfLists(), settings, isWholeSweep());
 }
 
-void LightLists::expectMultisampledLists() {
+TEST_SWEEP(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightThemAsForwardDoes) {
     int tried = 0;
     constexpr int kSamples[] = {2, 4};
-    for (const int samples : test::inTurn(kSamples, 1)) {
+    for (const int samples : inTurn(kSamples, 1)) {
         SCOPED_TRACE(samples);
-        frame::FrameSettings settings;
-        settings.sizePixels = {161, 91};
-        settings.samples = samples;
+        frame::FrameSettings settings = withSamples(ofSize(161, 91), samples);
         settings = engine::settingsOn(context().capabilities(), settings);
         if (settings.samples == tried) continue; // what the driver gives for both
         tried = settings.samples;
-        expectSameLists(sceneOfLists(), settings, std::array{8, 64}, test::isWholeSweep());
-        expectForwardsPicture(sceneOfLists(), settings, test::isWholeSweep());
+        expectSameLists(sceneOfLists(), settings, std::array{8, 64}, isWholeSweep());
+        expectForwardsPicture(sceneOfLists(), settings, isWholeSweep());
     }
 }
-TEST_F(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightThemAsForwardDoes) {
-    expectMultisampledLists();
-}
-TEST_F(LightListsSlow, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLightThemAsForwardDoes) {
-    expectMultisampledLists();
-}
 
-void LightLists::expectListsOfAnyCount() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {65, 49};
-    settings.prune = !test::isWholeSweep();
+TEST_SWEEP(LightLists, anyCountOfLightsGivesTheSameLists) {
+    frame::FrameSettings settings = ofSize(65, 49);
+    settings.prune = !isWholeSweep();
     std::size_t turn = 0;
     for (const int count : {1, 31, 32, 33, 4097}) {
         if (count == 1 && settings.prune) continue; // the lattice's first light is out of view, so it would be left out
         SCOPED_TRACE(count);
-        expectSameLists(latticeOf(count), settings, std::array{16}, test::isWholeSweep(), turn++);
+        expectSameLists(latticeOf(count), settings, std::array{16}, isWholeSweep(), turn++);
     }
-}
-TEST_F(LightLists, anyCountOfLightsGivesTheSameLists) {
-    expectListsOfAnyCount();
-}
-TEST_F(LightListsSlow, anyCountOfLightsGivesTheSameLists) {
-    expectListsOfAnyCount();
 }
 
 TEST_F(LightLists, manyLightsGiveThePictureOfForward) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {65, 49};
+    frame::FrameSettings settings = ofSize(65, 49);
     expectForwardsPicture(latticeOf(4097), settings, true);
 }
 
-void LightLists::expectListsOfTheMostLights() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {33, 17};
+TEST_SWEEP(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
+    frame::FrameSettings settings = ofSize(33, 17);
     const scenes::Scene scene = latticeOf(65536);
-    expectSameLists(scene, settings, std::array{64}, test::isWholeSweep());
+    expectSameLists(scene, settings, std::array{64}, isWholeSweep());
     engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-    for (const GpuBuilder& gpu : gpuBuilders(test::isWholeSweep(), 0)) {
+    for (const GpuBuilder& gpu : gpuBuilders(isWholeSweep(), 0)) {
         SCOPED_TRACE(gpu.name);
         EXPECT_TRUE(renderer.render(Technique::ForwardPlus, with(settings, gpu)).radiance == truth);
         EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, with(settings, gpu)).radiance == truth);
     }
-}
-TEST_F(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
-    expectListsOfTheMostLights();
-}
-TEST_F(LightListsSlow, theMostLightsOfASceneAreNotTooManyForTheGpu) {
-    expectListsOfTheMostLights();
 }
 
 } // namespace

@@ -1,18 +1,9 @@
 // Pictures of area lights: every technique, what they leave out, known answers, and the reference.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "engine/PrepareView.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/LookAt.h"
 #include "tests/image/AreaLightTest.h"
-#include "tests/image/EnvironmentTest.h"
-#include "tests/support/AreaLights.h"
 #include "tests/support/LightPictures.h"
 
 namespace tessera {
@@ -53,45 +44,29 @@ scenes::Scene withPictures(scenes::Scene scene) {
     return scene;
 }
 
-scenes::Material picturedMatte() {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
-    material.doubleSided = true;
-    return material;
-}
-
 class LightPictures : public EnvironmentTest {
 protected:
-    void expectTechniquesAlike() {
-        std::vector<scenes::Scene> all{withPictures(quadScene(picturedMatte()))};
-        if (isWholeSweep()) all.push_back(withPictures(quadScene({})));
-        for (scenes::Scene& scene : all) {
-            engine::Renderer renderer(context(), scene);
-            frame::FrameSettings settings;
-            settings.sizePixels = {96, 54};
-            expectParity(renderer, settings, isWholeSweep() ? std::vector<Technique>{} : techniquesInTurn(3));
-            for (scenes::Light& light : scene.lights) light.rangeMetres = scenes::kInfinity;
-            settings.rangeTolerance = 0.05; // by which lists end lights
-            engine::Renderer tolerant(context(), scene);
-            expectParity(tolerant, settings, {Technique::ClusteredDeferred});
-            settings.area = {frame::AreaLights::Sampled, 4};
-            expectParity(tolerant, settings, {Technique::ClusteredDeferred});
-        }
-    }
     std::vector<float> radianceOf(const scenes::Scene& scene, bool prune = true) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
+        frame::FrameSettings settings = ofSize(96, 54);
         settings.prune = prune;
-        return engine::Renderer(context(), scene).render(Technique::TiledDeferred, settings).radiance;
+        return drawn(scene, settings, Technique::TiledDeferred);
     }
 };
-using LightPicturesSlow = LightPictures;
 
-TEST_F(LightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectTechniquesAlike();
-}
-TEST_F(LightPicturesSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectTechniquesAlike();
+TEST_SWEEP(LightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
+    std::vector<scenes::Scene> all{withPictures(quadScene(twoSided(lambert())))};
+    if (isWholeSweep()) all.push_back(withPictures(quadScene({})));
+    for (scenes::Scene& scene : all) {
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = ofSize(96, 54);
+        expectParity(renderer, settings, isWholeSweep() ? std::vector<Technique>{} : techniquesInTurn(3));
+        for (scenes::Light& light : scene.lights) light.rangeMetres = scenes::kInfinity;
+        settings.rangeTolerance = 0.05; // by which lists end lights
+        engine::Renderer tolerant(context(), scene);
+        expectParity(tolerant, settings, {Technique::ClusteredDeferred});
+        settings.area = {frame::AreaLights::Sampled, 4};
+        expectParity(tolerant, settings, {Technique::ClusteredDeferred});
+    }
 }
 
 TEST_F(LightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
@@ -100,22 +75,20 @@ TEST_F(LightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
 }
 
 TEST_F(LightPictures, aSceneWithoutThemHasNoTraceOfThem) {
-    scenes::Scene scene = withPictures(quadScene(picturedMatte()));
-    frame::FrameSettings settings;
-    const auto defined = [&] {
-        bool isOn = false;
-        for (const shader::ProgramDesc& program : engine::framePrograms(scene, Technique::Deferred, settings))
-            for (const auto& [name, value] : program.defines)
-                isOn = isOn || ((name == "HAS_LIGHT_PICTURES" || name == "SEEN_PICTURES") && value == "1");
-        return isOn;
+    scenes::Scene scene = withPictures(quadScene(twoSided(lambert())));
+    const auto isDefined = [&] {
+        return std::ranges::count(definedValues(scene, "HAS_LIGHT_PICTURES"), "1") +
+                   std::ranges::count(definedValues(scene, "SEEN_PICTURES"), "1") >
+               0;
     };
-    EXPECT_TRUE(defined());
-    EXPECT_NE(planText(engine::planFrame(scene, Technique::Deferred, settings)).find("light_pictures"),
-              std::string::npos);
+    const auto isPlanned = [&] {
+        return planText(engine::planFrame(scene, Technique::Deferred, {})).find("light_pictures") != std::string::npos;
+    };
+    EXPECT_TRUE(isDefined());
+    EXPECT_TRUE(isPlanned());
     for (scenes::Light& light : scene.lights) light.texture = {};
-    EXPECT_FALSE(defined());
-    EXPECT_EQ(planText(engine::planFrame(scene, Technique::Deferred, settings)).find("light_pictures"),
-              std::string::npos);
+    EXPECT_FALSE(isDefined());
+    EXPECT_FALSE(isPlanned());
 }
 
 TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
@@ -146,22 +119,16 @@ TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
         light.intensity = 1.0f;
         light.texture = lightTexture(
             2, 2, [](int x, int y) { return glm::vec3(x == 0 ? 1.0f : 0.0f, y == 0 ? 1.0f : 0.0f, 0.5f); });
-        scenes::Scene scene = quadScene(picturedMatte());
+        scenes::Scene scene = quadScene(twoSided(lambert()));
         scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, -5.0, 1.0);
         scene.lights = {light};
-        scenes::Camera& camera = scene.cameras[0];
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 0.5;
-        camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0));
-        frame::FrameSettings settings;
-        settings.sizePixels = {64, 64};
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
+        makeOrthographic(scene.cameras[0], 0.5);
+        const std::vector<float> radiance = drawn(scene, ofSize(64, 64));
         const double half = type == LightType::Polygon ? std::sqrt(0.5) : 0.5; // the default corners reach so far
         int compared = 0;
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 64; ++x) {
-                const float* const pixel = &radiance[std::size_t(4 * (64 * y + x))];
+                const float* const pixel = pixelAt(radiance, 64, x, y);
                 if (pixel[2] != 0.5f) continue;
                 ++compared;
                 // Metres from the middle; between the two centres of texels the factor falls linearly.
@@ -174,7 +141,7 @@ TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
 }
 
 TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
-    scenes::Material black = picturedMatte();
+    scenes::Material black = twoSided(lambert());
     black.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
     scenes::Scene scene = withPictures(quadScene(black));
     for (scenes::Light& light : scene.lights) {
@@ -182,12 +149,8 @@ TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
         light.isTwoSided = true;
     }
     scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.2, 0.4, 4.0}, {0.0, 0.2, 1.0});
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    engine::Renderer renderer(context(), scene);
-    const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
-    const validation::ReferencePicture truth = validation::referencePicture(
-        scene, settings, [] {}, validation::Leeway::None);
+    const std::vector<float> radiance = drawn(scene, ofSize(96, 54));
+    const validation::ReferencePicture truth = strictReference(scene, ofSize(96, 54));
     int bright = 0, wrong = 0;
     for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
         if (!(truth.picture.rgba[4 * i + 2] > 0.7f)) continue; // blue of a quarter and 2, times 3
@@ -204,23 +167,9 @@ TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
 }
 
 /// Irradiance of the middle of a matte quad in z = 0.
-class LightPictureTruth : public EnvironmentTest {
+class LightPictureTruth : public MiddleOfQuadTest {
 protected:
-    double irradiance(const scenes::Light& light) {
-        if (!renderer_) {
-            scene_ = quadScene(picturedMatte());
-            scenes::Camera& camera = scene_.cameras[0];
-            camera.projection = scenes::Projection::Orthographic;
-            camera.halfHeightMetres = 1e-4;
-            camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0));
-            renderer_.emplace(context(), scene_);
-        }
-        scene_.lights = {light};
-        scene_.lights[0].isSeen = false;
-        frame::FrameSettings settings;
-        settings.sizePixels = {3, 3};
-        return double(renderer_->render(Technique::Deferred, settings).radiance[4 * 4]);
-    }
+    double irradiance(const scenes::Light& light) { return seen(matte(), {light}); }
     /// Of the picture of a ball under a rectangle so far away, against the integral over the light.
     BallError onBall(const scenes::Material& material, double distanceMetres, const scenes::LightTexture& texture) {
         scenes::Scene scene = ballUnderSky(material);
@@ -229,36 +178,21 @@ protected:
         scene.lights[0].isSeen = false;
         return errorOfBall(scene, 32, 1);
     }
-    void expectNearTheIntegralOfPictures();
-
-private:
-    scenes::Scene scene_;
-    std::optional<engine::Renderer> renderer_;
 };
-using LightPictureTruthSlow = LightPictureTruth;
 
 /// Samples of a light with a picture, against the integral over both, at one point that 256 pixels see.
 TEST_F(LightPictureTruth, samplesAgreeWithTheIntegralWithinThreeStandardErrors) {
-    scenes::Material metal;
-    metal.metallic = 1.0f;
-    metal.perceptualRoughness = 0.4f;
-    metal.doubleSided = true;
+    const scenes::Material metal = twoSided(metalOf(0.4));
     for (const LightType type : inTurn(kFlatTypes, 2)) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scenes::Scene scene = quadScene(metal);
-        scene.cameras[0].projection = scenes::Projection::Orthographic;
-        scene.cameras[0].halfHeightMetres = 1e-5;
+        makeOrthographic(scene.cameras[0], 1e-5);
         scene.lights = {picturedArea(type, {0.3, 0.2, 0.8}, {-0.2, -0.1, -1.0}, fieldsTexture())};
         scene.lights[0].isSeen = false;
-        frame::FrameSettings settings;
-        settings.sizePixels = {1, 1};
-        const std::vector<float> truth = validation::referencePicture(
-                                             scene, settings, [] {}, validation::Leeway::None)
-                                             .picture.rgba;
-        settings.sizePixels = {16, 16};
+        const std::vector<float> truth = strictRadiance(scene, ofSize(1, 1));
+        frame::FrameSettings settings = ofSize(16, 16);
         settings.area = {frame::AreaLights::Sampled, 64};
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> shown = renderer.render(Technique::Deferred, settings).radiance;
+        const std::vector<float> shown = drawn(scene, settings);
         const double count = double(shown.size()) / 4.0;
         for (std::size_t c = 0; c < 3; ++c) {
             double sum = 0.0, squares = 0.0;
@@ -276,7 +210,7 @@ TEST_F(LightPictureTruth, samplesAgreeWithTheIntegralWithinThreeStandardErrors) 
 /// Of which the closed form of a rectangle of half the width is the truth.
 TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {
     const scenes::LightTexture half = lightTexture(64, 1, [](int x, int) { return glm::vec3(x < 32 ? 1.0f : 0.0f); });
-    for (const double distance : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0}) {
+    for (const double distance : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0})
         for (const double aside : {0.0, 0.5, 1.0}) {
             scenes::Light whole =
                 picturedArea(LightType::Rectangle, {aside * distance, 0.0, distance}, {-0.2 * aside, 0.0, -1.0}, half);
@@ -290,7 +224,6 @@ TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {
             // over the distance; nearer it is known nearly, and what lies around it as a Gaussian.
             EXPECT_NEAR(error, 0.0, aside == 0.0 ? 2e-3 : distance < 2.0 ? 0.2 : 5e-3);
         }
-    }
 }
 
 /// A point below the middle of a square of this side, as far away: the light's configuration factor. Siegel and Howell
@@ -319,26 +252,18 @@ TEST_F(LightPictureTruth, aBrightMiddleIsSeenAsWideAsACosineSeesIt) {
 }
 
 /// docs/area-lights.md has what this prints.
-void LightPictureTruth::expectNearTheIntegralOfPictures() {
+TEST_SWEEP(LightPictureTruth, onABallPicturesAreNearTheirIntegral) {
     const std::vector<double> distances = isWholeSweep() ? std::vector{0.25, 1.0, 4.0} : std::vector{1.0};
     const std::vector<double> roughnesses = isWholeSweep() ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5};
     for (const double distance : distances)
         for (const double roughness : roughnesses) {
-            scenes::Material metal;
-            metal.metallic = 1.0f;
-            metal.perceptualRoughness = float(roughness);
+            const scenes::Material metal = metalOf(roughness);
             const BallError plain = onBall(metal, distance, {}), pictured = onBall(metal, distance, fieldsTexture());
             fmt::print("| {} m | {:.2f} | {:+.1f} %, {:.0e} | {:+.1f} %, {:.0e} |\n", distance, roughness,
                        100.0 * pictured.bias, pictured.relMse, 100.0 * plain.bias, plain.relMse);
             EXPECT_LE(std::abs(pictured.bias), 0.1);
             EXPECT_LE(pictured.relMse, 0.2);
         }
-}
-TEST_F(LightPictureTruth, onABallPicturesAreNearTheirIntegral) {
-    expectNearTheIntegralOfPictures();
-}
-TEST_F(LightPictureTruthSlow, onABallPicturesAreNearTheirIntegral) {
-    expectNearTheIntegralOfPictures();
 }
 
 TEST_F(LightPictureTruth, lightsOfAnySizeAndPlaceGiveFiniteLight) {

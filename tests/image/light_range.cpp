@@ -1,28 +1,27 @@
 // Lights that a range tolerance ends.
-#include <cmath>
+#include <numbers>
 
-#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/ChooseCulling.h"
 #include "engine/PrepareView.h"
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/Random.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/compare/RangeTruncation.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/culling/LightOracle.h"
+#include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
 constexpr int kRangeSide = 64;
 
 scenes::Light attenuatedLight(const glm::dvec3& positionWS, float intensity, const glm::vec3& abc) {
-    scenes::Light light = test::pointLight(positionWS, intensity);
+    scenes::Light light = pointLight(positionWS, intensity);
     light.falloff = scenes::Falloff::Attenuation;
     light.attenuation = abc;
     return light;
@@ -31,7 +30,7 @@ scenes::Light attenuatedLight(const glm::dvec3& positionWS, float intensity, con
 /// The scene in a room's worth of lights that fall off by A B C, every third a spot, in place of its own.
 scenes::Scene inAttenuatedLights(scenes::Scene scene) {
     scene.lights.clear();
-    test::Random random(21);
+    Random random(21);
     for (int i = 0; i < 48; ++i) {
         const glm::dvec3 place(random.between(-4.0, 4.0), random.between(-0.5, 2.0), random.between(-2.0, 3.0));
         scene.lights.push_back(
@@ -44,29 +43,17 @@ scenes::Scene inAttenuatedLights(scenes::Scene scene) {
     return scene;
 }
 
-class LightRange : public test::GlTest {
-protected:
-    /// Every technique with every method it takes, without pruning in turn, on a scene of everything; or each with
-    /// some method and each method with some technique, on Lambert materials, without pruning in forward alone.
-    void expectEndedLightsAgree();
-    /// Of the lists of every technique by every method; or by one of them, in a picture of a quarter of the pixels.
-    void expectNoEndedLightMissing();
-};
-using LightRangeSlow = LightRange;
+class LightRange : public ImageTest {};
 
 TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
-    scenes::Material lambert;
-    lambert.model = scenes::MaterialModel::Lambert;
-    lambert.baseColor = {0.75f, 0.5f, 0.25f, 1.0f};
-    scenes::Scene scene = test::quadScene(lambert);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    const scenes::Material painted = lambert({0.75f, 0.5f, 0.25f, 1.0f});
+    scenes::Scene scene = quadScene(painted);
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.cameras[0].farMetres = 5.0; // without a far plane depth is coarser: a step of 1e-4 m
     const double a = 0.5, b = 0.25, c = 1.5, intensity = 2.5;
     const glm::dvec3 placeWS(0.25, -0.125, 0.5);
     scene.lights = {attenuatedLight(placeWS, intensity, {a, b, c})};
-    frame::FrameSettings settings;
-    settings.sizePixels = {kRangeSide, kRangeSide};
+    frame::FrameSettings settings = ofSize(kRangeSide, kRangeSide);
     settings.rangeTolerance = 1.0;
     const double left = intensity / settings.rangeTolerance - a;
     const double radius = (-b + std::sqrt(b * b + 4.0 * c * left)) / (2.0 * c);
@@ -82,7 +69,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
             const double whole = intensity / (a + b * d + c * d * d) * placeWS.z / d;
             const double window = std::max(0.0, 1.0 - std::pow(d / radius, 4.0));
             for (int channel = 0; channel < 3; ++channel) {
-                const double value = picture.pixel(i)[channel], albedo = lambert.baseColor[channel];
+                const double value = picture.pixel(i)[channel], albedo = painted.baseColor[channel];
                 // As for every light: roundings of fp32, against the light without its window, which is a difference.
                 ASSERT_NEAR(value, albedo * whole * window * window, 3e-6 * albedo * whole) << x << " " << y;
                 ASSERT_TRUE(d < radius || value == 0.0) << x << " " << y << " holds " << value;
@@ -95,10 +82,9 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
 }
 
 TEST_F(LightRange, theBiasIsBelowZeroAndVanishesWithTheTolerance) {
-    const scenes::Scene scene = inAttenuatedLights(test::everythingScene());
+    const scenes::Scene scene = inAttenuatedLights(everythingScene());
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 90};
+    frame::FrameSettings settings = ofSize(160, 90);
     double lastBias = -1.0, lastRelMse = 1.0;
     for (const double tolerance : {0.3, 0.1, 0.03, 0.01, 0.003, 0.001}) {
         SCOPED_TRACE(tolerance);
@@ -121,12 +107,13 @@ TEST_F(LightRange, theBiasIsBelowZeroAndVanishesWithTheTolerance) {
     EXPECT_EQ(nothing.figures.bias, 0.0);
 }
 
-void LightRange::expectEndedLightsAgree() {
-    const bool isWhole = test::isWholeSweep();
-    const scenes::Scene scene = inAttenuatedLights(isWhole ? test::everythingScene() : test::lambertScene());
+/// Every technique with every method it takes, without pruning in turn, on a scene of everything; or each with
+/// some method and each method with some technique, on Lambert materials, without pruning in forward alone.
+TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
+    const bool isWhole = isWholeSweep();
+    const scenes::Scene scene = inAttenuatedLights(isWhole ? everythingScene() : lambertScene());
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 89};
+    frame::FrameSettings settings = ofSize(161, 89);
     settings.rangeTolerance = 0.1;
     const std::vector<float> forward = renderer.render(Technique::Forward, settings).radiance;
     std::size_t listed = 0, turn = 0;
@@ -157,22 +144,16 @@ void LightRange::expectEndedLightsAgree() {
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, forward);
 }
 
-TEST_F(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
-    expectEndedLightsAgree();
-}
-TEST_F(LightRangeSlow, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
-    expectEndedLightsAgree();
-}
-
-void LightRange::expectNoEndedLightMissing() {
-    const bool isWhole = test::isWholeSweep();
-    const scenes::Scene scene = inAttenuatedLights(isWhole ? test::everythingScene() : test::lambertScene());
+/// Of the lists of every technique by every method; or by one of them, in a picture of a quarter of the pixels.
+TEST_SWEEP(LightRange, anEndedLightIsNotMissingFromAListThatNeedsIt) {
+    const bool isWhole = isWholeSweep();
+    const scenes::Scene scene = inAttenuatedLights(isWhole ? everythingScene() : lambertScene());
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
     settings.sizePixels = isWhole ? glm::ivec2(321, 179) : glm::ivec2(161, 89);
     settings.rangeTolerance = 0.1;
     std::size_t turn = 0;
-    for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+    for (const engine::TechniqueInfo& technique : engine::techniqueTable())
         for (const culling::Method method : technique.methods) {
             if (method == culling::Method::None) continue;
             // Deferred techniques with their first method, the others with their second.
@@ -185,14 +166,67 @@ void LightRange::expectNoEndedLightMissing() {
             EXPECT_EQ(figures.everywhere, 0u);
             EXPECT_GT(figures.needed, figures.covered);
         }
-    }
 }
 
-TEST_F(LightRange, anEndedLightIsNotMissingFromAListThatNeedsIt) {
-    expectNoEndedLightMissing();
+// Cones that are narrow or have a hard edge, against the reference.
+
+struct Cone {
+    double innerDegrees, outerDegrees;
+};
+
+class LightCones : public ImageTest {
+protected:
+    /// A spot 2 m before a wall that it meets squarely, seen so closely that its light fills three quarters of the
+    /// picture. `worldFromLight` turns all of it about the origin.
+    static scenes::Scene spotOnWall(const Cone& cone, const glm::dmat4& worldFromLight) {
+        constexpr double kDegree = std::numbers::pi / 180.0, kMetres = 2.0;
+        scenes::Material material = lambert();
+        scenes::Scene scene = quadScene(material);
+        scenes::Light spot = pointLight(glm::dvec3(worldFromLight * glm::dvec4(0.0, 0.0, kMetres, 1.0)), 100.0f);
+        spot.type = scenes::LightType::Spot;
+        spot.directionWS = glm::dmat3(worldFromLight) * spot.directionWS;
+        spot.innerConeRadians = float(cone.innerDegrees * kDegree);
+        spot.outerConeRadians = float(cone.outerDegrees * kDegree);
+        scene.lights = {spot};
+        const double radiusMetres = kMetres * std::tan(cone.outerDegrees * kDegree);
+        scenes::Camera& camera = scene.cameras[0];
+        camera.fovYRadians = 2.0 * std::atan(1.02 * radiusMetres / camera.worldFromCamera[3].z);
+        camera.worldFromCamera = worldFromLight * camera.worldFromCamera;
+        for (scenes::Node& node : scene.nodes) node.parentFromNode = worldFromLight * node.parentFromNode;
+        return scene;
+    }
+
+    void expectTheReferences(const Cone& cone, const glm::dmat4& worldFromLight, double p999RelAtMost) {
+        SCOPED_TRACE(fmt::format("{} to {} degrees", cone.innerDegrees, cone.outerDegrees));
+        const scenes::Scene scene = spotOnWall(cone, worldFromLight);
+        frame::FrameSettings settings = exactOfSize(160, 160);
+        engine::Renderer renderer(context(), scene);
+        const Picture truth = validation::referencePicture(scene, settings).picture;
+        for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
+            const validation::ErrorFigures figures =
+                validation::errorFigures(engine::toPicture(renderer.render(technique.technique, settings)), truth);
+            fmt::print("{} to {} degrees, {}: p99.9 {:.1e}, relMse {:.1e}, largest {:.1e}\n", cone.innerDegrees,
+                       cone.outerDegrees, technique.name, figures.p999Rel, figures.relMse, figures.maxRel);
+            EXPECT_EQ(figures.compared, 160u * 160u);
+            EXPECT_GT(figures.litShare, 0.5);
+            EXPECT_LE(figures.p999Rel, p999RelAtMost);
+        }
+    }
+};
+
+constexpr double kEveryPicture = 3e-4; // tolerance of the 99.9th percentile (docs/reference.md)
+
+TEST_F(LightCones, aNarrowOrHardConeIsThatOfTheReference) {
+    for (const Cone cone : {Cone{0.0, 0.1}, Cone{0.0, 0.5}, Cone{0.0, 1.0}, Cone{0.0, 5.0}, Cone{9.9, 10.0},
+                            Cone{0.05, 0.1}, Cone{0.9, 1.0}, Cone{0.0, 20.0}, Cone{20.0, 20.0}})
+        expectTheReferences(cone, glm::dmat4(1.0), kEveryPicture);
 }
-TEST_F(LightRangeSlow, anEndedLightIsNotMissingFromAListThatNeedsIt) {
-    expectNoEndedLightMissing();
+
+/// The angle from the axis is off by the rounding of ray and axis to fp32, 2e-7 rad, in any direction.
+TEST_F(LightCones, anObliqueNarrowConeKeepsTheDigitsThatItsRayHas) {
+    const glm::dmat4 oblique = glm::rotate(glm::dmat4(1.0), 2.1, glm::normalize(glm::dvec3(0.36, 0.48, 0.8)));
+    for (const double outerDegrees : {0.1, 0.5, 1.0, 5.0, 20.0})
+        expectTheReferences({0.0, outerDegrees}, oblique, std::max(kEveryPicture, 7e-4 / outerDegrees));
 }
 
 } // namespace

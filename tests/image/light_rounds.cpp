@@ -1,19 +1,12 @@
 // More lights than software rasterisers let a loop visit one by one: none is lost, in any technique.
-#include <cmath>
-#include <vector>
 
-#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "base/Error.h"
-#include "engine/Rendering.h"
 #include "renderer/frame/LightRounds.h"
 #include "scenes/Limits.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/figures/ErrorFigures.h"
 
 namespace tessera {
@@ -22,6 +15,7 @@ namespace {
 using culling::Builder;
 using culling::Method;
 using engine::Technique;
+using namespace test;
 
 constexpr int kSidePixels = 8;
 
@@ -30,12 +24,10 @@ constexpr int kSidePixels = 8;
 /// have empty words, the others all. The last of a run is as bright as the rest of it, so that losing one light is
 /// seen.
 scenes::Scene wallOf(int count) {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
-    scenes::Scene scene = test::quadScene(material);
+    scenes::Material material = lambert();
+    scenes::Scene scene = quadScene(material);
     scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 0.5;
+    makeOrthographic(camera, 0.5);
     camera.farMetres = 5.0;
     scene.nodes[0].parentFromNode = glm::dmat4(1.0);
     scene.nodes[0].parentFromNode[0].z = 0.5;
@@ -46,29 +38,23 @@ scenes::Scene wallOf(int count) {
         const bool last = i + 1 == count || runOf(i + 1) != pixel;
         const double x = (pixel % kSidePixels + 0.5) / kSidePixels - 0.5,
                      y = 0.5 - (pixel / kSidePixels + 0.5) / kSidePixels;
-        scenes::Light light = test::pointLight({x, y, 0.5 * x + 0.05}, last ? 1.0f : float(kPixels) / float(count));
+        scenes::Light light = pointLight({x, y, 0.5 * x + 0.05}, last ? 1.0f : float(kPixels) / float(count));
         light.rangeMetres = i % 64 < 32 ? 0.09f : 4.0f;
         scene.lights.push_back(light);
     }
     return scene;
 }
 
-class LightRounds : public test::GlTest {
+class LightRounds : public ImageTest {
 protected:
     static frame::FrameSettings settings() {
-        frame::FrameSettings result;
-        result.sizePixels = {kSidePixels, kSidePixels};
+        frame::FrameSettings result = ofSize(kSidePixels, kSidePixels);
         result.display = false;
         return result;
     }
     /// Forward against the reference, and every other technique and method against forward, bit by bit; or each
     /// third of them in turn.
     void expectEveryLight(int count, bool every, std::size_t turn = 0);
-    /// With counts of lights about those from which a round visits more of them, or with those beyond three of them.
-    void expectEveryLightOfEveryCount();
-    void expectEveryLightOfTheMost();
-    /// With every method and builder on the GPU, or each method with one builder in turn.
-    void expectNoLightLacking();
     /// The same bits with every number of lights per round.
     void expectOnePicture(const scenes::Scene& scene);
 };
@@ -95,27 +81,16 @@ void LightRounds::expectEveryLight(int count, bool every, std::size_t turn) {
     }
 }
 
-void LightRounds::expectEveryLightOfEveryCount() {
+/// With counts of lights about those from which a round visits more of them, or with those beyond three of them.
+TEST_SWEEP(LightRounds, everyLightReachesItsPixelInEveryTechnique) {
     std::vector<int> counts{32769, 65537, 200000};
-    if (test::isWholeSweep()) counts = {32767, 32769, 65535, 65537, 131071, 200000};
+    if (isWholeSweep()) counts = {32767, 32769, 65535, 65537, 131071, 200000};
     std::size_t turn = 0;
-    for (const int count : counts) expectEveryLight(count, test::isWholeSweep(), turn++);
-}
-TEST_F(LightRounds, everyLightReachesItsPixelInEveryTechnique) {
-    expectEveryLightOfEveryCount();
-}
-TEST_F(LightRoundsSlow, everyLightReachesItsPixelInEveryTechnique) {
-    expectEveryLightOfEveryCount();
+    for (const int count : counts) expectEveryLight(count, isWholeSweep(), turn++);
 }
 
-void LightRounds::expectEveryLightOfTheMost() {
-    expectEveryLight(scenes::kMostLights, test::isWholeSweep());
-}
-TEST_F(LightRounds, asManyLightsAsASceneCanHaveReachTheirPixelsInEveryTechnique) {
-    expectEveryLightOfTheMost();
-}
-TEST_F(LightRoundsSlow, asManyLightsAsASceneCanHaveReachTheirPixelsInEveryTechnique) {
-    expectEveryLightOfTheMost();
+TEST_SWEEP(LightRounds, asManyLightsAsASceneCanHaveReachTheirPixelsInEveryTechnique) {
+    expectEveryLight(scenes::kMostLights, isWholeSweep());
 }
 
 TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsRefused) {
@@ -123,18 +98,14 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsRefused) {
     scene.name = "wall";
     scene.lights.resize(std::size_t(scenes::kMostLights) + 1, scene.lights[0]);
     engine::Renderer renderer(context(), scene);
-    try {
-        renderer.draw(Technique::Forward, settings());
-        ADD_FAILURE() << "it was drawn";
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "wall: has 262145 lights, and 262144 at most can be drawn; keep fewer of them, or load "
-                     "only the first");
-    }
+    EXPECT_THAT(
+        [&] { renderer.draw(Technique::Forward, settings()); },
+        testing::ThrowsMessage<InputError>("wall: has 262145 lights, and 262144 at most can be drawn; keep fewer "
+                                           "of them, or load only the first"));
 }
 
 /// What builds lists in shaders loops over lights too.
-void LightRounds::expectNoLightLacking() {
+TEST_SWEEP(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
     constexpr std::pair<Builder, int> kBuilders[] = {
         {Builder::Compute, 64}, {Builder::Compute, 1}, {Builder::Fragment, 1}};
     std::size_t turn = 0;
@@ -143,7 +114,7 @@ void LightRounds::expectNoLightLacking() {
     const std::vector<float> forward = renderer.render(Technique::Forward, settings()).radiance;
     for (const Method method : {Method::TileMinmax, Method::Tile25d, Method::Cluster, Method::Zbin}) {
         const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
-        for (const auto& [builder, lanes] : test::inTurn(kBuilders, turn++)) {
+        for (const auto& [builder, lanes] : inTurn(kBuilders, turn++)) {
             SCOPED_TRACE(fmt::format("{}, {} lanes, {}", infoOf(method).name, lanes, infoOf(builder).name));
             frame::FrameSettings asked = settings();
             asked.culling.method = method;
@@ -154,19 +125,13 @@ void LightRounds::expectNoLightLacking() {
         }
     }
 }
-TEST_F(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
-    expectNoLightLacking();
-}
-TEST_F(LightRoundsSlow, listsBuiltOnTheGpuNeverLackALight) {
-    expectNoLightLacking();
-}
 
 void LightRounds::expectOnePicture(const scenes::Scene& scene) {
     frame::FrameSettings asked = settings();
     asked.sizePixels = {97, 61};
     std::vector<float> first;
     for (std::size_t perRound = 1; perRound <= frame::kMostLightsPerRound; perRound *= 2) {
-        const test::ShaderMutant shaders;
+        const ShaderMutant shaders;
         for (const char* file : {"lib/lighting/lighting.glsl", "lib/light/light_cursor.glsl"})
             shaders.replace(file, "LIGHTS_PER_ROUND", std::to_string(perRound));
         engine::Renderer renderer(context(), scene, shaders.tree());
@@ -190,7 +155,7 @@ TEST_F(LightRounds, thePictureNeverDependsOnHowManyLightsARoundVisits) {
 }
 
 TEST_F(LightRoundsSlow, aPictureOfEveryFeatureNeverDependsOnHowManyLightsARoundVisits) {
-    expectOnePicture(test::everythingScene());
+    expectOnePicture(everythingScene());
 }
 
 } // namespace

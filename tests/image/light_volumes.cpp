@@ -1,27 +1,20 @@
 // deferred_volumes against deferred: a proxy volume that loses a pixel of its light, or meets one twice, changes a bit.
-#include <algorithm>
-#include <cmath>
 #include <functional>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/Renderer.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/CullingScenes.h"
-#include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
-using test::pi;
-using test::Random;
+using namespace test;
 
 scenes::Light spotLight(const glm::dvec3& positionWS, const glm::dvec3& directionWS, double outerConeRadians) {
-    scenes::Light light = test::pointLight(positionWS, 40.0f);
+    scenes::Light light = pointLight(positionWS, 40.0f);
     light.type = scenes::LightType::Spot;
     light.directionWS = glm::normalize(directionWS);
     light.outerConeRadians = float(outerConeRadians);
@@ -31,13 +24,13 @@ scenes::Light spotLight(const glm::dvec3& positionWS, const glm::dvec3& directio
 }
 
 scenes::Light rangedLight(const glm::dvec3& positionWS, float rangeMetres) {
-    scenes::Light light = test::pointLight(positionWS, 4.0f);
+    scenes::Light light = pointLight(positionWS, 4.0f);
     light.rangeMetres = rangeMetres;
     return light;
 }
 
 scenes::Light randomLight(Random& random, const glm::dvec3& eyeWS) {
-    scenes::Light light = test::pointLight({}, float(random.logarithmic(0.1, 30.0)));
+    scenes::Light light = pointLight({}, float(random.logarithmic(0.1, 30.0)));
     light.color = glm::vec3(random.unit(), random.unit(), 0.2 + 0.8 * random.unit());
     const bool nearEye = random.index(4) == 0;
     light.positionWS =
@@ -64,20 +57,18 @@ scenes::Camera randomCamera(Random& random) {
     camera.nearMetres = random.logarithmic(0.005, 0.5);
     if (random.index(3) == 0) camera.farMetres = random.between(3.0, 30.0);
     if (random.index(4) == 0) {
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = random.between(0.5, 6.0);
+        makeOrthographic(camera, random.between(0.5, 6.0));
     }
     return camera;
 }
 
 /// A quad that fills the picture, 3 m ahead.
 scenes::Scene wall() {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
-    return test::quadScene(material);
+    scenes::Material material = lambert();
+    return quadScene(material);
 }
 
-class LightVolumes : public test::GlTest {
+class LightVolumes : public ImageTest {
 protected:
     /// Whether the lights change the picture; fails where the two techniques differ. The renderer, which is of `scene`,
     /// reads its lights and cameras anew at each frame, so one renderer, and its programs, serve all of them.
@@ -115,11 +106,7 @@ protected:
         return sum;
     }
 
-    static frame::FrameSettings sized(int width, int height) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {width, height};
-        return settings;
-    }
+    static frame::FrameSettings sized(int width, int height) { return ofSize(width, height); }
 
     /// Pixels that the only light of the scene changes, and those that its volume covers.
     struct Share {
@@ -140,16 +127,10 @@ protected:
         }
         return share;
     }
-    // Lambert materials unless the sweep is whole: which pixels a volume covers is no matter of them.
-    void expectPlacesEqual();
-    void expectMirroredNodesEqual();
-    /// 72 scenes, or a sixth of them, all with pruning.
-    void expectRandomScenesEqual();
 };
-using LightVolumesSlow = LightVolumes;
 
 scenes::Scene sceneOfVolumes() {
-    return test::isWholeSweep() ? test::everythingScene() : test::lambertScene();
+    return isWholeSweep() ? everythingScene() : lambertScene();
 }
 
 struct ViewerAndLight {
@@ -163,10 +144,7 @@ std::vector<ViewerAndLight> cases() {
     const glm::dvec3 eyeWS(0.0, 1.5, 6.0);
     const auto farPlane = [](scenes::Camera& camera) { camera.farMetres = 7.0; };
     const auto nearPlane = [](scenes::Camera& camera) { camera.nearMetres = 4.5; };
-    const auto orthographic = [](scenes::Camera& camera) {
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 2.5;
-    };
+    const auto orthographic = [](scenes::Camera& camera) { makeOrthographic(camera, 2.5); };
     std::vector<ViewerAndLight> all{
         {"the eye inside", {rangedLight(eyeWS + glm::dvec3(0.3, 0.2, 0.1), 6.0f), rangedLight(eyeWS, 5.0f)}},
         {"the eye on the sphere", {rangedLight({0.0, 1.5, 2.0}, 4.0f)}},
@@ -175,7 +153,7 @@ std::vector<ViewerAndLight> cases() {
         {"across the near plane", {rangedLight({0.5, 0.0, 1.5}, 2.5f), rangedLight({0.0, 1.0, 3.0}, 4.0f)}, nearPlane},
         {"a tiny range", {rangedLight({0.0, -0.99, 0.0}, 0.04f), rangedLight({0.31, -0.97, 0.4}, 0.06f)}},
         {"a huge range", {rangedLight({0.0, 3.0, 0.0}, 1e6f), rangedLight({1.0, 3.0, 0.0}, 1e18f)}},
-        {"no range", {test::pointLight({0.0, 2.0, 2.0}, 3.0f)}},
+        {"no range", {pointLight({0.0, 2.0, 2.0}, 3.0f)}},
         {"an orthographic camera",
          {rangedLight({0.0, 0.5, 0.0}, 2.0f), spotLight({1.0, 3.0, 1.0}, {0, -1, 0}, 0.4)},
          orthographic},
@@ -197,7 +175,8 @@ std::vector<ViewerAndLight> cases() {
     return all;
 }
 
-void LightVolumes::expectPlacesEqual() {
+// Lambert materials unless the sweep is whole: which pixels a volume covers is no matter of them.
+TEST_SWEEP(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
     const scenes::Scene before = sceneOfVolumes();
     scenes::Scene scene = before;
     engine::Renderer renderer(context(), scene);
@@ -213,40 +192,26 @@ void LightVolumes::expectPlacesEqual() {
     }
 }
 
-TEST_F(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
-    expectPlacesEqual();
-}
-TEST_F(LightVolumesSlow, everyPlaceOfALightIsExactlyAsInDeferred) {
-    expectPlacesEqual();
-}
-
-void LightVolumes::expectRandomScenesEqual() {
+TEST_SWEEP(LightVolumes, randomScenesAreExactlyAsInDeferred) {
     scenes::Scene scene = sceneOfVolumes();
     engine::Renderer renderer(context(), scene);
     int lit = 0;
     int scenes = 0;
-    for (int seed = 1; seed <= 72; seed += test::isWholeSweep() ? 1 : 6, ++scenes) {
+    for (int seed = 1; seed <= 72; seed += isWholeSweep() ? 1 : 6, ++scenes) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
         Random random{std::uint64_t(seed)};
         scene.cameras = {randomCamera(random)};
         const glm::dvec3 eyeWS(scene.cameras[0].worldFromCamera[3]);
-        if (seed > 48) scene.cameras[0] = test::seenFromAfar(scene.cameras[0], std::pow(10.0, double(1 + seed % 6)));
+        if (seed > 48) scene.cameras[0] = seenFromAfar(scene.cameras[0], std::pow(10.0, double(1 + seed % 6)));
         scene.lights.clear();
         const int count = 1 + random.index(40);
         for (int i = 0; i < count; ++i) scene.lights.push_back(randomLight(random, eyeWS));
         frame::FrameSettings settings = sized(97, 61);
         settings.space = seed % 5 == 0 ? frame::LightingSpace::View : frame::LightingSpace::World;
-        settings.prune = !test::isWholeSweep() || seed % 6 != 0;
+        settings.prune = !isWholeSweep() || seed % 6 != 0;
         lit += expectEqual(renderer, scene, settings);
     }
     EXPECT_GE(lit, scenes * 3 / 4) << "too many pictures without light to say anything";
-}
-
-TEST_F(LightVolumes, randomScenesAreExactlyAsInDeferred) {
-    expectRandomScenesEqual();
-}
-TEST_F(LightVolumesSlow, randomScenesAreExactlyAsInDeferred) {
-    expectRandomScenesEqual();
 }
 
 // Outlines of a few pixels, so many that some pixel centres fall within a vertex's snapping of them.
@@ -282,17 +247,11 @@ TEST_F(LightVolumes, spotsAlongAWallAreExactlyAsInDeferred) {
     }
 }
 
-void LightVolumes::expectMirroredNodesEqual() {
+TEST_SWEEP(LightVolumes, mirroredNodesAreExactlyAsInDeferred) {
     scenes::Scene scene = sceneOfVolumes();
     for (scenes::Node& node : scene.nodes) node.parentFromNode = glm::scale(node.parentFromNode, glm::dvec3(-1, 1, 1));
     engine::Renderer renderer(context(), scene);
     EXPECT_TRUE(expectEqual(renderer, scene, sized(193, 121)));
-}
-TEST_F(LightVolumes, mirroredNodesAreExactlyAsInDeferred) {
-    expectMirroredNodesEqual();
-}
-TEST_F(LightVolumesSlow, mirroredNodesAreExactlyAsInDeferred) {
-    expectMirroredNodesEqual();
 }
 
 TEST_F(LightVolumes, aSphereNeverVisitsMuchMoreThanItsCircle) {
@@ -346,8 +305,7 @@ TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNotVisited) {
 TEST_F(LightVolumes, aLightWithoutEndVisitsEveryPixelOnce) {
     scenes::Scene scene = wall();
     scene.cameras[0].fovYRadians = 0.4; // the wall goes on beyond the picture on every side
-    scene.lights = {test::pointLight({}, 3.0f)};
-    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights = {sunLight({0.0, 0.0, -1.0}, 3.0f)};
     EXPECT_EQ(shareOf(scene).visited, 240 * 160);
 }
 
@@ -355,9 +313,9 @@ TEST_F(LightVolumes, uncoveredPixelsKeepTheBackground) {
     scenes::Scene scene = wall();
     scene.cameras[0].fovYRadians = 2.0;
     scene.background = {0.25f, 0.5f, 0.75f};
-    scenes::Light sun = test::pointLight({}, 3.0f);
+    scenes::Light sun = pointLight({}, 3.0f);
     sun.type = scenes::LightType::Directional;
-    scene.lights = {sun, test::pointLight({0.0, 0.0, 1.0}, 2.0f), rangedLight({0.0, 0.0, 3.0}, 50.0f)};
+    scene.lights = {sun, pointLight({0.0, 0.0, 1.0}, 2.0f), rangedLight({0.0, 0.0, 3.0}, 50.0f)};
     engine::Renderer renderer(context(), scene);
     const std::vector<float> picture = renderer.render(Technique::DeferredVolumes, sized(97, 61)).radiance;
     int uncovered = 0;

@@ -1,23 +1,18 @@
 // The G-buffer lit by compute shaders gives the picture that fragment shaders give.
-#include <utility>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
 #include "engine/ChooseLighting.h"
-#include "engine/Renderer.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
-class LightingInCompute : public test::GlTest {
+class LightingInCompute : public ImageTest {
 protected:
     static std::vector<Technique> choosing() {
         std::vector<Technique> techniques;
@@ -37,77 +32,58 @@ protected:
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
         }
     }
-    /// With every technique, pruned and not; or pruned, with one in turn.
-    void expectEveryFeature();
-    /// Every view of a scene of everything in every layout, or each sixth of its metal in one layout in turn; of
-    /// channels of the G-buffer, which are not lit, then in `exact` alone.
-    void expectEveryView();
 };
-using LightingInComputeSlow = LightingInCompute;
 
 TEST_F(LightingInCompute, picturesAreThoseOfForward) {
     for (const char* name : {"hall", "lattice"}) {
         SCOPED_TRACE(name);
-        frame::FrameSettings settings;
-        settings.sizePixels = {161, 91};
+        frame::FrameSettings settings = ofSize(161, 91);
         const scenes::Scene scene = scenes::loadScene(name);
         engine::Renderer renderer(context(), scene);
         expectForwardsPicture(renderer, settings, choosing());
     }
 }
 
-void LightingInCompute::expectEveryFeature() {
+/// With every technique, pruned and not; or pruned, with one in turn.
+TEST_SWEEP_AS(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward, LightingInComputeSlow,
+              aSceneOfEveryFeatureIsThePictureOfForwardWithEveryTechnique) {
     const std::vector<Technique> techniques = choosing();
-    const scenes::Scene scene = test::everythingScene(), even = test::evenScene();
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 88};
+    const scenes::Scene scene = everythingScene(), even = evenScene();
+    frame::FrameSettings settings = ofSize(160, 88);
     engine::Renderer renderer(context(), scene), rendererOfEven(context(), even);
     std::size_t turn = 0;
-    expectForwardsPicture(rendererOfEven, settings, test::inTurn(techniques, turn++));
+    expectForwardsPicture(rendererOfEven, settings, inTurn(techniques, turn++));
     for (const glm::ivec2 size : {glm::ivec2(160, 88), glm::ivec2(161, 91), glm::ivec2(7, 1)}) {
         SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
         settings.sizePixels = size;
         // One for all sizes, each of which shares its programs.
         settings.prune = true;
-        expectForwardsPicture(renderer, settings, test::inTurn(techniques, turn));
-        if (!test::isWholeSweep()) continue;
+        expectForwardsPicture(renderer, settings, inTurn(techniques, turn));
+        if (!isWholeSweep()) continue;
         settings.prune = false;
-        expectForwardsPicture(renderer, settings, test::inTurn(techniques, turn + 1));
+        expectForwardsPicture(renderer, settings, inTurn(techniques, turn + 1));
     }
 }
 
-TEST_F(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward) {
-    expectEveryFeature();
-}
-TEST_F(LightingInComputeSlow, aSceneOfEveryFeatureIsThePictureOfForwardWithEveryTechnique) {
-    expectEveryFeature();
-}
-
-void LightingInCompute::expectEveryView() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+/// Every view of a scene of everything in every layout, or each sixth of its metal in one layout in turn; of
+/// channels of the G-buffer, which are not lit, then in `exact` alone.
+TEST_SWEEP_AS(LightingInCompute, everyViewIsExactlyThatOfFragmentShaders, LightingInComputeSlow,
+              everyViewAndLayoutIsExactlyThatOfFragmentShaders) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     engine::Renderer renderer(context(), scene);
     std::size_t turn = 0, channels = 0, lit = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
-        if (!test::isWholeSweep() && (view.needsGBuffer ? channels : lit)++ % 6 != 0) continue;
-        for (const frame::LayoutInfo& layout : test::inTurn(frame::layoutTable(), view.needsGBuffer ? 0 : turn++)) {
+        if (!isWholeSweep() && (view.needsGBuffer ? channels : lit)++ % 6 != 0) continue;
+        for (const frame::LayoutInfo& layout : inTurn(frame::layoutTable(), view.needsGBuffer ? 0 : turn++)) {
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
-            frame::FrameSettings settings;
-            settings.sizePixels = {97, 55};
+            frame::FrameSettings settings = withView(ofSize(97, 55), view.view);
             settings.layout = layout.layout;
-            settings.view = view.view;
             settings.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
             const std::vector<float> truth = renderer.render(Technique::ClusteredDeferred, settings).radiance;
             settings.lightOn = frame::LightingStage::Compute;
             EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, settings).radiance == truth);
         }
     }
-}
-
-TEST_F(LightingInCompute, everyViewIsExactlyThatOfFragmentShaders) {
-    expectEveryView();
-}
-TEST_F(LightingInComputeSlow, everyViewAndLayoutIsExactlyThatOfFragmentShaders) {
-    expectEveryView();
 }
 
 TEST_F(LightingInCompute, techniquesWithoutALightingPassRefuseIt) {

@@ -43,16 +43,14 @@ Material changed(Material material, const std::function<void(Material&)>& change
 }
 
 TEST_F(LobeValues, theExponentIsMultipliedByGreen) {
-    Material material;
-    material.model = MaterialModel::BlinnPhong;
+    Material material = materialOf(MaterialModel::BlinnPhong);
     material.exponent = 40.0f;
     expectTexel(material, TextureSlot::MetallicRoughness, kTexel,
                 changed(material, [](Material& m) { m.exponent *= 0.6f; }));
 }
 
 TEST_F(LobeValues, theTwoAlphasAreMultipliedByGreenAndRed) {
-    Material material;
-    material.model = MaterialModel::MicrofacetAnisotropic;
+    Material material = materialOf(MaterialModel::MicrofacetAnisotropic);
     material.alpha = 0.5f;
     material.alphaY = 0.2f;
     expectTexel(material, TextureSlot::MetallicRoughness, kTexel,
@@ -98,9 +96,7 @@ TEST_F(LobeValues, theDirectionTurnsWithItsNodeAndIsMirroredWithIt) {
 
 /// A coat over nothing.
 Material lacquer() {
-    Material material;
-    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
-    material.metallic = 0.0f;
+    Material material = blackDielectric();
     material.specularFactor = 0.0f;
     material.clearcoat = 0.8f;
     material.clearcoatPerceptualRoughness = 0.6f;
@@ -157,9 +153,7 @@ TEST_F(LobeValues, aTransformOfOneMapDoesNotRotateAnother) {
 }
 
 TEST_F(LobeValues, theSheenIsMultipliedByRedGreenAndBlueAndItsRoughnessByAlpha) {
-    Material material;
-    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
-    material.metallic = 0.0f;
+    Material material = blackDielectric();
     material.specularFactor = 0.0f;
     material.sheenColor = {0.9f, 0.8f, 0.7f};
     material.sheenPerceptualRoughness = 0.9f;

@@ -1,18 +1,11 @@
 // Pixels that show other triangles than the reference: excluded where rounding explains it, else lost geometry by name.
-#include <algorithm>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "scenes/Load.h"
 #include "scenes/builtin/Author.h"
-#include "scenes/builtin/Shapes.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/Random.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/stress/StressScene.h"
@@ -23,16 +16,10 @@ namespace {
 using validation::LostGeometry;
 using validation::LostKind;
 using validation::ShownTriangles;
-
-frame::FrameSettings exactOfSize(int width, int height) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {width, height};
-    settings.filter = frame::TextureFilter::Exact;
-    return settings;
-}
+using namespace test;
 
 /// Shaders that move one mesh instance out of the picture, counted from 0.
-class Without : public test::ShaderMutant {
+class Without : public ShaderMutant {
 public:
     explicit Without(std::uint32_t instance) {
         replace("passes/geometry.vert", "gl_Position = clip;",
@@ -40,7 +27,7 @@ public:
     }
 };
 
-class LostGeometryTest : public test::GlTest {
+class LostGeometryTest : public ImageTest {
 protected:
     ShownTriangles shown(const scenes::Scene& scene, const frame::FrameSettings& settings,
                          const std::vector<reference::Ids>& ids, const shader::SourceTree& shaders = {}) {
@@ -55,7 +42,7 @@ protected:
         std::uint32_t count = 0;
         for (const scenes::Node& node : scene.nodes) count += std::uint32_t(node.instances.size());
         std::size_t seen = 0, tried = 0;
-        for (std::uint32_t instance = 0; instance < count; instance += test::isWholeSweep() ? 1 : 3) {
+        for (std::uint32_t instance = 0; instance < count; instance += isWholeSweep() ? 1 : 3) {
             ++tried;
             SCOPED_TRACE(fmt::format("{} without instance {}", scene.name, instance));
             const auto opaque = std::count_if(ids.begin(), ids.end(),
@@ -74,21 +61,16 @@ protected:
         EXPECT_GT(seen, tried / 2);
     }
 };
-using LostGeometrySlow = LostGeometryTest;
 
-TEST_F(LostGeometryTest, everyInstanceOfModelsThatIsDroppedIsNamed) {
-    expectEveryInstanceNamed(scenes::loadScene("models"), exactOfSize(160, 90));
-}
-TEST_F(LostGeometrySlow, everyInstanceOfModelsThatIsDroppedIsNamed) {
+TEST_SWEEP_AS(LostGeometryTest, everyInstanceOfModelsThatIsDroppedIsNamed, LostGeometrySlow,
+              everyInstanceOfModelsThatIsDroppedIsNamed) {
     expectEveryInstanceNamed(scenes::loadScene("models"), exactOfSize(160, 90));
 }
 
 /// With glass, masks, mirrored nodes.
-TEST_F(LostGeometryTest, everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsNamed) {
-    expectEveryInstanceNamed(test::everythingScene(), exactOfSize(96, 54));
-}
-TEST_F(LostGeometrySlow, everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsNamed) {
-    expectEveryInstanceNamed(test::everythingScene(), exactOfSize(96, 54));
+TEST_SWEEP_AS(LostGeometryTest, everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsNamed, LostGeometrySlow,
+              everyInstanceOfTheSceneOfEveryFeatureThatIsDroppedIsNamed) {
+    expectEveryInstanceNamed(everythingScene(), exactOfSize(96, 54));
 }
 
 TEST_F(LostGeometryTest, compareNeverHoldsWhereAnInstanceOfTheHallIsDropped) {
@@ -135,7 +117,7 @@ TEST_F(LostGeometryTest, anInstanceOfOnePixelThatIsDroppedIsNamed) {
     EXPECT_EQ(validation::lostText(found.lost.front()),
               "instance 1 (node 'speck', mesh 'square') is missing from 1 pixel, such as 16,16");
     // The other way round: it grows over eight pixels that show the floor.
-    test::ShaderMutant larger;
+    ShaderMutant larger;
     larger.replace("passes/geometry.vert", "gl_Position = clip;",
                    "gl_Position = drawNormal2.w == 2.0 ? clip * vec4(3.0, 3.0, 1.0, 1.0) : clip;");
     const ShownTriangles grown = shown(scene, settings, ids, larger.tree());
@@ -151,7 +133,7 @@ TEST_F(LostGeometryTest, geometryThatCoversOnlyBackgroundIsReportedAsExtra) {
     scene.nodes.erase(scene.nodes.begin());
     const frame::FrameSettings settings = exactOfSize(33, 33);
     const std::vector<reference::Ids> ids = validation::referencePicture(scene, settings).ids;
-    test::ShaderMutant larger;
+    ShaderMutant larger;
     larger.replace("passes/geometry.vert", "gl_Position = clip;", "gl_Position = clip * vec4(3.0, 3.0, 1.0, 1.0);");
     const ShownTriangles grown = shown(scene, settings, ids, larger.tree());
     ASSERT_EQ(grown.lost.size(), 1u);
@@ -177,12 +159,12 @@ TEST_F(LostGeometryTest, aMeshThatFillsThePictureAndIsDroppedIsNamed) {
 TEST_F(LostGeometryTest, sliversThatOnlyOneOfTheTwoShowsNeverCountAsLost) {
     constexpr int kSide = 256;
     constexpr double kPixel = 2.0 / kSide;
-    test::Random random(7);
+    Random random(7);
     std::size_t differing = 0;
     for (int picture = 0; picture < 8; ++picture) {
         scenes::Mesh wires;
         for (std::uint32_t i = 0; i < 60; ++i) {
-            const double angle = random.between(0.0, test::pi), width = random.logarithmic(kPixel / 500.0, kPixel);
+            const double angle = random.between(0.0, pi), width = random.logarithmic(kPixel / 500.0, kPixel);
             const glm::dvec3 along(std::cos(angle), 0.0, std::sin(angle)), across(-along.z, 0.0, along.x);
             const glm::dvec3 begin(random.between(-0.9, 0.9), 0.1 + 1e-3 * i, random.between(-0.9, 0.9));
             const glm::dvec3 end = begin + random.between(0.1, 0.8) * along;
@@ -203,7 +185,7 @@ TEST_F(LostGeometryTest, sliversThatOnlyOneOfTheTwoShowsNeverCountAsLost) {
 }
 
 TEST_F(LostGeometryTest, holesOfMasksThatHardwareFiltersNeverCountAsLost) {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     frame::FrameSettings settings = exactOfSize(96, 54);
     settings.filter = frame::TextureFilter::Hardware;
     EXPECT_TRUE(shown(scene, settings, validation::referencePicture(scene, settings).ids).lost.empty());
@@ -213,7 +195,7 @@ TEST_F(LostGeometryTest, holesOfMasksThatHardwareFiltersNeverCountAsLost) {
 TEST_F(LostGeometryTest, aMaskThatHardwareFiltersIsNamedWhereItIsDropped) {
     frame::FrameSettings settings = exactOfSize(96, 54);
     settings.filter = frame::TextureFilter::Hardware;
-    expectEveryInstanceNamed(test::everythingScene(), settings);
+    expectEveryInstanceNamed(everythingScene(), settings);
 }
 
 /// Which of two triangles in one place is seen is up to the order of drawing.

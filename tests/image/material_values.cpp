@@ -7,12 +7,12 @@
 namespace tessera {
 namespace {
 
-using namespace test;
 using scenes::Material;
 using scenes::MaterialModel;
 using scenes::Scene;
 using scenes::TextureSlot;
 using std::numbers::pi;
+using namespace test;
 
 /// A dozen fp32 roundings of 2^-24 each, relative.
 constexpr double kRounding = 1e-6;
@@ -29,14 +29,7 @@ protected:
     }
 };
 
-/// No diffuse part, and the widest lobe: the radiance is F0 / (4 pi).
-Material blackDielectric() {
-    Material material;
-    material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
-    material.metallic = 0.0f;
-    return material;
-}
-
+/// As blackDielectric() has it with the widest lobe: the radiance is F0 / (4 pi).
 Material blackMicrofacet() {
     Material material = blackDielectric();
     material.model = MaterialModel::Microfacet;
@@ -65,7 +58,7 @@ TEST_F(MaterialValues, theTintedDielectricReflectanceIsHeldToOneAndThenScaled) {
 
 TEST_F(MaterialValues, aDielectricReflectsItsF90TheMoreTheLowerTheSunStands) {
     // Alpha 1: D = 1/pi and, with n.v = 1, V = 1 / (2 (1 + n.l)); F by the cosine between sun and half vector.
-    for (const double angle : {0.5, 1.0, 1.4}) {
+    for (const double angle : {0.5, 1.0, 1.4})
         for (const float f90 : {1.0f, 0.5f}) {
             SCOPED_TRACE(testing::Message() << angle << " radians from the normal, F90 " << f90);
             Material material = blackDielectric();
@@ -78,7 +71,6 @@ TEST_F(MaterialValues, aDielectricReflectsItsF90TheMoreTheLowerTheSunStands) {
             // Where colours vary, other channels hold the surface.
             expectColor(texturedScene(plain, TextureSlot::BaseColor, uniformImage({0, 0, 0, 255})), wanted);
         }
-    }
 }
 
 TEST_F(MaterialValues, anIorTextureMultipliesTheIorByItsRed) {
@@ -142,8 +134,7 @@ scenes::Image tiltedImage() {
 const glm::dvec3 kSlantedWS = glm::normalize(glm::dvec3(-0.3, -0.8, -1.0));
 
 TEST_F(MaterialValues, anObjectSpaceNormalTurnsAndStretchesWithItsNode) {
-    Material material;
-    material.model = MaterialModel::Lambert;
+    Material material = lambert();
     material.normalMapSpace = scenes::NormalMapSpace::Object;
     Scene scene = texturedScene(underTheSun(material, kSlantedWS), TextureSlot::Normal, tiltedImage());
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.5, glm::dvec3(0, 0, 1));
@@ -154,8 +145,7 @@ TEST_F(MaterialValues, anObjectSpaceNormalTurnsAndStretchesWithItsNode) {
 }
 
 TEST_F(MaterialValues, theNormalScaleScalesBothTiltsAndNeverTheHeight) {
-    Material material;
-    material.model = MaterialModel::Lambert;
+    Material material = lambert();
     material.normalScale = 0.5f;
     const Scene scene = texturedScene(underTheSun(material, kSlantedWS), TextureSlot::Normal, tiltedImage());
     const glm::dvec3 normalWS = glm::normalize(kTilted * glm::dvec3(0.5, 0.5, 1.0));
@@ -163,16 +153,91 @@ TEST_F(MaterialValues, theNormalScaleScalesBothTiltsAndNeverTheHeight) {
 }
 
 TEST_F(MaterialValues, aLightNearerThanACentimetreShinesAsFromACentimetre) {
-    Material material;
-    material.model = MaterialModel::Lambert;
+    Material material = lambert();
     Scene scene = flatScene(material);
     scene.cameras[0].farMetres = 4.0; // an orthographic depth has steps of its range / 2^24
     const double centerOfPixel = 1.0 / kSide;
-    scene.lights = {test::pointLight({centerOfPixel, -centerOfPixel, 0.005}, 1e-4f)};
+    scene.lights = {pointLight({centerOfPixel, -centerOfPixel, 0.005}, 1e-4f)};
     expectColor(scene, glm::dvec3(1.0)); // 1e-4 cd over 1e-4 m^2
     scene.lights[0].falloff = scenes::Falloff::Attenuation;
     scene.lights[0].attenuation = {0.0f, 0.0f, 1.0f};
     expectColor(scene, glm::dvec3(1.0));
+}
+
+class DisplayValues : public FlatTest {
+protected:
+    int code(float grey, const frame::FrameSettings& settings) {
+        Material material = unlit();
+        material.baseColor = {grey, grey, grey, 1.0f};
+        const engine::RenderedFrame shown = frame(flatScene(material), settings);
+        EXPECT_EQ(shown.display[0], shown.display[1]);
+        EXPECT_EQ(shown.display[3], 255);
+        return shown.display[0];
+    }
+};
+
+int srgbCode(double linear) {
+    const double c = std::clamp(linear, 0.0, 1.0);
+    return int(std::lround(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055)));
+}
+
+TEST_F(DisplayValues, sRgbCodesAreThePublishedOnes) {
+    EXPECT_EQ(code(0.5f, {}), 188);
+    EXPECT_EQ(code(0.0f, {}), 0);
+    EXPECT_EQ(code(1.0f, {}), 255);
+    EXPECT_EQ(code(7.0f, {}), 255);
+    for (const float grey : {0.002f, 0.01f, 0.18f, 0.73f}) EXPECT_EQ(code(grey, {}), srgbCode(grey));
+}
+
+TEST_F(DisplayValues, exposureIsAPowerOfTwo) {
+    frame::FrameSettings settings;
+    settings.exposureEV = 1.0f;
+    EXPECT_EQ(code(0.25f, settings), 188);
+    settings.exposureEV = -2.0f;
+    EXPECT_EQ(code(2.0f, settings), 188);
+}
+
+TEST_F(DisplayValues, khronosNeutralKeepsColoursBelowItsShoulder) {
+    frame::FrameSettings settings;
+    settings.toneMap = frame::ToneMap::KhronosNeutral;
+    for (const float grey : {0.1f, 0.3f, 0.5f, 0.79f})
+        EXPECT_EQ(code(grey, settings), srgbCode(grey - 0.04)) << grey; // less the toe
+    EXPECT_EQ(code(0.04f, settings), srgbCode(6.25 * 0.04 * 0.04));
+    EXPECT_LT(code(4.0f, settings), 255);
+    EXPECT_GT(code(4.0f, settings), code(1.0f, settings));
+}
+
+TEST_F(DisplayValues, acesAndAgxRiseFromBlackToWhite) {
+    for (const frame::ToneMap toneMap : {frame::ToneMap::Aces, frame::ToneMap::Agx}) {
+        frame::FrameSettings settings;
+        settings.toneMap = toneMap;
+        int last = -1;
+        for (const float grey : {0.0f, 0.02f, 0.18f, 0.5f, 1.0f, 4.0f}) {
+            const int now = code(grey, settings);
+            EXPECT_GT(now, last) << grey;
+            last = now;
+        }
+        EXPECT_LE(code(0.0f, settings), 2);
+        EXPECT_GE(code(30.0f, settings), 245);
+    }
+}
+
+TEST_F(DisplayValues, theNormalViewIsHalfTheNormalPlusAHalf) {
+    frame::FrameSettings settings;
+    settings.view = frame::DebugView::Normal;
+    Material material;
+    material.doubleSided = true;
+    Scene scene = flatScene(material);
+    for (const double turn : {0.0, 0.6, -0.9}) {
+        scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), turn, glm::dvec3(0, 1, 0));
+        const engine::RenderedFrame shown = frame(scene, settings);
+        const std::size_t middle = 4 * std::size_t(kSide / 2 * kSide + kSide / 2);
+        const glm::dvec3 normalWS(std::sin(turn), 0.0, std::cos(turn));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(shown.radiance[middle + std::size_t(c)], normalWS[c], 1e-6);
+            EXPECT_NEAR(shown.display[middle + std::size_t(c)], 255.0 * (normalWS[c] * 0.5 + 0.5), 0.51); // rounding
+        }
+    }
 }
 
 } // namespace

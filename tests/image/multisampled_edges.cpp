@@ -1,9 +1,4 @@
 // Which share of a pixel's samples edges cover.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-#include <vector>
 
 #include "engine/ChooseSamples.h"
 #include "tests/image/FlatTest.h"
@@ -14,19 +9,17 @@ namespace {
 
 using engine::Technique;
 using scenes::Scene;
+using namespace test;
 
-using MultisampledEdges = test::MultisamplingTest;
+using MultisampledEdges = MultisamplingTest;
 
 /// A unit square of one colour whose alpha is a ramp: 0 at its left edge, 1 at its right one.
 Scene rampScene(float cutoff) {
-    scenes::Material paint;
-    paint.model = scenes::MaterialModel::SingleColor;
-    paint.baseColor = {0.5f, 0.25f, 1.0f, 1.0f};
+    scenes::Material paint = unlit({0.5f, 0.25f, 1.0f, 1.0f});
     paint.alphaMode = scenes::AlphaMode::Mask;
     paint.alphaCutoff = cutoff;
-    Scene scene = test::quadScene(paint);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    Scene scene = quadScene(paint);
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.meshes[0].colors = {{1, 1, 1, 0}, {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 0}};
     return scene;
 }
@@ -65,9 +58,9 @@ TEST_F(MultisampledEdges, alphaThatEqualsItsCutoffEverywhereIsWhole) {
         EXPECT_EQ(alphasOf(picture(scene, sampled({8, 8}))), std::set<float>{1.0f}) << cutoff;
     }
     // Without a least alpha nothing is ever cut out, however steep alpha is.
-    Scene stripes = test::texturedScene(rampScene(0.0f), scenes::TextureSlot::BaseColor, test::image8([](int x, int) {
-                                            return std::array<int, 4>{255, 255, 255, x % 2 == 0 ? 0 : 255};
-                                        }));
+    Scene stripes = texturedScene(rampScene(0.0f), scenes::TextureSlot::BaseColor, image8([](int x, int) {
+                                      return std::array<int, 4>{255, 255, 255, x % 2 == 0 ? 0 : 255};
+                                  }));
     stripes.meshes[0].colors.clear();
     EXPECT_EQ(alphasOf(picture(stripes, sampled({8, 8}))), std::set<float>{1.0f});
 }
@@ -78,17 +71,14 @@ TEST_F(MultisampledEdges, aStraightEdgeCoversTheSamplesOnItsSide) {
         GTEST_SKIP() << "this driver has no multisampled render targets";
     const frame::FrameSettings settings = engine::settingsOn(context().capabilities(), sampled({kSide, kSide}));
     const std::vector<glm::vec2>& samples = settings.samplePlaces;
-    scenes::Material paint;
-    paint.model = scenes::MaterialModel::SingleColor;
-    paint.baseColor = {0.5f, 0.25f, 1.0f, 1.0f};
+    scenes::Material paint = unlit({0.5f, 0.25f, 1.0f, 1.0f});
     for (int axis = 0; axis < 2; ++axis) {
         std::set<float> ladder;
         // Sixteenths: the rasteriser's grid holds them exactly, and no sample of a common pattern lies on one of odd
         // numerator.
         for (int sixteenth = 1; sixteenth < 16; sixteenth += 2) {
-            Scene scene = test::quadScene(paint);
-            scene.cameras[0].projection = scenes::Projection::Orthographic;
-            scene.cameras[0].halfHeightMetres = 1.0;
+            Scene scene = quadScene(paint);
+            makeOrthographic(scene.cameras[0], 1.0);
             const double within = sixteenth / 16.0; // of pixel kEdge, from the left or from below
             const double edge = (kEdge + within) / (kSide / 2) - 1.0;
             scene.nodes[0].parentFromNode = glm::dmat4(2.0);
@@ -113,7 +103,7 @@ TEST_F(MultisampledEdges, aStraightEdgeCoversTheSamplesOnItsSide) {
 }
 
 TEST_F(MultisampledEdges, theEdgeOfAMaskedCardHasSharesInBetween) {
-    Scene scene = test::everythingScene();
+    Scene scene = everythingScene();
     scene.nodes = {scene.nodes[5]}; // the masked card
     const std::set<float> hard = alphasOf(picture(scene, sampled({321, 179}, 1)));
     EXPECT_EQ(hard, (std::set<float>{0.0f, 1.0f}));

@@ -1,21 +1,12 @@
 #include <iterator>
-#include <optional>
-#include <set>
 #include <span>
 
-#include <fmt/format.h>
-
 #include "engine/ChooseSamples.h"
-#include "engine/Rendering.h"
 #include "renderer/gpu/Framebuffer.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/Load.h"
 #include "tests/image/FlatTest.h"
 #include "tests/image/MultisamplingTest.h"
 #include "tests/support/CullingScenes.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
@@ -23,8 +14,9 @@ namespace {
 
 using engine::Technique;
 using scenes::Scene;
+using namespace test;
 
-class Multisampling : public test::MultisamplingTest {
+class Multisampling : public MultisamplingTest {
 protected:
     /// Programs are compiled once per renderer, for all sizes. With the technique of a turn (Sweep.h).
     void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings,
@@ -33,7 +25,7 @@ protected:
         std::vector<validation::LeftOutTechnique> leftOut;
         request.techniques = validation::techniquesTaking(settings, leftOut);
         std::erase(request.techniques, Technique::Forward);
-        if (turn) request.techniques = test::techniquesInTurn(*turn, settings.samples);
+        if (turn) request.techniques = techniquesInTurn(*turn, settings.samples);
         request.settings = settings;
         const validation::CompareRecord record =
             validation::compareTechniques(renderer, context().capabilities(), request).record;
@@ -42,18 +34,6 @@ protected:
         for (const validation::ComparePair& pair : record.pairs)
             EXPECT_EQ(pair.figures.bad.sum() + pair.figures.badOutside.sum(), 0u);
     }
-    /// Of a scene of everything, with options added one by one, or before the first and after the last of those whose
-    /// programs are pruned (expectPruningInvisible has the others), with one technique and size in turn.
-    void expectOptionsAgree();
-    /// Of random scenes, with every technique, culling method and tile, or some with every ninth of these in turn. Its
-    /// subject is which lights a pixel has, so the scene of everything is then one in Lambert materials.
-    void expectForwardsPictureOfRandomScenes();
-    /// Of a scene of everything with two techniques, or every fourth view of its metal with one in turn.
-    void expectViewsAgree();
-    /// Each scene with every technique, or the metal of everything with the one that culls.
-    void expectPruningInvisible();
-    /// With every technique, or the one that culls.
-    void expectNoBadPixel();
 };
 using MultisamplingSlow = Multisampling;
 
@@ -63,50 +43,45 @@ TEST_F(MultisamplingSlow, hallIsExactlyTheSameInTheForwardFamily) {
     for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(renderer, sampled(size));
 }
 
-void Multisampling::expectOptionsAgree() {
+/// Of a scene of everything, with options added one by one, or before the first and after the last of those whose
+/// programs are pruned (pruningAndRunningAgainNeverChangeABit has the others), with one technique and size in turn.
+TEST_SWEEP(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
     using Settings = frame::FrameSettings;
     constexpr void (*kAddOption[])(Settings&) = {
         [](Settings&) {}, [](Settings& settings) { settings.filter = frame::TextureFilter::Exact; },
         [](Settings& settings) { settings.space = frame::LightingSpace::View; },
         [](Settings& settings) { settings.prune = false; }};
     constexpr glm::ivec2 kAllSizes[] = {{320, 180}, {321, 179}}, kSizesInTurn[] = {{160, 90}, {161, 89}};
-    const Scene scene = test::everythingScene();
+    const Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
     constexpr std::size_t kLastPruned = std::size(kAddOption) - 2;
     Settings settings = sampled({});
     std::size_t turn = 0;
     for (std::size_t i = 0; i < std::size(kAddOption); ++i) {
         kAddOption[i](settings);
-        if (!test::isWholeSweep() && i != 0 && i != kLastPruned) continue;
-        for (const glm::ivec2 size : test::inTurn(test::isWholeSweep() ? kAllSizes : kSizesInTurn, turn)) {
+        if (!isWholeSweep() && i != 0 && i != kLastPruned) continue;
+        for (const glm::ivec2 size : inTurn(isWholeSweep() ? kAllSizes : kSizesInTurn, turn)) {
             SCOPED_TRACE(fmt::format("{} options, {}x{}", i, size.x, size.y));
             settings.sizePixels = size;
             expectAgreement(renderer, settings, turn);
         }
         ++turn;
     }
-    Scene flat = test::isWholeSweep() ? scene : test::metalScene();
-    flat.cameras[0].projection = scenes::Projection::Orthographic;
-    flat.cameras[0].halfHeightMetres = 2.5;
+    Scene flat = isWholeSweep() ? scene : metalScene();
+    makeOrthographic(flat.cameras[0], 2.5);
     flat.cameras[0].farMetres = 20.0;
     engine::Renderer flatRenderer(context(), flat);
-    expectAgreement(flatRenderer, sampled(test::isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]), turn);
+    expectAgreement(flatRenderer, sampled(isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]), turn);
 }
 
-TEST_F(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
-    expectOptionsAgree();
-}
-TEST_F(MultisamplingSlow, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
-    expectOptionsAgree();
-}
-
-void Multisampling::expectForwardsPictureOfRandomScenes() {
+/// Of random scenes, with every technique, culling method and tile, or some with every ninth of these in turn. Its
+/// subject is which lights a pixel has, so the scene of everything is then one in Lambert materials.
+TEST_SWEEP(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
     constexpr std::size_t kTurns = 9; // odd, so that turns go through the tiles, of which there are four
-    std::vector<Scene> lit{test::isWholeSweep() ? test::everythingScene() : test::lambertScene(),
-                           test::columnsBeforeWall(200)};
-    for (std::uint64_t seed = 1; seed <= (test::isWholeSweep() ? 24 : 3); ++seed) {
-        const Scene scene = test::randomLitScene(seed);
-        lit.push_back(test::isWholeSweep() ? scene : test::withEveryKindOfLight(scene));
+    std::vector<Scene> lit{isWholeSweep() ? everythingScene() : lambertScene(), columnsBeforeWall(200)};
+    for (std::uint64_t seed = 1; seed <= (isWholeSweep() ? 24 : 3); ++seed) {
+        const Scene scene = randomLitScene(seed);
+        lit.push_back(isWholeSweep() ? scene : withEveryKindOfLight(scene));
     }
     struct Case {
         Technique technique;
@@ -119,7 +94,7 @@ void Multisampling::expectForwardsPictureOfRandomScenes() {
         settings = engine::settingsOn(context().capabilities(), settings);
         // Without pruning all scenes share their programs, however large ones; with every kind of light they do with
         // it.
-        settings.prune = !test::isWholeSweep() || i % 4 == 0;
+        settings.prune = !isWholeSweep() || i % 4 == 0;
         std::vector<Case> cases;
         for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
             if (!engine::takesSamples(info, settings.samples)) continue;
@@ -132,7 +107,7 @@ void Multisampling::expectForwardsPictureOfRandomScenes() {
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         for (std::size_t j = 0; j < cases.size(); ++j) {
             const auto& [technique, method, tile] = cases[j];
-            if (!test::isWholeSweep() && j % kTurns != i % kTurns) continue;
+            if (!isWholeSweep() && j % kTurns != i % kTurns) continue;
             SCOPED_TRACE(fmt::format("scene {}, {} {} {}", i, infoOf(technique).name, int(method), tile));
             settings.culling.method = method;
             settings.culling.tilePixels = tile;
@@ -141,27 +116,19 @@ void Multisampling::expectForwardsPictureOfRandomScenes() {
     }
 }
 
-TEST_F(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
-    expectForwardsPictureOfRandomScenes();
-}
-TEST_F(MultisamplingSlow, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
-    expectForwardsPictureOfRandomScenes();
-}
-
 /// A floor to the horizon, which crosses the middle of the picture, and lights that end far beyond it.
 Scene endlessFloor(scenes::AlphaMode alphaMode) {
-    scenes::Material paint;
-    paint.model = scenes::MaterialModel::Lambert;
+    scenes::Material paint = lambert();
     paint.alphaMode = alphaMode;
     paint.baseColor = {0.5f, 0.25f, 1.0f, 0.5f};
-    Scene scene = test::quadScene(paint);
+    Scene scene = quadScene(paint);
     scene.meshes[0].colors.clear();
     // The quad's x and y become the floor's x and -z.
     scene.nodes[0].parentFromNode = glm::dmat4(glm::dvec4(1e7, 0, 0, 0), glm::dvec4(0, 0, -1e7, 0),
                                                glm::dvec4(0, 1, 0, 0), glm::dvec4(0, -1, 0, 1));
     scene.cameras[0].worldFromCamera = glm::dmat4(1.0);
     for (int i = 0; i < 8; ++i) {
-        scenes::Light light = test::pointLight({-3.5 + i, 2e4, -1e4}, 1e9f);
+        scenes::Light light = pointLight({-3.5 + i, 2e4, -1e4}, 1e9f);
         light.rangeMetres = 1e8f;
         scene.lights.push_back(light);
     }
@@ -199,11 +166,11 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonHasItsLights) 
 TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWithTheExactFilter) {
     Scene scene = endlessFloor(scenes::AlphaMode::Opaque);
     scene.lights.clear();
-    scene.materials[0] = test::unlit();
+    scene.materials[0] = unlit();
     // Columns of red and green: no texel has both, and any blend does.
-    scene = test::texturedScene(scene, scenes::TextureSlot::BaseColor, test::image8([](int x, int) {
-                                    return std::array<int, 4>{x % 2 == 0 ? 255 : 0, x % 2 == 0 ? 0 : 255, 0, 255};
-                                }));
+    scene = texturedScene(scene, scenes::TextureSlot::BaseColor, image8([](int x, int) {
+                              return std::array<int, 4>{x % 2 == 0 ? 255 : 0, x % 2 == 0 ? 0 : 255, 0, 255};
+                          }));
     scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler.minification = scenes::Filter::Linear;
     frame::FrameSettings settings = sampled({65, 17});
     settings.filter = frame::TextureFilter::Exact;
@@ -215,8 +182,8 @@ TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWit
     }
 }
 
-void Multisampling::expectViewsAgree() {
-    const Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
+    const Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     engine::Renderer renderer(context(), scene);
     constexpr Technique kOthers[] = {Technique::ForwardPrepass, Technique::ForwardPlus};
     std::size_t turn = 0;
@@ -225,47 +192,36 @@ void Multisampling::expectViewsAgree() {
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
         if (view.ofTechnique) continue; // shows what each technique visits
-        if (!test::isWholeSweep() && turn++ % 4 != 0) continue;
+        if (!isWholeSweep() && turn++ % 4 != 0) continue;
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-        for (const Technique technique : test::inTurn(kOthers, turn / 4))
+        for (const Technique technique : inTurn(kOthers, turn / 4))
             EXPECT_TRUE(renderer.render(technique, settings).radiance == truth);
     }
 }
 
-TEST_F(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
-    expectViewsAgree();
-}
-TEST_F(MultisamplingSlow, everyViewIsExactlyTheSameInTheForwardFamily) {
-    expectViewsAgree();
-}
-
-void Multisampling::expectPruningInvisible() {
-    std::vector<Scene> tried{test::metalScene()};
-    if (test::isWholeSweep()) tried = {scenes::loadScene("hall"), scenes::loadScene("room"), test::everythingScene()};
-    for (const Scene& scene : tried) {
+/// Each scene with every technique, or the metal of everything with the one that culls.
+TEST_SWEEP_AS(Multisampling, pruningAndRunningAgainNeverChangeABit, MultisamplingSlow,
+              pruningAndRunningAgainNeverChangeABitWithAnyTechnique) {
+    std::vector<Scene> tried{metalScene()};
+    if (isWholeSweep()) tried = {scenes::loadScene("hall"), scenes::loadScene("room"), everythingScene()};
+    for (const Scene& scene : tried)
         for (const Technique technique : {Technique::ClusteredForward, Technique::ForwardPrepass, Technique::Forward}) {
-            if (!test::isWholeSweep() && technique != Technique::ClusteredForward) continue;
+            if (!isWholeSweep() && technique != Technique::ClusteredForward) continue;
             SCOPED_TRACE(fmt::format("{} {}", scene.name, infoOf(technique).name));
-            frame::FrameSettings settings = sampled(test::isWholeSweep() ? glm::ivec2(161, 90) : glm::ivec2(97, 55));
+            frame::FrameSettings settings = sampled(isWholeSweep() ? glm::ivec2(161, 90) : glm::ivec2(97, 55));
             const Picture first = picture(scene, settings, technique);
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
             settings.prune = false;
             EXPECT_EQ(picture(scene, settings, technique).rgba, first.rgba);
         }
-    }
 }
 
-TEST_F(Multisampling, pruningAndRunningAgainNeverChangeABit) {
-    expectPruningInvisible();
-}
-TEST_F(MultisamplingSlow, pruningAndRunningAgainNeverChangeABitWithAnyTechnique) {
-    expectPruningInvisible();
-}
-
-void Multisampling::expectNoBadPixel() {
+/// With every technique, or the one that culls.
+TEST_SWEEP_AS(Multisampling, aPixelIsNotNaNInfiniteOrNegative, MultisamplingSlow,
+              aPixelIsNotNaNInfiniteOrNegativeWithAnyTechnique) {
     // A floor to the horizon and beyond what fp32 squares, under a light without range: pixels' centres lie above the
     // horizon where samples do not. Slivers with steep colours: pixels' centres lie outside most triangles.
-    Scene scene = test::everythingScene();
+    Scene scene = everythingScene();
     scene.nodes[0].parentFromNode = glm::dmat4(1e7) * scene.nodes[0].parentFromNode;
     scene.nodes[0].parentFromNode[3] = {0, -1, 0, 1};
     scenes::Mesh slivers;
@@ -290,7 +246,7 @@ void Multisampling::expectNoBadPixel() {
         scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
         scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
         scene.cameras[0].worldFromCamera[3] = {0, 0.5, 6, 1};
-        for (const Technique technique : test::inTurn(kForwardFamily, 2)) {
+        for (const Technique technique : inTurn(kForwardFamily, 2)) {
             const Picture shown = picture(scene, sampled({321, 179}), technique);
             const validation::ErrorFigures figures = validation::errorFigures(shown, shown);
             EXPECT_EQ(figures.bad.nan + figures.badOutside.nan, 0u) << pitch;
@@ -301,30 +257,21 @@ void Multisampling::expectNoBadPixel() {
     }
 }
 
-TEST_F(Multisampling, aPixelIsNotNaNInfiniteOrNegative) {
-    expectNoBadPixel();
-}
-TEST_F(MultisamplingSlow, aPixelIsNotNaNInfiniteOrNegativeWithAnyTechnique) {
-    expectNoBadPixel();
-}
-
 TEST_F(Multisampling, oneSampleIsDrawnAsWithoutThem) {
     const Scene scene = scenes::loadScene("room");
     const graph::Plan plan = engine::planFrame(scene, Technique::ForwardPrepass, sampled({64, 36}, 1));
     for (const graph::Plan::Pass& pass : plan.passes) EXPECT_NE(pass.name, "resolve");
     for (const graph::Plan::Resource& resource : plan.resources) EXPECT_EQ(resource.samples, 1) << resource.name;
     for (const graph::Plan::Choice& choice : plan.choices) EXPECT_NE(choice.what, "samples");
-    Scene opaque = test::everythingScene();
+    Scene opaque = everythingScene();
     opaque.nodes.resize(6); // without the two panes of glass
     EXPECT_EQ(alphasOf(picture(opaque, sampled({161, 90}, 1))), (std::set<float>{0.0f, 1.0f}));
 }
 
 TEST_F(Multisampling, verticesBrighterThanOneAreNotHeldToIt) {
-    scenes::Material paint;
-    paint.model = scenes::MaterialModel::SingleColor;
-    Scene scene = test::quadScene(paint);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    scenes::Material paint = unlit();
+    Scene scene = quadScene(paint);
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.meshes[0].colors.assign(4, {4.0f, 2.0f, 0.5f, 1.0f});
     const Picture shown = picture(scene, sampled({8, 8}));
     for (std::size_t i = 0; i < shown.pixelCount(); ++i) {

@@ -1,22 +1,20 @@
 // Shaders with one fault each. All techniques share their lighting, so that comparing them with each other sees none of
 // these; the stability suite, which compares with formulas in double precision, must see every one.
-#include <algorithm>
+#include <iterator>
 #include <set>
-#include <string_view>
 
-#include <fmt/format.h>
-
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/stress/Stress.h"
+#include "validation/stress/StressRecord.h"
 #include "validation/stress/StressScene.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
 struct Mutant {
     const char* fault;
@@ -100,7 +98,7 @@ constexpr Mutant kMutants[] = {
      "casterTree.rwsOriginCS.w + casterTree.rwsOriginCS.xyz;", "casterTree.rwsOriginCS.w;", "shadow/place"},
 };
 
-class Mutants : public test::GlTest {
+class Mutants : public ImageTest {
 protected:
     std::vector<validation::StressResult> run(const std::vector<std::string>& cases,
                                               const shader::SourceTree& shaders) {
@@ -112,21 +110,15 @@ protected:
         request.shaders = shaders;
         return validation::runStress(context(), request);
     }
-    /// All faults, or the first that each case must see.
-    void expectFaultsDetected();
-    /// In each picture of every case, or in one picture of every other case.
-    void expectHalvedMisses();
 };
-using MutantsSlow = Mutants;
 
-void Mutants::expectFaultsDetected() {
+TEST_SWEEP(Mutants, everyFaultIsDetectedByItsCase) {
     ASSERT_GE(std::size(kMutants), 12u);
     std::set<std::string_view> seeing;
     for (const Mutant& mutant : kMutants) {
-        if (!seeing.insert(mutant.seenBy).second && !test::isWholeSweep()) continue;
+        if (!seeing.insert(mutant.seenBy).second && !isWholeSweep()) continue;
         SCOPED_TRACE(mutant.fault);
-        const test::ShaderMutant shaders;
-        shaders.replace(mutant.file, mutant.from, mutant.to);
+        const ShaderMutant shaders(mutant.file, mutant.from, mutant.to);
         const std::vector<validation::StressResult> results = run({mutant.seenBy}, shaders.tree());
         ASSERT_EQ(results.size(), 1u);
         EXPECT_FALSE(results[0].ok()) << mutant.seenBy << " did not see it: worst relative error "
@@ -135,28 +127,22 @@ void Mutants::expectFaultsDetected() {
         fmt::print("{:<45} {}: {}\n", mutant.fault, mutant.seenBy, missed.empty() ? "NOT SEEN" : missed.front());
     }
 }
-TEST_F(Mutants, everyFaultIsDetectedByItsCase) {
-    expectFaultsDetected();
-}
-TEST_F(MutantsSlow, everyFaultIsDetectedByItsCase) {
-    expectFaultsDetected();
-}
 
 /// A tolerance, a weight or a scale so wide that nothing can fail shows here: no case holds with half the signal, and
 /// of pictures none does.
-void Mutants::expectHalvedMisses() {
+TEST_SWEEP(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
     validation::StressRequest request;
     request.techniques = {Technique::Forward};
     request.effort = validation::StressEffort::Quick;
     request.measuredTimes = 0.5f;
     std::vector<validation::StressCase> rows;
-    for (const validation::StressCase& row : test::everyNth(validation::stressCases(), 2)) {
+    for (const validation::StressCase& row : everyNth(validation::stressCases(), 2)) {
         if (!row.pictures) {
             rows.push_back(row);
             continue;
         }
         const std::vector<validation::StressPicture> pictures = row.pictures(request.effort);
-        const std::size_t count = test::isWholeSweep() ? pictures.size() : std::min<std::size_t>(pictures.size(), 1);
+        const std::size_t count = isWholeSweep() ? pictures.size() : std::min<std::size_t>(pictures.size(), 1);
         for (std::size_t i = 0; i < count; ++i) {
             validation::StressCase one = row;
             one.name += ": " + pictures[i].what;
@@ -176,12 +162,6 @@ void Mutants::expectHalvedMisses() {
         EXPECT_GT(result.figures.samples, 0u) << result.name;
     }
 }
-TEST_F(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
-    expectHalvedMisses();
-}
-TEST_F(MutantsSlow, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
-    expectHalvedMisses();
-}
 
 /// Else a case that never holds would see every fault.
 TEST_F(Mutants, shadersWithoutAFaultHoldEachOfTheirCases) {
@@ -189,20 +169,98 @@ TEST_F(Mutants, shadersWithoutAFaultHoldEachOfTheirCases) {
     for (const Mutant& mutant : kMutants) cases.emplace_back(mutant.seenBy);
     std::sort(cases.begin(), cases.end());
     cases.erase(std::unique(cases.begin(), cases.end()), cases.end());
-    for (const validation::StressResult& result : run(cases, test::ShaderMutant().tree()))
+    for (const validation::StressResult& result : run(cases, ShaderMutant().tree()))
         EXPECT_TRUE(result.ok()) << result.name << ": " << testing::PrintToString(result.missed());
 }
 
 /// Why the suite is needed: techniques that share a fault agree.
 TEST_F(Mutants, techniquesAgreeOnAFaultTheyShare) {
-    const test::ShaderMutant shaders;
-    shaders.replace("lib/maths/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
+    const ShaderMutant shaders("lib/maths/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
     const scenes::Scene scene = validation::stressScene();
     engine::Renderer renderer(context(), scene, shaders.tree());
     validation::CompareRequest request;
     request.settings.sizePixels = {64, 45};
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) request.techniques.push_back(info.technique);
     EXPECT_TRUE(validation::compareTechniques(renderer, context().capabilities(), request).record.ok());
+}
+
+/// The stability suite itself: in its short form every day, in full where slow tests run.
+class Stress : public ImageTest {
+protected:
+    /// Of these cases those that draw pictures are drawn with `techniques` techniques, for each case the next ones in
+    /// turn.
+    validation::StressRecord run(const std::vector<validation::StressCase>& cases, validation::StressEffort effort,
+                                 std::size_t techniques) {
+        validation::StressRecord record{context().capabilities().renderer, effort, {}};
+        const auto all = engine::techniqueTable();
+        for (std::size_t first = 0; first < all.size(); first += techniques) {
+            validation::StressRequest request;
+            request.effort = effort;
+            for (std::size_t i = 0; i < techniques; ++i) request.techniques.push_back(all[first + i].technique);
+            std::size_t turn = 0;
+            for (const validation::StressCase& row : cases)
+                if (turn++ % (all.size() / techniques) == first / techniques) request.cases.push_back(&row);
+            std::ranges::move(runOne(request), std::back_inserter(record.results));
+        }
+        EXPECT_GE(record.results.size(), cases.size());
+        return record;
+    }
+
+    std::vector<validation::StressResult> runOne(validation::StressRequest& request) {
+        double last = 0.0;
+        request.progress = [&last](double share) {
+            EXPECT_GE(share, last);
+            EXPECT_LE(share, 1.0);
+            last = share;
+        };
+        std::vector<validation::StressResult> results = validation::runStress(context(), request);
+        EXPECT_EQ(last, 1.0);
+        for (const validation::StressResult& result : results)
+            EXPECT_TRUE(result.ok()) << result.name << ": " << testing::PrintToString(result.missed());
+        return results;
+    }
+
+    /// With every eighth picture of its short form, and those that these are compared with.
+    static validation::StressCase withFewerPictures(validation::StressCase row) {
+        if (!row.pictures) return row;
+        std::vector<validation::StressPicture> all = row.pictures(validation::StressEffort::Quick), some;
+        std::vector<bool> isTaken(all.size());
+        for (std::size_t i = all.size(); i-- > 0;) {
+            isTaken[i] = isTaken[i] || i % 8 == 0;
+            if (isTaken[i] && all[i].sameAs) isTaken[*all[i].sameAs] = true;
+        }
+        std::vector<std::size_t> places(all.size()); // in `some`
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (!isTaken[i]) continue;
+            if (all[i].sameAs) all[i].sameAs = places[*all[i].sameAs];
+            places[i] = some.size();
+            some.push_back(std::move(all[i]));
+        }
+        row.pictures = [some](validation::StressEffort) { return some; };
+        return row;
+    }
+
+    static std::uint64_t brdfSamples(const validation::StressRecord& record) {
+        std::uint64_t samples = 0;
+        for (const validation::StressResult& result : record.results)
+            if (result.name.starts_with("brdf/")) samples += result.figures.samples;
+        return samples;
+    }
+};
+
+TEST_F(Stress, everyCaseHoldsInItsShortForm) {
+    std::vector<validation::StressCase> cases;
+    for (const validation::StressCase& row : validation::stressCases()) cases.push_back(withFewerPictures(row));
+    run(cases, validation::StressEffort::Quick, 1);
+}
+
+class StressSlow : public Stress {};
+
+TEST_F(StressSlow, everyCaseHoldsOverTenMillionSamplesOfMaterials) {
+    const validation::StressRecord record =
+        run(validation::stressCases(), validation::StressEffort::Full, engine::techniqueTable().size());
+    EXPECT_GE(brdfSamples(record), 10'000'000u);
+    fmt::print("{}", validation::stressTable(record));
 }
 
 } // namespace

@@ -1,13 +1,8 @@
 // A ball of one paint in the coarse layouts: in any colour it is as bright as in fp32. Rough enough that what is
 // of second order in alpha's step stays below: 0.5 in perceptual roughness, half of that where a texture varies it.
-#include <cmath>
 
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/Random.h"
-#include "tests/support/TestScenes.h"
 #include "validation/figures/ErrorFigures.h"
 #include "validation/figures/Tolerance.h"
 
@@ -15,8 +10,9 @@ namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
-scenes::Material randomPaint(test::Random& random) {
+scenes::Material randomPaint(Random& random) {
     scenes::Material paint;
     paint.baseColor = {random.unit(), random.unit(), random.unit(), 1.0f};
     paint.metallic = float(random.unit());
@@ -26,7 +22,7 @@ scenes::Material randomPaint(test::Random& random) {
 }
 
 /// Colours, roughness and metallic that change over the surface, each its own way.
-void vary(scenes::Scene& scene, test::Random& random) {
+void vary(scenes::Scene& scene, Random& random) {
     for (const scenes::TextureSlot slot : {scenes::TextureSlot::BaseColor, scenes::TextureSlot::MetallicRoughness}) {
         scenes::Image& image = scene.images.emplace_back();
         image.name = "paint";
@@ -37,28 +33,25 @@ void vary(scenes::Scene& scene, test::Random& random) {
 }
 
 scenes::Scene ballOf(const scenes::Material& paint) {
-    scenes::Scene scene = test::quadScene(paint);
-    scene.meshes = {test::everythingScene().meshes[1]};
+    scenes::Scene scene = quadScene(paint);
+    scene.meshes = {everythingScene().meshes[1]};
     scene.meshes[0].colors.clear();
-    scenes::Light sun;
-    sun.type = scenes::LightType::Directional;
-    sun.directionWS = glm::normalize(glm::dvec3(-0.4, -0.7, -1.0));
-    scene.lights = {sun, test::pointLight({-1.5, 0.5, 2.0}, 3.0f)};
+    scenes::Light sun = sunLight(glm::dvec3(-0.4, -0.7, -1.0));
+    scene.lights = {sun, pointLight({-1.5, 0.5, 2.0}, 3.0f)};
     scene.cameras[0].fovYRadians = 0.8;
     return scene;
 }
 
-class OnePaint : public test::GlTest {};
+class OnePaint : public ImageTest {};
 
 TEST_F(OnePaint, aBallIsAsBrightInACoarseLayoutAsInFp32) {
-    test::Random random(31);
+    Random random(31);
     for (int i = 0; i < 16; ++i) {
         scenes::Scene scene = ballOf(randomPaint(random));
         const bool varies = i % 2 == 1;
         if (varies) vary(scene, random);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {320, 320};
+        frame::FrameSettings settings = ofSize(320, 320);
         const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             settings.layout = layout.layout;
@@ -79,9 +72,7 @@ double stepOfAlpha(float alpha, int bits) {
 }
 
 scenes::Material polishedBlack(float alpha) {
-    scenes::Material polished;
-    polished.model = scenes::MaterialModel::Microfacet;
-    polished.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
+    scenes::Material polished = materialOf(scenes::MaterialModel::Microfacet, {0.0f, 0.0f, 0.0f, 1.0f});
     polished.alpha = alpha;
     polished.ior = 1.5f; // which fields hold exactly
     return polished;
@@ -93,8 +84,7 @@ TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanAStepOff) {
     for (const float alpha : {0.0300f, 0.0551f, 0.0800f}) {
         const scenes::Scene scene = ballOf(polishedBlack(alpha));
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {120, 120};
+        frame::FrameSettings settings = ofSize(120, 120);
         const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
         settings.layout = frame::layoutTable()[1].layout;
         const Picture coarse = engine::toPicture(renderer.render(Technique::Deferred, settings));
@@ -110,14 +100,11 @@ TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanAStepOff) {
 /// A floor whose highlight is not in the picture has the same error of alpha in all of it.
 TEST_F(OnePaint, aHighlightBesideThePictureIsAsBrightInTheMean) {
     for (const float alpha : {0.0123f, 0.0307f, 0.0551f, 0.0999f}) {
-        scenes::Scene scene = test::quadScene(polishedBlack(alpha));
-        scenes::Light sun;
-        sun.type = scenes::LightType::Directional;
-        sun.directionWS = glm::normalize(glm::dvec3(-0.6, -0.1, -1.0));
+        scenes::Scene scene = quadScene(polishedBlack(alpha));
+        scenes::Light sun = sunLight(glm::dvec3(-0.6, -0.1, -1.0));
         scene.lights = {sun};
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {128, 128};
+        frame::FrameSettings settings = ofSize(128, 128);
         const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
         for (const auto& [place, bits] : {std::pair(1, 11), std::pair(2, 8)}) {
             const frame::LayoutInfo& layout = frame::layoutTable()[std::size_t(place)];
@@ -137,16 +124,14 @@ TEST_F(OnePaint, aHighlightBesideThePictureIsAsBrightInTheMean) {
 /// A streak covers much of the ball, so its steps are not few pixels' as a round highlight's are.
 TEST_F(OnePaint, aStreakOnABallKeepsThePromiseOfEveryCoarseLayout) {
     for (const auto& [along, across] : {std::pair(0.5f, 0.02f), std::pair(0.5f, 0.08f), std::pair(0.16f, 0.5f)}) {
-        scenes::Material brushed;
-        brushed.model = scenes::MaterialModel::MicrofacetAnisotropic;
-        brushed.baseColor = {0.0f, 0.0f, 0.0f, 1.0f}; // all of the picture is highlight
+        scenes::Material brushed = materialOf(scenes::MaterialModel::MicrofacetAnisotropic,
+                                              {0.0f, 0.0f, 0.0f, 1.0f}); // all of the picture is highlight
         brushed.alpha = along;
         brushed.alphaY = across;
         brushed.ior = 2.5f;
         const scenes::Scene scene = ballOf(brushed);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {120, 120};
+        frame::FrameSettings settings = ofSize(120, 120);
         const Picture exact = engine::toPicture(renderer.render(Technique::Deferred, settings));
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             settings.layout = layout.layout;

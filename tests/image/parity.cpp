@@ -1,25 +1,18 @@
-#include <algorithm>
 #include <iterator>
-#include <optional>
 #include <set>
-#include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
-class Parity : public test::GlTest {
+class Parity : public ImageTest {
 protected:
     /// Programs are compiled once for a renderer, whatever the size.
     validation::CompareRecord compare(engine::Renderer& renderer, const frame::FrameSettings& settings,
@@ -43,23 +36,7 @@ protected:
             EXPECT_GE(pair.figures.litShare, 0.1);
         }
     }
-
-    /// Every layout with every technique, or two scenes of one layout each with `deferred`, whose G-buffer the other
-    /// techniques share.
-    void expectPromisesKept();
-    /// Of every built-in scene, with every technique and both sizes, or of those for sweeps with one technique and one
-    /// small size in turn.
-    void expectScenesAgree();
-    /// Of a scene of everything, with options added one by one. Or before the first and after the last of those whose
-    /// programs are pruned (Invariance has the others), with one technique and one small size in turn.
-    void expectOptionsAgree();
-    /// Of a scene of everything, or of its metal.
-    void expectOrthographicAgrees();
-    /// Of a scene of everything; or so only each sixth of those with a number, which show what lobes are made of, and
-    /// of its metal those between and each sixth of the others.
-    void expectViewsAgree();
 };
-using ParitySlow = Parity;
 
 bool usesGBuffer(const std::string& technique) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable())
@@ -72,26 +49,18 @@ constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 constexpr glm::ivec2 kOptionSizes[] = {{320, 180}, {321, 179}};
 constexpr glm::ivec2 kSmallSizes[] = {{128, 72}, {129, 71}}; ///< where they are taken in turn
 
-void Parity::expectScenesAgree() {
+TEST_SWEEP(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
     std::size_t turn = 0;
-    for (const scenes::BuiltinScene& builtin : test::builtinsForSweep()) {
-        const scenes::Scene scene = test::builtinForSweep(builtin);
+    for (const scenes::BuiltinScene& builtin : builtinsForSweep()) {
+        const scenes::Scene scene = builtinForSweep(builtin);
         engine::Renderer renderer(context(), scene);
-        for (const glm::ivec2 size : test::inTurn(test::isWholeSweep() ? kSizes : kSmallSizes, turn)) {
+        for (const glm::ivec2 size : inTurn(isWholeSweep() ? kSizes : kSmallSizes, turn)) {
             SCOPED_TRACE(fmt::format("{} {}x{}", builtin.name, size.x, size.y));
-            frame::FrameSettings settings;
-            settings.sizePixels = size;
-            settings.diffusion = test::coarseDiffusion();
-            expectAgreement(renderer, settings, test::techniquesInTurn(turn));
+            frame::FrameSettings settings = withDiffusion(ofSize(size));
+            expectAgreement(renderer, settings, techniquesInTurn(turn));
         }
         ++turn;
     }
-}
-TEST_F(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
-    expectScenesAgree();
-}
-TEST_F(ParitySlow, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
-    expectScenesAgree();
 }
 
 TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
@@ -121,26 +90,27 @@ TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
 constexpr std::pair<std::string_view, std::string_view> kScenesOfLayouts[] = {{"spheres", "slim"},
                                                                               {"head_marble", "packed"}};
 
-void Parity::expectPromisesKept() {
+/// Every layout with every technique, or two scenes of one layout each with `deferred`, whose G-buffer the other
+/// techniques share.
+TEST_SWEEP_AS(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError, ParitySlow,
+              everyCoarseLayoutAlwaysKeepsItsPromiseWithEveryTechnique) {
     std::set<std::string_view> kept;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         std::optional<scenes::Scene> scene;
         std::optional<engine::Renderer> renderer;
         for (const frame::LayoutInfo& layout : frame::layoutTable().subspan(1)) {
             const std::pair sceneAndLayout(builtin.name, layout.name);
-            if (!test::isWholeSweep() &&
-                std::ranges::find(kScenesOfLayouts, sceneAndLayout) == std::end(kScenesOfLayouts))
+            if (!isWholeSweep() && std::ranges::find(kScenesOfLayouts, sceneAndLayout) == std::end(kScenesOfLayouts))
                 continue;
             kept.insert(layout.name);
-            if (!renderer) renderer.emplace(context(), scene.emplace(test::builtinForSweep(builtin)));
+            if (!renderer) renderer.emplace(context(), scene.emplace(builtinForSweep(builtin)));
             SCOPED_TRACE(fmt::format("{} {}", builtin.name, layout.name));
             frame::FrameSettings settings;
-            settings.sizePixels = test::isWholeSweep() ? kSizes[1] : glm::ivec2(321, 179);
-            settings.diffusion = test::coarseDiffusion();
+            settings.sizePixels = isWholeSweep() ? kSizes[1] : glm::ivec2(321, 179);
+            settings.diffusion = coarseDiffusion();
             settings.layout = layout.layout;
-            const validation::CompareRecord record =
-                compare(*renderer, settings,
-                        test::isWholeSweep() ? std::vector<Technique>{} : std::vector{Technique::Deferred});
+            const validation::CompareRecord record = compare(
+                *renderer, settings, isWholeSweep() ? std::vector<Technique>{} : std::vector{Technique::Deferred});
             EXPECT_TRUE(record.ok()) << validation::compareTable(record);
             for (const validation::ComparePair& pair : record.pairs) {
                 if (!usesGBuffer(pair.a)) continue;
@@ -160,44 +130,35 @@ void Parity::expectPromisesKept() {
     EXPECT_EQ(kept.size() + 1, frame::layoutTable().size()) << "a coarse layout was not used";
 }
 
-TEST_F(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError) {
-    expectPromisesKept();
-}
-TEST_F(ParitySlow, everyCoarseLayoutAlwaysKeepsItsPromiseWithEveryTechnique) {
-    expectPromisesKept();
-}
-
-void Parity::expectOptionsAgree() {
+/// Of a scene of everything, with options added one by one. Or before the first and after the last of those whose
+/// programs are pruned (Invariance has the others), with one technique and one small size in turn.
+TEST_SWEEP(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
     using Settings = frame::FrameSettings;
     constexpr void (*kAddOption[])(Settings&) = {
         [](Settings&) {}, [](Settings& settings) { settings.filter = frame::TextureFilter::Exact; },
         [](Settings& settings) { settings.space = frame::LightingSpace::View; },
         [](Settings& settings) { settings.specular = false; }, [](Settings& settings) { settings.prune = false; }};
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
     constexpr std::size_t kLastPruned = std::size(kAddOption) - 2;
     Settings settings;
     std::size_t turn = 0;
     for (std::size_t i = 0; i < std::size(kAddOption); ++i) {
         kAddOption[i](settings);
-        if (!test::isWholeSweep() && i != 0 && i != kLastPruned) continue;
-        for (const glm::ivec2 size : test::inTurn(test::isWholeSweep() ? kOptionSizes : kSmallSizes, turn)) {
+        if (!isWholeSweep() && i != 0 && i != kLastPruned) continue;
+        for (const glm::ivec2 size : inTurn(isWholeSweep() ? kOptionSizes : kSmallSizes, turn)) {
             SCOPED_TRACE(fmt::format("{} options, {}x{}", i, size.x, size.y));
             settings.sizePixels = size;
-            expectAgreement(renderer, settings, test::techniquesInTurn(turn));
+            expectAgreement(renderer, settings, techniquesInTurn(turn));
         }
         ++turn;
     }
 }
-TEST_F(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
-    expectOptionsAgree();
-}
-TEST_F(ParitySlow, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
-    expectOptionsAgree();
-}
 
-void Parity::expectViewsAgree() {
-    const scenes::Scene everything = test::everythingScene(), metal = test::metalScene();
+/// Of a scene of everything; or so only each sixth of those with a number, which show what lobes are made of, and
+/// of its metal those between and each sixth of the others.
+TEST_SWEEP(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
+    const scenes::Scene everything = everythingScene(), metal = metalScene();
     engine::Renderer renderer(context(), everything), rendererOfMetal(context(), metal);
     std::size_t turn = 0, lobes = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
@@ -205,56 +166,37 @@ void Parity::expectViewsAgree() {
         if (view.ofTechnique) continue; // it shows the differences of techniques
         const bool showsLobes = view.key != 0;
         const bool isInTurn = (showsLobes ? lobes : turn)++ % 6 == 0;
-        if (!test::isWholeSweep() && !showsLobes && !isInTurn) continue;
-        engine::Renderer& shown = test::isWholeSweep() || (showsLobes && isInTurn) ? renderer : rendererOfMetal;
-        frame::FrameSettings settings;
-        settings.sizePixels = {161, 90};
-        settings.view = view.view;
+        if (!isWholeSweep() && !showsLobes && !isInTurn) continue;
+        engine::Renderer& shown = isWholeSweep() || (showsLobes && isInTurn) ? renderer : rendererOfMetal;
+        frame::FrameSettings settings = withView(ofSize(161, 90), view.view);
         const std::vector<float> forward = shown.render(Technique::Forward, settings).radiance;
         const std::vector<float> deferred = shown.render(Technique::Deferred, settings).radiance;
         EXPECT_EQ(forward, deferred);
         EXPECT_GT(*std::max_element(forward.begin(), forward.end()), 0.0f);
     }
 }
-TEST_F(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
-    expectViewsAgree();
-}
-TEST_F(ParitySlow, everyViewIsExactlyTheSameInForwardAndDeferred) {
-    expectViewsAgree();
-}
 
-void Parity::expectOrthographicAgrees() {
-    scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 2.5;
-    frame::FrameSettings settings;
-    settings.sizePixels = {321, 179};
+TEST_SWEEP(Parity, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
+    scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
+    makeOrthographic(scene.cameras[0], 2.5);
+    frame::FrameSettings settings = ofSize(321, 179);
     engine::Renderer endless(context(), scene);
-    expectAgreement(endless, settings, test::techniquesInTurn(0));
+    expectAgreement(endless, settings, techniquesInTurn(0));
     scenes::Scene ending = scene;
     ending.cameras[0].farMetres = 20.0;
     engine::Renderer ended(context(), ending);
-    expectAgreement(ended, settings, test::techniquesInTurn(1));
-}
-TEST_F(Parity, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
-    expectOrthographicAgrees();
-}
-TEST_F(ParitySlow, anOrthographicCameraIsExactlyTheSameWithEveryTechnique) {
-    expectOrthographicAgrees();
+    expectAgreement(ended, settings, techniquesInTurn(1));
 }
 
 TEST_F(Parity, aFarPlaneDoesNotChangeNearerSurfaces) {
-    scenes::Scene scene = test::everythingScene();
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 90};
+    scenes::Scene scene = everythingScene();
+    frame::FrameSettings settings = ofSize(161, 90);
     const Picture endless = [&] {
-        engine::Renderer renderer(context(), scene);
-        const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+        const engine::RenderedFrame frame = frameOf(scene, settings);
         return Picture{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     }();
     scene.cameras[0].farMetres = 60.0;
-    engine::Renderer renderer(context(), scene);
-    const engine::RenderedFrame frame = renderer.render(Technique::Deferred, settings);
+    const engine::RenderedFrame frame = frameOf(scene, settings);
     const Picture bounded{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
     // Depth is stored on another scale, so positions move by its rounding: 1e-7 of the distance, and highlights with
     // them.

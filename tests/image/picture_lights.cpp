@@ -1,15 +1,10 @@
 // What the viewer tells of the lights that a pixel visits.
 #include "viewer/show/PictureLights.h"
 
-#include <optional>
 #include <set>
-#include <vector>
 
-#include "scenes/Load.h"
 #include "tests/image/AreaLightTest.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 #include "viewer/session/Inspection.h"
 
 namespace tessera {
@@ -18,6 +13,7 @@ namespace {
 using culling::Method;
 using engine::Technique;
 using viewer::PictureLights;
+using namespace test;
 
 struct ListCase {
     Technique technique;
@@ -31,7 +27,7 @@ constexpr ListCase kListCases[] = {{Technique::Forward, {}, false},
                                    {Technique::ClusteredDeferred, Method::Zbin},
                                    {Technique::ClusteredForward, Method::Cluster}};
 
-class PictureLightsTold : public test::GlTest {
+class PictureLightsTold : public ImageTest {
 protected:
     using NearestSurfaces = std::vector<std::optional<viewer::InspectedSurface>>;
 
@@ -96,18 +92,11 @@ protected:
         EXPECT_GT(unlit, 0);
         EXPECT_EQ(counts.size() > 1, culls);
     }
-
-    /// Of Lambert materials, and the lit picture with one technique, unless the sweep is whole: compiling takes most of
-    /// the time, and lists know nothing of lobes.
-    void expectToldOfEveryKindOfLight();
 };
-using PictureLightsToldSlow = PictureLightsTold;
 
 TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShows) {
-    scenes::LoadOptions options;
-    options.lights = 256;
-    scenes::Scene scene = scenes::loadScene("lattice", options);
-    scene.lights.push_back(test::pointLight({0.0, 0.0, 0.0}, 1.0f)); // one that reaches everywhere
+    scenes::Scene scene = latticeOf(256);
+    scene.lights.push_back(pointLight({0.0, 0.0, 0.0}, 1.0f)); // one that reaches everywhere
     scene.lights.front().enabled = false;
     engine::Renderer renderer(context(), scene);
     for (const auto& [technique, method, culls] : kListCases) {
@@ -139,9 +128,10 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
     }
 }
 
-void PictureLightsTold::expectToldOfEveryKindOfLight() {
-    const scenes::Scene scene =
-        test::withAreaLights(test::isWholeSweep() ? test::everythingScene() : test::lambertScene());
+/// Of Lambert materials, and the lit picture with one technique, unless the sweep is whole: compiling takes most of
+/// the time, and lists know nothing of lobes.
+TEST_SWEEP(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
+    const scenes::Scene scene = withAreaLights(isWholeSweep() ? everythingScene() : lambertScene());
     engine::Renderer renderer(context(), scene);
     const NearestSurfaces surfaces = nearestSurfaces(renderer, scene);
     for (const auto& [technique, method, culls] : kListCases) {
@@ -151,18 +141,12 @@ void PictureLightsTold::expectToldOfEveryKindOfLight() {
         renderer.draw({&counted, 1});
         const engine::RenderedFrame shown = renderer.download();
         expectShown(PictureLights(renderer), shown, surfaces, culls);
-        if (!test::isWholeSweep() && technique != Technique::ClusteredForward) continue;
+        if (!isWholeSweep() && technique != Technique::ClusteredForward) continue;
         SCOPED_TRACE("the lit picture");
         const engine::ViewRequest lit = request(technique, frame::DebugView::Final, method);
         renderer.draw({&lit, 1});
         expectShown(PictureLights(renderer), shown, surfaces, culls);
     }
-}
-TEST_F(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
-    expectToldOfEveryKindOfLight();
-}
-TEST_F(PictureLightsToldSlow, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
-    expectToldOfEveryKindOfLight();
 }
 
 TEST_F(PictureLightsTold, nothingIsToldWhereNoListSaysIt) {

@@ -1,17 +1,10 @@
-#include <algorithm>
 #include <filesystem>
-#include <optional>
 
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
 #include "scenes/Clips.h"
 #include "scenes/Pose.h"
 #include "scenes/Rest.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/AnimatedModels.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/timing/FrameTimer.h"
 
 namespace tessera {
@@ -19,6 +12,7 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
+using namespace test;
 
 /// The scene with the first instance of every node skinned to a joint of its own below that node, which a clip turns
 /// and moves within a second while a morph target swells the mesh.
@@ -64,29 +58,19 @@ scenes::Scene waving(scenes::Scene scene) {
 }
 
 /// Poses of a scene that a renderer already draws.
-class Poses : public test::ShadowTest {
-protected:
-    /// Of a scene of everything or, unless the sweep is a whole one, of a ball under a sun, whose programs are small.
-    void expectDrawnAsAnew();
-    /// The same scenes, at three times or one.
-    void expectVerticesOfPlainMeshes();
-    /// Of a scene of everything with every technique, or of its metal with one at each time.
-    void expectTechniquesAgree();
-};
+class Poses : public ShadowTest {};
 using PosesSlow = Poses;
 
-void Poses::expectDrawnAsAnew() {
+/// Of a scene of everything or, unless the sweep is a whole one, of a ball under a sun, whose programs are small.
+TEST_SWEEP(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
     for (const auto& [filter, times] : std::vector<std::pair<ShadowFilter, std::vector<double>>>{
              {ShadowFilter::Traced, {1.0, 0.4}}, {ShadowFilter::Hard, {0.4}}}) {
         SCOPED_TRACE(int(filter));
-        scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::ballUnderSun());
+        scenes::Scene scene = waving(isWholeSweep() ? everythingScene() : ballUnderSun());
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 91};
-        settings.shadows = test::kAllLightsCast;
-        settings.shadowFilter = filter;
+        frame::FrameSettings settings = withShadows(ofSize(160, 91), filter);
         // Else which lights reach what is in view decides on programs too; a sun reaches all.
-        settings.prune = !test::isWholeSweep();
+        settings.prune = !isWholeSweep();
         const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
         const std::size_t programs = renderer.programs().size();
         for (const double time : times) {
@@ -95,20 +79,12 @@ void Poses::expectDrawnAsAnew() {
             const std::vector<float> after = renderer.render(Technique::Forward, settings).radiance;
             EXPECT_NE(after, before);
             EXPECT_EQ(renderer.programs().size(), programs);
-            engine::Renderer anew(context(), scene);
-            EXPECT_EQ(after, anew.render(Technique::Forward, settings).radiance) << time;
+            EXPECT_EQ(after, drawn(scene, settings, Technique::Forward)) << time;
         }
         scenes::poseScene(scene, 0.0);
         renderer.geometryChanged();
         EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before);
     }
-}
-
-TEST_F(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
-    expectDrawnAsAnew();
-}
-TEST_F(PosesSlow, areDrawnAsByANewRendererWithoutCompilingAnything) {
-    expectDrawnAsAnew();
 }
 
 /// The scene as meshes that stand where the pose has them, which nothing moves.
@@ -118,16 +94,15 @@ scenes::Scene asPlainMeshes(scenes::Scene scene) {
     return scene;
 }
 
-void Poses::expectVerticesOfPlainMeshes() {
-    scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::ballUnderSun());
+/// To the last bit of depth, in shadows and in ids too, so that passes which ask for equal depth lose no pixel.
+TEST_SWEEP(Poses, everyPassHasTheVerticesOfPlainMeshes) {
+    scenes::Scene scene = waving(isWholeSweep() ? everythingScene() : ballUnderSun());
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 91};
-    settings.shadows = test::kAllLightsCast;
-    settings.prune = !test::isWholeSweep();
+    frame::FrameSettings settings = withShadows(ofSize(160, 91));
+    settings.prune = !isWholeSweep();
     renderer.draw(Technique::Forward, settings);
     constexpr double kTimesSeconds[] = {0.3, 0.7, 1.0};
-    for (const double seconds : test::inTurn(kTimesSeconds, 1)) {
+    for (const double seconds : inTurn(kTimesSeconds, 1)) {
         SCOPED_TRACE(seconds);
         scenes::poseScene(scene, seconds);
         renderer.geometryChanged();
@@ -149,7 +124,7 @@ void Poses::expectVerticesOfPlainMeshes() {
         frame::FrameSettings asIds = settings;
         asIds.view = frame::DebugView::Ids;
         const std::vector<float> ids = truth.render(Technique::Forward, asIds).radiance;
-        std::vector<Technique> techniques = test::techniquesInTurn(0);
+        std::vector<Technique> techniques = techniquesInTurn(0);
         techniques.push_back(Technique::Forward);
         for (const Technique technique : techniques) {
             SCOPED_TRACE(engine::infoOf(technique).name);
@@ -161,43 +136,26 @@ void Poses::expectVerticesOfPlainMeshes() {
     }
 }
 
-/// To the last bit of depth, in shadows and in ids too, so that passes which ask for equal depth lose no pixel.
-TEST_F(Poses, everyPassHasTheVerticesOfPlainMeshes) {
-    expectVerticesOfPlainMeshes();
-}
-TEST_F(PosesSlow, everyPassHasTheVerticesOfPlainMeshes) {
-    expectVerticesOfPlainMeshes();
-}
-
-void Poses::expectTechniquesAgree() {
-    scenes::Scene scene = waving(test::isWholeSweep() ? test::everythingScene() : test::metalScene());
+TEST_SWEEP(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
+    scenes::Scene scene = waving(isWholeSweep() ? everythingScene() : metalScene());
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 91};
+    frame::FrameSettings settings = ofSize(160, 91);
     renderer.render(Technique::Deferred, settings);
     std::size_t turn = 0;
     for (const double seconds : {1.0, 0.15, 0.7}) {
         SCOPED_TRACE(seconds);
         scenes::poseScene(scene, seconds);
         renderer.geometryChanged();
-        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        expectParity(renderer, settings, techniquesInTurn(turn++));
     }
-    engine::Renderer anew(context(), scene);
-    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance,
-              anew.render(Technique::Forward, settings).radiance);
-}
-TEST_F(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
-    expectTechniquesAgree();
-}
-TEST_F(PosesSlow, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
-    expectTechniquesAgree();
+    EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, drawn(scene, settings, Technique::Forward));
 }
 
 /// A ball of a checkered material without layers, of which a clip makes glass with all of them within a second, while
 /// it moves the texture and widens the lens.
 scenes::Scene transforming() {
     using scenes::AnimatedProperty;
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scenes::Image& checker = scene.images.emplace_back();
     checker.name = "checker";
     checker.width = checker.height = 8;
@@ -247,8 +205,7 @@ scenes::Scene transforming() {
 TEST_F(Poses, layersTexturesGlassAndLensesThatComeAndGoAreDrawnAsByANewRenderer) {
     scenes::Scene scene = transforming();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 91};
+    frame::FrameSettings settings = ofSize(160, 91);
     const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
     for (const double seconds : {0.5, 1.0, 0.0}) {
         SCOPED_TRACE(seconds);
@@ -256,18 +213,15 @@ TEST_F(Poses, layersTexturesGlassAndLensesThatComeAndGoAreDrawnAsByANewRenderer)
         renderer.geometryChanged();
         const std::vector<float> posed = renderer.render(Technique::Deferred, settings).radiance;
         EXPECT_EQ(posed == first, seconds == 0.0);
-        engine::Renderer anew(context(), scene);
-        EXPECT_TRUE(posed == anew.render(Technique::Deferred, settings).radiance);
+        EXPECT_TRUE(posed == drawn(scene, settings));
         if (seconds == 0.5) expectParity(renderer, settings);
     }
 }
 
 TEST_F(Poses, aBillionSecondsBeforeAndAfterTheClipShowItsEnds) {
-    scenes::Scene scene = waving(test::ballUnderSun());
+    scenes::Scene scene = waving(ballUnderSun());
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 91};
-    settings.shadows = test::kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(160, 91));
     const auto drawnAt = [&](double seconds) {
         scenes::poseScene(scene, seconds);
         renderer.geometryChanged();
@@ -281,14 +235,11 @@ TEST_F(Poses, aBillionSecondsBeforeAndAfterTheClipShowItsEnds) {
 
 /// What clips do not move costs what it costs without them.
 TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
-    scenes::Scene scene = waving(test::ballUnderSun());
+    scenes::Scene scene = waving(ballUnderSun());
     scenes::playClip(scene, "none");
     scenes::poseScene(scene, 0.0);
     const scenes::Scene plain = asPlainMeshes(scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {320, 180};
-    settings.shadows = test::kAllLightsCast;
-    settings.shadowFilter = ShadowFilter::Hard;
+    frame::FrameSettings settings = withShadows(ofSize(320, 180), ShadowFilter::Hard);
     for (const engine::TechniqueInfo& info : engine::techniqueTable())
         EXPECT_EQ(graph::planText(engine::planFrame(scene, info.technique, settings)),
                   graph::planText(engine::planFrame(plain, info.technique, settings)))
@@ -313,16 +264,14 @@ TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
 }
 
 /// A model of the repository, or one of Khronos', by its file below the folder of third-party models.
-class PosesOfModelsSlow : public test::ShadowTest, public testing::WithParamInterface<std::string_view> {};
+class PosesOfModelsSlow : public ShadowTest, public testing::WithParamInterface<std::string_view> {};
 
 TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
-    const std::filesystem::path own = test::ownModelsFolder() / GetParam();
-    const std::optional<std::filesystem::path> file =
-        std::filesystem::exists(own) ? own : test::fileOfAssets(GetParam());
+    const std::filesystem::path own = ownModelsFolder() / GetParam();
+    const std::optional<std::filesystem::path> file = std::filesystem::exists(own) ? own : fileOfAssets(GetParam());
     if (!file) GTEST_SKIP() << "there is no folder of third-party models that has " << GetParam();
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    scenes::Scene scene = test::modelUnderSun(*file, 96.0 / 54.0);
+    frame::FrameSettings settings = ofSize(96, 54);
+    scenes::Scene scene = modelUnderSun(*file, 96.0 / 54.0);
     engine::Renderer renderer(context(), scene);
     double lengthSeconds = 0.0;
     scene.rig.playing.clear(); // all at once
@@ -352,8 +301,8 @@ TEST_P(PosesOfModelsSlow, everyTechniqueDrawsThemAlikeAtTwentyTimesInAnyOrder) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Own, PosesOfModelsSlow, testing::ValuesIn(test::kOwnModels));
-INSTANTIATE_TEST_SUITE_P(Khronos, PosesOfModelsSlow, testing::ValuesIn(test::kAnimatedModels));
+INSTANTIATE_TEST_SUITE_P(Own, PosesOfModelsSlow, testing::ValuesIn(kOwnModels));
+INSTANTIATE_TEST_SUITE_P(Khronos, PosesOfModelsSlow, testing::ValuesIn(kAnimatedModels));
 
 } // namespace
 } // namespace tessera

@@ -1,22 +1,12 @@
 // The GPU's picture against the reference renderer's, pixel by pixel, with the same filtering on both sides.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <optional>
 #include <span>
-#include <string_view>
 
-#include <fmt/format.h>
-
-#include "scenes/Load.h"
 #include "scenes/Pose.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/FlatTest.h"
 #include "tests/support/AnimatedModels.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/figures/ErrorFigures.h"
@@ -27,12 +17,7 @@ namespace {
 
 using engine::Technique;
 using scenes::TextureSlot;
-
-frame::FrameSettings ofSize(int width, int height) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {width, height};
-    return settings;
-}
+using namespace test;
 
 /// The tolerances of a built-in scene on software rasterisers, at most ten times the measured figures
 /// (docs/reference.md has the figures): two to five times, for compilers that order operations otherwise. Each scene's
@@ -72,7 +57,7 @@ struct AreaLitBars {
 constexpr AreaLitBars kAreaLitBars[] = {
     {"lamps", 250, 4e-2, 0.02}, {"studio", {}, 3e-2, 0.03}, {"glass", {}, 1.2e-2, 0.015}};
 
-class Reference : public test::GlTest {
+class Reference : public ImageTest {
 protected:
     /// Forward alone: that the other techniques draw the same is the parity tests' business.
     std::vector<validation::ComparePair> compared(const scenes::Scene& scene, frame::FrameSettings settings,
@@ -139,35 +124,28 @@ protected:
         EXPECT_EQ(bars.size() + std::size(kAreaLitBars), scenes::builtinScenes().size()) << "a scene has no bars";
         constexpr std::string_view kOfMostKinds[] = {"models", "shadow_truth", "head_marble"};
         for (const SceneBars& scene : bars)
-            if (test::isWholeSweep() || std::ranges::find(kOfMostKinds, scene.scene) != std::end(kOfMostKinds))
+            if (isWholeSweep() || std::ranges::find(kOfMostKinds, scene.scene) != std::end(kOfMostKinds))
                 expectAsGoodAsMeasured(scene);
     }
 
-    /// Of every scene with area lights, or of that with the most shapes of them.
-    void expectAreaLitScenesAsNearAsShapes();
-
     /// A scene that moves, at each of these times or at one of them in turn.
     void expectAgreementAtTimes(const std::string& what, scenes::Scene scene, std::span<const double> timesSeconds);
-    void expectAgreementOfTheSickHead();
     void expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds);
 };
 using ReferenceSlow = Reference;
 
-TEST_F(Reference, everyBuiltinSceneAgreesWithIt) {
-    expectEverySceneAsGoodAsMeasured(kSmallBars);
-}
-TEST_F(ReferenceSlow, everyBuiltinSceneAgreesWithIt) {
+TEST_SWEEP(Reference, everyBuiltinSceneAgreesWithIt) {
     expectEverySceneAsGoodAsMeasured(kSmallBars);
 }
 
-void Reference::expectAreaLitScenesAsNearAsShapes() {
+/// Of every scene with area lights, or of that with the most shapes of them.
+TEST_SWEEP(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
     constexpr std::size_t kStudio = 1;
-    for (const AreaLitBars& bars : test::inTurn(kAreaLitBars, kStudio)) {
+    for (const AreaLitBars& bars : inTurn(kAreaLitBars, kStudio)) {
         SCOPED_TRACE(bars.scene);
         scenes::LoadOptions options;
         options.lights = bars.lights;
-        frame::FrameSettings settings = ofSize(160, 90);
-        settings.shadows = {scenes::ShadowRequest::Kind::None};
+        frame::FrameSettings settings = withoutShadows(ofSize(160, 90));
         settings.environment.light = frame::EnvironmentLight::Sampled;
         settings.environment.samples = 256;
         // What else glass shows depends on the picture
@@ -185,18 +163,12 @@ void Reference::expectAreaLitScenesAsNearAsShapes() {
         EXPECT_GT(figures.relMse, 1e-7) << "an approximation: the test compares a picture with itself";
     }
 }
-TEST_F(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
-    expectAreaLitScenesAsNearAsShapes();
-}
-TEST_F(ReferenceSlow, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
-    expectAreaLitScenesAsNearAsShapes();
-}
 
 void Reference::expectAgreementAtTimes(const std::string& what, scenes::Scene scene,
                                        std::span<const double> timesSeconds) {
     for (scenes::Light& light : scene.lights) light.radiusMetres = light.angularRadiusRadians = 0.0f;
     std::optional<double> before;
-    for (const double seconds : test::inTurn(timesSeconds, 1)) {
+    for (const double seconds : inTurn(timesSeconds, 1)) {
         frame::FrameSettings settings = ofSize(160, 90);
         settings.timeSeconds = seconds;
         scenes::poseScene(scene, seconds);
@@ -210,34 +182,28 @@ void Reference::expectAgreementAtTimes(const std::string& what, scenes::Scene sc
 }
 
 /// What its hook moves and paints, from early on to long after it fell ill, with the ears at different angles.
-void Reference::expectAgreementOfTheSickHead() {
+TEST_SWEEP(Reference, aHeadThatAHookMovesAgreesWithIt) {
     constexpr double kTimesSeconds[] = {0.6, 2.9, 5.3, 8.0, 11.7};
     expectAgreementAtTimes("head_sick",
                            scenes::loadScene(std::string(TESSERA_SOURCE_DIR) + "/scenes/files/head_sick.json"),
                            kTimesSeconds);
-}
-TEST_F(Reference, aHeadThatAHookMovesAgreesWithIt) {
-    expectAgreementOfTheSickHead();
-}
-TEST_F(ReferenceSlow, aHeadThatAHookMovesAgreesWithIt) {
-    expectAgreementOfTheSickHead();
 }
 
 /// At times of its clip at which none of its parts stands still.
 void Reference::expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds) {
     std::vector<double> timesSeconds;
     for (const double share : {0.07, 0.27, 0.48, 0.7, 0.95}) timesSeconds.push_back(share * lengthSeconds);
-    expectAgreementAtTimes(file.stem().string(), test::modelUnderSun(file, 160.0 / 90.0), timesSeconds);
+    expectAgreementAtTimes(file.stem().string(), modelUnderSun(file, 160.0 / 90.0), timesSeconds);
 }
 TEST_F(Reference, aBendingSkinAgreesWithIt) {
-    expectAgreementOfModel(test::ownModelsFolder() / "skinned_bar.gltf", 2.0);
+    expectAgreementOfModel(ownModelsFolder() / "skinned_bar.gltf", 2.0);
 }
 TEST_F(ReferenceSlow, modelsOfTheRepositoryAgreeWithIt) {
-    for (const std::string_view model : test::kOwnModels) expectAgreementOfModel(test::ownModelsFolder() / model, 2.0);
+    for (const std::string_view model : kOwnModels) expectAgreementOfModel(ownModelsFolder() / model, 2.0);
 }
 /// A skin of 19 joints that walks for two seconds.
 TEST_F(ReferenceSlow, aWalkingSkinAgreesWithIt) {
-    const std::optional<std::filesystem::path> file = test::fileOfAssets("CesiumMan/CesiumMan.glb");
+    const std::optional<std::filesystem::path> file = fileOfAssets("CesiumMan/CesiumMan.glb");
     if (!file) GTEST_SKIP() << "there is no folder of third-party models that has CesiumMan";
     expectAgreementOfModel(*file, 2.0);
 }
@@ -248,7 +214,7 @@ TEST_F(ReferenceSlow, everyBuiltinSceneAgreesWithItAtTheDefaultSize) {
 }
 
 TEST_F(Reference, aSceneOfEveryFeatureAgreesWithIt) {
-    scenes::Scene scene = test::everythingScene();
+    scenes::Scene scene = everythingScene();
     expectAgreement("everything", scene, ofSize(161, 89));
     frame::FrameSettings settings = ofSize(160, 90);
     settings.specular = false;
@@ -261,15 +227,14 @@ TEST_F(Reference, aSceneOfEveryFeatureAgreesWithIt) {
     settings.soloLight = 1;
     settings.space = frame::LightingSpace::View;
     expectAgreement("everything, one light", scene, settings);
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 2.5;
+    makeOrthographic(scene.cameras[0], 2.5);
     expectAgreement("everything, orthographic", scene, ofSize(161, 90));
     scene.cameras[0].farMetres = 20.0;
     expectAgreement("the same, far plane", scene, ofSize(161, 90));
 }
 
 TEST_F(Reference, aSceneFarFromTheOriginAgreesWithIt) {
-    scenes::Scene scene = test::everythingScene();
+    scenes::Scene scene = everythingScene();
     const glm::dvec3 away(0x1p20, 0.0, -0x1p20);
     for (scenes::Node& node : scene.nodes) node.parentFromNode[3] += glm::dvec4(away, 0.0);
     for (scenes::Light& light : scene.lights) light.positionWS += away;
@@ -279,7 +244,7 @@ TEST_F(Reference, aSceneFarFromTheOriginAgreesWithIt) {
 
 /// Glass before glass before an opaque ball: each layer counts with its own weight.
 TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAgreeWithIt) {
-    scenes::Scene scene = test::everythingScene();
+    scenes::Scene scene = everythingScene();
     const scenes::Material glass = scene.materials[std::size_t(scene.nodes.back().instances.front().material)];
     for (const double z : {0.5, 3.0, 1.25}) {
         scene.nodes.push_back(scene.nodes.back());
@@ -299,7 +264,7 @@ TEST_F(Reference, roughGlassOfAHighIndexAgreesToWhatTheTableOfLobesHolds) {
         glass.perceptualRoughness = roughness;
         glass.transmission = 1.0f;
         glass.ior = 1000.0f;
-        scenes::Scene scene = test::quadScene(glass);
+        scenes::Scene scene = quadScene(glass);
         scene.meshes[0] = {};
         scenes::builtin::appendSphere(scene.meshes[0], {}, 1.0, 48, 24);
         scene.background = glm::vec3(1.0f);
@@ -321,7 +286,7 @@ TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
 }
 
 TEST_F(Reference, hardwareFilteringIsAPairOfItsOwnAndHolds) {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
     validation::CompareRequest request;
     request.techniques = {Technique::Deferred, Technique::Forward};
@@ -338,9 +303,8 @@ TEST_F(Reference, hardwareFilteringIsAPairOfItsOwnAndHolds) {
 
 /// In whole scenes too, where little is minified and most of a pixel is not its texture.
 TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering) {
-    const scenes::Scene scene = test::everythingScene();
-    const test::ShaderMutant shaders;
-    shaders.replace("lib/material/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
+    const scenes::Scene scene = everythingScene();
+    const ShaderMutant shaders("lib/material/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
     engine::Renderer renderer(context(), scene, shaders.tree());
     const frame::FrameSettings settings = ofSize(96, 54);
     const Picture shown = engine::toPicture(renderer.render(Technique::Forward, settings));
@@ -350,25 +314,24 @@ TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering)
     EXPECT_FALSE(validation::checkTolerance(figures, validation::referenceTolerance(scene, settings)).ok);
 }
 
-class SrgbDecoding : public test::FlatTest {};
+class SrgbDecoding : public FlatTest {};
 
 TEST_F(SrgbDecoding, everyCodeValueIsDecodedToRounding) {
     frame::FrameSettings settings;
     settings.filter = frame::TextureFilter::Exact;
-    for (int first = 0; first < 256; first += test::kSide * test::kSide) {
-        const auto code = [first](int x, int y) { return first + y * test::kSide + x; };
-        const scenes::Image image = test::image8([&](int x, int y) {
+    for (int first = 0; first < 256; first += kSide * kSide) {
+        const auto code = [first](int x, int y) { return first + y * kSide + x; };
+        const scenes::Image image = image8([&](int x, int y) {
             return std::array<int, 4>{code(x, y), code(x, y), 0, 255};
         });
         const engine::RenderedFrame shown =
-            frame(test::texturedScene(flatScene(test::unlit()), TextureSlot::BaseColor, image), settings);
-        for (int y = 0; y < test::kSide; ++y) {
-            for (int x = 0; x < test::kSide; ++x) {
+            frame(texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image), settings);
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
                 const double wanted = reference::linearFromSrgb(code(x, y) / 255.0);
                 // Six roundings of fp32, and neighbours that a coordinate's rounding lets in.
                 EXPECT_NEAR(pixel(shown, x, y).r, wanted, 1e-6 * wanted + 1e-9) << code(x, y);
             }
-        }
     }
 }
 

@@ -1,21 +1,15 @@
 // Rough glass that transmits hardly anything, beside other surfaces: its tolerance is its alone.
-#include <algorithm>
-#include <string>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include "scenes/LookAt.h"
-#include "scenes/builtin/Shapes.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/TestScenes.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
 namespace {
 
-class ReferenceGlass : public test::GlTest {
+using namespace test;
+
+class ReferenceGlass : public ImageTest {
 protected:
     /// A floor in a sun, and above it a rough ball that covers a hundredth of the picture.
     static scenes::Scene floorWithBall(float ior) {
@@ -23,7 +17,7 @@ protected:
         paint.metallic = 0.3f;
         paint.perceptualRoughness = 0.5f;
         paint.baseColor = {0.6f, 0.5f, 0.4f, 1.0f};
-        scenes::Scene scene = test::quadScene(paint);
+        scenes::Scene scene = quadScene(paint);
         scenes::Material glass;
         glass.metallic = 0.0f;
         glass.perceptualRoughness = 0.3f;
@@ -33,9 +27,7 @@ protected:
         scene.materials.push_back(glass);
         scenes::builtin::appendSphere(scene.meshes.emplace_back(), {0.0, 0.0, 0.3}, 0.08, 64, 32);
         scene.nodes.emplace_back().instances = {{1, 1}};
-        scenes::Light sun;
-        sun.type = scenes::LightType::Directional;
-        sun.directionWS = glm::normalize(glm::dvec3(-0.3, -0.1, -1.0));
+        scenes::Light sun = sunLight(glm::dvec3(-0.3, -0.1, -1.0));
         sun.intensity = 3.0f;
         scene.lights = {sun};
         scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, -0.3, 3.0}, {0.0, 0.0, 0.0});
@@ -52,7 +44,7 @@ protected:
 };
 
 TEST_F(ReferenceGlass, aFaultOfTheLightBesideGlassThatTransmitsNothingIsFound) {
-    const test::ShaderMutant shaders;
+    const ShaderMutant shaders;
     const std::string light = "layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance";
     shaders.replace("lib/lighting/lighting.glsl", light, "1.02 * " + light);
     for (const float ior : {1.5f, 1000.0f, 0.0f}) {
@@ -71,7 +63,7 @@ TEST_F(ReferenceGlass, aFaultOfTheLightBesideGlassThatTransmitsNothingIsFound) {
 
 /// What such glass reflects is held as that of any surface.
 TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
-    const test::ShaderMutant shaders;
+    const ShaderMutant shaders;
     const std::string light = "layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;";
     shaders.replace(
         "lib/lighting/lighting.glsl", light,
@@ -92,12 +84,9 @@ TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
 TEST_F(ReferenceGlass, channelsThatPassAreHeldToWhatTheyPass) {
     scenes::Scene scene = floorWithBall(1.5f);
     scene.materials[1].specularColor = {24.0f, 1.0f, 1.0f};
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
+    frame::FrameSettings settings = ofSize(64, 36);
     settings.refraction = frame::Refraction::Environment;
-    const auto weights = validation::referencePicture(
-                             scene, settings, [] {}, validation::Leeway::None)
-                             .errorWeights;
+    const auto weights = strictReference(scene, settings).errorWeights;
     EXPECT_LT(std::ranges::min(weights, {}, &glm::vec3::r).r, 0.7f);
     for (const glm::vec3& weight : weights) EXPECT_EQ(glm::vec2(weight.g, weight.b), glm::vec2(1.0f));
 }

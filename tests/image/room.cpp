@@ -1,22 +1,14 @@
 #include "scenes/builtin/Room.h"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 namespace room = scenes::builtin;
+using namespace test;
 
-class Room : public test::GlTest {};
+class Room : public ImageTest {};
 
 /// The ray through a point of the picture, in pixels from its top-left corner.
 glm::dvec3 rayWS(const scenes::Camera& camera, glm::ivec2 size, double x, double y) {
@@ -30,21 +22,19 @@ glm::dvec3 rayWS(const scenes::Camera& camera, glm::ivec2 size, double x, double
 std::optional<room::RoomPoint> insideOneSurface(const scenes::Camera& camera, glm::ivec2 size, int x, int y) {
     const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
     const auto center = room::roomPointAlong(eyeWS, rayWS(camera, size, x + 0.5, y + 0.5));
-    for (int dy = -1; dy <= 1; ++dy) {
+    for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
             const auto near = room::roomPointAlong(eyeWS, rayWS(camera, size, x + 0.5 + dx, y + 0.5 + dy));
             if (!center || !near || near->material != center->material) return std::nullopt;
             if (glm::dot(near->normalWS, center->normalWS) < 0.999) return std::nullopt;
         }
-    }
     return center;
 }
 
 TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
     const scenes::Scene scene = scenes::loadScene("room");
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {320, 181};
+    frame::FrameSettings settings = ofSize(320, 181);
     for (settings.camera = 0; settings.camera < int(scene.cameras.size()); ++settings.camera) {
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
         std::vector<std::optional<room::RoomPoint>> points; // of each pixel, whatever draws it
@@ -57,7 +47,7 @@ TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
             std::size_t checked = 0;
             std::size_t dark = 0;
             double worst = 0.0;
-            for (int y = 0; y < picture.height; ++y) {
+            for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
                     const auto& seen = points[std::size_t(y) * std::size_t(picture.width) + std::size_t(x)];
                     if (!seen) continue;
@@ -74,7 +64,6 @@ TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
                     dark += truth == glm::dvec3(0.0);
                     ++checked;
                 }
-            }
             // The bar. Positions come from a stored fp32 depth, about 1e-6 of the distance, and falloff squares
             // them.
             EXPECT_LE(worst, 1e-4);

@@ -1,17 +1,9 @@
 // The surfaces of area lights in pictures: outlines in closed form, what hides what, and the reference.
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <set>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "scenes/LookAt.h"
 #include "tests/image/SeenLightTest.h"
-#include "tests/support/AreaLights.h"
-#include "tests/support/TestScenes.h"
 #include "validation/compare/ShownTriangles.h"
 
 namespace tessera {
@@ -23,8 +15,7 @@ using std::numbers::pi;
 using namespace test;
 
 scenes::Material plainColor(const glm::vec4& color) {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::SingleColor;
+    scenes::Material material = unlit();
     material.baseColor = color;
     material.doubleSided = true;
     if (color.a < 1.0f) material.alphaMode = scenes::AlphaMode::Blend;
@@ -77,7 +68,7 @@ class SeenLightTruth : public SeenLightTest {
 protected:
     /// The middle of a picture of 3 x 3 pixels.
     glm::vec4 middle(const scenes::Scene& scene, Technique technique = Technique::Deferred) {
-        const std::vector<float> radiance = frame(scene, settingsOfSize({3, 3}), technique).radiance;
+        const std::vector<float> radiance = frameOf(scene, ofSize(3, 3), technique).radiance;
         return {radiance[16], radiance[17], radiance[18], radiance[19]};
     }
     /// Every pixel is all of the light or nothing.
@@ -121,12 +112,10 @@ TEST_F(SeenLightTruth, parallelRaysShowTheProjectedArea) {
             for (const glm::dvec3 towards : {glm::dvec3(0.02, 0.01, 1.0), glm::dvec3(0.6, -0.3, 0.7)}) {
                 const scenes::Light light = turnedLamp(type, {0.1, -0.05, 0.0}, towards);
                 scenes::Scene scene = lightsAlone({light});
-                scene.cameras[0].projection = scenes::Projection::Orthographic;
-                scene.cameras[0].halfHeightMetres = 0.8;
-                frame::FrameSettings settings = settingsOfSize({kSide, kSide});
-                settings.samples = samples;
+                makeOrthographic(scene.cameras[0], 0.8);
+                frame::FrameSettings settings = withSamples(ofSize(kSide, kSide), samples);
                 const engine::RenderedFrame shown =
-                    frame(scene, settings, samples == 1 ? Technique::Deferred : Technique::Forward);
+                    frameOf(scene, settings, samples == 1 ? Technique::Deferred : Technique::Forward);
                 double covered = 0.0;
                 std::set<float> shares;
                 for (std::size_t i = 3; i < shown.radiance.size(); i += 4) {
@@ -150,7 +139,7 @@ TEST_F(SeenLightTruth, perspectiveShowsTheSolidAngle) {
             scenes::Light light = turnedLamp(type, {aside, -aside, 3.0 - kDistance}, {0.0, 0.0, 1.0});
             scenes::Scene scene = lightsAlone({light});
             scene.cameras[0].fovYRadians = 1.0;
-            const engine::RenderedFrame shown = frame(scene, settingsOfSize({kSide, kSide}));
+            const engine::RenderedFrame shown = frameOf(scene, ofSize(kSide, kSide));
             const double stepOfPixel = 2.0 * std::tan(0.5) / kSide;
             double solidAngle = 0.0;
             for (int y = 0; y < kSide; ++y)
@@ -203,10 +192,10 @@ TEST_F(SeenLightTruth, animatedLightsAreSeenWhereTheyAre) {
     animation.keys.values = {{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}};
     light.animation = animation;
     const scenes::Scene scene = lightsAlone({light});
-    frame::FrameSettings settings = settingsOfSize({3, 3});
+    frame::FrameSettings settings = ofSize(3, 3);
     for (const double seconds : {0.0, 0.5, 1.0}) {
         settings.timeSeconds = seconds;
-        const std::vector<float> radiance = frame(scene, settings).radiance;
+        const std::vector<float> radiance = frameOf(scene, settings).radiance;
         for (int x = 0; x < 3; ++x)
             EXPECT_EQ(radiance[std::size_t(4 * (3 + x))], x == int(2.0 * seconds) ? kShown.r : 0.0f) << seconds;
     }
@@ -234,11 +223,11 @@ TEST_F(SeenLightTruth, theNearerHidesTheFartherAndTransparentSurfacesBlend) {
 
 TEST_F(SeenLightTruth, theNearestLightIsSeenWhateverTheirOrder) {
     scenes::Scene scene = amongSurfaces();
-    const frame::FrameSettings settings = settingsOfSize({160, 120});
+    const frame::FrameSettings settings = ofSize(160, 120);
     for (scenes::Light& light : scene.lights) light.positionWS *= glm::dvec3(0.3, 0.3, 1.0);
-    const std::vector<float> ascending = frame(scene, settings).radiance;
+    const std::vector<float> ascending = frameOf(scene, settings).radiance;
     std::ranges::reverse(scene.lights);
-    EXPECT_EQ(frame(scene, settings).radiance, ascending);
+    EXPECT_EQ(frameOf(scene, settings).radiance, ascending);
 }
 
 TEST_F(SeenLightTruth, areThoseOfTheReferenceFromNearAndFar) {
@@ -258,12 +247,11 @@ TEST_F(SeenLightTruth, areThoseOfTheReferenceFromNearAndFar) {
         camera.worldFromCamera = scenes::worldFromLookAt(one.distanceMetres * glm::normalize(glm::dvec3(0.3, 0.2, 1.0)),
                                                          glm::dvec3(0.0, 0.0, 0.2));
         if (one.fovYRadians == 0.0) {
-            camera.projection = scenes::Projection::Orthographic;
-            camera.halfHeightMetres = 0.9;
+            makeOrthographic(camera, 0.9);
         } else {
             camera.fovYRadians = one.fovYRadians;
         }
-        frame::FrameSettings settings = settingsOfSize({160, 120});
+        frame::FrameSettings settings = ofSize(160, 120);
         settings.space = one.space;
         engine::Renderer renderer(context(), scene);
         const engine::RenderedFrame shown = renderer.render(Technique::ClusteredDeferred, settings);
@@ -293,7 +281,7 @@ TEST_F(SeenLightTruth, areThoseOfTheReferenceFromNearAndFar) {
 // ---- Extremes ------------------------------------------------------------------------------------------------------
 
 TEST_F(SeenLightTruth, extremeSizesAndPlacesShowTheRadianceOrNothing) {
-    frame::FrameSettings settings = settingsOfSize({9, 7});
+    frame::FrameSettings settings = ofSize(9, 7);
     scenes::Scene scene = lightsAlone({seenLamp(LightType::Disk, glm::dvec3(0.0))});
     engine::Renderer renderer(context(), scene);
     for (const scenes::Projection projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic})
@@ -321,7 +309,7 @@ TEST_F(SeenLightTruth, extremeSizesAndPlacesShowTheRadianceOrNothing) {
 /// A wall that fills the view, a hall of 1000 km around a ball, a thread across the picture.
 TEST_F(SeenLightTruth, lightsOfAnySizeAreSeenWhereTheyFillThePicture) {
     const auto allShown = [&](const scenes::Light& light) {
-        const engine::RenderedFrame shown = frame(lightsAlone({light}), settingsOfSize({9, 7}));
+        const engine::RenderedFrame shown = frameOf(lightsAlone({light}), ofSize(9, 7));
         return shownPixels(shown);
     };
     scenes::Light wall = seenLamp(LightType::Rectangle, {0.0, 0.0, -1e6});

@@ -1,15 +1,9 @@
 // The surfaces of area lights in pictures: every technique, and what is left out without them.
 #include <set>
-#include <string>
-#include <vector>
 
 #include "engine/PrepareView.h"
 #include "renderer/graph/Plan.h"
-#include "scenes/Load.h"
 #include "tests/image/SeenLightTest.h"
-#include "tests/support/AreaLights.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
@@ -18,13 +12,7 @@ using engine::Technique;
 using scenes::LightType;
 using namespace test;
 
-class SeenLightPictures : public SeenLightTest {
-protected:
-    void expectAllTechniquesAlike();
-    void expectPruningChangesNoBit();
-    void expectSurfacesAloneAreListed();
-};
-using SeenLightPicturesSlow = SeenLightPictures;
+class SeenLightPictures : public SeenLightTest {};
 
 /// The scene's lights, and one of each type before its camera at (0, 1.5, 6).
 scenes::Scene withSeenLights(scenes::Scene scene) {
@@ -53,7 +41,7 @@ scenes::Scene withPlainMaterials(scenes::Scene scene,
     return scene;
 }
 
-void SeenLightPictures::expectAllTechniquesAlike() {
+TEST_SWEEP(SeenLightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
     struct Case {
         const char* name;
         scenes::Scene scene;
@@ -65,8 +53,7 @@ void SeenLightPictures::expectAllTechniquesAlike() {
     const scenes::Scene unlit =
         withSeenLights(withPlainMaterials(everythingScene(), scenes::MaterialModel::SingleColor));
     scenes::Scene flat = plain;
-    flat.cameras[0].projection = scenes::Projection::Orthographic;
-    flat.cameras[0].halfHeightMetres = 2.0;
+    makeOrthographic(flat.cameras[0], 2.0);
     using enum frame::LightingSpace;
     // Compiling programs that light takes most of the time, and what shows a light does not look at materials.
     std::vector<Case> cases{{"unlit", unlit, 1, World, techniquesInTurn(0)},
@@ -82,9 +69,7 @@ void SeenLightPictures::expectAllTechniquesAlike() {
     }
     for (const Case& one : cases) {
         SCOPED_TRACE(one.name);
-        frame::FrameSettings settings = settingsOfSize({96, 54});
-        settings.diffusion = coarseDiffusion();
-        settings.samples = one.samples;
+        frame::FrameSettings settings = withDiffusion(withSamples(ofSize(96, 54), one.samples));
         settings.space = one.space;
         engine::Renderer renderer(context(), one.scene);
         expectParity(renderer, settings, one.techniques);
@@ -92,35 +77,20 @@ void SeenLightPictures::expectAllTechniquesAlike() {
     }
 }
 
-TEST_F(SeenLightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(SeenLightPicturesSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-
 /// With one sample and four, or with one and materials of one kind: programs of all features are those of any scene.
-void SeenLightPictures::expectPruningChangesNoBit() {
+TEST_SWEEP(SeenLightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     const bool isWhole = isWholeSweep();
     for (const int samples : isWhole ? std::vector{1, 4} : std::vector{1}) {
         const scenes::Scene scene = withSeenLights(!isWhole       ? withPlainMaterials(everythingScene())
                                                    : samples == 1 ? everythingScene()
                                                                   : evenScene());
-        frame::FrameSettings settings = settingsOfSize({96, 54});
-        settings.diffusion = coarseDiffusion();
-        settings.samples = samples;
+        frame::FrameSettings settings = withDiffusion(withSamples(ofSize(96, 54), samples));
         const auto radiance = [&](bool prune) {
             settings.prune = prune;
-            return frame(scene, settings, isWhole ? Technique::ForwardPlus : Technique::Deferred).radiance;
+            return frameOf(scene, settings, isWhole ? Technique::ForwardPlus : Technique::Deferred).radiance;
         };
         EXPECT_EQ(radiance(true), radiance(false)) << samples;
     }
-}
-TEST_F(SeenLightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
-}
-TEST_F(SeenLightPicturesSlow, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
-    expectPruningChangesNoBit();
 }
 
 TEST_F(SeenLightPictures, aSceneWithoutLightsToBeSeenHasNoTraceOfThem) {
@@ -159,12 +129,11 @@ TEST_F(SeenLightPictures, aSceneWithoutLightsToBeSeenHasNoTraceOfThem) {
 }
 
 /// Light lists, ids and all that reads depth ask for surfaces.
-void SeenLightPictures::expectSurfacesAloneAreListed() {
+TEST_SWEEP(SeenLightPictures, depthsListsAndIdsAreThoseOfSurfaces) {
     scenes::Scene seen = withSeenLights(isWholeSweep() ? everythingScene() : withPlainMaterials(everythingScene()));
     scenes::Scene unseen = seen;
     for (scenes::Light& light : unseen.lights) light.isSeen = false;
-    frame::FrameSettings settings = settingsOfSize({96, 54});
-    settings.diffusion = coarseDiffusion();
+    frame::FrameSettings settings = withDiffusion(ofSize(96, 54));
     for (const Technique technique : {Technique::ForwardPlus, Technique::ClusteredDeferred}) {
         engine::Renderer a(context(), seen), b(context(), unseen);
         a.draw(technique, settings);
@@ -177,12 +146,6 @@ void SeenLightPictures::expectSurfacesAloneAreListed() {
         EXPECT_EQ(a.render(technique, settings).radiance, b.render(technique, settings).radiance);
         settings.view = frame::DebugView::Final;
     }
-}
-TEST_F(SeenLightPictures, depthsListsAndIdsAreThoseOfSurfaces) {
-    expectSurfacesAloneAreListed();
-}
-TEST_F(SeenLightPicturesSlow, depthsListsAndIdsAreThoseOfSurfaces) {
-    expectSurfacesAloneAreListed();
 }
 
 } // namespace

@@ -1,27 +1,22 @@
 // A frame of several views gives each the picture that it has in a frame of its own.
-#include <algorithm>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
-#include "engine/Renderer.h"
 #include "passes/StoredChannelPass.h"
 #include "renderer/gpu/Commands.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using View = engine::ViewRequest;
 using engine::Technique;
+using namespace test;
 
-class SeveralViews : public test::GlTest {
+class SeveralViews : public ImageTest {
 protected:
     /// The scene with a second camera, which looks from another place at another part of it.
     static scenes::Scene withTwoCameras(scenes::Scene scene) {
@@ -61,36 +56,24 @@ protected:
                 << "there is something to see";
         }
     }
-    void expectTwoCamerasAreTwoFrames();
-    /// Of a scene of everything, or of its metal.
-    void expectViewsMayDiffer();
-    void expectSharingChangesNoBit();
 };
-using SeveralViewsSlow = SeveralViews;
 
 /// A scene of everything with all techniques, or with two where all have drawn a plainer one.
-void SeveralViews::expectTwoCamerasAreTwoFrames() {
+TEST_SWEEP(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
     scenes::LoadOptions options;
     options.lights = 200;
     const scenes::Scene plain = withTwoCameras(scenes::loadScene("lattice", options));
-    const scenes::Scene everything = withTwoCameras(test::everythingScene());
+    const scenes::Scene everything = withTwoCameras(everythingScene());
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         const std::vector<View> views{view(info.technique, 0, {97, 55}), view(info.technique, 1, {97, 55})};
         expectEqual(plain, views);
-        if (test::isWholeSweep() || info.technique == Technique::Deferred ||
-            info.technique == Technique::ClusteredForward)
+        if (isWholeSweep() || info.technique == Technique::Deferred || info.technique == Technique::ClusteredForward)
             expectEqual(everything, views);
     }
 }
-TEST_F(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
-    expectTwoCamerasAreTwoFrames();
-}
-TEST_F(SeveralViewsSlow, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
-    expectTwoCamerasAreTwoFrames();
-}
 
-void SeveralViews::expectViewsMayDiffer() {
-    const scenes::Scene scene = withTwoCameras(test::isWholeSweep() ? test::everythingScene() : test::metalScene());
+TEST_SWEEP(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
+    const scenes::Scene scene = withTwoCameras(isWholeSweep() ? everythingScene() : metalScene());
     View fragment = view(Technique::ClusteredDeferred, 0, {64, 48});
     fragment.settings.culling.builder = culling::Builder::Fragment;
     View compute = view(Technique::ForwardPlus, 1, {97, 55});
@@ -101,12 +84,6 @@ void SeveralViews::expectViewsMayDiffer() {
     View volumes = view(Technique::DeferredVolumes, 1, {64, 48});
     volumes.settings.space = frame::LightingSpace::View;
     expectEqual(scene, {fragment, compute, zbin, volumes});
-}
-TEST_F(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
-    expectViewsMayDiffer();
-}
-TEST_F(SeveralViewsSlow, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
-    expectViewsMayDiffer();
 }
 
 TEST_F(SeveralViews, eachViewsListsAreCulledByItsOwnNormals) {
@@ -135,11 +112,10 @@ TEST_F(SeveralViews, aDrawnFrameSharesMemoryAsItsPlanSays) {
     EXPECT_LT(renderer.backend().poolBytes(), plan.bytesWithoutAliasing);
 }
 
-/// With one technique, or in a whole sweep two.
-void SeveralViews::expectSharingChangesNoBit() {
+TEST_SWEEP(SeveralViews, sharedMemoryChangesNoBit) {
     // Without pruning no memory is shared within a frame, and nothing is left out.
     const scenes::Scene scene = withTwoCameras(scenes::loadScene("hall"));
-    const Technique other = test::isWholeSweep() ? Technique::TiledDeferred : Technique::Deferred;
+    const Technique other = isWholeSweep() ? Technique::TiledDeferred : Technique::Deferred;
     std::vector<View> views{view(Technique::Deferred, 0, {96, 54}), view(other, 1, {96, 54})};
     engine::Renderer renderer(context(), scene);
     renderer.draw(views);
@@ -151,22 +127,12 @@ void SeveralViews::expectSharingChangesNoBit() {
     EXPECT_TRUE(renderer.download(1).radiance == second);
     EXPECT_LT(bytes, engine::planViews(scene, views).bytes);
 }
-TEST_F(SeveralViews, sharedMemoryChangesNoBit) {
-    expectSharingChangesNoBit();
-}
-TEST_F(SeveralViewsSlow, sharedMemoryChangesNoBit) {
-    expectSharingChangesNoBit();
-}
 
 /// The normals that a pass between opaque and transparent surfaces finds in the G-buffer.
-class BetweenOpaqueAndTransparent : public test::GlTest {
+class BetweenOpaqueAndTransparent : public ImageTest {
 protected:
-    /// Of a scene of everything with every technique, or of its metal with some in turn.
-    void expectSameNormals();
     std::vector<float> normals(const scenes::Scene& scene, Technique technique, int samples) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {97, 55};
-        settings.samples = samples;
+        frame::FrameSettings settings = withSamples(ofSize(97, 55), samples);
         engine::Renderer renderer(context(), scene);
         graph::TextureHandle shown;
         const auto show = [&](graph::Graph& in, std::size_t, const frame::FrameSpec& of,
@@ -207,8 +173,7 @@ TEST_F(BetweenOpaqueAndTransparent, aPersistentTextureIsWrittenInTheFirstFrameOn
         in.output(shown);
         return opaque.radiance;
     };
-    frame::FrameSettings settings;
-    settings.sizePixels = {16, 9};
+    frame::FrameSettings settings = ofSize(16, 9);
     const View view{Technique::Deferred, settings};
     for (int frame = 0; frame < 3; ++frame) {
         renderer.draw({&view, 1}, {false, add});
@@ -223,8 +188,7 @@ TEST_F(BetweenOpaqueAndTransparent, afterAFrameThatFailedThereIsNoneToRead) {
     const scenes::Scene scene = scenes::loadScene("room");
     engine::Renderer renderer(context(), scene);
     EXPECT_THROW(renderer.download(), std::logic_error);
-    frame::FrameSettings settings;
-    settings.sizePixels = {16, 9};
+    frame::FrameSettings settings = ofSize(16, 9);
     const engine::RenderedFrame good = renderer.render(Technique::Deferred, settings);
     const auto fail = [](graph::Graph& in, std::size_t, const frame::FrameSpec&, const engine::OpaquePicture& opaque) {
         in.output(graph::TextureHandle{});
@@ -236,29 +200,21 @@ TEST_F(BetweenOpaqueAndTransparent, afterAFrameThatFailedThereIsNoneToRead) {
     EXPECT_TRUE(renderer.render(Technique::Deferred, settings).radiance == good.radiance);
 }
 
-using BetweenOpaqueAndTransparentSlow = BetweenOpaqueAndTransparent;
-
-void BetweenOpaqueAndTransparent::expectSameNormals() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     const std::vector<float> truth = normals(scene, Technique::Deferred, 1);
     // Normals along an axis have zeros.
     EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 3));
-    for (const Technique technique : test::techniquesInTurn(1))
+    for (const Technique technique : techniquesInTurn(1))
         EXPECT_TRUE(normals(scene, technique, 1) == truth) << engine::infoOf(technique).name;
     // Of several samples, a fragment has the normal of the middle of those that it covers.
     const std::vector<float> several = normals(scene, Technique::Forward, 4);
-    for (const Technique technique : test::techniquesInTurn(0, 4))
+    for (const Technique technique : techniquesInTurn(0, 4))
         EXPECT_TRUE(normals(scene, technique, 4) == several) << engine::infoOf(technique).name << ", 4 samples";
-}
-TEST_F(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
-    expectSameNormals();
-}
-TEST_F(BetweenOpaqueAndTransparentSlow, everyTechniqueHandsOnTheSameNormalsToTheLastBit) {
-    expectSameNormals();
 }
 
 TEST_F(SeveralViews, viewsThatNeedTheSceneInTwoWaysAreRefused) {
-    const scenes::Scene scene = withTwoCameras(test::everythingScene());
+    const scenes::Scene scene = withTwoCameras(everythingScene());
     std::vector<View> views{view(Technique::Deferred, 0, {8, 8}), view(Technique::Deferred, 1, {8, 8})};
     views[1].settings.filter = frame::TextureFilter::Exact;
     engine::Renderer renderer(context(), scene);

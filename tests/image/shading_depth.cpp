@@ -1,23 +1,20 @@
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "engine/ChooseSamples.h"
 #include "engine/PrepareView.h"
-#include "engine/Renderer.h"
 #include "passes/DepthPrepass.h"
 #include "passes/UploadPass.h"
 #include "renderer/gpu/Commands.h"
 #include "renderer/gpu/GraphBackend.h"
 #include "renderer/graph/Execute.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/TestScenes.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
+using namespace test;
 
 constexpr int kWidth = 65, kHeight = 37;
 
@@ -29,12 +26,10 @@ struct Pixel {
     }
 };
 
-class ShadingDepth : public test::GlTest {
+class ShadingDepth : public ImageTest {
 protected:
     frame::FrameSettings settings(int samples) {
-        frame::FrameSettings asked;
-        asked.sizePixels = {kWidth, kHeight};
-        asked.samples = samples;
+        frame::FrameSettings asked = withSamples(ofSize(kWidth, kHeight), samples);
         return engine::settingsOn(context().capabilities(), asked);
     }
 
@@ -118,7 +113,7 @@ private:
 
 /// A floor that a level camera sees up to the horizon, which crosses the pixels of the middle row.
 scenes::Scene endlessFloor() {
-    scenes::Scene scene = test::everythingScene();
+    scenes::Scene scene = everythingScene();
     scene.nodes.resize(1);
     scene.nodes[0].parentFromNode = glm::dmat4(1e7) * scene.nodes[0].parentFromNode;
     scene.nodes[0].parentFromNode[3] = {0, -1, 0, 1};
@@ -164,10 +159,9 @@ TEST_F(ShadingDepth, aPixelIsLitAtTheDepthThatThePrepassSays) {
     const scenes::Scene scene = endlessFloor();
     const std::vector<Pixel> pixels = prepassed(scene, four);
     four.view = frame::DebugView::Depth;
-    engine::Renderer renderer(context(), scene);
-    const engine::RenderedFrame shown = renderer.render(Technique::ForwardPrepass, four);
+    const engine::RenderedFrame shown = frameOf(scene, four, Technique::ForwardPrepass);
     const double nearMetres = scene.cameras[0].nearMetres;
-    for (int y = 0; y < kHeight; ++y) {
+    for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const Pixel& pixel = pixels[std::size_t(y * kWidth + x)];
             // Of a reverse-Z depth without far plane; samples that nothing covers show 0.
@@ -178,16 +172,14 @@ TEST_F(ShadingDepth, aPixelIsLitAtTheDepthThatThePrepassSays) {
             // fp32: some ten roundings of 2^-24 from depth to position and its projection on the view axis.
             EXPECT_NEAR(metres, mean, 1e-6 * mean) << x << " " << y;
         }
-    }
 }
 
 /// A wall that leans back to the right, cut by the near plane just right of the centres of a column of pixels.
 /// Rasterisers move the cut to the nearest point of their grid, 1/256 of a pixel, which covers the centres, and there
 /// the wall's plane lies before the near plane. The depth buffer holds such fragments at it.
 TEST_F(ShadingDepth, aFragmentThatRoundingPutsBeforeTheNearPlaneIsLitAtIt) {
-    scenes::Scene scene = test::quadScene(scenes::Material{});
-    scene.cameras[0].projection = scenes::Projection::Orthographic;
-    scene.cameras[0].halfHeightMetres = 1.0;
+    scenes::Scene scene = quadScene(scenes::Material{});
+    makeOrthographic(scene.cameras[0], 1.0);
     scene.cameras[0].nearMetres = 3.0; // as far away as the wall's middle, which the middle column's centres see
     scene.cameras[0].farMetres = 4.0;  // so that a thousandth of a pixel is hundreds of steps of depth
     scene.nodes[0].parentFromNode[0].z = -0.5;
@@ -204,7 +196,7 @@ TEST_F(ShadingDepth, aFragmentThatRoundingPutsBeforeTheNearPlaneIsLitAtIt) {
 }
 
 TEST_F(ShadingDepth, withOneSampleItIsExactlyTheDepth) {
-    for (const Pixel& pixel : prepassed(test::everythingScene(), settings(1))) {
+    for (const Pixel& pixel : prepassed(everythingScene(), settings(1))) {
         ASSERT_EQ(pixel.depth.size(), 1u);
         EXPECT_EQ(pixel.depth, pixel.shadingDepth);
     }

@@ -1,99 +1,67 @@
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include <tuple>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/image/ShadowTest.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
+#include "tests/support/ShaderMutant.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
-using test::kAllLightsCast, test::ShadowReference, test::shadowReference, test::WrongPixels, test::wrongPixels;
+using namespace test;
 
 /// Shadows of maps where nothing hides a surface but its own bias could be too small.
-class ShadowAcne : public test::ShadowTest {
-protected:
-    // Of 1000, 100 and 60 suns for each filter, or of a quarter as many.
-    void expectNoneUnderSuns();
-    void expectNoneUnderSunsWithASize();
-    void expectNoneWithAnyFilter();
-};
-using ShadowAcneSlow = ShadowAcne;
+class ShadowAcne : public ShadowTest {};
 
-void ShadowAcne::expectNoneUnderSuns() {
-    scenes::Scene scene = test::ballUnderSun();
+TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderAnySun) {
+    scenes::Scene scene = ballUnderSun();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
-    settings.shadowFilter = ShadowFilter::Hard;
+    frame::FrameSettings settings = withShadows(ofSize(64, 36), ShadowFilter::Hard);
     settings.shadowMaps.resolutionTexels = 512;
     settings.shadowMaps.cascades = 1;
-    const int suns = test::isWholeSweep() ? 1000 : 250;
-    const WrongPixels count = test::wrongUnderSuns(renderer, scene, settings, suns);
-    fmt::print("{} suns: {} pixels wrong, {} of them dark beside no shadow, of {}\n", suns, count.wrong, count.dark,
-               count.covered);
+    const int suns = isWholeSweep() ? 1000 : 250;
+    const WrongPixels count = wrongUnderSuns(renderer, scene, settings, suns);
+    fmt::print("{} suns: {}\n", suns, count.text());
     EXPECT_EQ(count.dark, 0u);
     // Measured: 0.064 %.
     EXPECT_LE(double(count.wrong), 0.0009 * double(count.covered));
 }
-TEST_F(ShadowAcne, isNotOnASphereAndAPlaneUnderAnySun) {
-    expectNoneUnderSuns();
-}
-TEST_F(ShadowAcneSlow, isNotOnASphereAndAPlaneUnderAnySun) {
-    expectNoneUnderSuns();
-}
 
 // At 512 texels, of which one is a third of a pixel, more are wrong, since no penumbra is narrower than a texel.
-void ShadowAcne::expectNoneUnderSunsWithASize() {
-    scenes::Scene scene = test::ballUnderSun();
+TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderASunWithASize) {
+    scenes::Scene scene = ballUnderSun();
     scenes::Light& sun = scene.lights[0];
     sun.angularRadiusRadians = float(glm::radians(0.25));
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(64, 36));
     settings.shadowMaps.resolutionTexels = 2048;
     settings.shadowMaps.cascades = 1;
-    const int directions = test::isWholeSweep() ? 100 : 25;
+    const int directions = isWholeSweep() ? 100 : 25;
     WrongPixels count;
     for (int i = 0; i < directions; ++i) {
-        sun.directionWS = test::sunDirection(i, directions);
+        sun.directionWS = sunDirection(i, directions);
         settings.shadowFilter = ShadowFilter::Traced; // of which the reference knows the noise
         const ShadowReference truth = shadowReference(scene, settings);
         settings.shadowFilter = ShadowFilter::Pcss;
         count += wrongPixels(renderer, settings, truth);
     }
-    fmt::print("{} suns, pcss: {} pixels wrong, {} of them dark beside no shadow, of {}\n", directions, count.wrong,
-               count.dark, count.covered);
+    fmt::print("{} suns, pcss: {}\n", directions, count.text());
     EXPECT_EQ(count.dark, 0u);
     // Measured: 0.040 %, of a quarter of the suns within three standard deviations of so few independent events.
     const double bound = 0.0005 * double(count.covered);
-    EXPECT_LE(double(count.wrong), test::isWholeSweep() ? bound : bound + 3.0 * std::sqrt(bound));
-}
-TEST_F(ShadowAcne, isNotOnASphereAndAPlaneUnderASunWithASize) {
-    expectNoneUnderSunsWithASize();
-}
-TEST_F(ShadowAcneSlow, isNotOnASphereAndAPlaneUnderASunWithASize) {
-    expectNoneUnderSunsWithASize();
+    EXPECT_LE(double(count.wrong), isWholeSweep() ? bound : bound + 3.0 * std::sqrt(bound));
 }
 
 // Taps of wide filters follow the triangle's plane. The code of this floor's normal is off by 1.03e-3, nearly all of
 // FACET_ERROR_RADIANS; on a floor much larger than its first cascade pcss taps a thousand texels along it.
-void ShadowAcne::expectNoneWithAnyFilter() {
-    scenes::Scene scene = test::ballUnderSun();
+TEST_SWEEP(ShadowAcne, isNotOnAPlaneWithAnyFilter) {
+    scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances = {{1, 0}};
     scenes::Light& sun = scene.lights[0];
     sun.angularRadiusRadians = float(glm::radians(3.0));
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(64, 36));
     settings.shadowMaps.resolutionTexels = 2048;
     settings.shadowMaps.widthTexels = 7;
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.57834, 0.57749, 0.57622));
@@ -106,11 +74,11 @@ void ShadowAcne::expectNoneWithAnyFilter() {
         settings.view = frame::DebugView::Depth;
         const std::vector<float> covered = renderer.render(Technique::Deferred, settings).radiance;
         settings.view = frame::DebugView::Shadow;
-        for (const ShadowFilter filter : test::mapFilters()) {
+        for (const ShadowFilter filter : mapFilters()) {
             settings.shadowFilter = filter;
             std::size_t dark = 0;
             // Half of them stand lower than 7.6 degrees above the floor, none lower than 1.
-            const int suns = test::isWholeSweep() ? 60 : 15;
+            const int suns = isWholeSweep() ? 60 : 15;
             for (int i = 0; i < suns; ++i) {
                 const double tilt = std::acos(std::pow(0.0175, (i + 0.5) / suns)), turn = 2.399963229728653 * i;
                 sun.directionWS =
@@ -122,34 +90,22 @@ void ShadowAcne::expectNoneWithAnyFilter() {
         }
     }
 }
-TEST_F(ShadowAcne, isNotOnAPlaneWithAnyFilter) {
-    expectNoneWithAnyFilter();
-}
-TEST_F(ShadowAcneSlow, isNotOnAPlaneWithAnyFilter) {
-    expectNoneWithAnyFilter();
-}
 
 // Where two sides of a groove meet, a texel's middle may lie on the other side: that is what the bias is for. Neither
 // side hides a sun that is in front of both. Casters are moved away by the width of a texel at most, which is half of
 // the slope's components as long as those are 2 together: of sides that a sun meets within 54.7 degrees. A steeper one
 // may darken pixels within a texel and the one beside it.
 TEST_F(ShadowAcne, isNotInAGrooveButBesideItsSteepSides) {
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
-    scenes::Scene scene = test::quadScene(material);
+    scenes::Material material = lambert();
+    scenes::Scene scene = quadScene(material);
     scene.nodes.push_back(scene.nodes[0]);
     scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 0.2;
-    scene.lights = {test::pointLight({}, 3.0f)};
+    makeOrthographic(camera, 0.2);
+    scene.lights = {pointLight({}, 3.0f)};
     scenes::Light& sun = scene.lights[0];
     sun.type = scenes::LightType::Directional;
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.shadows = kAllLightsCast;
-    settings.shadowFilter = ShadowFilter::Hard;
+    frame::FrameSettings settings = withView(withShadows(ofSize(96, 54), ShadowFilter::Hard), frame::DebugView::Shadow);
     settings.shadowMaps.cascades = 1;
-    settings.view = frame::DebugView::Shadow;
     int facing = 0;
     std::size_t dark = 0, all = 0;
     for (const double degrees : {40.0, 65.0}) {
@@ -194,6 +150,109 @@ TEST_F(ShadowAcne, isNotInAGrooveButBesideItsSteepSides) {
     EXPECT_GE(facing, 20);
     // Measured: 0.092 %.
     EXPECT_LE(double(dark), 0.0014 * double(all));
+}
+
+struct MapFault {
+    const char* fault;
+    const char* file; ///< below shaders/
+    const char* from;
+    const char* to;
+};
+constexpr MapFault kMapFaults[] = {
+    {"no bias", "lib/shadow/shadow_map.glsl", "point.bias = rounding;",
+     "point.bias = 0.0; point.slope = point.doubt = steepest = vec2(0.0);"},
+    {"cascades swapped", "lib/shadow/shadow_map.glsl", "SHADOW_FACE_TEXELS * i;", "SHADOW_FACE_TEXELS * (3 - i);"},
+    {"another face of the cube", "lib/shadow/shadow_map.glsl", "2 * axis + (fromLight[axis] < 0.0 ? 1 : 0)",
+     "2 * axis + (fromLight[axis] < 0.0 ? 0 : 1)"},
+    {"the comparison the other way round", "lib/shadow/shadow_map.glsl", "return isHidden ? 0.0 : 1.0;",
+     "return isHidden ? 1.0 : 0.0;"},
+    {"y upside down in the atlas", "lib/shadow/shadow_map.glsl",
+     "point.texel = place.xy + (place.z * perMetre) * position.xy;",
+     "point.texel = place.xy + (place.z * perMetre) * position.xy * vec2(1.0, -1.0);"},
+    {"lights behind a surface", "lib/shadow/shadow_map.glsl", "isBehind ? 0.0 :", "false ? 0.0 :"},
+    {"another plane of the receiver", "passes/geometry.vert", "facetNormalLS = turnedFacet;",
+     "facetNormalLS = turnedFacet.yzx;"},
+};
+
+class ShadowFaults : public ShadowTest {
+protected:
+    /// Pixels that are wrong in a picture of point lights and a sun.
+    std::size_t wrongIn(const shader::SourceTree& shaders) {
+        engine::Renderer renderer(context(), scene, shaders);
+        return wrongPixels(renderer, settings, *truth).wrong;
+    }
+    void SetUp() override {
+        scenes::LoadOptions options;
+        options.lights = 6;
+        scene = scenes::loadScene("lattice", options);
+        scenes::Light sun = scene.lights[0];
+        sun.type = scenes::LightType::Directional;
+        sun.directionWS = glm::normalize(glm::dvec3(-0.5, -1.0, -0.3));
+        sun.intensity = 1.0f;
+        scene.lights.push_back(sun);
+        settings.sizePixels = {200, 112};
+        // Softened, no surface that faces away from a light by its triangle alone is behind it.
+        settings.shadowTerminator = frame::ShadowTerminator::Exact;
+        settings.shadows = kAllLightsCast;
+        settings.filter = frame::TextureFilter::Exact;
+        truth.emplace(shadowReference(scene, settings));
+        settings.shadowFilter = ShadowFilter::Hard;
+        settings.shadowMaps.resolutionTexels = 1024;
+        settings.shadowMaps.budgetMiB = 1024.0;
+    }
+
+    scenes::Scene scene;
+    frame::FrameSettings settings;
+    std::optional<ShadowReference> truth;
+};
+
+// Held to the traced shares of a lamp before a plate: what no mean of casters' depths may be divided by.
+TEST_F(ShadowFaults, meansOfNoCasterOrOfCastersEverywhereAreDetected) {
+    const scenes::Scene plate = scenes::loadScene("shadow_truth");
+    frame::FrameSettings shares = withView(ofSize(160, 90), frame::DebugView::Shadow);
+    shares.soloLight = 0;
+    shares.shadowSamples = 16;
+    shares.shadowMaps.resolutionTexels = 512;
+    const auto sharesOf = [&](ShadowFilter filter, const shader::SourceTree& shaders) {
+        shares.shadowFilter = filter;
+        return drawn(plate, shares, Technique::Deferred, shaders);
+    };
+    const std::vector<float> traced = sharesOf(ShadowFilter::Traced, ShaderMutant().tree());
+    const auto wrongShares = [&](const shader::SourceTree& shaders) {
+        const std::vector<float> looked = sharesOf(ShadowFilter::Pcss, shaders);
+        std::size_t wrong = 0;
+        // A quarter is five deviations of 16 samples.
+        for (std::size_t i = 0; i < looked.size(); i += 4) wrong += !(std::abs(looked[i] - traced[i]) < 0.25f);
+        return wrong;
+    };
+    const std::size_t right = wrongShares(ShaderMutant().tree());
+    fmt::print("without a fault {} shares wrong\n", right);
+    const char* const kNone = "if (hidden == 0.0) return 1.0;";
+    const char* const kAll = "if (hidden == float(SHADOW_SAMPLES)) return 0.0;";
+    const std::tuple<const char*, const char*, const char*> faults[] = {
+        {"no caster hides the light", kNone, "if (hidden == 0.0) return 0.0;"},
+        {"a mean of no casters", kNone, "if (hidden == 0.0) return depths / hidden;"},
+        {"casters everywhere hide nothing", kAll, "if (hidden == float(SHADOW_SAMPLES)) return 1.0;"},
+        {"a mean of one caster too few", "depths / hidden", "depths / (hidden - 1.0)"},
+    };
+    for (const auto& [fault, from, to] : faults) {
+        const ShaderMutant shaders("lib/shadow/shadow_map.glsl", from, to);
+        const std::size_t wrong = wrongShares(shaders.tree());
+        fmt::print("{:<45} {} shares wrong\n", fault, wrong);
+        EXPECT_GT(wrong, 2 * right + 15) << fault;
+    }
+}
+
+TEST_SWEEP(ShadowFaults, eachIsDetectedByTheReference) {
+    const std::size_t right = wrongIn(ShaderMutant().tree());
+    fmt::print("without a fault {} pixels wrong\n", right);
+    for (const MapFault& fault : kMapFaults) {
+        if (!isWholeSweep() && (&fault - kMapFaults) % 3 != 0) continue;
+        const ShaderMutant shaders(fault.file, fault.from, fault.to);
+        const std::size_t wrong = wrongIn(shaders.tree());
+        fmt::print("{:<45} {} pixels wrong\n", fault.fault, wrong);
+        EXPECT_GT(wrong, right + 15) << fault.fault;
+    }
 }
 
 } // namespace

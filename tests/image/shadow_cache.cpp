@@ -1,8 +1,4 @@
-#include <algorithm>
-#include <vector>
-
 #include "renderer/frame/ShadowMemory.h"
-#include "scenes/Load.h"
 #include "tests/image/ShadowTest.h"
 #include "tests/support/ShaderMutant.h"
 
@@ -11,10 +7,10 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
-using test::kAllLightsCast;
+using namespace test;
 
 /// What lives across frames.
-class ShadowCache : public test::ShadowTest {
+class ShadowCache : public ShadowTest {
 protected:
     ShadowCache() {
         scenes::LoadOptions options;
@@ -30,8 +26,7 @@ protected:
         renderer.draw(Technique::ClusteredDeferred, settings);
         const std::vector<float> kept = renderer.download().radiance;
         const std::vector<gpu::PassTiming> passes = renderer.backend().passTimings();
-        engine::Renderer fresh(context(), scene);
-        EXPECT_EQ(fresh.render(Technique::ClusteredDeferred, settings).radiance, kept);
+        EXPECT_EQ(drawn(scene, settings, Technique::ClusteredDeferred), kept);
         return std::ranges::find(passes, "shadow_maps", &gpu::PassTiming::name) != passes.end();
     }
     scenes::Scene scene;
@@ -63,7 +58,7 @@ TEST_F(ShadowCache, mapsAreDrawnAgainWhereLightsOrCastersChangeAndNowhereElse) {
 }
 
 TEST_F(ShadowCache, mapsAreDrawnAgainWhereAnEditOfShadersHasMadeAProgramAnew) {
-    const test::ShaderMutant shaders;
+    const ShaderMutant shaders;
     engine::Renderer renderer(context(), scene, shaders.tree());
     EXPECT_TRUE(drawsMapsRightly(renderer)) << "the first frame";
     EXPECT_EQ(renderer.programs().reload().programs, 0u);

@@ -1,23 +1,15 @@
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
 #include "validation/stress/StressScene.h"
 
 namespace tessera {
 namespace {
 
 using frame::ShadowFilter;
+using namespace test;
 
 /// Balls, boards and a floor under a sun, seen by parallel rays. A camera that moves across them by whole pixels sees
 /// the same points of all surfaces, whatever their shapes, each as many pixels further.
-class ShadowCascades : public test::ShadowTest {
+class ShadowCascades : public ShadowTest {
 protected:
     static constexpr glm::ivec2 kSizePixels{192, 108};
     static constexpr int kMoves = 64;
@@ -25,13 +17,12 @@ protected:
     ShadowCascades() : scene(validation::stressScene()) {
         scenes::Camera& camera = scene.cameras[0];
         camera.worldFromCamera = scenes::worldFromLookAt({0.0, 2.5, 4.5}, {0.0, 0.4, 0.0});
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 0.5;
+        makeOrthographic(camera, 0.5);
         scene.lights = {validation::stressLight({}, 1.0f)};
         scene.lights[0].type = scenes::LightType::Directional;
         scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.55, -1.0, -0.35));
         settings.sizePixels = kSizePixels;
-        settings.shadows = test::kAllLightsCast;
+        settings.shadows = kAllLightsCast;
     }
 
     /// By how many pixels the camera has moved across the scene after so many moves.
@@ -70,7 +61,7 @@ protected:
             const std::vector<float> traced = seen(ShadowFilter::Traced, frame::DebugView::Shadow);
             const std::vector<float> cascades = seen(filter, frame::DebugView::Cascades);
             const glm::ivec2 step = offsetPixels(move) - offsetPixels(std::max(move - 1, 0));
-            for (int y = step.y; y < kSizePixels.y && move > 0; ++y) {
+            for (int y = step.y; y < kSizePixels.y && move > 0; ++y)
                 for (int x = 0; x < kSizePixels.x - step.x; ++x) {
                     const auto at = 4 * std::size_t(y * kSizePixels.x + x);
                     const auto was = 4 * std::size_t((y - step.y) * kSizePixels.x + x + step.x);
@@ -84,7 +75,6 @@ protected:
                     found.shimmer += isChanged && !isTracedChanged && !isPassing;
                     found.partly += now[at] < 1.0f;
                 }
-            }
             before = now;
             tracedBefore = traced;
             cascadesBefore = cascades;
@@ -93,20 +83,16 @@ protected:
         return found;
     }
 
-    /// With every resolution, number of cascades and filter; or with the least of each, and the most.
-    void expectNoShimmer();
-
     scenes::Scene scene;
     frame::FrameSettings settings;
 };
-using ShadowCascadesSlow = ShadowCascades;
 
-void ShadowCascades::expectNoShimmer() {
-    for (const int resolution : {64, 256}) {
-        for (const int cascades : {1, 4}) {
+TEST_SWEEP(ShadowCascades, doNotShimmerAsTheCameraMovesByPartsOfATexel) {
+    for (const int resolution : {64, 256})
+        for (const int cascades : {1, 4})
             for (const ShadowFilter filter : {ShadowFilter::Hard, ShadowFilter::Pcf}) {
                 const int most = (resolution == 256) + (cascades == 4) + (filter == ShadowFilter::Pcf);
-                if (!test::isWholeSweep() && most % 3 != 0) continue;
+                if (!isWholeSweep() && most % 3 != 0) continue;
                 settings.shadowMaps.resolutionTexels = resolution;
                 settings.shadowMaps.cascades = cascades;
                 const Changes found = changes(filter);
@@ -118,14 +104,6 @@ void ShadowCascades::expectNoShimmer() {
                 // The cascades' edges follow the camera, and so does the band in which they mix.
                 EXPECT_LT(found.passing, found.compared / 1000);
             }
-        }
-    }
-}
-TEST_F(ShadowCascades, doNotShimmerAsTheCameraMovesByPartsOfATexel) {
-    expectNoShimmer();
-}
-TEST_F(ShadowCascadesSlow, doNotShimmerAsTheCameraMovesByPartsOfATexel) {
-    expectNoShimmer();
 }
 
 } // namespace

@@ -1,15 +1,6 @@
-#include <algorithm>
-#include <cmath>
 #include <span>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/stress/Stress.h"
 
 namespace tessera {
@@ -17,83 +8,54 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
-using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase, test::ShadowReference,
-    test::shadowReference, test::WrongPixels, test::wrongPixels;
+using namespace test;
 
-class ShadowMapsTest : public test::ShadowTest {
+class ShadowMapsTest : public ShadowTest {
 protected:
-    /// Of every scene with every filter and technique; or of each with one filter and one technique in turn.
-    void expectSameLookups();
-    /// Of a scene of everything, or of Lambert materials, and then with one technique in turn.
-    void expectSameOnMasked();
-    /// With every technique, or one of them.
-    void expectShadowsWithinBudget();
-    /// Of every scene, or of the head.
-    void expectFewWrong();
-    /// Of every scene, or of the lattice.
-    void expectRightInViewSpace();
-    /// With every filter, each light's shares and two techniques; or of every fourth picture with a filter, a light and
-    /// a technique in turn, and without the case of thousands of lights.
-    void expectExtremesFinite();
-
     /// Every case, or `one` of them.
     static std::span<const ShadowCase> casesOr(std::size_t one) {
-        return test::isWholeSweep() ? std::span(kShadowCases) : std::span(kShadowCases).subspan(one, 1);
+        return isWholeSweep() ? std::span(kShadowCases) : std::span(kShadowCases).subspan(one, 1);
     }
 };
 using ShadowMapsSlow = ShadowMapsTest;
 
-void ShadowMapsTest::expectSameLookups() {
+TEST_SWEEP_AS(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit, ShadowMapsSlow,
+              everyTechniqueLooksUpTheSameToTheLastBit) {
     std::size_t turn = 0;
     for (const ShadowCase& tried : kShadowCases) {
         scenes::Scene scene = sceneOf(tried);
         for (scenes::Light& light : scene.lights) light.*scenes::sizeParameter(infoOf(light.type))->member = 0.05f;
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {161, 91};
+        frame::FrameSettings settings = ofSize(161, 91);
         settings.shadows = tried.shadows;
-        const std::vector<ShadowFilter> filters = test::mapFilters();
+        const std::vector<ShadowFilter> filters = mapFilters();
         for (std::size_t i = 0; i < filters.size(); ++i) {
-            if (!test::isWholeSweep() && i != turn % filters.size()) continue;
+            if (!isWholeSweep() && i != turn % filters.size()) continue;
             settings.shadowFilter = filters[i];
             SCOPED_TRACE(fmt::format("{}, {}", tried.scene, infoOf(filters[i]).name));
-            expectParity(renderer, settings, test::techniquesInTurn(turn));
+            expectParity(renderer, settings, techniquesInTurn(turn));
         }
         ++turn;
     }
 }
-TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameToTheLastBit) {
-    expectSameLookups();
-}
-TEST_F(ShadowMapsSlow, everyTechniqueLooksUpTheSameToTheLastBit) {
-    expectSameLookups();
-}
 
-void ShadowMapsTest::expectSameOnMasked() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::lambertScene();
+TEST_SWEEP_AS(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples,
+              ShadowMapsSlow, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : lambertScene();
     engine::Renderer renderer(context(), scene);
     const std::pair<int, ShadowFilter> tries[] = {{1, ShadowFilter::Hard}, {4, ShadowFilter::Pcf}};
     for (const auto& [samples, filter] : tries) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
-        settings.samples = samples;
-        settings.shadows = kAllLightsCast;
-        settings.shadowFilter = filter;
-        expectParity(renderer, settings, test::techniquesInTurn(std::size_t(samples) / 4, samples));
+        frame::FrameSettings settings = withSamples(withShadows(ofSize(160, 90), filter), samples);
+        expectParity(renderer, settings, techniquesInTurn(std::size_t(samples) / 4, samples));
     }
 }
-TEST_F(ShadowMapsTest, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
-    expectSameOnMasked();
-}
-TEST_F(ShadowMapsSlow, everyTechniqueLooksUpTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
-    expectSameOnMasked();
-}
 
-void ShadowMapsTest::expectFewWrong() {
+TEST_SWEEP_AS(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels, ShadowMapsSlow,
+              fewPixelsAreWrongAndFewerWithMoreTexels) {
     for (const ShadowCase& tried : casesOr(1)) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings = test::settingsOf(tried);
+        frame::FrameSettings settings = settingsOf(tried);
         const ShadowReference truth = shadowReference(scene, settings);
         settings.shadowFilter = ShadowFilter::Hard;
         settings.shadowMaps.budgetMiB = 1024.0;
@@ -101,8 +63,7 @@ void ShadowMapsTest::expectFewWrong() {
         for (const int resolution : {256, 1024}) {
             settings.shadowMaps.resolutionTexels = resolution;
             const WrongPixels count = wrongPixels(renderer, settings, truth);
-            fmt::print("{}, {}: {} pixels wrong, {} dark beside no shadow, of {}\n", tried.scene, resolution,
-                       count.wrong, count.dark, count.covered);
+            fmt::print("{}, {}: {}\n", tried.scene, resolution, count.text());
             if (before > 0) {
                 EXPECT_LE(5 * count.wrong, 2 * before) << tried.scene;
                 EXPECT_LE(double(count.wrong), 1.5 * tried.wrongShare * double(count.covered)) << tried.scene;
@@ -112,12 +73,6 @@ void ShadowMapsTest::expectFewWrong() {
         }
     }
 }
-TEST_F(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels) {
-    expectFewWrong();
-}
-TEST_F(ShadowMapsSlow, fewPixelsAreWrongAndFewerWithMoreTexels) {
-    expectFewWrong();
-}
 
 /// Light by light, so that every face has the side that is asked for: the atlas holds no more than 16 faces of 4096.
 TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
@@ -125,7 +80,7 @@ TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings = test::settingsOf(tried);
+        frame::FrameSettings settings = settingsOf(tried);
         // Softened, a pixel holds its height in 8 bits, whose error does not shrink with texels.
         settings.shadowTerminator = frame::ShadowTerminator::Exact;
         settings.shadowMaps.budgetMiB = 1024.0;
@@ -160,7 +115,7 @@ TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
     }
 }
 
-void ShadowMapsTest::expectRightInViewSpace() {
+TEST_SWEEP_AS(ShadowMapsTest, tracedOnesAreAsRightInViewSpace, ShadowMapsSlow, tracedOnesAreAsRightInViewSpace) {
     for (const ShadowCase& tried : casesOr(0)) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
@@ -172,23 +127,14 @@ void ShadowMapsTest::expectRightInViewSpace() {
         EXPECT_GE(count.hidden, count.covered / 200) << tried.scene << ": nothing to see";
     }
 }
-TEST_F(ShadowMapsTest, tracedOnesAreAsRightInViewSpace) {
-    expectRightInViewSpace();
-}
-TEST_F(ShadowMapsSlow, tracedOnesAreAsRightInViewSpace) {
-    expectRightInViewSpace();
-}
 
 // Of a lamp: cascades of a sun reach to the farthest of all that is drawn.
 TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAreSaidToBeLost) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.lights[0].type = scenes::LightType::Point;
     scene.lights[0].positionWS = {0.8, 3.0, 0.6};
-    frame::FrameSettings settings;
-    settings.sizePixels = {128, 72};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(128, 72), ShadowFilter::Hard);
     settings.soloLight = 0;
-    settings.shadowFilter = ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 1024;
     WrongPixels without;
     for (const float farMetres : {0.0f, 1e7f, 1e9f}) {
@@ -205,7 +151,7 @@ TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAr
         }
         engine::Renderer renderer(context(), scene);
         const WrongPixels count = wrongPixels(renderer, settings);
-        fmt::print("a stray {} m away: {} pixels wrong, {} changed by shadows\n", farMetres, count.wrong, count.hidden);
+        fmt::print("a stray {} m away: {}\n", farMetres, count.text());
         renderer.render(Technique::Deferred, settings);
         EXPECT_EQ(renderer.shadows().missing, "");
         if (farMetres == 0.0f) without = count;
@@ -225,28 +171,21 @@ TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAr
 TEST_F(ShadowMapsTest, areAsRightInViewSpace) {
     const scenes::Scene scene = sceneOf(kShadowCases[0]);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {120, 68};
-    settings.filter = frame::TextureFilter::Exact;
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(exactOfSize(120, 68));
     settings.space = frame::LightingSpace::View;
     const ShadowReference truth = shadowReference(scene, settings);
     settings.shadowFilter = ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 1024;
     const WrongPixels looked = wrongPixels(renderer, settings, truth);
-    fmt::print("view space: {} pixels wrong of {}\n", looked.wrong, looked.covered);
+    fmt::print("view space: {}\n", looked.text());
     EXPECT_LE(looked.wrong, looked.covered / 1000);
     EXPECT_GE(looked.hidden, looked.covered / 100) << "nothing to see";
 }
 
-void ShadowMapsTest::expectShadowsWithinBudget() {
-    scenes::LoadOptions options;
-    options.lights = 256;
-    const scenes::Scene scene = scenes::loadScene("lattice", options);
+TEST_SWEEP_AS(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow, ShadowMapsSlow, aBudgetLeavesEveryLightItsShadow) {
+    const scenes::Scene scene = latticeOf(256);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 90};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(160, 90));
     settings.filter = frame::TextureFilter::Exact;
     const ShadowReference truth = shadowReference(scene, settings);
     settings.shadowFilter = ShadowFilter::Hard;
@@ -255,28 +194,24 @@ void ShadowMapsTest::expectShadowsWithinBudget() {
     for (const auto& [mebibytes, mostWrong] : budgets) {
         settings.shadowMaps.budgetMiB = mebibytes;
         const WrongPixels count = wrongPixels(renderer, settings, truth);
-        fmt::print("{} MiB: {} pixels wrong, {} dark beside no shadow, of {}\n", mebibytes, count.wrong, count.dark,
-                   count.covered);
+        fmt::print("{} MiB: {}\n", mebibytes, count.text());
         EXPECT_LE(double(count.wrong), mostWrong * double(count.covered));
         EXPECT_GT(count.hidden, count.covered / 20);
-        if (mebibytes == 4.0) expectParity(renderer, settings, test::techniquesInTurn(1));
+        if (mebibytes == 4.0) expectParity(renderer, settings, techniquesInTurn(1));
     }
-}
-TEST_F(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow) {
-    expectShadowsWithinBudget();
-}
-TEST_F(ShadowMapsSlow, aBudgetLeavesEveryLightItsShadow) {
-    expectShadowsWithinBudget();
 }
 
 /// The pictures of the stability suite's cases of shadows, and budgets too small for them.
-void ShadowMapsTest::expectExtremesFinite() {
-    const bool isWhole = test::isWholeSweep();
+/// With every filter, each light's shares and two techniques; or of every fourth picture with a filter, a light and
+/// a technique in turn, and without the case of thousands of lights.
+TEST_SWEEP_AS(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne, ShadowMapsSlow,
+              extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
+    const bool isWhole = isWholeSweep();
     const auto effort = isWhole ? validation::StressEffort::Full : validation::StressEffort::Quick;
     std::vector<validation::StressPicture> pictures;
     for (const validation::StressCase* row : validation::stressCasesNamed("shadow"))
         for (validation::StressPicture& picture : row->pictures(effort)) pictures.push_back(std::move(picture));
-    pictures = test::everyNth(std::move(pictures), 4);
+    pictures = everyNth(std::move(pictures), 4);
     for (const double mebibytes : {0.001, 0.002, 0.5}) {
         pictures.push_back(pictures.front());
         pictures.back().what = fmt::format("a budget of {:g} MiB", mebibytes);
@@ -293,7 +228,7 @@ void ShadowMapsTest::expectExtremesFinite() {
         picture.scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.0, y, 0.0}, {1.0, 2.0 * y, 0.0});
     }
     ASSERT_GE(pictures.size(), isWhole ? 32u : 10u);
-    const std::vector<ShadowFilter> filters = test::mapFilters();
+    const std::vector<ShadowFilter> filters = mapFilters();
     std::size_t count = 0;
     for (validation::StressPicture& picture : pictures) {
         frame::FrameSettings& settings = picture.settings;
@@ -329,19 +264,11 @@ void ShadowMapsTest::expectExtremesFinite() {
         }
     }
 }
-TEST_F(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
-    expectExtremesFinite();
-}
-TEST_F(ShadowMapsSlow, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
-    expectExtremesFinite();
-}
 
 TEST_F(ShadowMapsTest, penumbraeOfPcssAreThoseOfTracedShadows) {
     const scenes::Scene scene = scenes::loadScene("shadow_truth");
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {240, 135};
-    settings.view = frame::DebugView::Shadow;
+    frame::FrameSettings settings = withView(ofSize(240, 135), frame::DebugView::Shadow);
     settings.shadowSamples = 64;
     settings.shadowMaps.resolutionTexels = 1024;
     for (const int light : {0, 1}) {

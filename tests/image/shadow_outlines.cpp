@@ -1,14 +1,10 @@
-#include <cmath>
 #include <numbers>
 #include <type_traits>
-
-#include <fmt/format.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/image/FlatTest.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/TestScenes.h"
 #include "validation/stress/StressScene.h"
 
 namespace tessera {
@@ -17,7 +13,7 @@ namespace {
 using engine::Technique;
 using frame::ShadowFilter;
 using scenes::ShadowRequest;
-using test::kAllLightsCast;
+using namespace test;
 
 constexpr int kOutlinePixels = 64;
 
@@ -33,7 +29,7 @@ constexpr int kMapTexels = 2048;
 
 /// A square of 2 m in the plane z = 0, seen from above by parallel rays that it fills, and a square of 0.4 m above it
 /// at height 0.5. Nothing else is known of the shadow than where the light is.
-class ShadowOutline : public test::FlatTest {
+class ShadowOutline : public FlatTest {
 protected:
     static constexpr glm::dvec3 kCasterWS{-0.4, 0.1, 0.5};
     static constexpr double kHalfSide = 0.2;
@@ -55,12 +51,10 @@ protected:
         return scene;
     }
     static scenes::Light sun() {
-        scenes::Light light = test::pointLight({}, 3.0f);
-        light.type = scenes::LightType::Directional;
-        light.directionWS = glm::normalize(glm::dvec3(1.0, 0.2, -1.0));
+        scenes::Light light = sunLight(glm::dvec3(1.0, 0.2, -1.0), 3.0f);
         return light;
     }
-    static scenes::Light lamp() { return test::pointLight({-1.2, 0.0, 1.5}, 3.0f); }
+    static scenes::Light lamp() { return pointLight({-1.2, 0.0, 1.5}, 3.0f); }
 
     /// Where the way from a point of the ground to the light crosses the plane of the plate, in the plate's coordinates
     /// -1 .. 1.
@@ -86,10 +80,9 @@ protected:
         settings.shadowFilter = way.filter;
         settings.shadowMaps.resolutionTexels = kMapTexels;
         settings.shadowMaps.budgetMiB = 1024.0;
-        engine::Renderer renderer(context(), scene);
-        const engine::RenderedFrame picture = renderer.render(Technique::Deferred, settings);
+        const engine::RenderedFrame picture = frameOf(scene, settings);
         Outline found;
-        for (int y = 0; y < kOutlinePixels; ++y) {
+        for (int y = 0; y < kOutlinePixels; ++y)
             for (int x = 0; x < kOutlinePixels; ++x) {
                 const glm::dvec3 pointWS((x + 0.5) * 2.0 / kOutlinePixels - 1.0, 1.0 - (y + 0.5) * 2.0 / kOutlinePixels,
                                          0.0);
@@ -107,7 +100,6 @@ protected:
                 found.undecided += isUndecided;
                 found.wrong += !isUndecided && isDark != hidden;
             }
-        }
         return found;
     }
     /// Expects a shadow there, or (`isNever`) none, however it is found.
@@ -155,7 +147,7 @@ TEST_F(ShadowOutline, isTheSameOfMirroredAndTurnedAndTwoSidedCasters) {
 
 TEST_F(ShadowOutline, hasTheHolesOfAMask) {
     scenes::Scene scene = plateUnder(sun());
-    scene.images = {test::image8([](int x, int y) { return std::array{255, 255, 255, (x + y) % 2 == 0 ? 255 : 0}; })};
+    scene.images = {image8([](int x, int y) { return std::array{255, 255, 255, (x + y) % 2 == 0 ? 255 : 0}; })};
     scene.materials[1].alphaMode = scenes::AlphaMode::Mask;
     scenes::TextureUse& use = scene.materials[1].texture(scenes::TextureSlot::BaseColor);
     use.image = 0;
@@ -240,7 +232,7 @@ TEST_F(ShadowOutline, fallsOnTransparentSurfaces) {
 }
 
 TEST_F(ShadowOutline, staysWhereItIsFarFromTheOriginAndAtAnySize) {
-    for (const double scale : {1e-4, 1.0, 1e4}) {
+    for (const double scale : {1e-4, 1.0, 1e4})
         for (const glm::dvec3& placeWS : {glm::dvec3(0.0), glm::dvec3(1e6, -1e6, 1e6)}) {
             scenes::Scene scene = plateUnder(lamp());
             if (glm::length(placeWS) > 0.0 && scale < 1.0) continue; // doubles have no digits for 0.1 mm there
@@ -249,7 +241,6 @@ TEST_F(ShadowOutline, staysWhereItIsFarFromTheOriginAndAtAnySize) {
             // In the coordinates of the scene as it was.
             expectShadowAt(scene, lamp(), isInSquare);
         }
-    }
 }
 
 // Of seven texels of 5 cm, a pixel of 8 mm is a fiftieth.
@@ -258,18 +249,15 @@ TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
         scenes::Light light = sun();
         light.directionWS = glm::normalize(glm::dvec3(1.0, 0.0, -height));
         const scenes::Scene scene = plateUnder(light);
-        engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {256, 256};
-        settings.view = frame::DebugView::Shadow;
+        frame::FrameSettings settings = withView(ofSize(256, 256), frame::DebugView::Shadow);
         settings.shadowFilter = frame::ShadowFilter::Pcf;
         settings.shadowMaps.widthTexels = 7;
         settings.shadowMaps.resolutionTexels = 64;
         settings.shadowMaps.cascades = 1;
-        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+        const std::vector<float> seen = drawn(scene, settings);
         float largest = 0.0f;
         int partly = 0;
-        for (std::size_t y = 0; y < 256; ++y) {
+        for (std::size_t y = 0; y < 256; ++y)
             for (std::size_t x = 0; x + 1 < 256; ++x) {
                 const glm::dvec3 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0, 0.0);
                 const glm::dvec2 toPlate = glm::abs(glm::dvec2(placeWS - kCasterWS));
@@ -278,7 +266,6 @@ TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
                 partly += here > 0.0f && here < 1.0f;
                 largest = std::max(largest, std::abs(here - beside));
             }
-        }
         fmt::print("pcf at {} of 45 degrees: largest step {:.3f} among {} pixels\n", height, largest, partly);
         EXPECT_GT(partly, 500);
         EXPECT_LT(largest, 0.05f) << height;
@@ -300,15 +287,12 @@ TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
     light.directionWS = glm::normalize(glm::dvec3(3.0, 0.0, -1.0));
     constexpr double kAboveMetres = 0.1;
     const scenes::Scene scene = plateSeenThrough(plateUnder(light), kAboveMetres);
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {256, 256};
-    settings.view = frame::DebugView::Shadow;
+    frame::FrameSettings settings = withView(ofSize(256, 256), frame::DebugView::Shadow);
     settings.shadowFilter = frame::ShadowFilter::Pcf;
     settings.shadowMaps.widthTexels = 7;
     settings.shadowMaps.resolutionTexels = 256;
     settings.shadowMaps.cascades = 1;
-    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    const std::vector<float> seen = drawn(scene, settings);
     // The ball around the scene has a radius of 1.42 m, which is 1.68 m in the steps of cascades.
     const double texelMetres = 2.0 * 1.68179 / (256.0 - 2.0 * 5.0);
     const std::size_t row = std::size_t((1.0 - kCasterWS.y) * 128.0);
@@ -332,9 +316,7 @@ TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
 TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
     scenes::Light light = sun();
     light.directionWS = glm::normalize(glm::dvec3(7.0, 0.0, -1.0));
-    frame::FrameSettings settings;
-    settings.sizePixels = {256, 256};
-    settings.view = frame::DebugView::Shadow;
+    frame::FrameSettings settings = withView(ofSize(256, 256), frame::DebugView::Shadow);
     settings.shadowFilter = frame::ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 128;
     settings.shadowMaps.cascades = 1;
@@ -347,9 +329,8 @@ TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
         scene.nodes[1].parentFromNode = glm::translate(glm::dmat4(1.0), footWS) *
                                         glm::rotate(glm::dmat4(1.0), glm::radians(90.0), glm::dvec3(0.0, 1.0, 0.0)) *
                                         glm::scale(glm::dmat4(1.0), glm::dvec3(kHalfSide));
-        engine::Renderer renderer(context(), scene);
-        const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-        for (std::size_t y = 0; y < 256; ++y) {
+        const std::vector<float> seen = drawn(scene, settings);
+        for (std::size_t y = 0; y < 256; ++y)
             for (std::size_t x = 0; x < 256; ++x) {
                 const glm::dvec2 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0);
                 if (std::abs(placeWS.y - footWS.y) > kHalfSide - 1.5 * texelMetres) continue;
@@ -360,7 +341,6 @@ TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
                 before += texels < -1.5;
                 dark += texels < -1.5 && !isLit;
             }
-        }
     }
     fmt::print("{} of {} behind the wall lit, {} of {} before it dark\n", lit, behind, dark, before);
     EXPECT_GT(behind, 1000);
@@ -382,19 +362,16 @@ TEST_F(ShadowOutline, ofPcssIgnoresCastersBesideTheLight) {
     scene.nodes[1].parentFromNode = placed({0.0, -0.5, kLowMetres}, 0.5);
     scene.nodes.push_back(scene.nodes[1]);
     scene.nodes[2].parentFromNode = placed({0.0, kHighEdge + 0.3, kHighMetres}, 0.3);
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {256, 256};
-    settings.view = frame::DebugView::Shadow;
+    frame::FrameSettings settings = withView(ofSize(256, 256), frame::DebugView::Shadow);
     settings.shadowFilter = frame::ShadowFilter::Pcss;
     settings.shadowSamples = 64;
     settings.shadowMaps.resolutionTexels = 2048;
     settings.shadowMaps.cascades = 1;
-    const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
+    const std::vector<float> seen = drawn(scene, settings);
     const double halfWidth = kTangent * kLowMetres * std::sqrt(2.0);
     double squares = 0.0;
     int count = 0;
-    for (std::size_t y = 0; y < 256; ++y) {
+    for (std::size_t y = 0; y < 256; ++y)
         for (std::size_t x = 0; x < 256; ++x) {
             const glm::dvec2 placeWS((double(x) + 0.5) / 128.0 - 1.0, 1.0 - (double(y) + 0.5) / 128.0);
             const double beside = placeWS.y / halfWidth;
@@ -405,7 +382,6 @@ TEST_F(ShadowOutline, ofPcssIgnoresCastersBesideTheLight) {
             squares += error * error;
             ++count;
         }
-    }
     const double error = std::sqrt(squares / count);
     fmt::print("RMS {:.4f} of {} pixels\n", error, count);
     EXPECT_GT(count, 200);

@@ -1,15 +1,5 @@
 // Shadows of smooth-shaded triangles are asked for from above them (docs/shadows.md, "Smooth-shaded meshes").
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "scenes/Load.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 #include "validation/reference/CameraRays.h"
 
 namespace tessera {
@@ -17,27 +7,25 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter, frame::ShadowTerminator;
-using test::kAllLightsCast;
 
-class ShadowTerminators : public test::ShadowTest {
+using namespace test;
+
+class ShadowTerminators : public ShadowTest {
 protected:
     /// A ball of 16 slices on a floor.
     static scenes::Scene coarseBall() {
-        scenes::Scene scene = test::ballUnderSun();
+        scenes::Scene scene = ballUnderSun();
         scene.meshes[0] = {};
         scenes::builtin::appendSphere(scene.meshes[0], glm::dvec3(0.0, 0.6, 0.0), 0.6, 16, 8);
         scene.lights[0].directionWS = glm::normalize(glm::dvec3(-1.0, -0.5, -0.7));
         return scene;
     }
     static frame::FrameSettings settingsOf(ShadowFilter filter, ShadowTerminator terminator) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        settings.shadows = kAllLightsCast;
-        settings.shadowFilter = filter;
+        frame::FrameSettings settings = withShadows(ofSize(96, 54), filter);
         settings.shadowTerminator = terminator;
         return settings;
     }
-    std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
+    static std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         return renderer.render(Technique::Deferred, settings).radiance;
     }
     /// Expects that points of a square of so many rows, whose normals lean outwards, in radians, are lifted, and by how
@@ -46,7 +34,7 @@ protected:
     /// Expects that softened terminators change no bit of the picture, and shadows do.
     void expectExactToTheLastBit(const scenes::Scene& scene) {
         engine::Renderer renderer(context(), scene);
-        for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf}) {
+        for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf})
             for (const auto textures : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
                 frame::FrameSettings exact = settingsOf(filter, ShadowTerminator::Exact),
                                      softened = settingsOf(filter, ShadowTerminator::Softened), none = exact;
@@ -56,7 +44,6 @@ protected:
                 EXPECT_EQ(picture(renderer, softened), seen) << infoOf(filter).name;
                 EXPECT_NE(picture(renderer, none), seen) << "no shadow";
             }
-        }
     }
 };
 
@@ -173,8 +160,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
     scenes::builtin::appendFloor(scene.meshes[1], -2.0 * eyeMetres * toEye, {8.0, 8.0}, {1, 1});
     scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.0, -kSlope, 1.0));
     scenes::Camera& camera = scene.cameras[0];
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = 1.0;
+    makeOrthographic(camera, 1.0);
     camera.nearMetres = 0.1;
     camera.farMetres = 4.0 * eyeMetres;
     camera.worldFromCamera = {
@@ -188,7 +174,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
         const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
         const reference::CameraRays rays(camera, settings.sizePixels);
         int dark = 0, wrong = 0, straightIsWrong = 0;
-        for (int y = 0; y < 128; ++y) {
+        for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x) {
                 const glm::dvec3 originWS = rays.eyeWS() + rays.through(x, y).originRWS;
                 const glm::dvec3 placeWS = originWS - originWS.y / toEye.y * toEye;
@@ -210,7 +196,6 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
                 wrong += std::abs(behindEdge) > leeway && shown != (behindEdge > 0.0 ? 0.0f : 1.0f);
                 straightIsWrong += isDark != (behindStraight > 0.0);
             }
-        }
         fmt::print("{}: {} pixels dark, {} wrong, {} by the triangles themselves\n", int(terminator), dark, wrong,
                    straightIsWrong);
         EXPECT_EQ(wrong, 0);
@@ -251,29 +236,50 @@ TEST_F(ShadowTerminators, areThoseOfTheReferenceAndOfEveryTechnique) {
     std::size_t turn = 0;
     for (const bool hasSize : {false, true}) {
         if (hasSize) {
-            scenes::Light lamp = test::pointLight({1.2, 1.4, 1.0}, 3.0f);
+            scenes::Light lamp = pointLight({1.2, 1.4, 1.0}, 3.0f);
             lamp.radiusMetres = 0.2f;
             scene.lights = {lamp};
         }
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, ShadowTerminator::Exact);
-        const test::WrongPixels exact = test::wrongPixels(renderer, settings);
+        const WrongPixels exact = wrongPixels(renderer, settings);
         settings.shadowTerminator = ShadowTerminator::Softened;
-        const test::WrongPixels count = test::wrongPixels(renderer, settings);
+        const WrongPixels count = wrongPixels(renderer, settings);
         fmt::print("{} pixels wrong, {} undecided (exact {}), {} changed by shadows of {}\n", count.wrong,
                    count.undecided, exact.undecided, count.hidden, count.covered);
         EXPECT_EQ(count.wrong, 0u);
         // Penumbrae are undecided by the noise of their rays.
         EXPECT_LE(count.undecided, exact.undecided + count.covered / 500);
         EXPECT_GT(count.hidden, count.covered / 25);
-        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        expectParity(renderer, settings, techniquesInTurn(turn++));
         settings.samples = 4;
-        expectParity(renderer, settings, test::techniquesInTurn(turn++, 4));
+        expectParity(renderer, settings, techniquesInTurn(turn++, 4));
         settings.samples = 1;
         settings.shadowFilter = ShadowFilter::Pcf;
-        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        expectParity(renderer, settings, techniquesInTurn(turn++));
         expectPruningIsUnseen(renderer, settings);
     }
+}
+
+/// Softened terminators where light wraps around a surface.
+class WrappedTerminators : public ShadowTerminators {};
+
+// The edge of a plate throws its shadow on it: wrapped light is asked for from above the surface already.
+TEST_F(WrappedTerminators, aSurfaceThatWrapsLightIsNotLiftedOffItsTriangles) {
+    scenes::Scene scene = coarseBall();
+    scene.materials[0] = lambert();
+    scene.materials[0].subsurface.method = scenes::SubsurfaceMethod::Wrap;
+    scene.materials[0].subsurface.bodyRadiusMetres = 0.6f;
+    scene.meshes[1] = {};
+    scenes::builtin::appendFloor(scene.meshes[1], {-2.0, 1.5, 0.0}, {4.0, 4.0}, {1, 1});
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.5, -1.0, -0.6));
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = settingsOf(ShadowFilter::Traced, ShadowTerminator::Softened);
+    settings.sizePixels = {192, 108};
+    const WrongPixels count = wrongPixels(renderer, settings);
+    fmt::print("{}\n", count.text());
+    EXPECT_EQ(count.wrong, 0u);
+    EXPECT_GT(count.hidden, count.covered / 25);
 }
 
 } // namespace

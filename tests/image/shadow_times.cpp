@@ -1,14 +1,7 @@
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/ShadowMaps.h"
-#include "scenes/Load.h"
 #include "tests/image/ShadowTest.h"
 #include "validation/stress/StressScene.h"
 #include "validation/timing/Interleave.h"
@@ -18,8 +11,9 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
+using namespace test;
 
-class ShadowTimesSlow : public test::ShadowTest {
+class ShadowTimesSlow : public ShadowTest {
 protected:
     static constexpr int kRounds = 9;
 
@@ -60,8 +54,7 @@ TEST_F(ShadowTimesSlow, mapsTakeAtMostHalfAsLongAgainAsDepthAlone) {
         {"lattice", {scenes::ShadowRequest::Kind::First, 16}}, {"hall", {scenes::ShadowRequest::Kind::Asked}}};
     for (const auto& [name, shadows] : tries) {
         scenes::Scene scene = shadowed(name, {});
-        frame::FrameSettings settings;
-        settings.sizePixels = {1280, 720};
+        frame::FrameSettings settings = ofSize(1280, 720);
         settings.shadows = shadows;
         settings.shadowFilter = ShadowFilter::Hard;
         const std::vector<frame::SurfaceBounds> bounds = frame::surfaceBounds(scene);
@@ -171,8 +164,7 @@ scenes::Scene floorBelow(int lamps) {
 /// The floor of a look-up is that of `hard` where all pixels of a floor ask all lamps: the slope of the time by lamps,
 /// less that without shadows.
 TEST_F(ShadowTimesSlow, eachWayIsTimedByPairsAndAgainstTheFloor) {
-    frame::FrameSettings settings;
-    settings.sizePixels = {1280, 720};
+    frame::FrameSettings settings = ofSize(1280, 720);
     settings.shadows = {scenes::ShadowRequest::Kind::Asked};
     settings.shadowMaps.resolutionTexels = 256;
     constexpr int kFewLamps = 8, kManyLamps = 24;

@@ -1,22 +1,13 @@
 // The debug views of shadow maps: which face answers a pixel, and the atlas itself. And which settings change shadows.
-#include <algorithm>
 #include <array>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/Settings.h"
 #include "renderer/frame/ShadowCameras.h"
 #include "renderer/frame/ShadowMaps.h"
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
-#include "scenes/builtin/Shapes.h"
 #include "shaders/shared/face_colors.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/TestScenes.h"
 #include "validation/reference/CameraRays.h"
 
 namespace tessera {
@@ -25,6 +16,7 @@ namespace {
 using engine::Technique;
 using frame::DebugView;
 using frame::ShadowFilter;
+using namespace test;
 
 /// Face of the colour that a pixel of the view `cascades` has, however dark; none where it is grey.
 std::optional<int> faceOf(const glm::vec3& shown) {
@@ -39,19 +31,17 @@ std::optional<int> faceOf(const glm::vec3& shown) {
     return face;
 }
 
-class ShadowViews : public test::ShadowTest {
+class ShadowViews : public ShadowTest {
 protected:
     ShadowViews() {
         settings.sizePixels = {161, 91};
-        settings.shadows = test::kAllLightsCast;
+        settings.shadows = kAllLightsCast;
         settings.shadowFilter = ShadowFilter::Pcf;
         settings.shadowMaps.resolutionTexels = 256;
     }
     /// Point lights and, as the last light, a sun.
     static scenes::Scene pointsAndSun() {
-        scenes::LoadOptions options;
-        options.lights = 3;
-        scenes::Scene scene = scenes::loadScene("lattice", options);
+        scenes::Scene scene = latticeOf(3);
         scenes::Light sun = scene.lights[0];
         sun.type = scenes::LightType::Directional;
         sun.directionWS = glm::normalize(glm::dvec3(-0.5, -1.0, -0.3));
@@ -61,13 +51,13 @@ protected:
     }
     /// A ball around the eye and a lamp.
     static scenes::Scene aroundALamp() {
-        scenes::Scene scene = test::ballUnderSun();
+        scenes::Scene scene = ballUnderSun();
         scene.meshes.resize(1);
         scene.meshes[0] = {};
         scenes::builtin::appendSphere(scene.meshes[0], glm::dvec3(0.0), 5.0, 64, 32);
         scene.nodes[0].instances = {{0, 0}};
         for (scenes::Material& material : scene.materials) material.doubleSided = true;
-        scene.lights = {test::pointLight({}, 10.0f)};
+        scene.lights = {pointLight({}, 10.0f)};
         return scene;
     }
     std::vector<float> shown(engine::Renderer& renderer, DebugView view, Technique technique = Technique::Deferred) {
@@ -84,7 +74,7 @@ protected:
 TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
     const scenes::Scene scene = pointsAndSun();
     engine::Renderer renderer(context(), scene);
-    for (const DebugView view : {DebugView::Cascades, DebugView::ShadowAtlas}) {
+    for (const DebugView view : {DebugView::Cascades, DebugView::ShadowAtlas})
         for (const int light : {0, int(scene.lights.size()) - 1}) {
             settings.soloLight = light;
             const std::vector<float> truth = shown(renderer, view, Technique::Forward);
@@ -92,13 +82,10 @@ TEST_F(ShadowViews, areTheSameInEveryTechniqueToTheLastBit) {
                 EXPECT_TRUE(shown(renderer, view, info.technique) == truth)
                     << frame::debugViewInfo(view).name << " of light " << light << " with " << info.name;
         }
-    }
 }
 
 TEST_F(ShadowViews, areTheSameWhateverElseIsLeftOut) {
-    scenes::LoadOptions options;
-    options.lights = 64;
-    const scenes::Scene scene = scenes::loadScene("lattice", options);
+    const scenes::Scene scene = latticeOf(64);
     engine::Renderer renderer(context(), scene);
     settings.shadows = {scenes::ShadowRequest::Kind::First, 16};
     settings.shadowFilter = ShadowFilter::Hard;
@@ -162,13 +149,13 @@ TEST_F(ShadowViews, theFartherACascadeTheFartherItsPixelsAndTheLastHoldsTheFarth
 
 // A pixel is asked of the finest cascade in which all taps of its filter lie.
 TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfTaps) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances = {{1, 0}};
     scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(10.0));
     scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.3, -1.0, 0.2));
     engine::Renderer renderer(context(), scene);
     const std::vector<frame::SurfaceBounds> bounds = frame::surfaceBounds(scene);
-    for (const ShadowFilter filter : test::mapFilters()) {
+    for (const ShadowFilter filter : mapFilters()) {
         SCOPED_TRACE(infoOf(filter).name);
         settings.shadowFilter = filter;
         settings.shadowMaps.widthTexels = 7;
@@ -181,7 +168,7 @@ TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfT
         const bool passesAtOnce = filter == ShadowFilter::Hard;
         const reference::CameraRays rays(scene.cameras[0], settings.sizePixels);
         std::size_t wrong = 0, mixed = 0, checked = 0;
-        for (int y = 0; y < settings.sizePixels.y; ++y) {
+        for (int y = 0; y < settings.sizePixels.y; ++y)
             for (int x = 0; x < settings.sizePixels.x; ++x) {
                 const reference::Ray ray = rays.through(x, y);
                 const double metres = -(rays.eyeWS().y + ray.originRWS.y) / ray.direction.y;
@@ -208,7 +195,6 @@ TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfT
                 mixed += face && glm::distance(expectedColor, shared::faceColor(*face)) > 0.05f;
                 ++checked;
             }
-        }
         fmt::print("{}: {} pixels wrong, {} mixed of {}\n", infoOf(filter).name, wrong, mixed, checked);
         EXPECT_LE(wrong, passesAtOnce ? checked / 500 : 0u);
         EXPECT_EQ(mixed > checked / 50, !passesAtOnce);
@@ -218,7 +204,7 @@ TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfT
 
 TEST_F(ShadowViews, ofAPointLightEachAxisHasTheColourOfItsFace) {
     scenes::Scene scene = aroundALamp();
-    for (const ShadowFilter filter : test::mapFilters()) {
+    for (const ShadowFilter filter : mapFilters()) {
         settings.shadowFilter = filter;
         for (int face = 0; face < 6; ++face) {
             glm::dvec3 forwardWS(0.0), upWS(0.0);
@@ -258,9 +244,9 @@ TEST_F(ShadowViews, areGreyWhereNoMapAnswers) {
 
 /// A lamp a metre above a floor, whose face -y sees the floor straight on and whose face +y sees nothing.
 TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances = {{1, 0}};
-    scene.lights = {test::pointLight({0.0, 1.0, 0.0}, 10.0f)};
+    scene.lights = {pointLight({0.0, 1.0, 0.0}, 10.0f)};
     scene.lights[0].rangeMetres = 3.0f;
     settings.shadowFilter = ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 64;

@@ -1,27 +1,18 @@
 // Pictures that are shifted by parts of a pixel, and their mean.
 #include "viewer/show/Smoothing.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "engine/Renderer.h"
-#include "scenes/Load.h"
-#include "tests/support/GlContext.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
 using viewer::Smoothing;
+using namespace test;
 
-class Smoothed : public test::GlTest {
+class Smoothed : public ImageTest {
 protected:
-    static frame::FrameSettings settings() {
-        frame::FrameSettings settings;
-        settings.sizePixels = {96, 54};
-        return settings;
-    }
+    static frame::FrameSettings settings() { return ofSize(96, 54); }
 };
 
 TEST_F(Smoothed, isTheMeanOfTheShiftedPicturesRenderedOneByOneToTheLastBit) {
@@ -41,9 +32,8 @@ TEST_F(Smoothed, isTheMeanOfTheShiftedPicturesRenderedOneByOneToTheLastBit) {
 
         std::vector<float> sum;
         for (int i = 0; i < Smoothing::kPictures; ++i) {
-            engine::Renderer another(context(), scene);
             shifted.offsetPixels = Smoothing::offsetPixels(i);
-            const std::vector<float> radiance = another.render(technique, shifted).radiance;
+            const std::vector<float> radiance = drawn(scene, shifted, technique);
             if (sum.empty())
                 sum = radiance;
             else

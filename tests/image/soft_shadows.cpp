@@ -1,15 +1,6 @@
-#include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
 #include "scenes/builtin/ShadowTruth.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/reference/CameraRays.h"
 
@@ -18,10 +9,11 @@ namespace {
 
 using engine::Technique;
 using scenes::ShadowRequest;
+using namespace test;
 
 /// The ground of the scene `shadow_truth` as a frame of the view `shadow` shows it: the shares of one light that are
 /// seen there, beside the true ones.
-class SoftShadows : public test::ShadowTest {
+class SoftShadows : public ShadowTest {
 protected:
     using TruthLight = scenes::builtin::ShadowTruthLight;
     struct Share {
@@ -32,8 +24,7 @@ protected:
         scenes::Scene scene = scenes::loadScene("shadow_truth");
         // Below the plate, and above the ground in the disk's shadow.
         scenes::Camera& camera = scene.cameras[0];
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = 0.4;
+        makeOrthographic(camera, 0.4);
         return scene;
     }
     /// Looks where the light's shadow is.
@@ -51,7 +42,7 @@ protected:
         settings.camera = scene.cameras[0];
         const reference::Probe probe(scene, settings);
         std::vector<Share> shares;
-        for (int y = 0; y < sizePixels.y; ++y) {
+        for (int y = 0; y < sizePixels.y; ++y)
             for (int x = 0; x < sizePixels.x; ++x) {
                 if (probe.at(glm::dvec2(x + 0.5, y + 0.5)).ids.object != 1) continue; // not the ground
                 const reference::Ray ray = rays.through(x, y);
@@ -61,7 +52,6 @@ protected:
                     light == TruthLight::Lamp ? std::abs(groundWS.z) < 1.5 && groundWS.x > -4.0 : groundWS.x > 0.5;
                 if (isKnown) shares.push_back({seenAt(x, y), shadowTruthShare(light, groundWS, sizes)});
             }
-        }
         return shares;
     }
 
@@ -78,13 +68,7 @@ protected:
             renderer.scene(), light, settings.sizePixels,
             [&](int x, int y) { return double(frame.radiance[4 * (std::size_t(y) * 256 + std::size_t(x))]); }, sizes);
     }
-
-    /// With twice as many rays too, or without.
-    void expectClosedFormsOfReference();
-    /// By 1 sample and by 16, and that a fault is seen; or by 16 alone.
-    void expectWithinNoise();
 };
-using SoftShadowsSlow = SoftShadows;
 
 double rootMeanSquare(const auto& shares) {
     double sum = 0.0;
@@ -125,7 +109,7 @@ TEST_F(SoftShadows, haveTheSharesOfTheirClosedFormsWithinThreeStandardErrors) {
 
 // The plate and the disk are flat and lie across the way to the light, as pcss takes all casters to.
 TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
-    for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
+    for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun})
         for (const double sizes : {0.25, 0.5, 1.0, 2.0}) {
             scenes::Scene scene = truthScene();
             aimAt(scene, light);
@@ -148,7 +132,6 @@ TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
                 EXPECT_LT(rootMeanSquare(shares), 0.03) << int(light) << ", " << sizes;
             }
         }
-    }
 }
 
 // Noise of independent lights averages out in their sum. A coefficient of N pairs that have nothing to do with each
@@ -190,10 +173,9 @@ TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
 // away of the ball that the map is made for.
 TEST_F(SoftShadows, ofSunsTooWideForPcssAreWarnedOf) {
     scenes::Scene scene = truthScene();
-    frame::FrameSettings settings;
-    settings.sizePixels = {32, 18};
+    frame::FrameSettings settings = ofSize(32, 18);
     settings.shadowSamples = 1;
-    for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard, frame::ShadowFilter::Pcss}) {
+    for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard, frame::ShadowFilter::Pcss})
         for (const double degrees : {29.0, 31.0, 80.0}) {
             scene.lights[std::size_t(TruthLight::Sun)].angularRadiusRadians = float(glm::radians(degrees));
             engine::Renderer renderer(context(), scene);
@@ -203,7 +185,6 @@ TEST_F(SoftShadows, ofSunsTooWideForPcssAreWarnedOf) {
             const bool isTold = filter == frame::ShadowFilter::Pcss && degrees > 30.0;
             EXPECT_EQ(said.find("give --shadow-filter traced") != std::string::npos, isTold) << degrees << said;
         }
-    }
 }
 
 TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
@@ -223,14 +204,14 @@ TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
 }
 
 // Doubling the rays moves a share by less than a tenth of the error that it judges, that of 64 samples.
-void SoftShadows::expectClosedFormsOfReference() {
+TEST_SWEEP(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
     constexpr double kErrorOf64Samples = 0.0069;
     for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
         scenes::Scene scene = truthScene();
         aimAt(scene, light);
         std::vector<Share> before;
         for (const int rings : {45, 64}) {
-            if (rings > 45 && !test::isWholeSweep()) continue;
+            if (rings > 45 && !isWholeSweep()) continue;
             reference::Settings settings;
             settings.sizePixels = {96, 54};
             settings.camera = scene.cameras[0];
@@ -257,12 +238,6 @@ void SoftShadows::expectClosedFormsOfReference() {
         }
     }
 }
-TEST_F(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
-    expectClosedFormsOfReference();
-}
-TEST_F(SoftShadowsSlow, ofTheReferenceHaveTheirClosedForms) {
-    expectClosedFormsOfReference();
-}
 
 TEST_F(SoftShadows, areTheSameWhateverElseIsLeftOut) {
     scenes::Scene scene = scenes::loadScene("shadow_truth");
@@ -271,8 +246,7 @@ TEST_F(SoftShadows, areTheSameWhateverElseIsLeftOut) {
     dark.intensity = 0.0f;
     scene.lights.insert(scene.lights.begin(), dark);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 91};
+    frame::FrameSettings settings = ofSize(161, 91);
     settings.shadowSamples = 3;
     expectPruningIsUnseen(renderer, settings);
 }
@@ -280,24 +254,23 @@ TEST_F(SoftShadows, areTheSameWhateverElseIsLeftOut) {
 TEST_F(SoftShadows, areTheSameWithEveryTechniqueToTheLastBit) {
     const scenes::Scene scene = scenes::loadScene("shadow_truth");
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {161, 91};
+    frame::FrameSettings settings = ofSize(161, 91);
     settings.shadowSamples = 5;
     expectParity(renderer, settings);
 }
 
-void SoftShadows::expectWithinNoise() {
+/// By 1 sample and by 16, and that a fault is seen; or by 16 alone.
+TEST_SWEEP(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
     const scenes::Scene scene = scenes::loadScene("shadow_truth");
     engine::Renderer renderer(context(), scene);
-    const test::ShaderMutant shaders;
-    shaders.replace("lib/shadow/disk_samples.glsl", "return radius * ", "return 0.0 * radius * ");
+    const ShaderMutant shaders("lib/shadow/disk_samples.glsl", "return radius * ", "return 0.0 * radius * ");
     engine::Renderer hard(context(), scene, shaders.tree());
     validation::CompareRequest request;
     request.techniques = {Technique::Forward};
     request.against = validation::Reference{};
     request.settings.sizePixels = {192, 108};
     for (const int samples : {1, 16}) {
-        if (samples == 1 && !test::isWholeSweep()) continue;
+        if (samples == 1 && !isWholeSweep()) continue;
         request.settings.shadowSamples = samples;
         const validation::CompareRecord record =
             validation::compareTechniques(renderer, context().capabilities(), request).record;
@@ -309,18 +282,12 @@ void SoftShadows::expectWithinNoise() {
         EXPECT_LT(figures.noise, samples == 1 ? 1.2 : 0.5) << samples;
         EXPECT_LT(figures.mostNoise, 1.15) << samples;
         EXPECT_LT(figures.ofReference, 0.1) << samples;
-        if (samples == 1 || !test::isWholeSweep()) continue;
+        if (samples == 1 || !isWholeSweep()) continue;
         const validation::CompareRecord faulty =
             validation::compareTechniques(hard, context().capabilities(), request).record;
         EXPECT_FALSE(faulty.ok()) << "hard shadows pass as soft ones of " << samples << " samples\n"
                                   << validation::compareTable(faulty);
     }
-}
-TEST_F(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
-    expectWithinNoise();
-}
-TEST_F(SoftShadowsSlow, ofAPictureAreWithinTheirNoiseOfTheReference) {
-    expectWithinNoise();
 }
 
 } // namespace

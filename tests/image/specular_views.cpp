@@ -1,10 +1,5 @@
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
+#include "tests/image/ImageTest.h"
 #include "tests/image/Textbook.h"
-#include "tests/support/GlContext.h"
-#include "tests/support/Sweep.h"
 
 namespace tessera {
 namespace {
@@ -12,12 +7,13 @@ namespace {
 using engine::Technique;
 using scenes::Material;
 using scenes::MaterialModel;
+using namespace test;
 
 constexpr glm::ivec2 kSize = {192, 128};
 
 /// The debug views D, G and F of `head`, and the input of an independent evaluation at each pixel: which material is
 /// seen there, the normal that is lit and the distance, as the engine shows them.
-class SpecularViews : public test::GlTest {
+class SpecularViews : public ImageTest {
 protected:
     SpecularViews() {
         scenes::LoadOptions options;
@@ -25,25 +21,19 @@ protected:
         scene_ = scenes::loadScene("head", options);
     }
     std::vector<float> show(engine::Renderer& renderer, frame::DebugView view, Technique technique, int light) {
-        frame::FrameSettings settings;
-        settings.sizePixels = kSize;
-        settings.view = view;
+        frame::FrameSettings settings = withView(ofSize(kSize), view);
         settings.soloLight = light;
         return renderer.render(technique, settings).radiance;
     }
     const Material* materialAt(const float* ids) const {
         int place = int(ids[0]) - 1;
-        for (const scenes::Node& node : scene_.nodes) {
+        for (const scenes::Node& node : scene_.nodes)
             for (const scenes::MeshInstance& instance : node.instances)
                 if (place-- == 0) return &scene_.materials[std::size_t(instance.material)];
-        }
         return nullptr;
     }
-    /// Of both, which draw views alike (Parity), or of `deferred`.
-    void expectFormulas();
     scenes::Scene scene_;
 };
-using SpecularViewsSlow = SpecularViews;
 
 /// Where the pixel's ray is after `metres` along the view axis; pixels in rows from the top.
 glm::dvec3 pointAt(const scenes::Camera& camera, std::size_t pixel, double metres) {
@@ -61,7 +51,7 @@ struct Terms {
 /// By the formulas as books print them; nothing where the light does not reach the surface's front, and neither D nor G
 /// where a normal map turns the front away from the eye, since there is no highlight.
 Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v) {
-    using namespace test::textbook;
+    using namespace textbook;
     Terms terms;
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
     if (m.model == MaterialModel::Lambert || nl <= 0.0) return terms;
@@ -81,11 +71,12 @@ Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l,
     return terms;
 }
 
-void SpecularViews::expectFormulas() {
+/// Of both, which draw views alike (Parity), or of `deferred`.
+TEST_SWEEP(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
     engine::Renderer renderer(context(), scene_);
     const scenes::Camera& camera = scene_.cameras[0];
     constexpr Technique kBoth[] = {Technique::Forward, Technique::Deferred};
-    for (const Technique technique : test::inTurn(kBoth, 1)) {
+    for (const Technique technique : inTurn(kBoth, 1))
         for (int light = 0; light < int(scene_.lights.size()); ++light) {
             const auto view = [&](frame::DebugView what) { return show(renderer, what, technique, light); };
             const std::vector<float> ids = view(frame::DebugView::Ids), depth = view(frame::DebugView::Depth),
@@ -100,7 +91,7 @@ void SpecularViews::expectFormulas() {
                 const glm::dvec3 n = glm::normalize(glm::dvec3(normal[4 * i], normal[4 * i + 1], normal[4 * i + 2]));
                 glm::dvec3 l;
                 const bool reached =
-                    test::textbook::incident(scene_.lights[std::size_t(light)], positionWS, l) != glm::dvec3(0.0);
+                    textbook::incident(scene_.lights[std::size_t(light)], positionWS, l) != glm::dvec3(0.0);
                 const glm::dvec3 v = glm::normalize(glm::dvec3(camera.worldFromCamera[3]) - positionWS);
                 // On the border between light and none, and where the surface is seen edge-on, rounding decides.
                 if (std::abs(glm::dot(n, l)) < 1e-5 || std::abs(glm::dot(n, v)) < 1e-3) continue;
@@ -126,13 +117,6 @@ void SpecularViews::expectFormulas() {
             EXPECT_GE(unlit, 100u);
             for (const double error : worst) EXPECT_LE(error, 1e-5);
         }
-    }
-}
-TEST_F(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
-    expectFormulas();
-}
-TEST_F(SpecularViewsSlow, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
-    expectFormulas();
 }
 
 } // namespace

@@ -1,24 +1,15 @@
-#include <algorithm>
-#include <cmath>
 #include <span>
 
-#include <fmt/format.h>
-
-#include "engine/Rendering.h"
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
 
 using engine::Technique;
 using scenes::SubsurfaceMethod;
+using namespace test;
 
-class Subsurface : public test::ShadowTest {
+class Subsurface : public ShadowTest {
 protected:
     /// A head of which all materials that vary have the method.
     static scenes::Scene headWith(SubsurfaceMethod method) {
@@ -26,16 +17,11 @@ protected:
         scene.materials[0].subsurface.method = method;
         return scene;
     }
-    /// Of a head, a scene of everything and one whose G-buffer holds numbers of materials, with every pair of method,
-    /// filter and number of samples, or each with some.
-    void expectAllTechniquesAlike();
-    void expectExponentialBehindSlabs();
-    /// With every filter, or with rays and hard edges.
-    void expectExponentialAtEveryAngle();
 };
-using SubsurfaceSlow = Subsurface;
 
-void Subsurface::expectAllTechniquesAlike() {
+/// Of a head, a scene of everything and one whose G-buffer holds numbers of materials, with every pair of method,
+/// filter and number of samples, or each with some.
+TEST_SWEEP(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
     struct Case {
         SubsurfaceMethod method;
         frame::ShadowFilter filter;
@@ -52,38 +38,28 @@ void Subsurface::expectAllTechniquesAlike() {
         SCOPED_TRACE(scene.name);
         engine::Renderer renderer(context(), scene);
         for (const Case& one : cases) {
-            frame::FrameSettings settings;
-            settings.sizePixels = {96, 54};
-            settings.shadows = test::kAllLightsCast;
+            frame::FrameSettings settings = withSamples(withShadows(ofSize(96, 54), one.filter), one.samples);
             settings.subsurface = one.method;
-            settings.shadowFilter = one.filter;
-            settings.samples = one.samples;
             expectParity(renderer, settings,
-                         techniques.empty() ? test::techniquesInTurn(turn++, settings.samples) : techniques);
+                         techniques.empty() ? techniquesInTurn(turn++, settings.samples) : techniques);
         }
     };
     const std::span<const Case> cases(kCases);
-    if (test::isWholeSweep()) {
-        expectIn(test::everythingScene(), cases);
+    if (isWholeSweep()) {
+        expectIn(everythingScene(), cases);
         expectIn(headWith(SubsurfaceMethod::Wrap), cases);
-        expectIn(test::evenScene(), cases.subspan(1, 1));
+        expectIn(evenScene(), cases.subspan(1, 1));
         return;
     }
     // Compiling takes nearly all of the time: the head, of two models, is seen with one technique of each kind, and an
     // even scene, of nearly all models, with one. Parity draws everything with each material's own method.
     expectIn(headWith(SubsurfaceMethod::Wrap), cases);
-    expectIn(test::evenScene(), cases.subspan(1, 1), {Technique::TiledDeferred});
-}
-TEST_F(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
-}
-TEST_F(SubsurfaceSlow, everyTechniqueGivesTheSamePictureToTheLastBit) {
-    expectAllTechniquesAlike();
+    expectIn(evenScene(), cases.subspan(1, 1), {Technique::TiledDeferred});
 }
 
 // Its shadow side is where the light wraps.
 TEST_F(Subsurface, aBallThatWrapsLightDoesNotShadowItself) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances.resize(1);
     scenes::Material& material = scene.materials[std::size_t(scene.nodes[0].instances[0].material)];
     material.subsurface.method = SubsurfaceMethod::Wrap;
@@ -91,12 +67,10 @@ TEST_F(Subsurface, aBallThatWrapsLightDoesNotShadowItself) {
     scene.lights[0].directionWS = glm::normalize(glm::dvec3(-0.9, -0.3, 0.1));
     engine::Renderer renderer(context(), scene);
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {320, 180};
+        frame::FrameSettings settings = withoutShadows(ofSize(320, 180));
         settings.shadowFilter = filter;
-        settings.shadows = {scenes::ShadowRequest::Kind::None};
         const std::vector<float> lit = renderer.render(Technique::Deferred, settings).radiance;
-        settings.shadows = test::kAllLightsCast;
+        settings.shadows = kAllLightsCast;
         EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, lit) << infoOf(filter).name;
         settings.subsurface = SubsurfaceMethod::None;
         EXPECT_NE(renderer.render(Technique::Deferred, settings).radiance, lit) << infoOf(filter).name;
@@ -105,13 +79,10 @@ TEST_F(Subsurface, aBallThatWrapsLightDoesNotShadowItself) {
 
 TEST_F(Subsurface, whatIsInTheWayHidesWrappedLightAsTheReferenceSays) {
     scenes::Scene scene = headWith(SubsurfaceMethod::Wrap);
-    frame::FrameSettings settings;
-    settings.sizePixels = {240, 135};
-    settings.filter = frame::TextureFilter::Exact;
+    frame::FrameSettings settings = exactOfSize(240, 135);
     engine::Renderer renderer(context(), scene);
-    const test::WrongPixels count = test::wrongPixels(renderer, settings);
-    fmt::print("head: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, count.undecided,
-               count.hidden, count.covered);
+    const WrongPixels count = wrongPixels(renderer, settings);
+    fmt::print("head: {}\n", count.text());
     EXPECT_EQ(count.wrong, 0u);
     EXPECT_LE(count.undecided, count.covered / 50);
 }
@@ -126,22 +97,20 @@ double middleOf(const Picture& picture) {
 
 /// Seen from +z by parallel rays, with lights behind.
 scenes::Scene bodyBeforeLights(scenes::Mesh body, double halfHeightMetres) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.meshes = {std::move(body)};
     scene.nodes[0].instances = {{0, 0}};
-    scenes::Material material;
-    material.model = scenes::MaterialModel::Lambert;
+    scenes::Material material = lambert();
     material.baseColor = glm::vec4(1.0f);
     material.subsurface.method = SubsurfaceMethod::DepthMap;
     material.subsurface.absorptionPerMillimetre = {0.02f, 0.04f, 0.08f};
     scene.materials = {material};
     scenes::Camera& camera = scene.cameras[0];
     camera.worldFromCamera = scenes::worldFromLookAt({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0});
-    camera.projection = scenes::Projection::Orthographic;
-    camera.halfHeightMetres = halfHeightMetres;
+    makeOrthographic(camera, halfHeightMetres);
     camera.nearMetres = 0.01;
     camera.farMetres = 10.0;
-    scenes::Light sun = scene.lights[0], lamp = test::pointLight({0.0, 0.0, -2.0}, 12.0f), spot = lamp;
+    scenes::Light sun = scene.lights[0], lamp = pointLight({0.0, 0.0, -2.0}, 12.0f), spot = lamp;
     sun.directionWS = {0.0, 0.0, 1.0};
     spot.type = scenes::LightType::Spot;
     spot.directionWS = {0.0, 0.0, 1.0};
@@ -161,7 +130,7 @@ constexpr PassageBar kPassageBars[] = {{frame::ShadowFilter::Traced, 1e-4, 0.003
                                        {frame::ShadowFilter::Pcf, 0.02, 0.05},
                                        {frame::ShadowFilter::Pcss, 0.02, 0.05}};
 
-void Subsurface::expectExponentialBehindSlabs() {
+TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfItsThickness) {
     std::size_t turn = 0;
     for (const double thickness : {0.003, 0.03}) {
         scenes::Mesh slab;
@@ -169,11 +138,8 @@ void Subsurface::expectExponentialBehindSlabs() {
         const scenes::Scene scene = bodyBeforeLights(slab, 0.1);
         engine::Renderer renderer(context(), scene);
         for (const PassageBar& bar : kPassageBars) {
-            if (!test::isWholeSweep() && turn++ % 2 != (thickness < 0.01 ? 0 : 1)) continue;
-            frame::FrameSettings settings;
-            settings.sizePixels = {65, 65};
-            settings.shadows = test::kAllLightsCast;
-            settings.shadowFilter = bar.filter;
+            if (!isWholeSweep() && turn++ % 2 != (thickness < 0.01 ? 0 : 1)) continue;
+            frame::FrameSettings settings = withShadows(ofSize(65, 65), bar.filter);
             double sum = 0.0;
             for (int light = 0; light < 3; ++light) {
                 settings.soloLight = light;
@@ -189,12 +155,6 @@ void Subsurface::expectExponentialBehindSlabs() {
         }
     }
 }
-TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfItsThickness) {
-    expectExponentialBehindSlabs();
-}
-TEST_F(SubsurfaceSlow, aSlabLetsThroughAnExponentialOfItsThickness) {
-    expectExponentialBehindSlabs();
-}
 
 /// Of a light at any angle, at a pixel's place on the front: the way inside, and what leaves at the angle of entry.
 glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, const glm::dvec3& placeWS,
@@ -208,7 +168,7 @@ glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, co
 }
 
 /// Four faces of a lamp's map lie to its sides; of a way at an angle the part along the slab's normal is 0.64 at most.
-void Subsurface::expectExponentialAtEveryAngle() {
+TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
     constexpr double kThickness = 0.01;
     scenes::Mesh slab;
     scenes::builtin::appendBox(slab, {-0.5, -0.5, -kThickness}, {0.5, 0.5, 0.0});
@@ -220,21 +180,17 @@ void Subsurface::expectExponentialAtEveryAngle() {
     scene.lights = {sun, spot};
     for (const glm::dvec3& placeWS : {glm::dvec3(-1.2, 0.1, -1.0), glm::dvec3(1.2, -0.1, -1.0),
                                       glm::dvec3(0.1, -1.2, -1.0), glm::dvec3(-0.1, 1.2, -1.0)})
-        scene.lights.push_back(test::pointLight(placeWS, 12.0f));
+        scene.lights.push_back(pointLight(placeWS, 12.0f));
     engine::Renderer renderer(context(), scene);
     for (const PassageBar& bar : kPassageBars) {
-        if (!test::isWholeSweep() && bar.filter != frame::ShadowFilter::Traced &&
-            bar.filter != frame::ShadowFilter::Hard)
+        if (!isWholeSweep() && bar.filter != frame::ShadowFilter::Traced && bar.filter != frame::ShadowFilter::Hard)
             continue;
-        frame::FrameSettings settings;
-        settings.sizePixels = {33, 33};
-        settings.shadows = test::kAllLightsCast;
-        settings.shadowFilter = bar.filter;
+        frame::FrameSettings settings = withShadows(ofSize(33, 33), bar.filter);
         for (std::size_t light = 0; light < scene.lights.size(); ++light) {
             settings.soloLight = int(light);
             const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
             double worst = 0.0;
-            for (int y = 0; y < 33; ++y) {
+            for (int y = 0; y < 33; ++y)
                 for (int x = 0; x < 33; ++x) {
                     const glm::dvec2 place = (glm::dvec2(x, 32 - y) + 0.5 - 16.5) * (0.1 / 16.5);
                     const glm::dvec3 wanted =
@@ -244,17 +200,10 @@ void Subsurface::expectExponentialAtEveryAngle() {
                         worst = std::max(worst, std::abs(found - wanted[c]) / wanted[c]);
                     }
                 }
-            }
             fmt::print("slab, {}, light {}: off by {:.1e} at most\n", infoOf(bar.filter).name, light, worst);
             EXPECT_LE(worst, bar.ofSlab) << infoOf(bar.filter).name << ", light " << light;
         }
     }
-}
-TEST_F(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
-    expectExponentialAtEveryAngle();
-}
-TEST_F(SubsurfaceSlow, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
-    expectExponentialAtEveryAngle();
 }
 
 /// What passes is added to all that is reflected: a white body that absorbs nothing returns up to twice what arrives.
@@ -267,9 +216,7 @@ TEST_F(Subsurface, lightThatPassesThroughIsAddedToAllThatIsReflected) {
     front.directionWS = -front.directionWS;
     scene.lights = {scene.lights[0], front};
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {65, 65};
-    settings.shadows = test::kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(65, 65));
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         settings.shadowFilter = filter;
         EXPECT_NEAR(middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings))), 2.0 * 3.0, 1e-4)
@@ -288,13 +235,9 @@ TEST_F(Subsurface, aBodyThatCastsNoShadowsLetsNoLightThrough) {
     scene.nodes.back().parentFromNode[3] = glm::dvec4(5.0, 0.0, 0.0, 1.0);
     scene.nodes.back().instances = {{0, 1}};
     const auto middle = [&](frame::ShadowFilter filter) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {65, 65};
-        settings.shadows = test::kAllLightsCast;
-        settings.shadowFilter = filter;
+        frame::FrameSettings settings = withShadows(ofSize(65, 65), filter);
         settings.soloLight = 0;
-        engine::Renderer renderer(context(), scene);
-        return middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
+        return middleOf(engine::toPicture(frameOf(scene, settings)));
     };
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scene.materials[0].castsShadow = true;
@@ -311,15 +254,12 @@ TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
     const scenes::Scene scene = bodyBeforeLights(ball, 1.1 * kRadius);
     engine::Renderer renderer(context(), scene);
     for (const PassageBar& bar : kPassageBars) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {128, 128};
-        settings.shadows = test::kAllLightsCast;
-        settings.shadowFilter = bar.filter;
+        frame::FrameSettings settings = withShadows(ofSize(128, 128), bar.filter);
         settings.shadowMaps.resolutionTexels = 512; // 1/200 of the radius: a map is off by a texel where it is steep
         settings.soloLight = 0;
         const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
         double worst = 0.0;
-        for (int y = 0; y < 128; ++y) {
+        for (int y = 0; y < 128; ++y)
             for (int x = 0; x < 128; ++x) {
                 const glm::dvec2 place = (glm::dvec2(x, y) + 0.5 - 64.0) * (1.1 / 64.0); // of the radius
                 const double cosine = std::sqrt(std::max(1.0 - glm::dot(place, place), 0.0));
@@ -331,7 +271,6 @@ TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
                     worst = std::max(worst, std::abs(found - wanted) / wanted);
                 }
             }
-        }
         fmt::print("ball, {}: off by {:.2} at most\n", infoOf(bar.filter).name, worst);
         EXPECT_LE(worst, bar.ofBall) << infoOf(bar.filter).name;
     }
@@ -345,7 +284,7 @@ TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
     scenes::Mesh ball;
     scenes::builtin::appendSphere(ball, glm::dvec3(0.0), kRadius, 256, 128);
     scenes::Scene scene = bodyBeforeLights(ball, 1.1 * kRadius);
-    scenes::Light lamp = test::pointLight({0.03, 0.02, -0.06}, 12.0f), spot = lamp;
+    scenes::Light lamp = pointLight({0.03, 0.02, -0.06}, 12.0f), spot = lamp;
     spot.type = scenes::LightType::Spot;
     spot.directionWS = glm::normalize(-spot.positionWS);
     spot.innerConeRadians = 0.4f;
@@ -355,17 +294,14 @@ TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
     const glm::dvec3 absorption = 1e3 * glm::dvec3(scene.materials[0].subsurface.absorptionPerMillimetre);
     for (const PassageBar& bar : kPassageBars) {
         if (bar.filter != frame::ShadowFilter::Traced && bar.filter != frame::ShadowFilter::Hard) continue;
-        frame::FrameSettings settings;
-        settings.sizePixels = {kSide, kSide};
-        settings.shadows = test::kAllLightsCast;
-        settings.shadowFilter = bar.filter;
+        frame::FrameSettings settings = withShadows(ofSize(kSide, kSide), bar.filter);
         settings.shadowMaps.resolutionTexels = 2048;
         for (int light = 0; light < 2; ++light) {
             settings.soloLight = light;
             const Picture picture = engine::toPicture(renderer.render(Technique::Deferred, settings));
             double worst = 0.0;
             int compared = 0;
-            for (int y = 0; y < kSide; ++y) {
+            for (int y = 0; y < kSide; ++y)
                 for (int x = 0; x < kSide; ++x) {
                     const glm::dvec2 place = (glm::dvec2(x, kSide - 1 - y) + 0.5 - 0.5 * kSide) * (2.2 / kSide);
                     const double square = 1.0 - glm::dot(place, place);
@@ -382,7 +318,6 @@ TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
                         worst = std::max(worst, std::abs(found - wanted[c]) / wanted[c]);
                     }
                 }
-            }
             fmt::print("ball before a {}, {}: off by {:.2} at most of {}\n", light == 0 ? "lamp" : "spot light",
                        infoOf(bar.filter).name, worst, compared);
             EXPECT_GT(compared, 500);
@@ -394,12 +329,10 @@ TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
 TEST_F(Subsurface, whatIsInTheWayHidesLightThatPassesThroughAsTheReferenceSays) {
     scenes::Scene scene = headWith(SubsurfaceMethod::DepthMap);
     scene.materials[0].subsurface.scaleMetres = 0.1f;
-    frame::FrameSettings settings;
-    settings.sizePixels = {240, 135};
-    settings.filter = frame::TextureFilter::Exact;
+    frame::FrameSettings settings = exactOfSize(240, 135);
     engine::Renderer renderer(context(), scene);
-    const test::ShadowReference truth = test::shadowReference(scene, settings);
-    const test::WrongPixels count = test::wrongPixels(renderer, settings, truth);
+    const ShadowReference truth = shadowReference(scene, settings);
+    const WrongPixels count = wrongPixels(renderer, settings, truth);
     // Rounding moves every way inside by a little, and some by more than a hundredth of the light.
     const auto undecided = std::ranges::count(truth.shadowed.undecidedShadows, 1);
     fmt::print("head: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, undecided,
@@ -412,11 +345,8 @@ TEST_F(Subsurface, lightThatCastsNoShadowsPassesThroughNothing) {
     scenes::Mesh slab;
     scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
     const scenes::Scene scene = bodyBeforeLights(slab, 0.1);
-    engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {65, 65};
-    settings.shadows = {scenes::ShadowRequest::Kind::None};
-    EXPECT_EQ(middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings))), 0.0);
+    frame::FrameSettings settings = withoutShadows(ofSize(65, 65));
+    EXPECT_EQ(middleOf(engine::toPicture(frameOf(scene, settings))), 0.0);
 }
 
 } // namespace

@@ -1,11 +1,9 @@
 // Every filter with every wrap mode against the reference, by the exact definition and by the driver's hardware.
-#include <fmt/format.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/image/FlatTest.h"
 #include "tests/support/ShaderMutant.h"
-#include "validation/compare/ReferencePicture.h"
 #include "validation/compare/ShownTriangles.h"
 #include "validation/figures/ErrorFigures.h"
 
@@ -16,6 +14,7 @@ using engine::Technique;
 using frame::TextureFilter;
 using scenes::Filter;
 using scenes::Wrap;
+using namespace test;
 
 constexpr int kTilePixels = 20, kTexels = 32;
 constexpr Filter kMinifying[] = {Filter::Nearest,
@@ -36,7 +35,7 @@ scenes::Image colourfulImage(glm::ivec2 sizeTexels, scenes::TexelFormat format) 
     image.width = sizeTexels.x;
     image.height = sizeTexels.y;
     image.format = format;
-    for (int y = 0; y < sizeTexels.y; ++y) {
+    for (int y = 0; y < sizeTexels.y; ++y)
         for (int x = 0; x < sizeTexels.x; ++x) {
             const int step = (x * 5 + y * 3) % 7;
             for (const int value : {90 + 20 * step, 60 + 190 * x / sizeTexels.x, 60 + 190 * y / sizeTexels.y, 255}) {
@@ -48,7 +47,6 @@ scenes::Image colourfulImage(glm::ivec2 sizeTexels, scenes::TexelFormat format) 
                     image.texels.push_back(std::byte(value));
             }
         }
-    }
     return image;
 }
 
@@ -75,14 +73,14 @@ constexpr Layout kLayouts[] = {
 
 /// A wall of tiles, each with its own sampler; the corner of the picture lies in their middle.
 scenes::Scene wall(const Layout& layout) {
-    scenes::Scene scene = test::quadScene(test::unlit());
+    scenes::Scene scene = quadScene(unlit());
     scene.images = {colourfulImage(layout.sizeTexels, layout.format)};
     scene.nodes.clear();
     scene.materials.clear();
     const glm::dmat4 slanted = glm::rotate(glm::dmat4(1.0), glm::radians(layout.slantDegrees), glm::dvec3(0, 1, 0));
-    for (int row = 0; row < kRows; ++row) {
+    for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column) {
-            scenes::Material material = test::unlit();
+            scenes::Material material = unlit();
             scenes::TextureUse& use = material.texture(scenes::TextureSlot::BaseColor);
             use.image = 0;
             use.sampler = {kMagnifying[column % 2], kMinifying[column / 2], kWraps[row], kWraps[(row + column) % 3]};
@@ -99,11 +97,9 @@ scenes::Scene wall(const Layout& layout) {
             scene.nodes.push_back(node);
             scene.materials.push_back(material);
         }
-    }
     scenes::Camera& camera = scene.cameras[0];
     if (layout.slantDegrees == 0.0) {
-        camera.projection = scenes::Projection::Orthographic;
-        camera.halfHeightMetres = kRows;
+        makeOrthographic(camera, kRows);
     } else {
         camera.worldFromCamera[3] = glm::dvec4(0.0, 0.0, 16.0, 1.0);
         camera.fovYRadians = 1.0;
@@ -115,7 +111,7 @@ scenes::Scene wall(const Layout& layout) {
 /// pixels such roundings cancel but for those of the smallest levels.
 constexpr double kPlainBias = 8e-3;
 
-class TextureFilters : public test::GlTest {
+class TextureFilters : public ImageTest {
 protected:
     struct Judged {
         validation::ErrorFigures figures;
@@ -123,8 +119,7 @@ protected:
         double plainBias = 0.0; ///< against the reference's own value, not the nearest that a driver may show
     };
     Judged judged(const scenes::Scene& scene, TextureFilter filter, const shader::SourceTree& shaders = {}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {kColumns * kTilePixels, kRows * kTilePixels};
+        frame::FrameSettings settings = ofSize(kColumns * kTilePixels, kRows * kTilePixels);
         settings.filter = filter;
         engine::Renderer renderer(context(), scene, shaders);
         const Picture shown = engine::toPicture(renderer.render(Technique::Forward, settings));
@@ -157,7 +152,7 @@ TEST_F(TextureFilters, pixelsOnTheEdgesOfNearestTexelsShowATexelThatMeetsThere) 
 }
 
 TEST_F(TextureFilters, everyFilterWithEveryWrapModeAgreesWithTheReference) {
-    for (const Layout& layout : kLayouts) {
+    for (const Layout& layout : kLayouts)
         for (const TextureFilter filter : {TextureFilter::Exact, TextureFilter::Hardware}) {
             // A software rasteriser compiles the program for each sampler and format: half a minute for these.
             if (filter == TextureFilter::Hardware && layout.format == scenes::TexelFormat::Rgba32Float) continue;
@@ -169,7 +164,6 @@ TEST_F(TextureFilters, everyFilterWithEveryWrapModeAgreesWithTheReference) {
             EXPECT_TRUE(found.verdict.ok) << testing::PrintToString(found.verdict.missed);
             EXPECT_LE(std::abs(found.plainBias), kPlainBias);
         }
-    }
 }
 
 struct Fault {
@@ -204,8 +198,7 @@ TEST_F(TextureFiltersSlow, aFaultMissesTheReference) {
     const scenes::Scene slanted = wall(kLayouts[std::size(kLayouts) - 1]), little = wall(kLayouts[1]);
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.fault);
-        const test::ShaderMutant shaders;
-        shaders.replace(fault.file, fault.from, fault.to);
+        const ShaderMutant shaders(fault.file, fault.from, fault.to);
         const Judged found =
             judged(fault.filter == TextureFilter::Hardware ? slanted : little, fault.filter, shaders.tree());
         EXPECT_FALSE(found.verdict.ok && std::abs(found.plainBias) <= kPlainBias)

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -35,7 +33,7 @@ TEST_F(TextureValues, baseColourTexelsAreSrgbAndRoughnessTexelsLinear) {
     glossy.metallic = 1.0f;
     glossy.perceptualRoughness = 128.0f / 255.0f;
     Scene factor = flatScene(glossy);
-    factor.lights = {test::pointLight({0.3, 0.2, 1.0}, 3.0f)};
+    factor.lights = {pointLight({0.3, 0.2, 1.0}, 3.0f)};
     Scene texel = texturedScene(factor, TextureSlot::MetallicRoughness, uniformImage({0, 128, 255, 255}));
     texel.materials[0].perceptualRoughness = 1.0f;
     const glm::vec4 wanted = center(factor), found = center(texel);
@@ -70,14 +68,13 @@ struct Place {
 
 /// Where pixel (x, y) finds its texel.
 void expectTexels(const engine::RenderedFrame& frame, const std::function<Place(int, int)>& texelOf) {
-    for (int y = 0; y < kSide; ++y) {
+    for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const Place texel = texelOf(x, y);
             const float* p = &frame.radiance[std::size_t(4 * (y * kSide + x))];
             EXPECT_NEAR(p[0], linearFromSrgb(30.0 * texel.x / 255.0), kDecoding) << "column at " << x << "," << y;
             EXPECT_NEAR(p[1], linearFromSrgb(30.0 * texel.y / 255.0), kDecoding) << "row at " << x << "," << y;
         }
-    }
 }
 
 class Transforms : public FlatTest {
@@ -164,9 +161,8 @@ protected:
     /// Every texel has its own place as its colour.
     static scenes::Image placeImage() {
         std::vector<glm::vec4> texels;
-        for (int y = 0; y < kHeight; ++y) {
+        for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) texels.emplace_back(float(x), float(y), 0.0f, 1.0f);
-        }
         scenes::Image image;
         image.name = "places";
         image.width = kWidth;
@@ -206,13 +202,13 @@ TEST_F(ExactFilter, everyPairOfWrapModesFindsAndBlendsItsOwnTexels) {
     for (const glm::dvec2 start : {glm::dvec2(-17.0, -11.0), glm::dvec2(-17.25, -11.625)}) {
         use.transform.scale = double(kSide) * step / size;
         use.transform.offset = (start + 0.5 - 0.5 * step) / size;
-        for (const scenes::Wrap wrapU : kModes) {
+        for (const scenes::Wrap wrapU : kModes)
             for (const scenes::Wrap wrapV : kModes) {
                 SCOPED_TRACE(testing::Message() << "u " << int(wrapU) << ", v " << int(wrapV) << ", start " << start.x);
                 use.sampler.wrapU = wrapU;
                 use.sampler.wrapV = wrapV;
                 const engine::RenderedFrame shown = frame(scene, settings);
-                for (int y = 0; y < kSide; ++y) {
+                for (int y = 0; y < kSide; ++y)
                     for (int x = 0; x < kSide; ++x) {
                         const glm::dvec2 place = step * glm::dvec2(x, y) + start;
                         const glm::vec4 found = pixel(shown, x, y);
@@ -222,9 +218,7 @@ TEST_F(ExactFilter, everyPairOfWrapModesFindsAndBlendsItsOwnTexels) {
                         EXPECT_NEAR(found.r, blended(place.x, kWidth, wrapU), kRounding) << "column " << x;
                         EXPECT_NEAR(found.g, blended(place.y, kHeight, wrapV), kRounding) << "row " << y;
                     }
-                }
             }
-        }
     }
 }
 
@@ -242,14 +236,13 @@ TEST_F(ExactFilter, theSecondSetOfCoordinatesAlsoSaysWhetherTexelsAreTakenSingly
     use.transform.scale = double(kSide) * step / size;
     use.transform.offset = (start + 0.5 - 0.5 * step) / size;
     const engine::RenderedFrame shown = frame(scene, settings);
-    for (int y = 0; y < kSide; ++y) {
+    for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const glm::dvec2 texel = glm::floor(step * glm::dvec2(x, y) + start + 0.5);
             const glm::vec4 found = pixel(shown, x, y);
             EXPECT_EQ(found.r, float(wrapped(int(texel.x), kWidth, use.sampler.wrapU))) << "column " << x;
             EXPECT_EQ(found.g, float(wrapped(int(texel.y), kHeight, use.sampler.wrapV))) << "row " << y;
         }
-    }
 }
 
 } // namespace

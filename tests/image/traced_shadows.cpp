@@ -1,41 +1,19 @@
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scenes/Load.h"
-#include "scenes/LookAt.h"
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/ShadowTest.h"
-#include "tests/support/GlContext.h"
 #include "tests/support/ShaderMutant.h"
-#include "tests/support/Sweep.h"
-#include "tests/support/TestScenes.h"
 
 namespace tessera {
 namespace {
 
-using test::kAllLightsCast, test::kShadowCases, test::sceneOf, test::ShadowCase, test::WrongPixels, test::wrongPixels;
+using namespace test;
 
-class Shadows : public test::ShadowTest {
-protected:
-    /// Lights of the hall: all that cast shadows, or every fourth of them.
-    void expectRightByEachLight();
-    /// Of 1000 suns, or a quarter as many.
-    void expectNoAcne();
-    /// With every technique, or one in turn.
-    void expectSameEverywhere();
-    // Of a scene of everything, or of Lambert materials.
-    void expectSameOnMasked();
-    void expectRightOnMasked();
-};
+class Shadows : public ShadowTest {};
 using ShadowsSlow = Shadows;
 
 /// Masked, transparent and mirrored surfaces.
 scenes::Scene sceneOfCasters() {
-    return test::isWholeSweep() ? test::everythingScene() : test::lambertScene();
+    return isWholeSweep() ? everythingScene() : lambertScene();
 }
 
 /// Adds a square of two triangles.
@@ -48,55 +26,35 @@ void addFloor(scenes::Scene& scene, const glm::dvec3& middleOS, double sideMetre
 
 /// A small picture of the first light alone.
 frame::FrameSettings shadowsOfTheFirstLight() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {128, 72};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(128, 72));
     settings.soloLight = 0;
     return settings;
 }
 
-void Shadows::expectSameEverywhere() {
+TEST_SWEEP(Shadows, everyTechniqueCastsTheSameToTheLastBit) {
     std::size_t turn = 0;
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings;
-        settings.sizePixels = {201, 113};
+        frame::FrameSettings settings = ofSize(201, 113);
         settings.shadows = tried.shadows;
         SCOPED_TRACE(tried.scene);
-        expectParity(renderer, settings, test::techniquesInTurn(turn++));
+        expectParity(renderer, settings, techniquesInTurn(turn++));
     }
 }
-TEST_F(Shadows, everyTechniqueCastsTheSameToTheLastBit) {
-    expectSameEverywhere();
-}
-TEST_F(ShadowsSlow, everyTechniqueCastsTheSameToTheLastBit) {
-    expectSameEverywhere();
-}
 
-void Shadows::expectSameOnMasked() {
+TEST_SWEEP(Shadows, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
     const scenes::Scene scene = sceneOfCasters();
     engine::Renderer renderer(context(), scene);
     for (const int samples : {1, 4}) {
-        frame::FrameSettings settings;
-        settings.sizePixels = {160, 90};
-        settings.samples = samples;
-        settings.shadows = kAllLightsCast;
-        expectParity(renderer, settings, test::techniquesInTurn(std::size_t(samples) / 4, samples));
+        frame::FrameSettings settings = withSamples(withShadows(ofSize(160, 90)), samples);
+        expectParity(renderer, settings, techniquesInTurn(std::size_t(samples) / 4, samples));
     }
-}
-TEST_F(Shadows, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
-    expectSameOnMasked();
-}
-TEST_F(ShadowsSlow, everyTechniqueCastsTheSameOnMaskedAndTransparentSurfacesAndWithSeveralSamples) {
-    expectSameOnMasked();
 }
 
 /// A size at which triangles of the hall are as small as a pixel.
 frame::FrameSettings hallWithRunsBeside() {
-    frame::FrameSettings settings;
-    settings.sizePixels = {980, 778};
-    return settings;
+    return ofSize(980, 778);
 }
 
 // Beside a triangle of one pixel, the rasteriser runs invocations whose rays meet all boxes of the tree.
@@ -113,8 +71,7 @@ TEST_F(ShadowsSlow, aPixelIsLitByAllItsLightsWhateverIsRunBesideItAndElseIsNaN) 
     const auto radiance = renderer.render(engine::Technique::ClusteredForward, settings).radiance;
     EXPECT_EQ(radiance, renderer.render(engine::Technique::ClusteredDeferred, settings).radiance);
     // Where such rays are walked after all, Mesa ends the pixel's loops: it is NaN, and not dark.
-    const test::ShaderMutant shaders;
-    shaders.replace("lib/shadow/caster_walk.glsl", "isBehind || IS_HELPER ?", "isBehind ?");
+    const ShaderMutant shaders("lib/shadow/caster_walk.glsl", "isBehind || IS_HELPER ?", "isBehind ?");
     engine::Renderer faulty(context(), scene, shaders.tree());
     const auto ended = faulty.render(engine::Technique::ClusteredForward, settings).radiance;
     std::size_t unlike = 0;
@@ -130,14 +87,13 @@ TEST_F(Shadows, noPixelIsWrongBeyondRounding) {
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
-        frame::FrameSettings settings = test::settingsOf(tried);
+        frame::FrameSettings settings = settingsOf(tried);
         for (const auto terminator : {frame::ShadowTerminator::Exact, frame::ShadowTerminator::Softened}) {
             settings.shadowTerminator = terminator;
             const bool isExact = terminator == frame::ShadowTerminator::Exact;
             const std::string name = fmt::format("{}, {}", tried.scene, isExact ? "exact" : "softened");
             const WrongPixels count = wrongPixels(renderer, settings);
-            fmt::print("{}: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", name, count.wrong,
-                       count.undecided, count.hidden, count.covered);
+            fmt::print("{}: {}\n", name, count.text());
             EXPECT_EQ(count.wrong, 0u) << name;
             EXPECT_LE(count.wrongWithout, count.covered / 1000) << name;
             const double measured = isExact ? tried.undecidedShare : tried.softenedShare;
@@ -148,17 +104,18 @@ TEST_F(Shadows, noPixelIsWrongBeyondRounding) {
 }
 
 // In the light of all, what is wrong with a dim one would not be seen.
-void Shadows::expectRightByEachLight() {
+/// Lights of the hall: all that cast shadows, or every fourth of them.
+TEST_SWEEP(Shadows, ofEachLightOfTheHallAloneNoPixelIsWrong) {
     const ShadowCase& hall = kShadowCases[2];
     const scenes::Scene scene = sceneOf(hall);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings = test::settingsOf(hall);
+    frame::FrameSettings settings = settingsOf(hall);
     settings.sizePixels = {120, 68};
     WrongPixels all;
     int lights = 0;
     for (std::size_t light = 0; light < scene.lights.size(); ++light) {
         if (!scenes::castsShadow(scene, light, hall.shadows)) continue;
-        if (++lights % 4 != 1 && !test::isWholeSweep()) continue;
+        if (++lights % 4 != 1 && !isWholeSweep()) continue;
         settings.soloLight = int(light);
         const WrongPixels count = wrongPixels(renderer, settings);
         EXPECT_EQ(count.wrong, 0u) << "light " << light;
@@ -168,7 +125,7 @@ void Shadows::expectRightByEachLight() {
                all.undecided, all.hidden, all.reached);
     EXPECT_EQ(lights, 17);
     EXPECT_LE(all.wrongWithout, all.covered / 1000);
-    if (test::isWholeSweep()) {
+    if (isWholeSweep()) {
         // Measured: 0.25 %.
         EXPECT_LE(double(all.undecided), 0.0038 * double(all.reached));
         EXPECT_GE(all.hidden, all.reached / 2) << "nothing to see";
@@ -178,60 +135,39 @@ void Shadows::expectRightByEachLight() {
         EXPECT_GE(all.hidden, all.reached / 10) << "nothing to see";
     }
 }
-TEST_F(Shadows, ofEachLightOfTheHallAloneNoPixelIsWrong) {
-    expectRightByEachLight();
-}
-TEST_F(ShadowsSlow, ofEachLightOfTheHallAloneNoPixelIsWrong) {
-    expectRightByEachLight();
-}
 
-void Shadows::expectRightOnMasked() {
+TEST_SWEEP(Shadows, noPixelOfMaskedMirroredAndTexturedSurfacesIsWrong) {
     const scenes::Scene scene = sceneOfCasters();
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;
-    settings.sizePixels = test::isWholeSweep() ? glm::ivec2(240, 135) : glm::ivec2(160, 90);
+    settings.sizePixels = isWholeSweep() ? glm::ivec2(240, 135) : glm::ivec2(160, 90);
     settings.filter = frame::TextureFilter::Exact;
     settings.shadows = kAllLightsCast;
     const WrongPixels count = wrongPixels(renderer, settings);
-    fmt::print("{}: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", scene.name, count.wrong,
-               count.undecided, count.hidden, count.covered);
+    fmt::print("{}: {}\n", scene.name, count.text());
     EXPECT_EQ(count.wrong, 0u);
     EXPECT_LE(count.wrongWithout, count.covered / 1000);
     // Measured: 0.43 %.
     EXPECT_LE(double(count.undecided), 0.0064 * double(count.covered));
     EXPECT_GE(count.hidden, count.covered / 20);
 }
-TEST_F(Shadows, noPixelOfMaskedMirroredAndTexturedSurfacesIsWrong) {
-    expectRightOnMasked();
-}
-TEST_F(ShadowsSlow, noPixelOfMaskedMirroredAndTexturedSurfacesIsWrong) {
-    expectRightOnMasked();
-}
 
-void Shadows::expectNoAcne() {
-    scenes::Scene scene = test::ballUnderSun();
+TEST_SWEEP(Shadows, noSunPutsAcneOnASphereAndAPlane) {
+    scenes::Scene scene = ballUnderSun();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {64, 36};
-    settings.shadows = kAllLightsCast;
-    const int suns = test::isWholeSweep() ? 1000 : 250;
-    const WrongPixels count = test::wrongUnderSuns(renderer, scene, settings, suns);
-    fmt::print("{} suns: {} pixels wrong, {} undecided of {}\n", suns, count.wrong, count.undecided, count.covered);
+    frame::FrameSettings settings = withShadows(ofSize(64, 36));
+    const int suns = isWholeSweep() ? 1000 : 250;
+    const WrongPixels count = wrongUnderSuns(renderer, scene, settings, suns);
+    fmt::print("{} suns: {}\n", suns, count.text());
     EXPECT_EQ(count.wrong, 0u);
     // Measured: 0.06 %.
     EXPECT_LE(double(count.undecided), 0.0009 * double(count.covered));
-}
-TEST_F(Shadows, noSunPutsAcneOnASphereAndAPlane) {
-    expectNoAcne();
-}
-TEST_F(ShadowsSlow, noSunPutsAcneOnASphereAndAPlane) {
-    expectNoAcne();
 }
 
 // A model may hold a stray triangle. It must not take the digits of all others, and the reference must not lose with
 // us.
 TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
     const frame::FrameSettings settings = shadowsOfTheFirstLight();
     const auto expectTheSame = [&](float angle, std::initializer_list<float> strays) {
@@ -250,8 +186,7 @@ TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
             }
             engine::Renderer renderer(context(), scene);
             const WrongPixels count = wrongPixels(renderer, settings);
-            fmt::print("angle {}, a stray {} m away: {} pixels wrong, {} undecided, {} changed by shadows of {}\n",
-                       angle, farMetres, count.wrong, count.undecided, count.hidden, count.covered);
+            fmt::print("angle {}, a stray {} m away: {}\n", angle, farMetres, count.text());
             if (farMetres == 0.0f) without = count;
             EXPECT_EQ(count.wrong, 0u);
             renderer.render(engine::Technique::Deferred, settings);
@@ -271,7 +206,7 @@ TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
 }
 
 TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.4, 0.8, 0.3));
     scene.lights[0].directionWS = -toSun;
     addFloor(scene, glm::dvec3(0.0), 3.0);
@@ -279,8 +214,7 @@ TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
     const frame::FrameSettings settings = shadowsOfTheFirstLight();
     engine::Renderer renderer(context(), scene);
     const WrongPixels count = wrongPixels(renderer, settings);
-    fmt::print("a plate 10 km away: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong,
-               count.undecided, count.hidden, count.covered);
+    fmt::print("a plate 10 km away: {}\n", count.text());
     EXPECT_EQ(count.wrong, 0u);
     EXPECT_GE(count.hidden, count.covered / 4);
     EXPECT_LE(count.undecided, count.covered / 20);
@@ -288,7 +222,7 @@ TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
 
 // The corners of a huge triangle are rounded by metres, and all of it with them.
 TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
     addFloor(scene, {0.0, -1e7, 0.0}, 4e8);
     const frame::FrameSettings settings = shadowsOfTheFirstLight();
@@ -296,8 +230,7 @@ TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
         scene.lights[0].angularRadiusRadians = angle;
         engine::Renderer renderer(context(), scene);
         const WrongPixels count = wrongPixels(renderer, settings);
-        fmt::print("angle {}: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", angle, count.wrong,
-                   count.undecided, count.hidden, count.covered);
+        fmt::print("angle {}: {}\n", angle, count.text());
         EXPECT_EQ(count.wrong, 0u);
         EXPECT_GT(count.hidden, 50u);
         EXPECT_GE(count.undecided, count.hidden) << "whatever a caster may hide is undecided";
@@ -308,7 +241,7 @@ TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
 
 // Depths of neighbours differ by few roundings there, so that a triangle's normal is known to some degrees only.
 TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
-    scenes::Scene scene = test::ballUnderSun();
+    scenes::Scene scene = ballUnderSun();
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3)), aside = {0.8, 0.0, -0.6};
     scene.nodes[0].instances = {{1, 0}};
     scene.nodes[0].parentFromNode =
@@ -331,11 +264,8 @@ TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
             for (const double side : {-1.0, 1.0}) {
                 scene.lights[0].directionWS = -std::cos(up) * side * along - std::sin(up) * normal;
                 for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
-                    frame::FrameSettings settings;
-                    settings.sizePixels = {640, 360};
-                    settings.shadows = kAllLightsCast;
-                    settings.shadowFilter = filter;
-                    settings.view = frame::DebugView::Shadow;
+                    frame::FrameSettings settings =
+                        withView(withShadows(ofSize(640, 360), filter), frame::DebugView::Shadow);
                     const std::vector<float> seen = renderer.render(engine::Technique::Deferred, settings).radiance;
                     std::size_t dark = 0;
                     for (std::size_t i = 0; i < seen.size(); i += 4) dark += !(seen[i] == 1.0f);
@@ -359,18 +289,15 @@ scenes::Scene floorBeforeWall() {
     scenes::builtin::appendFloor(scene.meshes.back(), {0.0, 0.0, -1.0}, glm::dvec2(4.0, 2.0), glm::ivec2(1));
     scene.nodes[1].instances = {{1, 0}};
     scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, 3.0}, {0.0, 0.4, 0.0});
-    scene.lights = {test::pointLight({}, 3.0f)};
-    scene.lights[0].type = scenes::LightType::Directional;
+    scene.lights = {sunLight({0.0, 0.0, -1.0}, 3.0f)};
     return scene;
 }
 
 // Their triangles bring vertices of their own, with which all meshes move in the buffers.
 TEST_F(Shadows, thatAreTurnedOnLaterAreThoseOfANewRenderer) {
-    const scenes::Scene scene = test::everythingScene();
+    const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene), newRenderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {96, 54};
-    settings.shadows = {scenes::ShadowRequest::Kind::None};
+    frame::FrameSettings settings = withoutShadows(ofSize(96, 54));
     const std::vector<float> lit = renderer.render(engine::Technique::Deferred, settings).radiance;
     settings.shadows = kAllLightsCast;
     const std::vector<float> shadowed = renderer.render(engine::Technique::Deferred, settings).radiance;
@@ -385,9 +312,7 @@ TEST_F(Shadows, ofASceneWithoutTrianglesNothingIsMissingWhereAllFeaturesAre) {
     scene.meshes.clear();
     scene.nodes.clear();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings;
-    settings.sizePixels = {32, 18};
-    settings.shadows = kAllLightsCast;
+    frame::FrameSettings settings = withShadows(ofSize(32, 18));
     expectPruningIsUnseen(renderer, settings);
 }
 
@@ -395,19 +320,14 @@ TEST_F(Shadows, ofASceneWithoutTrianglesNothingIsMissingWhereAllFeaturesAre) {
 // only: beyond the edge the floor's plane goes on behind the wall, and the wall's below the floor.
 TEST_F(Shadows, severalSamplesAreLitWhereTheirTriangleIsAndNotBehindTheNext) {
     scenes::Scene scene = floorBeforeWall();
-    frame::FrameSettings settings;
-    settings.sizePixels = {160, 90};
-    settings.samples = 4;
-    settings.shadows = kAllLightsCast;
-    settings.view = frame::DebugView::Shadow;
+    frame::FrameSettings settings = withSamples(withView(withShadows(ofSize(160, 90)), frame::DebugView::Shadow), 4);
     for (const auto filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         settings.shadowFilter = filter;
         for (const bool isBefore : {true, false}) {
             if (!isBefore && filter == frame::ShadowFilter::Hard)
                 continue; // maps leak at contacts, with one sample too
             scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.1, -0.7, isBefore ? -0.8 : 0.8));
-            engine::Renderer renderer(context(), scene);
-            const std::vector<float> seen = renderer.render(engine::Technique::ForwardPrepass, settings).radiance;
+            const std::vector<float> seen = drawn(scene, settings, engine::Technique::ForwardPrepass);
             std::size_t wrong = 0, covered = 0;
             for (std::size_t i = 0; i < seen.size(); i += 4) {
                 covered += seen[i + 3] > 0.0f;

@@ -1,8 +1,6 @@
 // Surfaces that show what is behind them, in the order in which they are drawn.
-#include <algorithm>
-
-#include "scenes/builtin/Shapes.h"
 #include "tests/image/EnvironmentTest.h"
+#include "tests/image/ImageTest.h"
 
 namespace tessera {
 namespace {
@@ -15,9 +13,7 @@ class Transparency : public EnvironmentTest {};
 /// Triangles that face away are drawn before those that face the camera, in the reference too: of a convex shell each
 /// pixel has one of either, and the order in which a file lists them is no matter.
 TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
-    scenes::Material tinted;
-    tinted.model = scenes::MaterialModel::MetallicRoughness;
-    tinted.baseColor = {0.9f, 0.4f, 0.2f, 0.5f};
+    scenes::Material tinted = materialOf(scenes::MaterialModel::MetallicRoughness, {0.9f, 0.4f, 0.2f, 0.5f});
     tinted.doubleSided = true;
     scenes::Material sheet = tinted;
     tinted.alphaMode = scenes::AlphaMode::Blend;
@@ -28,8 +24,7 @@ TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
         scenes::Light& sun = scene.lights.emplace_back();
         sun.type = scenes::LightType::Directional;
         sun.directionWS = glm::normalize(glm::dvec3(-0.3, -0.5, -1.0));
-        frame::FrameSettings settings;
-        settings.sizePixels = {32, 32};
+        frame::FrameSettings settings = ofSize(32, 32);
         std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
         const auto reversed = [&] { // triangles, not their corners
             for (std::size_t i = 0, j = indices.size() - 3; i < j; i += 3, j -= 3)
@@ -39,20 +34,34 @@ TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
         std::vector<float> before;
         for (const bool isReversed : {false, true}) {
             if (isReversed) reversed();
-            engine::Renderer renderer(context(), scene);
-            const std::vector<float> seen = renderer.render(Technique::Forward, settings).radiance;
+            const std::vector<float> seen = drawn(scene, settings, Technique::Forward);
             if (isReversed) {
                 EXPECT_EQ(seen, before);
             }
             before = seen;
-            const validation::ReferencePicture truth = validation::referencePicture(
-                scene, settings, [] {}, validation::Leeway::None);
+            const validation::ReferencePicture truth = strictReference(scene, settings);
             for (std::size_t i = 0; i < seen.size(); ++i) {
                 if (i % 4 == 3) continue; // the share that is covered
                 ASSERT_NEAR(seen[i], truth.picture.rgba[i], 2e-4) << i << ", reversed " << isReversed;
             }
         }
     }
+}
+
+/// The view ids as outlines take it: of the nearest surface, whether or not light passes through it.
+class NearestIds : public ImageTest {};
+
+TEST_F(NearestIds, areThoseOfASceneWithoutTransparentSurfaces) {
+    const scenes::Scene opaque = scenes::loadScene("spheres");
+    scenes::Scene scene = opaque;
+    for (std::size_t i = 1; i < scene.materials.size(); i += 2) scene.materials[i].alphaMode = scenes::AlphaMode::Blend;
+    frame::FrameSettings settings = withView(ofSize(160, 90), frame::DebugView::Ids);
+    engine::Renderer renderer(context(), scene), truth(context(), opaque);
+    const std::vector<float> wanted = truth.render(engine::Technique::Forward, settings).radiance;
+    EXPECT_FALSE(renderer.render(engine::Technique::Forward, settings).radiance == wanted) << "nothing is transparent";
+    settings.idsOfNearest = true;
+    EXPECT_TRUE(renderer.render(engine::Technique::Forward, settings).radiance == wanted);
+    EXPECT_TRUE(truth.render(engine::Technique::Forward, settings).radiance == wanted);
 }
 
 } // namespace

@@ -1,16 +1,8 @@
 // Hooks that move vertices: every pass and technique, their bound, and the reference.
-#include <algorithm>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
 #include "tests/image/HookTest.h"
-#include "tests/support/Sweep.h"
 #include "validation/compare/TechniqueCompare.h"
 
 namespace tessera {
@@ -18,14 +10,15 @@ namespace {
 
 using engine::Technique;
 using frame::ShadowFilter;
-using testing::HasSubstr;
+using testing::HasSubstr, testing::ThrowsMessage;
+using namespace test;
 
-class VertexHooks : public test::HookTest {
+class VertexHooks : public HookTest {
 protected:
     scenes::Scene moving(const scenes::Scene& scene, std::string_view body, double mayMoveMetres) {
         scenes::Scene result = hooked(scene, "{\n}\n");
         scenes::Hook& hook = *result.hook;
-        setText(hook, std::string(test::kVertexHeader).append(body));
+        setText(hook, std::string(kVertexHeader).append(body));
         hook.changesSurfaces = false;
         hook.movesVertices = true;
         hook.mayMoveMetres = mayMoveMetres;
@@ -34,32 +27,20 @@ protected:
     }
     static frame::FrameSettings shadowed(ShadowFilter filter) {
         frame::FrameSettings settings = smallSettings();
-        settings.shadows = test::kAllLightsCast;
+        settings.shadows = kAllLightsCast;
         settings.shadowFilter = filter;
         return settings;
     }
-    /// Of a scene of everything, or of its metal.
-    void expectNoMoveNoChange();
-    void expectMovedAsAMesh();
-    /// Of a scene of materials that do not vary, or of metal.
-    void expectAlikeAtAnyTime();
 };
-using VertexHooksSlow = VertexHooks;
 
-void VertexHooks::expectNoMoveNoChange() {
-    const scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(VertexHooks, oneThatMovesNothingChangesNoBit) {
+    const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     const frame::FrameSettings settings = shadowed(ShadowFilter::Traced);
     EXPECT_EQ(drawn(moving(scene, "{\n}\n", 0.0), settings), drawn(scene, settings));
 }
-TEST_F(VertexHooks, oneThatMovesNothingChangesNoBit) {
-    expectNoMoveNoChange();
-}
-TEST_F(VertexHooksSlow, oneThatMovesNothingChangesNoBit) {
-    expectNoMoveNoChange();
-}
 
-void VertexHooks::expectMovedAsAMesh() {
-    scenes::Scene scene = test::isWholeSweep() ? test::everythingScene() : test::metalScene();
+TEST_SWEEP(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
+    scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     const scenes::Scene hook =
         moving(scene, "{\n    positionOS += vec3(0.25, 0.0, 0.125);\n    normalOS = normalOS.yzx;\n}\n", 0.3);
     for (scenes::Mesh& mesh : scene.meshes) {
@@ -73,15 +54,9 @@ void VertexHooks::expectMovedAsAMesh() {
             EXPECT_EQ(drawn(hook, settings, technique), drawn(scene, settings, technique)) << int(technique);
     }
 }
-TEST_F(VertexHooks, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
-    expectMovedAsAMesh();
-}
-TEST_F(VertexHooksSlow, everyPassDrawsWhatTheyMoveAsAMeshThatIsThere) {
-    expectMovedAsAMesh();
-}
 
-void VertexHooks::expectAlikeAtAnyTime() {
-    const scenes::Scene still = test::isWholeSweep() ? test::evenScene() : test::metalScene();
+TEST_SWEEP(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
+    const scenes::Scene still = isWholeSweep() ? evenScene() : metalScene();
     const scenes::Scene scene =
         moving(still, "{\n    positionOS += 0.1 * sin(hook.timeSeconds + 5.0 * positionOS.yzx);\n}\n", 0.2);
     engine::Renderer renderer(context(), scene);
@@ -93,20 +68,12 @@ void VertexHooks::expectAlikeAtAnyTime() {
     settings.timeSeconds = 0.5;
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, first);
     EXPECT_EQ(drawn(scene, settings), first);
-    expectParity(renderer, settings, test::techniquesInTurn(0));
-}
-TEST_F(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
-    expectAlikeAtAnyTime();
-}
-TEST_F(VertexHooksSlow, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
-    expectAlikeAtAnyTime();
+    expectParity(renderer, settings, techniquesInTurn(0));
 }
 
 /// A quad that its own texture coordinates move is the quad whose vertices lie there.
 TEST_F(VertexHooks, theyGetTheTextureCoordinatesOfTheirVertex) {
-    scenes::Material glowing;
-    glowing.model = scenes::MaterialModel::SingleColor;
-    scenes::Scene scene = test::quadScene(glowing), there = scene;
+    scenes::Scene scene = quadScene(unlit()), there = scene;
     scenes::Mesh& mesh = there.meshes[0];
     ASSERT_FALSE(mesh.texCoords[0].empty());
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i)
@@ -118,7 +85,7 @@ TEST_F(VertexHooks, theyGetTheTextureCoordinatesOfTheirVertex) {
 }
 
 TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
-    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.x *= 0.5;\n}\n", 0.6);
+    const scenes::Scene scene = moving(quadScene({}), "{\n    positionOS.x *= 0.5;\n}\n", 0.6);
     engine::Renderer renderer(context(), scene);
     const frame::FrameSettings settings = smallSettings();
     EXPECT_THROW(validation::referencePicture(scene, settings), InputError);
@@ -129,17 +96,12 @@ TEST_F(VertexHooks, theReferenceTakesTheVerticesThatAFrameShows) {
 }
 
 TEST_F(VertexHooks, viewsOfAFrameShowOneTime) {
-    const scenes::Scene scene = moving(test::quadScene({}), "{\n    positionOS.z += 0.1 * hook.timeSeconds;\n}\n", 1.0);
+    const scenes::Scene scene = moving(quadScene({}), "{\n    positionOS.z += 0.1 * hook.timeSeconds;\n}\n", 1.0);
     engine::Renderer renderer(context(), scene);
     std::vector<engine::ViewRequest> views(2, {Technique::Forward, smallSettings()});
     EXPECT_NO_THROW(renderer.draw(views));
     views[1].settings.timeSeconds = 1.0;
-    try {
-        renderer.draw(views);
-        FAIL() << "expected an InputError";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("give all of them one time"));
-    }
+    EXPECT_THAT([&] { renderer.draw(views); }, ThrowsMessage<InputError>(HasSubstr("give all of them one time")));
 }
 
 TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
@@ -150,35 +112,26 @@ TEST_F(VertexHooks, aVertexThatGoesTooFarOrNowhereIsRefusedByName) {
                  {"{\n    normalOS.y = sqrt(-1.0 - hook.timeSeconds);\n}\n", "a normal that is infinite or NaN"},
                  {"{\n    normalOS /= hook.timeSeconds;\n}\n", "a normal that is infinite or NaN"}};
     for (const auto& tried : cases) {
-        const scenes::Scene scene = moving(test::quadScene({}), tried.body, 1.0);
-        try {
-            drawn(scene, smallSettings());
-            FAIL() << "expected an InputError";
-        } catch (const InputError& error) {
-            EXPECT_THAT(error.what(),
-                        testing::ContainsRegex("^" + scene.hook->file + ": at 0 s hookVertex (moves|gives) vertex 0"));
-            EXPECT_THAT(error.what(), HasSubstr(tried.says));
-        }
+        const scenes::Scene scene = moving(quadScene({}), tried.body, 1.0);
+        EXPECT_THAT([&] { drawn(scene, smallSettings()); },
+                    ThrowsMessage<InputError>(testing::AllOf(
+                        testing::ContainsRegex("^" + scene.hook->file + ": at 0 s hookVertex (moves|gives) vertex 0"),
+                        HasSubstr(std::string(tried.says)))));
     }
 }
 
 TEST_F(VertexHooks, loopsThatAreEndedAreRefused) {
     const auto looping = [&](const char* rounds) {
-        return moving(test::quadScene({}),
+        return moving(quadScene({}),
                       fmt::format("{{\n    float sum = 0.0;\n    for (float i = 0.0; i < {}; ++i) sum += 1.0;\n"
                                   "    positionOS.z += 1e-7 * sum;\n}}\n",
                                   rounds),
                       1.0);
     };
     EXPECT_NO_THROW(drawn(looping("60000.0"), smallSettings()));
-    for (const char* rounds : {"60001.0", "1e6"}) {
-        try {
-            drawn(looping(rounds), smallSettings());
-            FAIL() << "expected an InputError";
-        } catch (const InputError& error) {
-            EXPECT_THAT(error.what(), HasSubstr("its loops take more than 60000 iterations"));
-        }
-    }
+    for (const char* rounds : {"60001.0", "1e6"})
+        EXPECT_THAT([&] { drawn(looping(rounds), smallSettings()); },
+                    ThrowsMessage<InputError>(HasSubstr("its loops take more than 60000 iterations")));
 }
 
 class MovedTooFar : public VertexHooks {
@@ -206,9 +159,9 @@ TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
         {"{\n    normalOS.z = sqrt(-1.0 - hook.timeSeconds);\n}\n", {0.0f, 0.9f, 0.9f}, {0.0f, 0.9f, 0.9f}},
     };
     for (const auto& tried : cases) {
-        const scenes::Scene scene = moving(test::quadScene(material), tried.body, 1.0);
+        const scenes::Scene scene = moving(quadScene(material), tried.body, 1.0);
         engine::Renderer renderer(context(), scene);
-        for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
+        for (const Technique technique : {Technique::Forward, Technique::Deferred})
             for (const auto& [share, wanted] : {std::pair(0.45, tried.left), std::pair(0.55, tried.right)}) {
                 // Between them 0.4 and 1 times as bright, by how a surface faces the eye.
                 const glm::vec3 found = shown(renderer, technique, share);
@@ -220,13 +173,12 @@ TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
                     EXPECT_GE(found[c], 0.39f * wanted[c]) << tried.body;
                 }
             }
-        }
     }
 }
 
 TEST_F(MovedTooFar, onlyTheVerticesThatDoAreAndOtherFramesDoNotShowIt) {
     const scenes::Scene scene =
-        moving(test::quadScene({}), "{\n    if (positionOS.x > 0.0) positionOS.z += hook.timeSeconds;\n}\n", 1.0);
+        moving(quadScene({}), "{\n    if (positionOS.x > 0.0) positionOS.z += hook.timeSeconds;\n}\n", 1.0);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = smallSettings();
     const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
@@ -244,6 +196,59 @@ TEST_F(MovedTooFar, onlyTheVerticesThatDoAreAndOtherFramesDoNotShowIt) {
     EXPECT_THROW(renderer.render(Technique::Forward, settings), InputError);
     settings.timeSeconds = 0.0;
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before);
+}
+
+// The hooks of scenes/files.
+
+constexpr const char* kHookSamples[] = {"flag", "pulsating_lattice", "head_sick"};
+
+/// At the ends of their parameters.
+class SampleHooks : public HookTest {
+protected:
+    static scenes::Scene sample(std::string_view name) {
+        return scenes::loadScene(fmt::format("{}/scenes/files/{}.json", TESSERA_SOURCE_DIR, name));
+    }
+};
+
+TEST_SWEEP(SampleHooks, verticesStayWithinMayMoveMetres) {
+    for (const char* name : kHookSamples) {
+        SCOPED_TRACE(name);
+        scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        for (const bool most : {false, true}) {
+            for (scenes::HookParameter& parameter : scene.hook->parameters)
+                parameter.value = most ? parameter.most : parameter.least;
+            for (int step = 0; step < 12; step += isWholeSweep() ? 1 : 3)
+                EXPECT_NO_THROW(renderer.sceneAt(0.37 * step));
+        }
+    }
+}
+
+/// Whatever sines become of a billion.
+TEST_F(SampleHooks, verticesStayWithinMayMoveMetresAfterABillionSeconds) {
+    for (const char* name : kHookSamples) {
+        SCOPED_TRACE(name);
+        const scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        for (const double seconds : {1e9, -1e9}) EXPECT_NO_THROW(renderer.sceneAt(seconds));
+    }
+}
+
+TEST_F(SampleHooks, everyParameterChangesThePicture) {
+    for (const char* name : kHookSamples) {
+        scenes::Scene scene = sample(name);
+        engine::Renderer renderer(context(), scene);
+        frame::FrameSettings settings = smallSettings();
+        settings.timeSeconds = 2.9;
+        settings.subsurface = scenes::SubsurfaceMethod::None;
+        const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
+        for (scenes::HookParameter& parameter : scene.hook->parameters) {
+            const float value = std::exchange(parameter.value, parameter.most);
+            EXPECT_NE(renderer.render(Technique::Forward, settings).radiance, before) << name << ' ' << parameter.name;
+            parameter.value = value;
+        }
+        EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, before) << name;
+    }
 }
 
 } // namespace

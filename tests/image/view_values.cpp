@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -6,7 +5,6 @@
 
 #include "base/Error.h"
 #include "engine/PrepareView.h"
-#include "scenes/Load.h"
 #include "shaders/shared/faults.h"
 #include "tests/image/FlatTest.h"
 
@@ -26,8 +24,7 @@ protected:
                                 frame::FrameSettings settings = {}) {
         settings.sizePixels = {kSide, kSide};
         settings.view = view;
-        engine::Renderer renderer(context(), scene);
-        return renderer.render(technique, settings);
+        return frameOf(scene, settings, technique);
     }
 };
 
@@ -46,13 +43,12 @@ TEST_F(ViewValues, theTexelViewIsExactlyTheMapInBothSpaces) {
         material.normalMapSpace = space;
         const Scene scene = texturedScene(flatScene(material), TextureSlot::Normal, map);
         const engine::RenderedFrame view = frame(scene, viewSettings(frame::DebugView::NormalTexel));
-        for (std::size_t i = 0; i < std::size_t(kSide * kSide); ++i) {
+        for (std::size_t i = 0; i < std::size_t(kSide * kSide); ++i)
             for (std::size_t c = 0; c < 3; ++c) {
                 EXPECT_NEAR(view.radiance[4 * i + c], int(map.texels[4 * i + c]) / 255.0, 1.2e-7)
                     << i; // an fp32 step below 1
                 EXPECT_EQ(view.display[4 * i + c], std::uint8_t(map.texels[4 * i + c])) << i;
             }
-        }
     }
 }
 
@@ -90,7 +86,7 @@ TEST_F(ViewValues, oneNormalIsShownInWorldViewAndObjectSpace) {
                  {frame::DebugView::NormalObject, normalOS}};
     for (const auto& [view, wanted] : cases) {
         SCOPED_TRACE(frame::debugViewInfo(view).name);
-        for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View}) {
+        for (const frame::LightingSpace space : {frame::LightingSpace::World, frame::LightingSpace::View})
             for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
                 frame::FrameSettings settings = viewSettings(view);
                 settings.space = space;
@@ -99,7 +95,6 @@ TEST_F(ViewValues, oneNormalIsShownInWorldViewAndObjectSpace) {
                 // A dozen fp32 roundings of 2^-24 each, some on values that the node made six times as large.
                 for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], 2e-6) << c;
             }
-        }
     }
 }
 
@@ -206,8 +201,7 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
 
 /// There the frame that turns the tangent is off least where the stored normal is (docs/numerics.md).
 TEST_F(ViewValues, aTangentIsStoredBesideTheAxisFarthestFromItsNormal) {
-    Material material;
-    material.model = MaterialModel::MicrofacetAnisotropic;
+    Material material = materialOf(MaterialModel::MicrofacetAnisotropic);
     const Scene upright = flatScene(material);
     frame::FrameSettings settings;
     settings.layout = frame::layoutTable()[1].layout;
@@ -266,8 +260,7 @@ TEST_F(ViewValues, theDepthViewIsTheDistanceAheadOfTheEyeHoweverFar) {
 }
 
 TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInForIt) {
-    Material material;
-    material.model = MaterialModel::Microfacet;
+    Material material = materialOf(MaterialModel::Microfacet);
     Scene scene = flatScene(material);
     scene.lights = {pointLight({0.0, 0.0, 1.0}, 1.0f), pointLight({0.5, 0.5, 1.0}, 1.0f)};
     engine::Renderer renderer(context(), scene);
@@ -288,12 +281,9 @@ TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInFo
 }
 
 TEST_F(ViewValues, distributionsOfAnySizeFitTheDisplay) {
-    Material material;
-    material.model = MaterialModel::Microfacet;
+    Material material = materialOf(MaterialModel::Microfacet);
     Scene scene = flatScene(material);
-    scenes::Light sun = test::pointLight({}, 1.0f);
-    sun.type = scenes::LightType::Directional;
-    sun.directionWS = {0, 0, -1};
+    scenes::Light sun = sunLight({0, 0, -1}, 1.0f);
     scene.lights = {sun};
     int last = 0;
     for (const float alpha : {1.0f, 0.5f, 0.25f, 0.1f}) { // D = 1 / (pi alpha^2): 0.3 to 32

@@ -13,6 +13,9 @@ namespace tessera::test {
 /// A copy of the product's shaders with one fault in it.
 class ShaderMutant {
 public:
+    ShaderMutant(const std::string& file, const std::string& from, const std::string& to) : ShaderMutant() {
+        replace(file, from, to);
+    }
     ShaderMutant() { std::filesystem::copy(shaderFolder(), folder_.path(), std::filesystem::copy_options::recursive); }
 
     /// Replaces every `from` in a file below shaders/. Throws when there is none, so that no mutant is ever the

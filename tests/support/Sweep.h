@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <ranges>
 #include <span>
 #include <string_view>
@@ -50,5 +51,29 @@ std::vector<Value> everyNth(std::vector<Value> values, std::size_t n) {
     for (std::size_t i = 0; i < values.size(); i += isWholeSweep() ? 1 : n) taken.push_back(std::move(values[i]));
     return taken;
 }
+
+/// A test of a fixture, by suite and name.
+struct SweepName {
+    const char *suite, *name;
+};
+
+template <typename Fixture, typename Test>
+bool registerSweep(std::initializer_list<SweepName> names, const char* file, int line) {
+    for (const auto& [suite, name] : names)
+        testing::RegisterTest(suite, name, nullptr, nullptr, file, line, []() -> Fixture* { return new Test; });
+    return true;
+}
+
+/// A test of two suites: a part of its sweep in the fixture's own, all of it in the one whose name ends in Slow.
+#define TEST_SWEEP(fixture, name) TEST_SWEEP_AS(fixture, name, fixture##Slow, name)
+/// The same where the whole sweep has another suite or name.
+#define TEST_SWEEP_AS(fixture, name, slowSuite, slowName)                                                              \
+    class fixture##_##name##_Sweep : public fixture {                                                                  \
+        void TestBody() override;                                                                                      \
+    };                                                                                                                 \
+    [[maybe_unused]] const bool kIsRegistered_##fixture##_##name =                                                     \
+        ::tessera::test::registerSweep<fixture, fixture##_##name##_Sweep>(                                             \
+            {{#fixture, #name}, {#slowSuite, #slowName}}, __FILE__, __LINE__);                                         \
+    void fixture##_##name##_Sweep::TestBody()
 
 } // namespace tessera::test

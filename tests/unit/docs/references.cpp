@@ -51,11 +51,31 @@ TEST(Documentation, everyLinkWithinTheRepositoryLeadsSomewhere) {
     EXPECT_GT(links, 20);
 }
 
+/// The names of tests that the macros for sweeps declare in a source, as other tests are: "(Suite, name)".
+std::string namesOfSweeps(const std::string& source) {
+    std::string names;
+    for (std::size_t at = 0; (at = source.find("TEST_SWEEP", at)) != std::string::npos;) {
+        at = source.find('(', at) + 1;
+        std::vector<std::string> words{""};
+        for (; source[at] != ')'; ++at) {
+            if (source[at] == ',')
+                words.emplace_back();
+            else if (!std::isspace(static_cast<unsigned char>(source[at])))
+                words.back() += source[at];
+        }
+        if (words.size() == 2) words.insert(words.end(), {words[0] + "Slow", words[1]});
+        for (std::size_t i = 0; i + 1 < words.size(); i += 2) names += "(" + words[i] + ", " + words[i + 1] + ")";
+    }
+    return names;
+}
+
 TEST(Documentation, everyNamedTestExists) {
     std::string sources;
     for (const auto& entry : fs::recursive_directory_iterator(test::kRepository / "tests")) {
         const fs::path& path = entry.path();
-        if (path.extension() == ".cpp" || path.filename() == "CMakeLists.txt") sources += test::textOf(path);
+        if (path.extension() != ".cpp" && path.filename() != "CMakeLists.txt") continue;
+        const std::string source = test::textOf(path);
+        sources += source + namesOfSweeps(source);
     }
     int named = 0;
     for (const fs::path& document : test::documents()) {
