@@ -12,6 +12,7 @@ using scenes::Scene;
 using namespace test;
 
 class GlassBackFaces : public GlassBehindTest {};
+using GlassBackFacesSlow = GlassBackFaces;
 
 /// The scene with a body whose mesh is closed before it.
 Scene coveredByBody(Scene scene, const Material& glass, scenes::Mesh mesh, double tiltRadians = 0.0) {
@@ -253,7 +254,7 @@ TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
 
 /// The base of the prism on the table of the scene glass reflects all light, and the rays that leave it begin at the
 /// depth of the table: held against that of another place of the pixel, one of three pixels there showed the table.
-TEST_F(GlassBackFaces, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
+TEST_F(GlassBackFacesSlow, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
     const scenes::Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = ofSize(640, 360);

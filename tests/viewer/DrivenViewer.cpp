@@ -110,7 +110,7 @@ std::string DrivenViewer::waitFor(const std::string& begin, std::size_t from, do
 
 glm::ivec2 DrivenViewer::waitForWhole(std::size_t from) const {
     // After the latest input nothing is drawn any more but the whole picture: that line stays the last of its kind.
-    constexpr double kStillSeconds = 0.6;
+    constexpr double kStillSeconds = 0.35;
     double still = 0.0;
     std::string latest;
     for (double waited = 0.0; waited <= 120.0; waited += 0.05) {

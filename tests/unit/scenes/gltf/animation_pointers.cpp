@@ -10,8 +10,6 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-using testing::ElementsAre;
-
 /// All clips of a scene at a time.
 void poseAll(Scene& scene, double timeSeconds) {
     scene.rig.playing.clear();
@@ -114,7 +112,7 @@ TEST(GltfAnimation, clipsHideAndShowNodesWithTheirMeshesAndLights) {
                                 {"mesh": 0, "skin": 0, "extensions": {"KHR_node_visibility": {"visible": true}}}, {}],
                       "scenes": [{"nodes": [1, 3, 4]}], "skins": [{"joints": [4]}],
                       "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 3}]}}})");
-    const int shown = builder.add(std::vector<std::uint8_t>{1, 0}, kUnsignedByteType, "SCALAR", 2);
+    const int shown = builder.add<std::uint8_t>("SCALAR", {1, 0});
     for (const char* node : {"1", "3"})
         addClip(builder, {0, 1}, shown,
                 pointerTo(fmt::format("/nodes/{}/extensions/KHR_node_visibility/visible", node)));
